@@ -1,0 +1,41 @@
+# Language, warnings, output folders and sanitizers: what every target of the project shares.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+option(ENSONIFY_TESTS "Build the tests" ON)
+option(ENSONIFY_BENCH "Build the benchmarks" ON)
+option(ENSONIFY_FUZZ "Build the libFuzzer targets (clang)" OFF)
+option(ENSONIFY_WERROR "Warnings are errors" OFF)
+set(ENSONIFY_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+# Every program lands in one folder: `ensonify X` executes `ensonify-X` found beside itself.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+find_program(LLD ld.lld)
+if(LLD)
+  add_link_options(-fuse-ld=lld)
+endif()
+
+add_library(ensonify_settings INTERFACE)
+target_include_directories(ensonify_settings INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/ensonify>)
+target_compile_options(ensonify_settings INTERFACE
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wpedantic;-Wno-missing-field-initializers>
+  $<$<BOOL:${ENSONIFY_WERROR}>:$<BUILD_INTERFACE:-Werror>>
+  # The same source gives the same bits: no fused multiply-add unless written (docs/architecture.md).
+  -ffp-contract=off)
+if(ENSONIFY_SANITIZE)
+  add_compile_options(-fsanitize=${ENSONIFY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${ENSONIFY_SANITIZE})
+endif()

@@ -1,0 +1,61 @@
+# The four kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
+
+# ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ...)
+function(ensonify_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC ensonify_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
+  endif()
+endfunction()
+
+# ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
+function(ensonify_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ensonify_settings ${ARG_DEPS})
+  install(TARGETS ${name} RUNTIME DESTINATION bin)
+endfunction()
+
+# Catch2's header is compiled once, for all tests.
+if(ENSONIFY_TESTS)
+  file(WRITE ${CMAKE_BINARY_DIR}/test_pch.cpp "")
+  add_library(test_pch STATIC ${CMAKE_BINARY_DIR}/test_pch.cpp)
+  target_link_libraries(test_pch PUBLIC ensonify_settings Catch2::Catch2WithMain)
+  target_precompile_headers(test_pch PUBLIC <catch2/catch.hpp>)
+endif()
+
+# ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
+# Labels: unit, physics, system, determinism, golden, wire, bench.
+function(ensonify_test name)
+  if(NOT ENSONIFY_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE test_pch ${ARG_DEPS})
+  target_precompile_headers(${name} REUSE_FROM test_pch)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_test(NAME ${name} COMMAND ${name} --use-colour no)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared")
+endfunction()
+
+# ensonify_bench(bench_trace SOURCES trace.cpp DEPS ...): a google-benchmark program in <build>/bench.
+function(ensonify_bench name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ensonify_settings benchmark::benchmark ${ARG_DEPS})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
+endfunction()
+
+enable_testing()
