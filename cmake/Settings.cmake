@@ -18,6 +18,12 @@ endif()
 # Every program lands in one folder: `ensonify X` executes `ensonify-X` found beside itself.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
+# Debian's Python (never a shim found on PATH), or the environment that `dev` made on top of it.
+set(ENSONIFY_PYTHON /usr/bin/python3)
+if(EXISTS ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
+  set(ENSONIFY_PYTHON ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
+endif()
+
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})

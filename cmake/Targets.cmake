@@ -1,4 +1,4 @@
-# The four kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
+# The kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
 
 # ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ...)
 function(ensonify_library name)
@@ -20,6 +20,8 @@ function(ensonify_program name)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
+add_custom_target(sanitize_tests)  # every test labelled `sanitize`
+
 # Catch2's header is compiled once, for all tests.
 if(ENSONIFY_TESTS)
   file(WRITE ${CMAKE_BINARY_DIR}/test_pch.cpp "")
@@ -29,7 +31,8 @@ if(ENSONIFY_TESTS)
 endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
-# Labels: unit, physics, system, determinism, golden, wire, bench.
+# Labels: unit, physics, system, determinism, golden, wire, bench; and `sanitize` for what also runs under the address
+# and thread sanitizers (presets asan and tsan build those only).
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -39,15 +42,39 @@ function(ensonify_test name)
   target_link_libraries(${name} PRIVATE test_pch ${ARG_DEPS})
   target_precompile_headers(${name} REUSE_FROM test_pch)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  if(NOT ARG_LABELS)
-    set(ARG_LABELS unit)
-  endif()
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 120)
-  endif()
   add_test(NAME ${name} COMMAND ${name} --use-colour no)
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+  ensonify_test_properties(${name} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+  if("sanitize" IN_LIST ARG_LABELS)
+    add_dependencies(sanitize_tests ${name})
+  endif()
+endfunction()
+
+# ensonify_check(NAME COMMAND program arguments... LABELS unit): any command as one ctest case; exit code 77: skipped.
+function(ensonify_check name)
+  if(NOT ENSONIFY_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND})
+  ensonify_test_properties(${name} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+# Labels, time limit and environment of a test. Whole systems and measurements run alone, the others side by side.
+function(ensonify_test_properties name labels timeout)
+  if(NOT labels)
+    set(labels unit)
+  endif()
+  if(NOT timeout)
+    set(timeout 120)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
     ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared")
+  foreach(alone system determinism bench soak)
+    if(alone IN_LIST labels)
+      set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)
+    endif()
+  endforeach()
 endfunction()
 
 # ensonify_bench(bench_trace SOURCES trace.cpp DEPS ...): a google-benchmark program in <build>/bench.

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Checks from the #include lines that knowledge points one way (STYLE.md, DESIGN.md section 8).
+
+  check_dependencies.py [ROOT]       checks the tree, names every offending line, exit code 1 if there is one
+  check_dependencies.py --self-test  checks the checker on a small tree with planted offences
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+FOLDERS = ("kernels", "messages", "components", "launch", "tools", "tests", "bench", "examples")
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+
+# Numeric libraries that kernels may use (DESIGN.md section 8).
+NUMERIC = re.compile(r"^(Eigen/|tbb/|embree3/|OpenMesh/|GeographicLib/|Random123/|fftw3\.h$|png\.h$|[a-z]+intrin\.h$)")
+STANDARD = re.compile(r"^[a-z0-9_]+$")  # <vector>, <cstdint>
+TEST_FRAMEWORK = re.compile(r"^catch2/")
+
+# Heavy libraries: (name, header pattern, where it may be included, what is allowed in words).
+HEAVY = (
+    ("msgpack", r"^msgpack", r"^messages/.*\.cpp$", "messages/*.cpp"),
+    ("yaml-cpp", r"^yaml-cpp/", r"^components/runtime/config/", "components/runtime/config"),
+    ("ZeroMQ", r"^zmq", r"^(components/runtime/bus|bench|tests)/", "components/runtime/bus, bench, tests"),
+    ("Embree", r"^embree\d/", r"^kernels/trace/", "kernels/trace"),
+    ("OpenMesh", r"^OpenMesh/", r"^kernels/terrain/", "kernels/terrain"),
+    ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/terrain_pager|tools)/", "components/terrain_pager, tools"),
+    ("nlohmann/json", r"^nlohmann/json\.hpp", r"\.cpp$", ".cpp files (headers take <nlohmann/json_fwd.hpp>)"),
+)
+
+
+def is_test(path):
+    return path.endswith("_test.cpp")
+
+
+def visible_folders(path):
+    """The folders whose headers the file may include; None: no restriction."""
+    parts = path.split("/")
+    area = parts[0]
+    if area in ("tests", "bench", "examples"):
+        return None
+    own = "/".join(parts[:2]) if area in ("components", "tools") and len(parts) > 2 else area
+    seen = {
+        "kernels": ["kernels"],
+        "messages": ["messages"],
+        "components": [own, "components/runtime", "messages", "kernels"],
+        "launch": [own, "components/runtime", "messages", "kernels"],
+        "tools": [own, "components/runtime", "messages", "kernels"],
+    }[area]
+    return seen + ["tests/support"] if is_test(path) else seen
+
+
+def problem_of_project_include(root, path, target):
+    if not (root / target).is_file():
+        return f'"{target}" does not exist (includes are written from the repository root)'
+    seen = visible_folders(path)
+    if seen is not None and not any(target.startswith(folder + "/") for folder in seen):
+        return f'"{target}" is out of sight here; visible: {", ".join(seen)}'
+    return None
+
+
+def problem_of_library_include(path, target):
+    for name, pattern, where, words in HEAVY:
+        if re.match(pattern, target) and not re.search(where, path):
+            return f"<{target}>: {name} belongs to {words}"
+    if STANDARD.match(target) or (is_test(path) and TEST_FRAMEWORK.match(target)):
+        return None
+    area = path.split("/")[0]
+    if area == "kernels" and not NUMERIC.match(target) and not is_test(path):
+        return f"<{target}>: kernels see the standard library and numeric libraries only"
+    if area == "messages" and not is_test(path) and not re.match(r"^(msgpack|nlohmann/)", target):
+        return f"<{target}>: messages see the standard library only (and codecs msgpack and JSON)"
+    return None
+
+
+def problems(root):
+    """Every offending include line, as text."""
+    found = []
+    sources = sorted(p for f in FOLDERS for p in (root / f).rglob("*") if p.suffix in (".h", ".cpp"))
+    for source in sources:
+        path = source.relative_to(root).as_posix()
+        for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            quoted, angled = match.groups()
+            problem = problem_of_project_include(root, path, quoted) if quoted else problem_of_library_include(path, angled)
+            if problem:
+                found.append(f"{path}:{number}: {problem}")
+    return found, len(sources)
+
+
+# A small tree: path -> include lines, each with the words its problem must hold, or None when it is fine.
+PLANTED = {
+    "kernels/a/a.h": [("<vector>", None), ("<Eigen/Core>", None), ('"messages/m.h"', "out of sight"),
+                      ("<sys/socket.h>", "numeric libraries only"), ("<embree3/rtcore.h>", "kernels/trace")],
+    "kernels/a/a_test.cpp": [("<catch2/catch.hpp>", None), ('"kernels/a/a.h"', None), ('"a.h"', "does not exist")],
+    "kernels/trace/t.cpp": [("<embree3/rtcore.h>", None)],
+    "messages/m.h": [("<cstdint>", None), ("<msgpack.hpp>", "messages/*.cpp"), ('"kernels/a/a.h"', "out of sight")],
+    "messages/m.cpp": [("<msgpack.hpp>", None), ('"messages/m.h"', None), ("<fmt/core.h>", "standard library only")],
+    "components/runtime/bus/z.cpp": [("<zmq.h>", None), ('"messages/m.h"', None)],
+    "components/runtime/ports.h": [('"components/x/x.h"', "out of sight"), ("<nlohmann/json.hpp>", "json_fwd")],
+    "components/x/x.h": [('"components/x/x.h"', None), ('"components/runtime/ports.h"', None),
+                         ('"components/y/y.h"', "out of sight"), ("<zmq.hpp>", "components/runtime/bus")],
+    "components/x/x_test.cpp": [('"tests/support/s.h"', None), ('"components/y/y.h"', "out of sight")],
+    "components/y/y.h": [("<gdal_priv.h>", "terrain_pager"), ('"tests/support/s.h"', "out of sight")],
+    "components/terrain_pager/p.cpp": [("<gdal_priv.h>", None)],
+    "tools/plot/p.cpp": [("<ogr_spatialref.h>", None), ('"components/x/x.h"', "out of sight")],
+    "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/runtime/config"), ('"components/y/y.h"', "out of sight")],
+    "tests/support/s.h": [('"components/x/x.h"', None), ('"kernels/a/a.h"', None)],
+}
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        expected = {}
+        for path, lines in PLANTED.items():
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_text("".join(f"#include {target}\n" for target, _ in lines), encoding="utf-8")
+            expected.update({f"{path}:{n}": words for n, (_, words) in enumerate(lines, 1) if words})
+        found = dict(text.split(": ", 1) for text in problems(root)[0])
+    wrong = [f"not found: {place} ({words})" for place, words in expected.items() if words not in found.get(place, "")]
+    wrong += [f"found by mistake: {place}: {text}" for place, text in found.items() if place not in expected]
+    print("\n".join(wrong) or f"{len(expected)} planted offences found, nothing else")
+    return 1 if wrong else 0
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    found, count = problems(root)
+    print("\n".join(found + [f"dependencies: {count} files, {len(found)} problems"]))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
