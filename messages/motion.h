@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace ensonify::msg {
+
+/// Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.
+struct Pose {
+  static constexpr const char* kType = "pose/1";
+  std::int64_t stamp_ns = 0;
+  std::array<double, 3> position_enu_m{};
+  std::array<double, 4> enu_from_body{1, 0, 0, 0};
+  std::array<double, 3> velocity_enu_mps{};
+  std::array<double, 3> rate_body_radps{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of validity, sim time", self.stamp_ns);
+    visit("position_enu_m", "m", "body origin in the world frame: east, north, up from chart datum", self.position_enu_m);
+    visit("enu_from_body", "1", "attitude quaternion w, x, y, z (w >= 0) from body FRD to world ENU", self.enu_from_body);
+    visit("velocity_enu_mps", "m/s", "velocity of the body origin in the world frame", self.velocity_enu_mps);
+    visit("rate_body_radps", "rad/s", "angular rate in the body frame, FRD", self.rate_body_radps);
+  }
+};
+
+/// What a pilot (autopilot or agent) asks of a vehicle.
+struct Guidance {
+  static constexpr const char* kType = "guidance/1";
+  std::int64_t stamp_ns = 0;
+  double heading_grid_rad = 0.0;
+  double speed_mps = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of the command, sim time", self.stamp_ns);
+    visit("heading_grid_rad", "rad", "heading to steer, clockwise from grid north", self.heading_grid_rad);
+    visit("speed_mps", "m/s", "speed through the water to reach, forward", self.speed_mps);
+  }
+};
+
+/// What the mission is doing.
+struct MissionState {
+  static constexpr const char* kType = "mission_state/1";
+  std::int64_t stamp_ns = 0;
+  std::string state;
+  std::int64_t line = -1;
+  std::int64_t line_count = 0;
+  double cross_track_m = 0.0;
+  double distance_to_go_m = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of the state, sim time", self.stamp_ns);
+    visit("state", "", "run_in, on_line, turn or done", self.state);
+    visit("line", "1", "index of the runline being flown, -1 before the first", self.line);
+    visit("line_count", "1", "number of runlines in the mission", self.line_count);
+    visit("cross_track_m", "m", "estimated distance right of the runline, positive to starboard", self.cross_track_m);
+    visit("distance_to_go_m", "m", "distance to the end of the runline", self.distance_to_go_m);
+  }
+};
+
+}  // namespace ensonify::msg
