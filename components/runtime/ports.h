@@ -1,0 +1,139 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/runtime/sim_time.h"
+#include "messages/codec.h"
+#include "messages/health.h"
+
+namespace ensonify {
+
+struct OutOptions {
+  std::size_t max_bytes = 4096;  // of one message's body; queues are sized from it
+  Rate rate;                     // highest rate at which it is published; {0} means at most 10 Hz on average
+};
+
+struct InOptions {
+  SimTime delay{0};       // a message published at t is seen at events from t + delay on
+  bool optional = false;  // may stay unconnected
+};
+
+/// What a port is to everybody else: the JSON that `--check` prints and HELLO carries.
+struct OutPort {
+  std::string port;
+  std::string type;
+  std::size_t max_bytes = 0;
+  Rate rate;
+};
+struct InPort {
+  std::string port;
+  std::string type;  // "*" takes any type
+  SimTime delay{0};
+  bool optional = false;
+  std::vector<std::string> topics;  // with type "*": topic names or patterns such as "*" and "bow/*"
+  std::size_t max_bytes = 0;        // 0: as declared by the publisher
+};
+
+/// A received message with what its envelope says, for those who need more than its content.
+using PacketHandler = std::function<void(const msg::Packet&)>;
+
+/// All that a component sees of the others: typed outputs and inputs. What carries them (in-process, ipc, tcp) is not
+/// its business. Inputs are delivered before step(now): exactly the messages with t_sim + delay <= now, each once, in
+/// the order (t_sim, publisher, topic, seq).
+class Ports {
+ public:
+  /// `publish(index of out port, body, wall facts)`; set by whatever runs the node.
+  using Publish = std::function<void(std::size_t, msg::Body, msg::Buffer)>;
+
+  explicit Ports(std::string process) : process_(std::move(process)) {}
+  Ports(const Ports&) = delete;
+  Ports& operator=(const Ports&) = delete;
+
+  /// A handle with which a node publishes on one of its ports, at the current event's time.
+  template <msg::Message M>
+  class Out {
+   public:
+    void send(const M& message) { ports_->publish(index_, msg::encode(message)); }
+
+   private:
+    friend class Ports;
+    Out(Ports* ports, std::size_t index) : ports_(ports), index_(index) {}
+    Ports* ports_;
+    std::size_t index_;
+  };
+
+  template <msg::Message M>
+  Out<M> out(const std::string& port, OutOptions options = {}) {
+    return {this, declare_out({port, M::kType, options.max_bytes, options.rate})};
+  }
+
+  template <msg::Message M>
+  void in(const std::string& port, std::function<void(const M&)> handler, InOptions options = {}) {
+    declare_in({port, M::kType, options.delay, options.optional, {}, 0},
+               [handler = std::move(handler)](const msg::Packet& packet) {
+                 handler(msg::decode<M>(packet.body, packet.body.size()));
+               });
+  }
+
+  /// Every message of the topics that match `topics` ("*" and "name/*" are patterns), undecoded. For recorders and
+  /// assertions, which know no types. A topic of its own is never matched.
+  void in_any(const std::string& port, std::vector<std::string> topics, PacketHandler handler) {
+    declare_in({port, "*", SimTime{0}, true, std::move(topics), 0}, std::move(handler));
+  }
+
+  /// Name of this process in the launch file.
+  const std::string& process() const { return process_; }
+  /// Time of the event being run.
+  SimTime now() const { return now_; }
+  /// UTC of sim time 0 and UTC text of other facts belong to the scenario, not here.
+
+  /// Publishes an undecoded message on a port (replay).
+  void publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts = {});
+  std::size_t declare_out(OutPort port);
+
+  /// Ends the run, for everyone at the same sim time: one second after this event. Only a process that declared
+  /// `may_finish` in its constructor can call it.
+  void may_finish() { may_finish_ = true; }
+  void finish();
+
+  /// Counts something that happened; the total is published in `health`.
+  void count(const std::string& what, std::int64_t by = 1);
+  /// State "ok", "degraded" or "failed" and one line why.
+  void health(const std::string& state, const std::string& message);
+
+  // --- for whatever runs the node ---
+  const std::vector<OutPort>& outs() const { return outs_; }
+  const std::vector<InPort>& ins() const { return ins_; }
+  bool declares_finish() const { return may_finish_; }
+  bool finish_requested() const { return finish_requested_; }
+  void connect(Publish publish) { publish_ = std::move(publish); }
+  void begin_event(SimTime now) { now_ = now; }
+  /// Publishes `health` if it changed since the last event.
+  void end_event();
+  void deliver(std::size_t in_index, const msg::Packet& packet) { handlers_[in_index](packet); }
+
+ private:
+  std::size_t declare_in(InPort port, PacketHandler handler);
+
+  std::string process_;
+  std::vector<OutPort> outs_;
+  std::vector<InPort> ins_;
+  std::vector<PacketHandler> handlers_;
+  Publish publish_;
+  SimTime now_{0};
+  bool may_finish_ = false;
+  bool finish_requested_ = false;
+  msg::Health health_;
+  std::map<std::string, std::int64_t> counters_;
+  bool health_changed_ = false;
+  std::size_t health_port_ = 0;
+  bool has_health_port_ = false;
+};
+
+}  // namespace ensonify
