@@ -25,13 +25,17 @@ struct RawArray {
   Buffer bytes;
 };
 
+struct MapEntry;
+
 /// A message without its C++ type: what tools print, compare and check. A map keeps the order of its keys.
 struct Value {
   using List = std::vector<Value>;
-  using Map = std::vector<std::pair<std::string, Value>>;
+  using Map = std::vector<MapEntry>;
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Map, RawArray> is;
 
-  template <class T> const T* as() const { return std::get_if<T>(&is); }
+  /// The value as T, or null if it is something else.
+  template <class T>
+  const T* as() const;
   /// The value under `key`, or null if this is no map or has no such key.
   const Value* find(std::string_view key) const;
   /// The value at a path such as "position_enu_m.0" or "counters.late_tile"; null if there is none.
@@ -40,10 +44,24 @@ struct Value {
   bool number(double& out) const;
 };
 
+/// One key of a map and what stands under it. (A std::pair of an incomplete type does not compile with clang 14.)
+struct MapEntry {
+  MapEntry(std::string key, Value value) : first(std::move(key)), second(std::move(value)) {}
+  std::string first;
+  Value second;
+};
+
+template <class T>
+const T* Value::as() const {
+  return std::get_if<T>(&is);
+}
+
 bool operator==(const Value& a, const Value& b);
 inline bool operator!=(const Value& a, const Value& b) { return !(a == b); }
+inline bool operator==(const MapEntry& a, const MapEntry& b) { return a.first == b.first && a.second == b.second; }
 
-/// JSON text. Arrays longer than `max_elements` are shown as {"dtype","shape","min","max"}; NaN and infinities as strings.
+/// JSON text. Arrays longer than `max_elements` are shown as {"dtype","shape","min","max"}; NaN and infinities as
+/// strings.
 std::string to_json(const Value& value, std::size_t max_elements = 16);
 
 }  // namespace ensonify::msg
