@@ -45,6 +45,8 @@ struct TileRelease {
 /// What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
 struct Chart {
   static constexpr const char* kType = "chart/1";
+  double origin_latitude_deg = 0.0;
+  double origin_longitude_deg = 0.0;
   double west_m = 0.0;
   double south_m = 0.0;
   double east_m = 0.0;
@@ -56,6 +58,9 @@ struct Chart {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
+    visit("origin_latitude_deg", "deg", "geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)",
+          self.origin_latitude_deg);
+    visit("origin_longitude_deg", "deg", "longitude of the world's origin, WGS 84", self.origin_longitude_deg);
     visit("west_m", "m", "world east of the western edge", self.west_m);
     visit("south_m", "m", "world north of the southern edge", self.south_m);
     visit("east_m", "m", "world east of the eastern edge", self.east_m);
