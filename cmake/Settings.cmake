@@ -45,3 +45,6 @@ if(ENSONIFY_SANITIZE)
   add_compile_options(-fsanitize=${ENSONIFY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${ENSONIFY_SANITIZE})
 endif()
+if(ENSONIFY_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage, by which libFuzzer finds its way
+endif()

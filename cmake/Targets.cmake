@@ -85,4 +85,23 @@ function(ensonify_bench name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
 endfunction()
 
+# ensonify_fuzz(NAME_fuzz SOURCES a_fuzz.cpp DEPS lib): a libFuzzer program in <build>/fuzz, in the preset `fuzz` only.
+# A folder corpus/ beside the CMakeLists.txt seeds it (`./dev fuzz`).
+function(ensonify_fuzz name)
+  if(NOT ENSONIFY_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ensonify_settings ${ARG_DEPS})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz/corpus/${name})
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/corpus)
+    file(COPY ${CMAKE_CURRENT_SOURCE_DIR}/corpus/ DESTINATION ${CMAKE_BINARY_DIR}/fuzz/corpus/${name})
+  endif()
+  add_dependencies(fuzzers ${name})
+endfunction()
+add_custom_target(fuzzers)  # every libFuzzer program
+
 enable_testing()
