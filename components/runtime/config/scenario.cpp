@@ -1,0 +1,373 @@
+#include "components/runtime/config/scenario.h"
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+
+#include "components/runtime/config/config_reader.h"
+
+namespace ensonify {
+namespace {
+
+using navigation::Vec2;
+
+constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
+
+Vec2 vec2(const std::array<double, 2>& v) { return {v[0], v[1]}; }
+
+Site read_site(ConfigReader from) {
+  Site site;
+  from.optional("name", site.name);
+  if (from.has("origin")) {
+    std::string origin;
+    from.required_choice("origin", site.origin_from_raster, {{"raster", true}});
+    if (from.has("latitude_deg") || from.has("longitude_deg")) {
+      from.problem("origin", "stands beside latitude_deg or longitude_deg; give one or the other");
+    }
+    return site;
+  }
+  from.required("latitude_deg", site.origin.latitude_deg, -89.9, 89.9);
+  from.required("longitude_deg", site.origin.longitude_deg, -180, 180);
+  return site;
+}
+
+Water read_water(ConfigReader from) {
+  Water water;
+  from.optional("temperature_degc", water.temperature_degc, -2, 40);
+  from.optional("salinity_psu", water.salinity_psu, 0, 45);
+  from.optional("ph", water.ph, 6, 9);
+  from.optional("sound_speed_mps", water.sound_speed_mps, 1300, 1700);
+  from.optional("absorption_db_per_km", water.absorption_dbpm, 0, 2000, FileUnit{1e-3});
+  from.optional("noise_level_db", water.noise_level_db, -100, 200);
+  return water;
+}
+
+Ridge read_ridge(ConfigReader& from) {
+  Ridge ridge;
+  from.required("centre_m", ridge.centre_enu_m, -kFarAway_m, kFarAway_m);
+  from.optional("heading_deg", ridge.heading_rad, -360, 360, kDegrees);
+  from.required("height_m", ridge.height_m, 0, 1000);
+  from.optional("length_m", ridge.length_m, 0.1, kFarAway_m);
+  from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
+  return ridge;
+}
+
+SyntheticSeabed read_synthetic(ConfigReader from) {
+  SyntheticSeabed seabed;
+  from.optional("size_m", seabed.size_m, 10, kFarAway_m);
+  from.optional("depth_m", seabed.depth_m, 0, 11000);
+  from.optional("slope_deg", seabed.slope_rad, 0, 60, kDegrees);
+  from.optional("slope_heading_deg", seabed.slope_heading_rad, -360, 360, kDegrees);
+  from.optional("relief_rms_m", seabed.relief_rms_m, 0, 100);
+  from.optional("relief_longest_m", seabed.relief_longest_m, 1, kFarAway_m);
+  for (auto& ridge : from.list("ridges")) {
+    seabed.ridges.push_back(read_ridge(ridge));
+  }
+  if (auto boulders = from.optional_section("boulders")) {
+    boulders->required("count", seabed.boulders.count, 0, 100000);
+    boulders->optional("smallest_radius_m", seabed.boulders.smallest_radius_m, 0.05, 20);
+    boulders->optional("largest_radius_m", seabed.boulders.largest_radius_m, 0.05, 20);
+    if (seabed.boulders.largest_radius_m < seabed.boulders.smallest_radius_m) {
+      boulders->problem("largest_radius_m", "is below smallest_radius_m");
+    }
+  }
+  return seabed;
+}
+
+RasterSeabed read_raster(ConfigReader from) {
+  RasterSeabed raster;
+  from.required_path("path", raster.path);
+  from.required_choice("values", raster.values,
+                       {{"elevation", RasterSeabed::Values::kElevation}, {"depth", RasterSeabed::Values::kDepth}});
+  from.optional_choice("holes", raster.holes,
+                       {{"refuse", RasterSeabed::Holes::kRefuse},
+                        {"keep", RasterSeabed::Holes::kKeep},
+                        {"fill", RasterSeabed::Holes::kFill}});
+  return raster;
+}
+
+Seabed read_seabed(ConfigReader from) {
+  Seabed seabed;
+  from.required_choice("kind", seabed.kind,
+                       {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}});
+  from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
+  from.optional("lambert_mu_db", seabed.lambert_mu_db, -60, -4.97);  // a perfect diffuser has -4.97 dB
+  const bool synthetic = seabed.kind == Seabed::Kind::kSynthetic;
+  if (from.has(synthetic ? "raster" : "synthetic")) {
+    from.problem(synthetic ? "raster" : "synthetic", "is not used by this kind of seabed");
+  }
+  if (synthetic) {
+    if (auto section = from.optional_section("synthetic")) {
+      seabed.synthetic = read_synthetic(*section);
+    }
+  } else {
+    seabed.raster = read_raster(from.section("raster"));
+  }
+  return seabed;
+}
+
+frames::Mounting read_mounting(ConfigReader from, frames::Mounting mounting = {}) {
+  std::array<double, 3> position{mounting.position_body_m.x(), mounting.position_body_m.y(),
+                                 mounting.position_body_m.z()};
+  frames::Attitude turn;
+  if (from.has("roll_deg") || from.has("pitch_deg") || from.has("heading_deg")) {
+    from.optional("roll_deg", turn.roll_rad, -180, 180, kDegrees);
+    from.optional("pitch_deg", turn.pitch_rad, -90, 90, kDegrees);
+    from.optional("heading_deg", turn.heading_rad, -360, 360, kDegrees);
+    // The same three turns as a vehicle's attitude, from the body's axes instead of from north, east, down.
+    mounting.body_from_head = frames::canonical(frames::enu_from_ned().conjugate() * frames::enu_from_body(turn));
+  }
+  from.optional("position_m", position, -500, 500);
+  mounting.position_body_m = {position[0], position[1], position[2]};
+  return mounting;
+}
+
+HeadMounting read_head(ConfigReader& from) {
+  HeadMounting head;
+  head.actual = read_mounting(from.section("actual"));
+  const auto measured = from.optional_section("measured");
+  head.measured = measured ? read_mounting(*measured, head.actual) : head.actual;
+  return head;
+}
+
+motion::Sinusoid read_sinusoid(ConfigReader from, const char* amplitude, double most, FileUnit unit) {
+  motion::Sinusoid wave;
+  wave.period_s = 6.0;
+  from.required(amplitude, wave.amplitude, 0.0, most, unit);
+  from.optional("period_s", wave.period_s, 0.2, 60);
+  from.optional("phase_deg", wave.phase_rad, -360, 360, kDegrees);
+  return wave;
+}
+
+void read_start(ConfigReader& from, Vehicle& vehicle) {
+  const ConfigNode* start = from.node("start");
+  if (start == nullptr || (start->is_scalar() && start->scalar == "first_runline")) {
+    return;
+  }
+  if (!start->is_map()) {
+    from.problem("start", "is neither first_runline nor a map of position_m, heading_deg, speed_mps");
+    return;
+  }
+  auto section = from.section("start");
+  motion::State state;
+  std::array<double, 3> position{};
+  section.required("position_m", position, -kFarAway_m, kFarAway_m);
+  section.optional("heading_deg", state.heading_rad, -360, 360, kDegrees);
+  section.optional("speed_mps", state.speed_mps, 0, 30);
+  state.position_enu_m = {position[0], position[1], position[2]};
+  vehicle.start = state;
+}
+
+Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
+  Vehicle vehicle;
+  vehicle.name = name;
+  int kind = 0;
+  from.optional_choice("kind", kind, {{"kinematic", 0}});
+  from.optional("acceleration_mps2", vehicle.limits.acceleration_mps2, 1e-3, 20);
+  from.optional("deceleration_mps2", vehicle.limits.deceleration_mps2, 1e-3, 20);
+  from.optional("turning_radius_m", vehicle.limits.turning_radius_m, 0.1, 1000);
+  from.optional("vertical_speed_mps", vehicle.limits.vertical_speed_mps, 1e-3, 20);
+  from.optional("fastest_mps", vehicle.fastest_mps, 0.01, 30);
+  if (const auto roll = from.optional_section("roll")) {
+    vehicle.waves.roll_rad = read_sinusoid(*roll, "amplitude_deg", 60, kDegrees);
+  }
+  if (const auto heave = from.optional_section("heave")) {
+    vehicle.waves.heave_m = read_sinusoid(*heave, "amplitude_m", 20, kSi);
+  }
+  read_start(from, vehicle);
+  for (auto& [head, mounting] : from.named_sections("mountings")) {
+    vehicle.mountings[head] = read_head(mounting);
+  }
+  return vehicle;
+}
+
+std::vector<navigation::Runline> read_lines(ConfigReader& from) {
+  std::vector<navigation::Runline> lines;
+  for (auto& item : from.list("runlines")) {
+    std::array<double, 2> start{}, end{};
+    item.required("from_m", start, -kFarAway_m, kFarAway_m);
+    item.required("to_m", end, -kFarAway_m, kFarAway_m);
+    const navigation::Runline line{vec2(start), vec2(end)};
+    if (item.has("from_m") && item.has("to_m") && navigation::length_m(line) < 1.0) {
+      item.problem("to_m", "is less than 1 m from from_m");
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<navigation::Runline> read_lawnmower(ConfigReader from) {
+  std::array<double, 2> centre{};
+  double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
+  int count = 0;
+  from.optional("centre_m", centre, -kFarAway_m, kFarAway_m);
+  from.optional("heading_deg", heading_rad, -360, 360, kDegrees);
+  from.required("length_m", length_m, 1, kFarAway_m);
+  from.required("spacing_m", spacing_m, 0.1, kFarAway_m);
+  from.required("count", count, 1, 1000);
+  return from.good() ? navigation::lawnmower(vec2(centre), heading_rad, length_m, spacing_m, count)
+                     : std::vector<navigation::Runline>{};
+}
+
+AutoPlan read_auto(ConfigReader from) {
+  AutoPlan plan;
+  from.optional("count", plan.count, 1, 1000);
+  from.optional("longest_m", plan.longest_m, 1, kFarAway_m);
+  from.optional("overlap", plan.overlap, 0, 0.95);
+  from.optional("swath_deg", plan.swath_rad, 1, 170, kDegrees);
+  from.optional("spacing_m", plan.spacing_m, 0.1, kFarAway_m);
+  from.optional("heading_deg", plan.heading_rad, -360, 360, kDegrees);
+  return plan;
+}
+
+Mission read_mission(ConfigReader from) {
+  Mission mission;
+  if (from.has("speed_kn") && from.has("speed_mps")) {
+    from.problem("speed_kn", "stands beside speed_mps; give one or the other");
+  }
+  from.optional("speed_mps", mission.speed_mps, 0.01, 30);
+  from.optional("speed_kn", mission.speed_mps, 0.02, 58, kKnots);
+  from.optional("depth_m", mission.depth_m, 0, 11000);
+  from.optional("run_in_m", mission.run_in_m, 0, 10000);
+  const int plans = int{from.has("runlines")} + int{from.has("lawnmower")} + int{from.has("auto")};
+  if (plans != 1) {
+    from.problem(
+        "", std::string(plans == 0 ? "has no plan" : "has several plans") + "; give one of runlines, lawnmower, auto");
+  }
+  mission.runlines = read_lines(from);
+  if (const auto section = from.optional_section("lawnmower")) {
+    mission.runlines = read_lawnmower(*section);
+  }
+  if (const auto section = from.optional_section("auto")) {
+    mission.auto_plan = read_auto(*section);
+  }
+  return mission;
+}
+
+void read_time(ConfigReader from, Scenario& scenario) {
+  from.optional("start_utc", scenario.start_utc);
+  if (const auto ns = parse_utc_ns(scenario.start_utc)) {
+    scenario.start_unix_ns = *ns;
+  } else {
+    from.problem("start_utc", "\"" + scenario.start_utc + "\" is not a UTC time such as 2025-06-01T12:00:00Z");
+  }
+}
+
+void check_whole(ConfigReader& from, const Scenario& scenario) {
+  std::set<std::string> heads;
+  for (const auto& vehicle : scenario.vehicles) {
+    for (const auto& [head, mounting] : vehicle.mountings) {
+      if (!heads.insert(head).second) {
+        from.problem("vehicles", "two vehicles carry a head named " + head);
+      }
+    }
+    if (vehicle.fastest_mps < scenario.mission.speed_mps) {
+      from.problem("mission", "speed_mps is above what " + vehicle.name + " can do (fastest_mps)");
+    }
+  }
+  const bool raster = scenario.seabed.kind == Seabed::Kind::kRaster;
+  if (scenario.site.origin_from_raster && !raster) {
+    from.problem("site", "origin: raster needs seabed.kind: raster");
+  }
+  if (scenario.mission.auto_plan && !raster) {
+    from.problem("mission", "auto needs seabed.kind: raster");
+  }
+}
+
+}  // namespace
+
+void read_format(ConfigReader& from, const std::string& known_format) {
+  std::string format;
+  from.required("ensonify", format);
+  if (!format.empty() && format != known_format) {
+    from.problem("ensonify", format + " is not a format known here; allowed: " + known_format);
+  }
+}
+
+Scenario read_scenario(ConfigReader& from, const std::string& file) {
+  Scenario scenario;
+  scenario.file = file;
+  read_format(from, kScenarioFormat);
+  scenario.site = read_site(from.section("site"));
+  if (const auto time = from.optional_section("time")) {
+    read_time(*time, scenario);
+  }
+  from.optional("seed", scenario.seed);
+  if (const auto water = from.optional_section("water")) {
+    scenario.water = read_water(*water);
+  }
+  scenario.seabed = read_seabed(from.section("seabed"));
+  for (auto& [name, vehicle] : from.named_sections("vehicles")) {
+    scenario.vehicles.push_back(read_vehicle(name, vehicle));
+  }
+  scenario.mission = read_mission(from.section("mission"));
+  check_whole(from, scenario);
+  return scenario;
+}
+
+std::vector<ConfigProblem> apply(const Overrides& overrides, ConfigNode& root) {
+  std::vector<ConfigProblem> problems;
+  for (const auto& [path, value] : overrides) {
+    if (const std::string why = set_config_value(root, path, value); !why.empty()) {
+      problems.push_back({value.place, path, why});
+    }
+  }
+  return problems;
+}
+
+Scenario read_scenario(const std::string& path, const Overrides& overrides) {
+  ConfigDocument document = parse_config_file(path);
+  const auto problems = apply(overrides, document.root);
+  document.problems.insert(document.problems.end(), problems.begin(), problems.end());
+  ConfigReader from(std::move(document));
+  Scenario scenario = read_scenario(from, path);
+  from.finish();
+  return scenario;
+}
+
+const Vehicle& Scenario::vehicle(const std::string& name) const {
+  if (name.empty() && vehicles.size() == 1) {
+    return vehicles.front();
+  }
+  for (const auto& vehicle : vehicles) {
+    if (vehicle.name == name) {
+      return vehicle;
+    }
+  }
+  throw std::out_of_range("the scenario has no vehicle named \"" + name + "\"");
+}
+
+std::optional<std::pair<std::string, HeadMounting>> Scenario::mounting(const std::string& head) const {
+  for (const auto& vehicle : vehicles) {
+    if (const auto found = vehicle.mountings.find(head); found != vehicle.mountings.end()) {
+      return std::pair{vehicle.name, found->second};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> parse_utc_ns(const std::string& text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
+  double second = 0.0;
+  const int fields =
+      std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf%n", &year, &month, &day, &hour, &minute, &second, &used);
+  if (fields != 6 || text.substr(static_cast<std::size_t>(used)) != "Z") {
+    return std::nullopt;
+  }
+  static constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  if (year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 ||
+      day > kDays[month - 1] + (month == 2 && leap ? 1 : 0) || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
+      !(second >= 0.0 && second < 60.0)) {
+    return std::nullopt;
+  }
+  // Days since 1970-01-01 of a Gregorian date, counting years from March so that the leap day comes last.
+  const std::int64_t y = month > 2 ? year : year - 1;
+  const std::int64_t day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  const std::int64_t days = 365 * y + y / 4 - y / 100 + y / 400 + day_of_year - 719468;
+  const std::int64_t whole_s = ((days * 24 + hour) * 60 + minute) * 60;
+  return whole_s * 1'000'000'000 + std::llround(second * 1e9);
+}
+
+}  // namespace ensonify

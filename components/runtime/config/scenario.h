@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/runtime/config/config_node.h"
+#include "kernels/frames/local_projection.h"
+#include "kernels/frames/pose.h"
+#include "kernels/motion/kinematics.h"
+#include "kernels/navigation/runline.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// Where the world is. ENU x = y = 0 is at the origin, z = 0 is chart datum.
+struct Site {
+  std::string name = "unnamed";
+  /// `origin: raster` in the file: the centre of the imported raster, known only after somebody has opened it.
+  bool origin_from_raster = false;
+  frames::Geodetic origin;
+};
+
+/// The water, the same everywhere in this version.
+struct Water {
+  double temperature_degc = 10.0;
+  double salinity_psu = 35.0;
+  double ph = 8.0;
+  std::optional<double> sound_speed_mps;  // not given: computed from temperature, salinity and depth
+  std::optional<double> absorption_dbpm;  // dB/m; not given: computed for each head's frequency
+  std::optional<double> noise_level_db;   // re 1 uPa^2/Hz, omnidirectional; not given: thermal noise
+};
+
+struct Ridge {
+  std::array<double, 2> centre_enu_m{};
+  double heading_rad = 0.0;  // of its crest, grid
+  double height_m = 0.0;
+  double length_m = 100.0;
+  double width_m = 20.0;  // across the crest
+};
+
+struct Boulders {
+  int count = 0;
+  double smallest_radius_m = 0.3;
+  double largest_radius_m = 1.5;
+};
+
+/// A generated seabed. Heights follow from these values and the scenario's seed alone.
+struct SyntheticSeabed {
+  std::array<double, 2> size_m{600.0, 600.0};  // east, north; centred on the origin
+  double depth_m = 20.0;                       // at the origin, below datum
+  double slope_rad = 0.0;                      // of the plane
+  double slope_heading_rad = 0.0;              // grid direction in which the plane gets deeper
+  double relief_rms_m = 0.0;                   // of the rough layer
+  double relief_longest_m = 100.0;             // its longest wavelength
+  std::vector<Ridge> ridges;
+  Boulders boulders;
+};
+
+struct RasterSeabed {
+  enum class Values { kElevation, kDepth };  // up or down positive; never guessed
+  enum class Holes { kRefuse, kKeep, kFill };
+  std::string path;  // as found on disk
+  Values values = Values::kElevation;
+  Holes holes = Holes::kRefuse;
+};
+
+struct Seabed {
+  enum class Kind { kSynthetic, kRaster };
+  Kind kind = Kind::kSynthetic;
+  double post_spacing_m = 0.5;
+  double lambert_mu_db = -25.0;  // backscatter strength at normal incidence of Lambert's law
+  SyntheticSeabed synthetic;
+  RasterSeabed raster;
+};
+
+/// A head on its vehicle: where it truly is, and where its makers of records believe it to be.
+struct HeadMounting {
+  frames::Mounting actual;
+  frames::Mounting measured;
+};
+
+struct Vehicle {
+  std::string name;
+  motion::Limits limits;
+  double fastest_mps = 10.0;
+  motion::Waves waves;
+  /// Not given: at the start of the first runline, at its heading, at mission speed.
+  std::optional<motion::State> start;
+  std::map<std::string, HeadMounting> mountings;  // by the head's process name
+};
+
+/// `auto` in the file: runlines laid over an imported raster by whoever can read it.
+struct AutoPlan {
+  int count = 5;
+  double longest_m = 500.0;
+  double overlap = 0.2;                // of neighbouring swaths, 0..1
+  double swath_rad = 2.2689280275926;  // 130 deg, from which the spacing follows
+  std::optional<double> spacing_m;     // given: instead of the overlap
+  std::optional<double> heading_rad;   // given: instead of the longer side of the data
+};
+
+struct Mission {
+  double speed_mps = 2.0;
+  double depth_m = 0.0;  // of the vehicle's reference point below datum
+  double run_in_m = 10.0;
+  std::vector<navigation::Runline> runlines;  // in order; lawnmowers are already laid out
+  std::optional<AutoPlan> auto_plan;          // set: `runlines` is empty until it has been resolved
+};
+
+/// The world of a run. Everybody reads all of it. SI and radians; the file has degrees, and knots where it says so.
+struct Scenario {
+  std::string file;
+  Site site;
+  std::string start_utc = "2025-06-01T00:00:00Z";  // of sim time 0
+  std::int64_t start_unix_ns = 1748736000000000000;
+  std::uint64_t seed = 1;
+  Water water;
+  Seabed seabed;
+  std::vector<Vehicle> vehicles;  // in the order of the file
+  Mission mission;
+
+  /// By name; the only vehicle when the name is "". Throws std::out_of_range.
+  const Vehicle& vehicle(const std::string& name = "") const;
+  /// Mounting of a head on whichever vehicle carries it: the vehicle's name and the mounting, or nothing.
+  std::optional<std::pair<std::string, HeadMounting>> mounting(const std::string& head) const;
+};
+
+inline constexpr const char* kScenarioFormat = "scenario/1";
+
+/// Values to set before reading: ("water.salinity_psu", value). Their places appear in messages.
+using Overrides = std::vector<std::pair<std::string, ConfigNode>>;
+
+/// Reads a scenario file. Throws ConfigError with every problem.
+Scenario read_scenario(const std::string& path, const Overrides& overrides = {});
+
+/// Reads an already parsed scenario; problems stay in the reader for its finish().
+Scenario read_scenario(ConfigReader& from, const std::string& file);
+
+/// Applies overrides to a tree; a path that leads nowhere is a problem.
+std::vector<ConfigProblem> apply(const Overrides& overrides, ConfigNode& root);
+
+/// Nanoseconds since 1970-01-01 UTC of "2025-06-01T12:00:00Z" (fractions of a second allowed), or nothing.
+std::optional<std::int64_t> parse_utc_ns(const std::string& text);
+
+/// Checks `ensonify: launch/1` at the head of a file against the format that the reader knows.
+void read_format(ConfigReader& from, const std::string& known_format);
+
+}  // namespace ensonify
