@@ -1,26 +1,12 @@
 # Every library that the project takes from the system (Debian 12 package names in `dev`).
 
-find_package(Threads REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
-find_package(Eigen3 3.4 REQUIRED)
-find_package(TBB REQUIRED)
+include(LibraryDependencies)  # those of the kernels and messages libraries
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(embree 3 REQUIRED)
 find_package(GDAL REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZMQ REQUIRED IMPORTED_TARGET libzmq)
-find_path(GEOGRAPHICLIB_INCLUDE GeographicLib/TransverseMercatorExact.hpp REQUIRED)
-find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic REQUIRED)
-add_library(geographiclib INTERFACE)
-target_include_directories(geographiclib SYSTEM INTERFACE ${GEOGRAPHICLIB_INCLUDE})
-target_link_libraries(geographiclib INTERFACE ${GEOGRAPHICLIB_LIBRARY})
-# The C++ msgpack is headers only.
-find_path(MSGPACK_INCLUDE msgpack.hpp REQUIRED)
-add_library(msgpack_cxx INTERFACE)
-target_include_directories(msgpack_cxx SYSTEM INTERFACE ${MSGPACK_INCLUDE})
-target_compile_definitions(msgpack_cxx INTERFACE MSGPACK_NO_BOOST MSGPACK_DEFAULT_API_VERSION=3)
 
 if(ENSONIFY_TESTS)
   find_package(Catch2 2.13 REQUIRED)

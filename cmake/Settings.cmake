@@ -36,11 +36,12 @@ endif()
 add_library(ensonify_settings INTERFACE)
 target_include_directories(ensonify_settings INTERFACE
   $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/ensonify>)
+target_compile_features(ensonify_settings INTERFACE cxx_std_20)
 target_compile_options(ensonify_settings INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wpedantic;-Wno-missing-field-initializers>
   $<$<BOOL:${ENSONIFY_WERROR}>:$<BUILD_INTERFACE:-Werror>>
   # The same source gives the same bits: no fused multiply-add unless written (docs/architecture.md).
-  -ffp-contract=off)
+  $<BUILD_INTERFACE:-ffp-contract=off>)
 if(ENSONIFY_SANITIZE)
   add_compile_options(-fsanitize=${ENSONIFY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${ENSONIFY_SANITIZE})

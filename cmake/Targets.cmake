@@ -10,7 +10,29 @@ function(ensonify_library name)
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
   endif()
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^(kernels|messages)")
+    ensonify_export(${name} ${folder})
+    if(folder MATCHES "^kernels")
+      target_link_libraries(ensonify_kernels INTERFACE ${name})
+    endif()
+  endif()
 endfunction()
+
+# Makes a library one that other projects can link as ensonify::<short name> (InstallRules.cmake).
+function(ensonify_export name folder)
+  string(REPLACE "ensonify_" "" short ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
+  install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
+  if(folder)
+    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/ensonify/${folder} COMPONENT development
+            FILES_MATCHING PATTERN "*.h")
+  endif()
+endfunction()
+
+add_library(ensonify_kernels INTERFACE)  # all kernels at once
+ensonify_export(ensonify_settings "")
+ensonify_export(ensonify_kernels "")
 
 # ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
 function(ensonify_program name)
