@@ -27,7 +27,8 @@ struct Rate {
 
 /// Time of event n of a periodic port: phase + floor(n 10^9 den / num) ns, computed from n, never summed.
 constexpr SimTime event_time(std::int64_t n, Rate rate, SimTime phase = SimTime{0}) {
-  const auto wide = static_cast<__int128>(n) * 1'000'000'000 * rate.den / rate.num;
+  __extension__ using Wide = __int128;  // n may be large: 64 bits would overflow after hours
+  const auto wide = static_cast<Wide>(n) * 1'000'000'000 * rate.den / rate.num;
   return phase + SimTime{static_cast<std::int64_t>(wide)};
 }
 

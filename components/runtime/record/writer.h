@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "components/runtime/record/bytes.h"
+#include "components/runtime/record/crc32.h"
+#include "components/runtime/record/errors.h"
+#include "components/runtime/record/format.h"
+#include "components/runtime/sim_time.h"
+#include "messages/buffer.h"
+
+namespace ensonify::record {
+
+/// Writes a record front to back. Holds one chunk in memory, and per chunk written some hundred bytes of index.
+/// Until close() the file is a truncated record: readable to its last whole chunk.
+class RecordWriter {
+ public:
+  /// Creates the file and the folders above it. Throws RecordError, naming the file and the cause, if that fails.
+  RecordWriter(std::filesystem::path file, const RecordInfo& info, const std::vector<Attachment>& attachments = {});
+  /// Closes, if the owner has not; what goes wrong then stays a truncated record.
+  ~RecordWriter();
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
+
+  /// Before the first message of the topic. Topics of one type share its schema.
+  void add_channel(const Channel& channel);
+
+  /// Appends a message; `payload` is msg::encode_inline of its body. Times of successive messages never decrease.
+  /// Throws DataLost, after cutting the file back to its last whole chunk, if the disk takes no more.
+  void write(std::uint16_t channel, std::uint64_t seq, SimTime t_sim, const msg::Buffer& payload);
+
+  /// Writes the last chunk, the summary and the footer. Throws DataLost like write().
+  void close();
+
+  const std::filesystem::path& file() const { return file_; }
+  std::uint64_t message_count() const { return total_; }
+
+ private:
+  using IndexEntries = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // log time, offset in chunk
+
+  void put(std::span<const std::byte> bytes);
+  void put_record(Op op, const ByteSink& content);
+  void put_attachment(const Attachment& attachment);
+  void put_info(const RecordInfo& info);
+  void put_chunk_indices(std::uint64_t chunk_start);
+  void put_summary();
+  void end_chunk();
+  void fail(const char* what);
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::uint64_t offset_ = 0;       // bytes written
+  std::uint64_t whole_until_ = 0;  // end of the last whole chunk with its indices
+  Crc32 crc_;                      // of everything written, restarted for the summary
+  std::int64_t utc_start_ns_ = 0;
+
+  ByteSink chunk_;
+  std::int64_t chunk_second_ = 0;
+  std::uint64_t chunk_first_ = 0;
+  std::uint64_t chunk_last_ = 0;
+  std::map<std::uint16_t, IndexEntries> chunk_entries_;
+
+  // Collected for the summary.
+  std::map<std::string, std::uint16_t> schema_ids_;
+  ByteSink schemas_;
+  ByteSink channels_;
+  ByteSink chunk_index_;
+  ByteSink attachment_index_;
+  ByteSink metadata_index_;
+  std::map<std::uint16_t, std::uint64_t> counts_;
+  std::uint64_t total_ = 0;
+  std::uint64_t first_ = 0;
+  std::uint64_t last_ = 0;
+  std::uint32_t chunk_count_ = 0;
+  std::uint32_t attachment_count_ = 0;
+};
+
+}  // namespace ensonify::record
