@@ -43,36 +43,57 @@ Water read_water(ConfigReader from) {
   return water;
 }
 
-Ridge read_ridge(ConfigReader& from) {
-  Ridge ridge;
-  from.required("centre_m", ridge.centre_enu_m, -kFarAway_m, kFarAway_m);
-  from.optional("heading_deg", ridge.heading_rad, -360, 360, kDegrees);
+terrain::Ridge read_ridge(ConfigReader from) {
+  terrain::Ridge ridge;
+  std::array<double, 2> start{}, end{};
+  from.required("from_m", start, -kFarAway_m, kFarAway_m);
+  from.required("to_m", end, -kFarAway_m, kFarAway_m);
   from.required("height_m", ridge.height_m, 0, 1000);
-  from.optional("length_m", ridge.length_m, 0.1, kFarAway_m);
   from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
+  ridge.start_enu_m = vec2(start);
+  ridge.end_enu_m = vec2(end);
   return ridge;
 }
 
-SyntheticSeabed read_synthetic(ConfigReader from) {
-  SyntheticSeabed seabed;
-  from.optional("size_m", seabed.size_m, 10, kFarAway_m);
-  from.optional("depth_m", seabed.depth_m, 0, 11000);
-  from.optional("slope_deg", seabed.slope_rad, 0, 60, kDegrees);
-  from.optional("slope_heading_deg", seabed.slope_heading_rad, -360, 360, kDegrees);
-  from.optional("relief_rms_m", seabed.relief_rms_m, 0, 100);
-  from.optional("relief_longest_m", seabed.relief_longest_m, 1, kFarAway_m);
-  for (auto& ridge : from.list("ridges")) {
-    seabed.ridges.push_back(read_ridge(ridge));
+terrain::Boulders read_boulders(ConfigReader from) {
+  terrain::Boulders boulders;
+  from.required("per_hectare", boulders.per_hectare, 0, 10000);
+  from.optional("smallest_radius_m", boulders.smallest_radius_m, 0.05, 20);
+  from.optional("largest_radius_m", boulders.largest_radius_m, 0.05, 20);
+  from.optional("height_per_radius", boulders.height_per_radius, 0, 2);
+  if (boulders.largest_radius_m < boulders.smallest_radius_m) {
+    from.problem("largest_radius_m", "is below smallest_radius_m");
   }
-  if (auto boulders = from.optional_section("boulders")) {
-    boulders->required("count", seabed.boulders.count, 0, 100000);
-    boulders->optional("smallest_radius_m", seabed.boulders.smallest_radius_m, 0.05, 20);
-    boulders->optional("largest_radius_m", seabed.boulders.largest_radius_m, 0.05, 20);
-    if (seabed.boulders.largest_radius_m < seabed.boulders.smallest_radius_m) {
-      boulders->problem("largest_radius_m", "is below smallest_radius_m");
-    }
+  return boulders;
+}
+
+terrain::Relief read_relief(ConfigReader from) {
+  terrain::Relief relief;
+  from.required("rms_m", relief.rms_m, 0, 100);
+  from.optional("longest_wavelength_m", relief.longest_wavelength_m, 0.1, kFarAway_m);
+  from.optional("octaves", relief.octaves, 1, 16);
+  from.optional("hurst", relief.hurst, 0.01, 1);
+  return relief;
+}
+
+void read_synthetic(ConfigReader from, Seabed& seabed) {
+  terrain::SyntheticSeabedParameters& values = seabed.synthetic;
+  std::array<double, 2> reference{};
+  from.optional("size_m", seabed.synthetic_size_m, 10, kFarAway_m);
+  from.optional("reference_m", reference, -kFarAway_m, kFarAway_m);
+  from.optional("depth_m", values.reference_depth_m, 0, 11000);
+  from.optional("slope_deg", values.slope_rad, 0, 60, kDegrees);
+  from.optional("downhill_heading_deg", values.downhill_heading_rad, -360, 360, kDegrees);
+  values.reference_enu_m = vec2(reference);
+  if (const auto ridge = from.optional_section("ridge")) {
+    values.ridge = read_ridge(*ridge);
   }
-  return seabed;
+  if (const auto boulders = from.optional_section("boulders")) {
+    values.boulders = read_boulders(*boulders);
+  }
+  if (const auto relief = from.optional_section("relief")) {
+    values.relief = read_relief(*relief);
+  }
 }
 
 RasterSeabed read_raster(ConfigReader from) {
@@ -99,7 +120,7 @@ Seabed read_seabed(ConfigReader from) {
   }
   if (synthetic) {
     if (auto section = from.optional_section("synthetic")) {
-      seabed.synthetic = read_synthetic(*section);
+      read_synthetic(*section, seabed);
     }
   } else {
     seabed.raster = read_raster(from.section("raster"));
@@ -301,6 +322,7 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
   for (auto& [name, vehicle] : from.named_sections("vehicles")) {
     scenario.vehicles.push_back(read_vehicle(name, vehicle));
   }
+  scenario.seabed.synthetic.seed = scenario.seed;
   scenario.mission = read_mission(from.section("mission"));
   check_whole(from, scenario);
   return scenario;

@@ -13,6 +13,7 @@
 #include "kernels/frames/pose.h"
 #include "kernels/motion/kinematics.h"
 #include "kernels/navigation/runline.h"
+#include "kernels/terrain/synthetic_seabed.h"
 
 namespace ensonify {
 
@@ -36,32 +37,6 @@ struct Water {
   std::optional<double> noise_level_db;   // re 1 uPa^2/Hz, omnidirectional; not given: thermal noise
 };
 
-struct Ridge {
-  std::array<double, 2> centre_enu_m{};
-  double heading_rad = 0.0;  // of its crest, grid
-  double height_m = 0.0;
-  double length_m = 100.0;
-  double width_m = 20.0;  // across the crest
-};
-
-struct Boulders {
-  int count = 0;
-  double smallest_radius_m = 0.3;
-  double largest_radius_m = 1.5;
-};
-
-/// A generated seabed. Heights follow from these values and the scenario's seed alone.
-struct SyntheticSeabed {
-  std::array<double, 2> size_m{600.0, 600.0};  // east, north; centred on the origin
-  double depth_m = 20.0;                       // at the origin, below datum
-  double slope_rad = 0.0;                      // of the plane
-  double slope_heading_rad = 0.0;              // grid direction in which the plane gets deeper
-  double relief_rms_m = 0.0;                   // of the rough layer
-  double relief_longest_m = 100.0;             // its longest wavelength
-  std::vector<Ridge> ridges;
-  Boulders boulders;
-};
-
 struct RasterSeabed {
   enum class Values { kElevation, kDepth };  // up or down positive; never guessed
   enum class Holes { kRefuse, kKeep, kFill };
@@ -75,7 +50,9 @@ struct Seabed {
   Kind kind = Kind::kSynthetic;
   double post_spacing_m = 0.5;
   double lambert_mu_db = -25.0;  // backscatter strength at normal incidence of Lambert's law
-  SyntheticSeabed synthetic;
+  /// Synthetic: a seabed generated from these values alone. Its seed is the scenario's.
+  terrain::SyntheticSeabedParameters synthetic;
+  std::array<double, 2> synthetic_size_m{600.0, 600.0};  // extent east and north, centred on the origin
   RasterSeabed raster;
 };
 

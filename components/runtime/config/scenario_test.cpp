@@ -15,7 +15,7 @@ seed: 7
 water: {temperature_degc: 12, absorption_db_per_km: 60}
 seabed:
   kind: synthetic
-  synthetic: {depth_m: 20, slope_deg: 2, ridges: [{centre_m: [10, 20], height_m: 3}], boulders: {count: 9}}
+  synthetic: {depth_m: 20, slope_deg: 2, ridge: {from_m: [10, 20], to_m: [40, 20], height_m: 3}, boulders: {per_hectare: 9}}
 vehicles:
   auv:
     kind: kinematic
@@ -55,8 +55,9 @@ TEST_CASE("a scenario is read whole, in SI units") {
   CHECK(bay.water.absorption_dbpm == Approx(0.06));
   CHECK_FALSE(bay.water.sound_speed_mps.has_value());
   CHECK(bay.seabed.synthetic.slope_rad == Approx(2 * 3.14159265358979 / 180));
-  CHECK(bay.seabed.synthetic.ridges.at(0).centre_enu_m == std::array{10.0, 20.0});
-  CHECK(bay.seabed.synthetic.boulders.count == 9);
+  CHECK(bay.seabed.synthetic.ridge.start_enu_m == frames::Vec2(10, 20));
+  CHECK(bay.seabed.synthetic.boulders.per_hectare == 9);
+  CHECK(bay.seabed.synthetic.seed == 7);
   CHECK(bay.mission.speed_mps == Approx(4 * 0.514444).margin(1e-5));
   CHECK(bay.vehicle().limits.turning_radius_m == 12);
   CHECK(bay.vehicle("auv").waves.roll_rad.period_s == 7);
@@ -98,9 +99,9 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
         "bay.yaml:3:19: time.start_utc: \"2025-02-30T12:00:00Z\" is not a UTC time such as 2025-06-01T12:00:00Z");
   CHECK(problems_of(kBay, "kind: synthetic", "kind: sythetic") ==
         "bay.yaml:7:9: seabed.kind: is \"sythetic\", not one of synthetic, raster");
-  CHECK(problems_of(kBay, "boulders: {count: 9}", "boulders: {cuont: 9}") ==
-        "bay.yaml:8:97: seabed.synthetic.boulders.count: is missing; allowed: a whole number in [0, 100000]\n"
-        "bay.yaml:8:98: seabed.synthetic.boulders.cuont: is not a known key; did you mean count?");
+  CHECK(problems_of(kBay, "boulders: {per_hectare: 9}", "boulders: {per_hectrae: 9}") ==
+        "bay.yaml:8:108: seabed.synthetic.boulders.per_hectare: is missing; allowed: a number in [0, 10000]\n"
+        "bay.yaml:8:109: seabed.synthetic.boulders.per_hectrae: is not a known key; did you mean per_hectare?");
   CHECK(problems_of(kBay, "speed_kn: 4", "speed_kn: 40") ==
         "bay.yaml:17:10: mission: speed_mps is above what auv can do (fastest_mps)");
   CHECK(problems_of(kBay, "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}",
