@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +14,8 @@
 #include "messages/health.h"
 
 namespace ensonify {
+
+inline constexpr SimTime kFinishMargin = std::chrono::seconds(1);
 
 struct OutOptions {
   std::size_t max_bytes = 4096;  // of one message's body; queues are sized from it
@@ -40,6 +43,18 @@ struct InPort {
   std::size_t max_bytes = 0;        // 0: as declared by the publisher
 };
 
+/// One topic that feeds one input of this process, known once the wiring is checked.
+struct Connection {
+  std::size_t in_index = 0;
+  std::string topic;
+  std::uint32_t topic_id = 0;
+  std::string type;
+  std::string publisher;
+  std::uint32_t rank = 0;  // of the publisher in the launch file
+  SimTime delay{0};
+  std::size_t max_bytes = 0;
+};
+
 /// A received message with what its envelope says, for those who need more than its content.
 using PacketHandler = std::function<void(const msg::Packet&)>;
 
@@ -51,7 +66,7 @@ class Ports {
   /// `publish(index of out port, body, wall facts)`; set by whatever runs the node.
   using Publish = std::function<void(std::size_t, msg::Body, msg::Buffer)>;
 
-  explicit Ports(std::string process) : process_(std::move(process)) {}
+  explicit Ports(std::string process, std::filesystem::path out_dir = ".");
   Ports(const Ports&) = delete;
   Ports& operator=(const Ports&) = delete;
 
@@ -89,16 +104,22 @@ class Ports {
 
   /// Name of this process in the launch file.
   const std::string& process() const { return process_; }
+  /// Folder of the run's output files (`--out`).
+  const std::filesystem::path& out_dir() const { return out_dir_; }
   /// Time of the event being run.
   SimTime now() const { return now_; }
-  /// UTC of sim time 0 and UTC text of other facts belong to the scenario, not here.
+  /// What feeds the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
+  const std::vector<Connection>& connections() const { return connections_; }
+  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version". Complete before the first step.
+  const std::map<std::string, std::string>& facts() const { return facts_; }
 
   /// Publishes an undecoded message on a port (replay).
   void publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts = {});
+  /// Declares an output whose type is only known at run time.
   std::size_t declare_out(OutPort port);
 
-  /// Ends the run, for everyone at the same sim time: one second after this event. Only a process that declared
-  /// `may_finish` in its constructor can call it.
+  /// Ends the run, for everyone at the same sim time: one second after this event (kFinishMargin). Only a process that
+  /// said `may_finish` in its constructor can call it.
   void may_finish() { may_finish_ = true; }
   void finish();
 
@@ -112,9 +133,11 @@ class Ports {
   const std::vector<InPort>& ins() const { return ins_; }
   bool declares_finish() const { return may_finish_; }
   bool finish_requested() const { return finish_requested_; }
-  void connect(Publish publish) { publish_ = std::move(publish); }
-  void begin_event(SimTime now) { now_ = now; }
-  /// Publishes `health` if it changed since the last event.
+  /// Declares the health port, which every process has; called once the node is constructed.
+  void seal();
+  void connect(std::vector<Connection> connections, std::map<std::string, std::string> facts, Publish publish);
+  void begin_event(SimTime now);
+  /// Publishes `health` if it changed, at most once a second.
   void end_event();
   void deliver(std::size_t in_index, const msg::Packet& packet) { handlers_[in_index](packet); }
 
@@ -122,6 +145,9 @@ class Ports {
   std::size_t declare_in(InPort port, PacketHandler handler);
 
   std::string process_;
+  std::filesystem::path out_dir_;
+  std::vector<Connection> connections_;
+  std::map<std::string, std::string> facts_;
   std::vector<OutPort> outs_;
   std::vector<InPort> ins_;
   std::vector<PacketHandler> handlers_;
@@ -132,8 +158,8 @@ class Ports {
   msg::Health health_;
   std::map<std::string, std::int64_t> counters_;
   bool health_changed_ = false;
+  SimTime health_due_{0};
   std::size_t health_port_ = 0;
-  bool has_health_port_ = false;
 };
 
 }  // namespace ensonify

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/runtime/ports.h"
+#include "messages/codec.h"
+
+namespace ensonify {
+
+/// A message of a topic is missing: exit code 5.
+struct DataLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What a process's outputs are called on the bus.
+struct OutTopic {
+  std::string topic;
+  std::uint32_t topic_id = 0;
+};
+
+/// Runs one node's events in sim time: delivers what is due in the one order that does not depend on arrival, steps,
+/// stamps and numbers what is published. Knows no socket and no wall time; the same for every bus.
+class Stepper {
+ public:
+  using Step = std::function<SimTime(SimTime)>;
+  using Send = std::function<void(msg::Packet&&)>;
+
+  Stepper(Ports& ports, Step step) : ports_(ports), step_(std::move(step)) {}
+
+  /// Before the first event: who feeds us, what our outputs are called, and where they go.
+  void wire(std::vector<Connection> connections, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
+            std::uint32_t epoch, std::uint32_t rank, Send send);
+
+  /// A message has arrived; in order per topic. Throws DataLost on a gap in its topic's seq.
+  void insert(const msg::Packet& packet);
+
+  /// Runs every event up to and including `horizon`, or up to the one that asks for the run's end.
+  /// Returns true in the latter case.
+  bool run_to(SimTime horizon);
+
+  /// Time of the next event.
+  SimTime next() const { return next_; }
+  /// Time of the last event run.
+  SimTime last() const { return last_; }
+  const std::vector<OutTopic>& outs() const { return outs_; }
+  /// How many messages have been published on each output.
+  const std::vector<std::uint64_t>& published() const { return published_; }
+
+ private:
+  struct Inlet {
+    Connection from;
+    std::uint64_t expected_seq = 0;
+    std::deque<msg::Packet> waiting;
+  };
+
+  void deliver_due(SimTime now);
+  void publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts);
+
+  Ports& ports_;
+  Step step_;
+  Send send_;
+  std::uint32_t epoch_ = 0;
+  std::uint32_t rank_ = 0;
+  std::vector<Inlet> inlets_;
+  std::vector<OutTopic> outs_;
+  std::vector<std::uint64_t> published_;
+  SimTime next_{0};
+  SimTime last_{-1};
+};
+
+}  // namespace ensonify
