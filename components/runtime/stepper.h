@@ -5,15 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/exit_error.h"
 #include "components/runtime/ports.h"
 #include "messages/codec.h"
 
 namespace ensonify {
-
-/// A message of a topic is missing: exit code 5.
-struct DataLost : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// What a process's outputs are called on the bus.
 struct OutTopic {

@@ -1,0 +1,172 @@
+#include "components/runtime/bus/link.h"
+
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <zmq.hpp>
+
+#include "components/runtime/bus/frames.h"
+#include "components/runtime/bus/sockets.h"
+#include "components/runtime/exit_error.h"
+
+namespace ensonify::bus {
+
+struct Link::Sockets {
+  Sockets(const std::string& name, const std::string& clock_endpoint)
+      : clock(context, zmq::socket_type::dealer), sync(context, zmq::socket_type::xpub),
+        live(context, zmq::socket_type::xpub), monitor(context, zmq::socket_type::pair) {
+    clock.set(zmq::sockopt::routing_id, name);
+    connect_control(clock, clock_endpoint);
+    const std::string watch = "inproc://clock-monitor";
+    if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
+  }
+
+  zmq::context_t context{1};
+  zmq::socket_t clock;
+  zmq::socket_t sync;
+  zmq::socket_t live;
+  zmq::socket_t monitor;
+  std::string sync_endpoint;
+  std::string live_endpoint;
+};
+
+/// The thread that drains the SUB socket whether or not a grant has come, and what it has received.
+struct Link::Receiver {
+  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t epoch)
+      : socket(context, zmq::socket_type::sub), epoch(epoch) {
+    socket.set(zmq::sockopt::rcvhwm, 0);  // the clock's window bounds what can arrive
+    socket.set(zmq::sockopt::rcvbuf, kKernelBuffer);
+    socket.set(zmq::sockopt::linger, 0);
+    socket.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
+    std::set<std::string> connected;
+    for (const Subscription& s : subscriptions) {
+      expected[s.topic_id] = s;
+      arrived[s.topic_id] = 0;
+      if (connected.insert(s.endpoint).second) socket.connect(s.endpoint);
+    }
+    for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, s.topic + '\0');
+    for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, "!" + s.token);
+    thread = std::thread([this] { drain(); });
+  }
+
+  void drain() {
+    try {
+      std::vector<zmq::message_t> frames;
+      while (receive_frames(socket, frames)) accept(to_packet(std::move(frames)));
+    } catch (const zmq::error_t& e) {
+      if (e.num() != ETERM) fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
+    } catch (const std::exception& e) {
+      fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
+    }
+    socket.close();
+  }
+
+  void accept(msg::Packet&& packet) {
+    const auto known = expected.find(packet.envelope.topic_id);
+    if (packet.envelope.epoch != epoch || known == expected.end()) return;  // of an older epoch
+    const Subscription& s = known->second;
+    if (packet.envelope.type_hash != msg::type_hash(s.type)) throw msg::DecodeError(s.topic + ": is not " + s.type);
+    if (packet.body.size() > s.max_bytes) {
+      throw msg::DecodeError(s.topic + ": " + std::to_string(packet.body.size()) + " bytes, declared at most " +
+                             std::to_string(s.max_bytes));
+    }
+    const std::lock_guard lock(mutex);
+    ++arrived[s.topic_id];
+    packets.push_back(std::move(packet));
+    news.notify_one();
+  }
+
+  void fail(std::exception_ptr why) {
+    const std::lock_guard lock(mutex);
+    error = std::move(why);
+    news.notify_one();
+  }
+
+  zmq::socket_t socket;
+  std::uint32_t epoch;
+  std::map<std::uint32_t, Subscription> expected;
+  std::thread thread;
+  std::mutex mutex;
+  std::condition_variable news;
+  std::map<std::uint32_t, std::uint64_t> arrived;
+  std::vector<msg::Packet> packets;
+  std::exception_ptr error;
+};
+
+Link::Link(const std::string& name, const std::string& clock_endpoint, const Address& address, int queue)
+    : sockets_(std::make_unique<Sockets>(name, clock_endpoint)) {
+  sockets_->sync.set(zmq::sockopt::sndhwm, queue);
+  sockets_->sync.set(zmq::sockopt::xpub_nodrop, true);
+  sockets_->sync.set(zmq::sockopt::sndbuf, kKernelBuffer);
+  constexpr int kLiveQueue = 4;
+  sockets_->live.set(zmq::sockopt::sndhwm, kLiveQueue);
+  sockets_->sync.set(zmq::sockopt::linger, kLingerMs);
+  sockets_->live.set(zmq::sockopt::linger, 0);
+  sockets_->sync_endpoint = bind(sockets_->sync, address, name + ".sync");
+  sockets_->live_endpoint = bind(sockets_->live, address, name + ".live");
+}
+
+Link::~Link() {
+  sockets_->context.shutdown();
+  if (receiver_) receiver_->thread.join();
+}
+
+const std::string& Link::sync_endpoint() const { return sockets_->sync_endpoint; }
+const std::string& Link::live_endpoint() const { return sockets_->live_endpoint; }
+
+void Link::send_control(std::string_view text) { sockets_->clock.send(zmq::buffer(text)); }
+
+Link::Event Link::wait() {
+  zmq::pollitem_t items[] = {{sockets_->clock.handle(), 0, ZMQ_POLLIN, 0},
+                             {sockets_->sync.handle(), 0, ZMQ_POLLIN, 0},
+                             {sockets_->monitor.handle(), 0, ZMQ_POLLIN, 0}};
+  while (true) {
+    zmq::poll(items, 3, std::chrono::milliseconds(-1));
+    zmq::message_t message;
+    if (items[0].revents && sockets_->clock.recv(message, zmq::recv_flags::dontwait)) {
+      return {Event::kControl, message.to_string(), {}};
+    }
+    Event event{Event::kTokens, {}, {}};
+    while (sockets_->sync.recv(message, zmq::recv_flags::dontwait)) {
+      const std::string_view text = message.to_string_view();
+      if (text.starts_with("\x01!")) event.tokens.emplace_back(text.substr(2));
+    }
+    if (!event.tokens.empty()) return event;
+    if (items[2].revents) return {Event::kClockLost, {}, {}};
+  }
+}
+
+void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch) {
+  receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch);
+}
+
+void Link::wait_arrived(const std::vector<std::pair<std::uint32_t, std::uint64_t>>& counts) {
+  std::unique_lock lock(receiver_->mutex);
+  receiver_->news.wait(lock, [&] {
+    if (receiver_->error) return true;
+    for (const auto& [topic_id, count] : counts) {
+      if (receiver_->arrived[topic_id] < count) return false;
+    }
+    return true;
+  });
+  if (receiver_->error) std::rethrow_exception(receiver_->error);
+}
+
+std::vector<msg::Packet> Link::take() {
+  const std::lock_guard lock(receiver_->mutex);
+  return std::exchange(receiver_->packets, {});
+}
+
+void Link::publish(const msg::Packet& packet) {
+  std::vector<zmq::message_t> frames = to_frames(packet);
+  send_frames(sockets_->sync, frames);
+  zmq::message_t subscription;
+  while (sockets_->live.recv(subscription, zmq::recv_flags::dontwait)) {  // lets ZeroMQ take note of new viewers
+  }
+  send_frames(sockets_->live, frames);
+}
+
+}  // namespace ensonify::bus

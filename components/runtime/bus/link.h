@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "messages/codec.h"
+
+namespace ensonify::bus {
+
+/// Where sockets are bound: in the run directory (`ipc`) or on the loopback interface (`tcp`, a port chosen at bind or
+/// the one given).
+struct Address {
+  bool tcp = false;
+  std::string run_dir;
+  std::string tcp_bind;  // "tcp://127.0.0.1:*", or with a fixed port
+};
+
+/// A topic to receive.
+struct Subscription {
+  std::string topic;
+  std::uint32_t topic_id = 0;
+  std::string type;
+  std::string endpoint;
+  std::string token;
+  std::size_t max_bytes = 0;
+};
+
+/// One process's sockets: a DEALER to the clock, two XPUBs (sync: nothing lost; live: lossy, for viewers) and a SUB that
+/// a thread of its own drains at all times. ZeroMQ is seen in this folder only.
+class Link {
+ public:
+  /// Connects to the clock and binds. Throws UserError for an address that cannot be bound or a path over 107 bytes.
+  Link(const std::string& name, const std::string& clock_endpoint, const Address& address, int queue);
+  ~Link();
+
+  const std::string& sync_endpoint() const;
+  const std::string& live_endpoint() const;
+
+  void send_control(std::string_view text);
+  /// What happened next. Blocks; `clock_lost` when the clock's socket went away.
+  struct Event {
+    enum Kind { kControl, kTokens, kClockLost } kind = kControl;
+    std::string control;
+    std::vector<std::string> tokens;  // subscribers that have reached our sync socket
+  };
+  Event wait();
+
+  /// Starts receiving. The token of each topic is subscribed after the topic itself.
+  void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
+  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread met.
+  void wait_arrived(const std::vector<std::pair<std::uint32_t, std::uint64_t>>& counts);
+  /// Everything received since the last call, in order per topic.
+  std::vector<msg::Packet> take();
+
+  /// Blocks while a participant's queue is full; never for an observer.
+  void publish(const msg::Packet& packet);
+
+ private:
+  struct Sockets;
+  struct Receiver;
+  std::unique_ptr<Sockets> sockets_;
+  std::unique_ptr<Receiver> receiver_;
+};
+
+}  // namespace ensonify::bus

@@ -1,0 +1,244 @@
+#include "components/runtime/wiring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ensonify {
+
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+/// "*" and "name/*" are patterns; anything else is a name.
+bool is_pattern(const std::string& topic) { return topic.ends_with('*'); }
+bool matches(const std::string& pattern, const std::string& topic) {
+  return is_pattern(pattern) ? topic.starts_with(pattern.substr(0, pattern.size() - 1)) : pattern == topic;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(name, candidates);
+  return near.empty() ? "" : " (did you mean " + near + "?)";
+}
+
+class Wirer {
+ public:
+  Wirer(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules)
+      : processes_(processes), rules_(rules) {}
+
+  Graph run() {
+    list_topics();
+    check_rules();
+    for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
+      for (std::size_t in = 0; in < processes_[rank].ins.size(); ++in) connect(rank, in);
+    }
+    find_undelayed_cycle();
+    return std::move(graph_);
+  }
+
+ private:
+  void problem(const std::string& text) { graph_.problems.push_back(text); }
+  std::string input_name(std::size_t rank, std::size_t in) const {
+    return processes_[rank].process + "." + processes_[rank].ins[in].port;
+  }
+
+  void list_topics() {
+    for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
+      for (std::size_t other = 0; other < rank; ++other) {
+        if (processes_[other].process == processes_[rank].process) {
+          problem(processes_[rank].process + ": two processes have this name, so two publishers would share its topics");
+        }
+      }
+      for (std::size_t port = 0; port < processes_[rank].outs.size(); ++port) {
+        const OutPort& out = processes_[rank].outs[port];
+        graph_.topics.push_back(
+            {processes_[rank].process + "/" + out.port, rank, port, out.type, out.max_bytes, out.rate});
+        topic_names_.push_back(graph_.topics.back().name);
+      }
+    }
+  }
+
+  void check_rules() {
+    std::vector<std::string> inputs;
+    for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
+      for (std::size_t in = 0; in < processes_[rank].ins.size(); ++in) inputs.push_back(input_name(rank, in));
+    }
+    for (std::size_t i = 0; i < rules_.size(); ++i) {
+      const WireRule& rule = rules_[i];
+      if (std::find(inputs.begin(), inputs.end(), rule.input) == inputs.end()) {
+        problem(rule.place + ": wiring." + rule.input + ": no process has this input" + did_you_mean(rule.input, inputs));
+      }
+      for (std::size_t j = 0; j < i; ++j) {
+        if (rules_[j].input == rule.input) problem(rule.place + ": wiring." + rule.input + ": wired twice, two publishers");
+      }
+    }
+  }
+
+  void connect(std::size_t rank, std::size_t in) {
+    const InPort& port = processes_[rank].ins[in];
+    const std::string name = input_name(rank, in);
+    const auto rule = std::find_if(rules_.begin(), rules_.end(), [&](const WireRule& r) { return r.input == name; });
+    if (port.type == "*") {
+      connect_any(rank, in);
+    } else if (rule != rules_.end()) {
+      connect_named(rank, in, rule->topic, *rule);
+    } else {
+      connect_only_publisher(rank, in);
+    }
+  }
+
+  void connect_any(std::size_t rank, std::size_t in) {
+    for (const std::string& wanted : processes_[rank].ins[in].topics) {
+      bool any = is_pattern(wanted);
+      for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
+        if (graph_.topics[t].publisher == rank || !matches(wanted, graph_.topics[t].name)) continue;
+        any = true;
+        const bool already = std::any_of(graph_.edges.begin(), graph_.edges.end(), [&](const Graph::Edge& e) {
+          return e.topic == t && e.to == rank && e.in_port == in;
+        });
+        if (!already) add_edge(t, rank, in, processes_[rank].ins[in].delay);
+      }
+      if (!any) {
+        problem(input_name(rank, in) + ": no process publishes " + wanted + did_you_mean(wanted, topic_names_));
+      }
+    }
+  }
+
+  void connect_named(std::size_t rank, std::size_t in, const std::string& topic, const WireRule& rule) {
+    const InPort& port = processes_[rank].ins[in];
+    const std::string where = rule.place + ": wiring." + rule.input + ": ";
+    const auto found = std::find(topic_names_.begin(), topic_names_.end(), topic);
+    if (found == topic_names_.end()) {
+      problem(where + "no process publishes " + topic + did_you_mean(topic, topic_names_));
+      return;
+    }
+    const auto t = static_cast<std::size_t>(found - topic_names_.begin());
+    if (graph_.topics[t].type != port.type) {
+      problem(where + topic + " is " + graph_.topics[t].type + ", the input takes " + port.type);
+      return;
+    }
+    if (rule.delay >= SimTime{0} && rule.delay < port.delay) {
+      problem(where + "delay_ms " + std::to_string(rule.delay.count() / 1'000'000) + " is shorter than the port's " +
+              std::to_string(port.delay.count() / 1'000'000) + "; a launch file may only lengthen it");
+      return;
+    }
+    add_edge(t, rank, in, std::max(rule.delay, port.delay));
+  }
+
+  void connect_only_publisher(std::size_t rank, std::size_t in) {
+    const InPort& port = processes_[rank].ins[in];
+    std::vector<std::size_t> offers;
+    for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
+      if (graph_.topics[t].type == port.type && graph_.topics[t].publisher != rank) offers.push_back(t);
+    }
+    if (offers.size() == 1) {
+      add_edge(offers[0], rank, in, port.delay);
+    } else if (offers.size() > 1) {
+      std::string names;
+      for (const std::size_t t : offers) names += (names.empty() ? "" : ", ") + graph_.topics[t].name;
+      problem(input_name(rank, in) + ": several publishers offer " + port.type + " (" + names + "); name one under wiring:");
+    } else if (!port.optional) {
+      problem(input_name(rank, in) + ": no publisher offers " + port.type);
+    }
+  }
+
+  void add_edge(std::size_t topic, std::size_t to, std::size_t in, SimTime delay) {
+    graph_.edges.push_back({topic, to, in, delay});
+  }
+
+  /// Depth first over plain edges; the first cycle found is named.
+  void find_undelayed_cycle() {
+    std::vector<int> state(processes_.size(), 0);
+    std::vector<std::size_t> path;
+    for (std::size_t start = 0; start < processes_.size(); ++start) {
+      if (state[start] == 0 && visit(start, state, path)) return;
+    }
+  }
+  bool visit(std::size_t rank, std::vector<int>& state, std::vector<std::size_t>& path) {
+    state[rank] = 1;
+    path.push_back(rank);
+    for (const Graph::Edge& edge : graph_.edges) {
+      if (graph_.topics[edge.topic].publisher != rank || edge.delay > SimTime{0}) continue;
+      if (state[edge.to] == 1) {
+        name_cycle(path, edge.to);
+        return true;
+      }
+      if (state[edge.to] == 0 && visit(edge.to, state, path)) return true;
+    }
+    state[rank] = 2;
+    path.pop_back();
+    return false;
+  }
+  void name_cycle(const std::vector<std::size_t>& path, std::size_t back_to) {
+    std::string names;
+    for (auto it = std::find(path.begin(), path.end(), back_to); it != path.end(); ++it) {
+      names += processes_[*it].process + " -> ";
+    }
+    problem("wiring: " + names + processes_[back_to].process +
+            ": a cycle without a delayed edge; give one of its inputs a delay_ms");
+  }
+
+  const std::vector<Declaration>& processes_;
+  const std::vector<WireRule>& rules_;
+  std::vector<std::string> topic_names_;
+  Graph graph_;
+};
+
+}  // namespace
+
+Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules) {
+  return Wirer(processes, rules).run();
+}
+
+std::vector<Connection> connections_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank) {
+  std::vector<Connection> connections;
+  for (const Graph::Edge& edge : graph.edges) {
+    if (edge.to != rank) continue;
+    const Graph::Topic& topic = graph.topics[edge.topic];
+    connections.push_back({edge.in_port, topic.name, static_cast<std::uint32_t>(edge.topic), topic.type,
+                           processes[topic.publisher].process, static_cast<std::uint32_t>(topic.publisher), edge.delay,
+                           topic.max_bytes});
+  }
+  std::sort(connections.begin(), connections.end(), [](const Connection& a, const Connection& b) {
+    return std::pair(a.in_index, a.topic_id) < std::pair(b.in_index, b.topic_id);
+  });
+  return connections;
+}
+
+int queue_length(const Declaration& process, SimTime window) {
+  constexpr double kUnstatedRateHz = 10.0;
+  double messages = 0.0;
+  for (const OutPort& out : process.outs) {
+    const double rate_hz = out.rate.num > 0 ? out.rate.hz() : kUnstatedRateHz;
+    messages += 2.0 + std::ceil(seconds(window) * rate_hz);
+  }
+  return static_cast<int>(messages);
+}
+
+std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(3, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace ensonify

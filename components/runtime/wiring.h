@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "components/runtime/ports.h"
+
+namespace ensonify {
+
+/// The ports of one process, as it declares them; the position in the list of processes is its rank.
+struct Declaration {
+  std::string process;
+  std::string component;
+  std::vector<OutPort> outs;
+  std::vector<InPort> ins;
+  bool may_finish = false;
+};
+
+/// One line of the launch file's `wiring:`.
+struct WireRule {
+  std::string input;  // "auv.command"
+  std::string topic;  // "agent/command"
+  SimTime delay{-1};  // negative: as the port declares
+  std::string place;  // "demo.yaml:12:3", for messages
+};
+
+/// Who talks to whom. Topic ids count outputs in the order of ranks and declarations.
+struct Graph {
+  struct Topic {
+    std::string name;
+    std::size_t publisher = 0;  // rank
+    std::size_t port = 0;       // index among its outs
+    std::string type;
+    std::size_t max_bytes = 0;
+    Rate rate;
+  };
+  struct Edge {
+    std::size_t topic = 0;  // index in topics: the topic id
+    std::size_t to = 0;     // rank of the subscriber
+    std::size_t in_port = 0;
+    SimTime delay{0};
+  };
+  std::vector<Topic> topics;
+  std::vector<Edge> edges;
+  std::vector<std::string> problems;  // empty: the wiring is sound
+};
+
+/// Checks the whole wiring: misspelt names (with the nearest), no publisher, several publishers of an unwired input's
+/// type, type mismatch, a delay shorter than declared, a cycle without a delayed edge. Everything wrong is listed.
+Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules);
+
+/// What a subscriber's runtime needs: its connections, in the order of in ports and topic ids.
+std::vector<Connection> connections_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank);
+
+/// Messages that may be on their way on a sync socket at once: 2 + window x rate, summed over its topics.
+int queue_length(const Declaration& process, SimTime window);
+
+/// The candidate closest in spelling, or "" if none is near.
+std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
+
+}  // namespace ensonify
