@@ -28,8 +28,8 @@ void Ports::seal() {
   health_port_ = declare_out({"health", msg::Health::kType, 1 << 16, Rate{1, 1}});
 }
 
-void Ports::connect(std::vector<Connection> connections, std::map<std::string, std::string> facts, Publish publish) {
-  connections_ = std::move(connections);
+void Ports::connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish) {
+  feeds_ = std::move(feeds);
   facts_ = std::move(facts);
   publish_ = std::move(publish);
 }

@@ -44,7 +44,7 @@ struct InPort {
 };
 
 /// One topic that feeds one input of this process, known once the wiring is checked.
-struct Connection {
+struct Feed {
   std::size_t in_index = 0;
   std::string topic;
   std::uint32_t topic_id = 0;
@@ -109,7 +109,7 @@ class Ports {
   /// Time of the event being run.
   SimTime now() const { return now_; }
   /// What feeds the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
-  const std::vector<Connection>& connections() const { return connections_; }
+  const std::vector<Feed>& feeds() const { return feeds_; }
   /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version". Complete before the first step.
   const std::map<std::string, std::string>& facts() const { return facts_; }
 
@@ -135,7 +135,7 @@ class Ports {
   bool finish_requested() const { return finish_requested_; }
   /// Declares the health port, which every process has; called once the node is constructed.
   void seal();
-  void connect(std::vector<Connection> connections, std::map<std::string, std::string> facts, Publish publish);
+  void connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish);
   void begin_event(SimTime now);
   /// Publishes `health` if it changed, at most once a second.
   void end_event();
@@ -146,7 +146,7 @@ class Ports {
 
   std::string process_;
   std::filesystem::path out_dir_;
-  std::vector<Connection> connections_;
+  std::vector<Feed> feeds_;
   std::map<std::string, std::string> facts_;
   std::vector<OutPort> outs_;
   std::vector<InPort> ins_;

@@ -6,7 +6,7 @@
 
 namespace ensonify {
 
-void Stepper::wire(std::vector<Connection> connections, std::vector<OutTopic> outs,
+void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs,
                    std::map<std::string, std::string> facts, std::uint32_t epoch, std::uint32_t rank, Send send) {
   epoch_ = epoch;
   rank_ = rank;
@@ -14,8 +14,8 @@ void Stepper::wire(std::vector<Connection> connections, std::vector<OutTopic> ou
   outs_ = std::move(outs);
   published_.assign(outs_.size(), 0);
   inlets_.clear();
-  for (const Connection& connection : connections) inlets_.push_back({connection, 0, {}});
-  ports_.connect(std::move(connections), std::move(facts),
+  for (const Feed& feed : feeds) inlets_.push_back({feed, 0, {}});
+  ports_.connect(std::move(feeds), std::move(facts),
                  [this](std::size_t out, msg::Body body, msg::Buffer wall) { publish(out, std::move(body), std::move(wall)); });
 }
 

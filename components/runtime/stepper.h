@@ -27,7 +27,7 @@ class Stepper {
   Stepper(Ports& ports, Step step) : ports_(ports), step_(std::move(step)) {}
 
   /// Before the first event: who feeds us, what our outputs are called, and where they go.
-  void wire(std::vector<Connection> connections, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
+  void wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
             std::uint32_t epoch, std::uint32_t rank, Send send);
 
   /// A message has arrived; in order per topic. Throws DataLost on a gap in its topic's seq.
@@ -47,7 +47,7 @@ class Stepper {
 
  private:
   struct Inlet {
-    Connection from;
+    Feed from;
     std::uint64_t expected_seq = 0;
     std::deque<msg::Packet> waiting;
   };

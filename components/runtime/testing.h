@@ -24,21 +24,21 @@ class NodeUnderTest {
         node_(config, ports_),
         stepper_(ports_, [this](SimTime now) { return node_.step(now); }) {
     ports_.seal();
-    std::vector<Connection> connections;
+    std::vector<Feed> feeds;
     for (std::size_t i = 0; i < ports_.ins().size(); ++i) {
       const InPort& in = ports_.ins()[i];
-      if (in.type == "*") continue;  // given by topic: give_topic
-      connections.push_back({i, "given/" + in.port, static_cast<std::uint32_t>(i), in.type, "given", 0, in.delay, in.max_bytes});
+      if (in.type == "*") continue;  // given by topic: connect_any
+      feeds.push_back({i, "given/" + in.port, static_cast<std::uint32_t>(i), in.type, "given", 0, in.delay, in.max_bytes});
     }
-    connections_ = connections;
+    feeds_ = feeds;
   }
 
   /// Connects a topic of any kind to an `in_any` port; before the first step.
   void connect_any(const std::string& port, const std::string& topic, const std::string& type) {
     for (std::size_t i = 0; i < ports_.ins().size(); ++i) {
       if (ports_.ins()[i].port != port) continue;
-      const auto id = static_cast<std::uint32_t>(1000 + connections_.size());
-      connections_.push_back({i, topic, id, type, topic.substr(0, topic.find('/')), id, ports_.ins()[i].delay, 0});
+      const auto id = static_cast<std::uint32_t>(1000 + feeds_.size());
+      feeds_.push_back({i, topic, id, type, topic.substr(0, topic.find('/')), id, ports_.ins()[i].delay, 0});
     }
   }
 
@@ -52,7 +52,7 @@ class NodeUnderTest {
   template <msg::Message M>
   void give_at(const std::string& port, SimTime t, const M& message) {
     start();
-    for (const Connection& c : connections_) {
+    for (const Feed& c : feeds_) {
       if (c.topic != "given/" + port && c.topic != port) continue;
       msg::Packet packet;
       packet.topic = c.topic;
@@ -103,14 +103,14 @@ class NodeUnderTest {
     started_ = true;
     std::vector<OutTopic> outs;
     for (const OutPort& out : ports_.outs()) outs.push_back({"test/" + out.port, static_cast<std::uint32_t>(outs.size())});
-    stepper_.wire(connections_, std::move(outs), {}, 1, 1,
+    stepper_.wire(feeds_, std::move(outs), {}, 1, 1,
                   [this](msg::Packet&& packet) { published_[packet.topic].push_back(std::move(packet)); });
   }
 
   Ports ports_;
   Node node_;
   Stepper stepper_;
-  std::vector<Connection> connections_;
+  std::vector<Feed> feeds_;
   std::map<std::uint32_t, std::uint64_t> seq_;
   std::map<std::string, std::vector<msg::Packet>> published_;
   bool started_ = false;

@@ -203,19 +203,19 @@ Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule
   return Wirer(processes, rules).run();
 }
 
-std::vector<Connection> connections_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank) {
-  std::vector<Connection> connections;
+std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank) {
+  std::vector<Feed> feeds;
   for (const Graph::Edge& edge : graph.edges) {
     if (edge.to != rank) continue;
     const Graph::Topic& topic = graph.topics[edge.topic];
-    connections.push_back({edge.in_port, topic.name, static_cast<std::uint32_t>(edge.topic), topic.type,
+    feeds.push_back({edge.in_port, topic.name, static_cast<std::uint32_t>(edge.topic), topic.type,
                            processes[topic.publisher].process, static_cast<std::uint32_t>(topic.publisher), edge.delay,
                            topic.max_bytes});
   }
-  std::sort(connections.begin(), connections.end(), [](const Connection& a, const Connection& b) {
+  std::sort(feeds.begin(), feeds.end(), [](const Feed& a, const Feed& b) {
     return std::pair(a.in_index, a.topic_id) < std::pair(b.in_index, b.topic_id);
   });
-  return connections;
+  return feeds;
 }
 
 int queue_length(const Declaration& process, SimTime window) {

@@ -50,8 +50,8 @@ struct Graph {
 /// type, type mismatch, a delay shorter than declared, a cycle without a delayed edge. Everything wrong is listed.
 Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules);
 
-/// What a subscriber's runtime needs: its connections, in the order of in ports and topic ids.
-std::vector<Connection> connections_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank);
+/// What a subscriber's runtime needs: its feeds, in the order of in ports and topic ids.
+std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank);
 
 /// Messages that may be on their way on a sync socket at once: 2 + window x rate, summed over its topics.
 int queue_length(const Declaration& process, SimTime window);

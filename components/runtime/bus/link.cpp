@@ -35,8 +35,8 @@ struct Link::Sockets {
 
 /// The thread that drains the SUB socket whether or not a grant has come, and what it has received.
 struct Link::Receiver {
-  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t epoch)
-      : socket(context, zmq::socket_type::sub), epoch(epoch) {
+  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t run_epoch)
+      : socket(context, zmq::socket_type::sub), epoch(run_epoch) {
     socket.set(zmq::sockopt::rcvhwm, 0);  // the clock's window bounds what can arrive
     socket.set(zmq::sockopt::rcvbuf, kKernelBuffer);
     socket.set(zmq::sockopt::linger, 0);

@@ -1,0 +1,94 @@
+#include "components/runtime/bus/router.h"
+
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <zmq.hpp>
+
+#include "components/runtime/bus/sockets.h"
+
+namespace ensonify::bus {
+
+namespace {
+bool receive(zmq::socket_t& socket, Router::Message& message) {
+  zmq::message_t from;
+  zmq::message_t text;
+  if (!socket.recv(from, zmq::recv_flags::dontwait)) return false;
+  message.from = from.to_string();
+  message.text.clear();
+  for (bool more = from.more(); more; more = text.more()) {
+    if (!socket.recv(text, zmq::recv_flags::none)) return false;
+    message.text = text.to_string();
+  }
+  return true;
+}
+}  // namespace
+
+struct Router::Sockets {
+  zmq::context_t context{1};
+  zmq::socket_t socket{context, zmq::socket_type::router};
+  int alarm = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);  // zmq_poll alone knows milliseconds only
+  std::string endpoint;
+};
+
+Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
+  zmq::socket_t& socket = sockets_->socket;
+  socket.set(zmq::sockopt::router_mandatory, true);
+  socket.set(zmq::sockopt::router_handover, false);
+  socket.set(zmq::sockopt::linger, kLingerMs);
+  socket.set(zmq::sockopt::sndhwm, 0);
+  socket.set(zmq::sockopt::rcvhwm, 0);
+  sockets_->endpoint = bind(socket, address, "clock");
+}
+
+Router::~Router() { close(sockets_->alarm); }
+
+const std::string& Router::endpoint() const { return sockets_->endpoint; }
+
+std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
+  Message message;
+  if (receive(sockets_->socket, message)) return message;
+  if (until) {
+    using namespace std::chrono;
+    const auto left = std::max(duration_cast<nanoseconds>(*until - steady_clock::now()), nanoseconds(1)).count();
+    const itimerspec alarm{{0, 0}, {left / 1'000'000'000, left % 1'000'000'000}};
+    timerfd_settime(sockets_->alarm, 0, &alarm, nullptr);
+  }
+  while (true) {
+    zmq::pollitem_t items[] = {{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0}, {nullptr, sockets_->alarm, ZMQ_POLLIN, 0}};
+    zmq::poll(items, until ? 2 : 1, std::chrono::milliseconds(-1));
+    if (receive(sockets_->socket, message)) return message;
+    if (until && std::chrono::steady_clock::now() >= *until) return std::nullopt;
+  }
+}
+
+bool Router::send(const std::string& to, std::string_view text) {
+  try {
+    sockets_->socket.send(zmq::buffer(to), zmq::send_flags::sndmore);
+    sockets_->socket.send(zmq::buffer(text));
+    return true;
+  } catch (const zmq::error_t&) {  // EHOSTUNREACH: the peer is gone; the launcher tells why
+    return false;
+  }
+}
+
+struct Asker::Sockets {
+  zmq::context_t context{1};
+  zmq::socket_t socket{context, zmq::socket_type::dealer};
+};
+
+Asker::Asker(const std::string& clock_endpoint) : sockets_(std::make_unique<Sockets>()) {
+  connect_control(sockets_->socket, clock_endpoint);
+  sockets_->socket.set(zmq::sockopt::linger, 0);
+}
+Asker::~Asker() = default;
+
+std::optional<std::string> Asker::ask(std::string_view request, std::chrono::milliseconds patience) {
+  sockets_->socket.send(zmq::buffer(request));
+  zmq::pollitem_t item{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0};
+  zmq::message_t answer;
+  if (zmq::poll(&item, 1, patience) == 0 || !sockets_->socket.recv(answer, zmq::recv_flags::dontwait)) return std::nullopt;
+  return answer.to_string();
+}
+
+}  // namespace ensonify::bus

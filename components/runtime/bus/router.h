@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "components/runtime/bus/link.h"
+
+namespace ensonify::bus {
+
+using WallTime = std::chrono::steady_clock::time_point;
+
+/// The clock's end of the control plane: a ROUTER with mandatory routing and no handover.
+class Router {
+ public:
+  /// Binds `<run_dir>/clock` or a loopback port.
+  explicit Router(const Address& address);
+  ~Router();
+
+  const std::string& endpoint() const;
+
+  struct Message {
+    std::string from;  // routing id: a participant's name, or one that ZeroMQ made up for a tool
+    std::string text;
+  };
+  /// The next message, or nothing once `until` has passed (never for nullopt).
+  std::optional<Message> wait(std::optional<WallTime> until);
+  /// False if that peer is gone.
+  bool send(const std::string& to, std::string_view text);
+
+ private:
+  struct Sockets;
+  std::unique_ptr<Sockets> sockets_;
+};
+
+/// A tool's end: asks the clock and waits for the answer.
+class Asker {
+ public:
+  explicit Asker(const std::string& clock_endpoint);
+  ~Asker();
+  /// The answer, or nothing when none came within `patience`.
+  std::optional<std::string> ask(std::string_view request, std::chrono::milliseconds patience);
+
+ private:
+  struct Sockets;
+  std::unique_ptr<Sockets> sockets_;
+};
+
+}  // namespace ensonify::bus

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "components/runtime/stepper.h"
+#include "components/runtime/wiring.h"
+
+/// What clock and participants say to each other: docs/wire.md, as structs and text. No sockets here.
+namespace ensonify::protocol {
+
+struct Hello {
+  Declaration declaration;
+  std::int64_t pid = 0;
+  SimTime first{0};
+  std::string sync_endpoint;
+  std::string live_endpoint;
+  std::map<std::string, std::string> facts;
+};
+
+struct WelcomeIn {
+  Feed feed;
+  std::string endpoint;
+  std::string token;
+};
+struct Welcome {
+  std::uint32_t epoch = 1;
+  std::uint32_t rank = 0;
+  std::vector<OutTopic> outs;
+  std::vector<std::vector<std::string>> out_tokens;  // per out: one for each subscriber to come
+  std::vector<WelcomeIn> ins;
+  std::map<std::string, std::string> facts;  // "launch", "scenario", "version"
+};
+
+using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;  // topic id, messages so far
+
+struct Grant {
+  std::uint32_t epoch = 1;
+  SimTime horizon{0};
+  TopicCounts inputs;
+};
+
+struct Done {
+  std::uint32_t epoch = 1;
+  SimTime next{0};
+  bool finish = false;  // the run is to end kFinishMargin after the event at next - 1 ns
+  std::int64_t cost_ns = 0;
+  TopicCounts outputs;
+};
+
+/// Ports as the JSON that `--check` prints and HELLO carries, and back. Reading throws std::runtime_error naming the key.
+std::string declaration_json(const Declaration& declaration);
+Declaration read_declaration(std::string_view json);
+
+std::string encode(const Hello& hello);
+std::string encode(const Welcome& welcome, const Declaration& declaration);
+std::string encode(const Grant& grant);
+std::string encode(const Done& done);
+
+/// The `kind` of a JSON message; "grant" and "done" for the binary ones; "" for anything else.
+std::string kind_of(std::string_view text);
+Hello read_hello(std::string_view json);
+/// `ins` are the reader's own ports, to find each port's index.
+Welcome read_welcome(std::string_view json, const std::vector<OutPort>& outs, const std::vector<InPort>& ins);
+std::optional<Grant> read_grant(std::string_view bytes);
+std::optional<Done> read_done(std::string_view bytes);
+
+/// {"kind":"failed","code":..,"message":..}
+std::string encode_failed(int code, const std::string& message);
+/// {"kind":"proven","tokens":[..]}
+std::string encode_proven(const std::vector<std::string>& tokens);
+std::vector<std::string> read_tokens(std::string_view json);
+/// The texts under "problems" of a refusal.
+std::vector<std::string> read_problems(std::string_view json);
+/// "code" of an end.
+int read_code(std::string_view json);
+
+}  // namespace ensonify::protocol
