@@ -1,6 +1,7 @@
 #include "kernels/terrain/synthetic_seabed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,14 +15,26 @@ constexpr double kNoiseMeanSquare = 0.046531;
 
 double fade(double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 
+/// Unit vectors all round, so that the inner loop needs no sines.
+const std::array<Vec2, 256>& gradients() {
+  static const auto table = [] {
+    std::array<Vec2, 256> directions;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(directions.size());
+      directions[i] = Vec2(std::cos(angle), std::sin(angle));
+    }
+    return directions;
+  }();
+  return table;
+}
+
 double gradient_noise(const random::Stream& stream, const Vec2& place, std::uint64_t octave) {
   const double x0 = std::floor(place.x()), y0 = std::floor(place.y());
   const double u = place.x() - x0, v = place.y() - y0;
   const auto corner = [&](int dx, int dy) {
     const auto cell = stream.bits(static_cast<std::uint64_t>(static_cast<std::int64_t>(x0) + dx),
                                   static_cast<std::uint64_t>(static_cast<std::int64_t>(y0) + dy), octave);
-    const double angle = 2.0 * std::numbers::pi * 0x1p-32 * cell[0];
-    return (u - dx) * std::cos(angle) + (v - dy) * std::sin(angle);
+    return gradients()[cell[0] & 255U].dot(Vec2(u - dx, v - dy));
   };
   const double south = std::lerp(corner(0, 0), corner(1, 0), fade(u));
   const double north = std::lerp(corner(0, 1), corner(1, 1), fade(u));

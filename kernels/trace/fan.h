@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/frames/attitude.h"
+#include "kernels/random/stream.h"
+
+namespace ensonify::trace {
+
+/// A bundle of sound around one direction: the direction is unit length; the solid angles of a fan's rays sum to the
+/// fan's.
+struct Ray {
+  Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // head frame, FRD
+  float solid_angle_sr = 0.0F;
+};
+
+/// What a Mills cross transmits into: narrow along-track, wide across-track.
+struct FanShape {
+  double transmit_length_in_waves = 50.0;  // L / lambda of the line array along the head's x axis
+  double along_reach = 8.0;                // sine to which rays go fore and aft, in lambda / L; 1 is the first null
+  double half_swath_rad = 1.2;             // to port and starboard of the head's z axis, < pi/2
+  int along = 24;                          // rays along-track
+  int across = 1024;                       // rays across-track
+  double grazing_share =
+      0.7;  // share of the rows spread equally in slant range on a flat seabed; the rest equally in angle
+};
+
+/// Rays over the transmit volume of a Mills cross.
+///
+/// A direction is (u, sqrt(1-u^2) sin phi, sqrt(1-u^2) cos phi): u the sine of the along-track angle, phi the
+/// across-track angle about the head's x axis. Then dOmega = du dphi exactly. The volume is cut into along x across
+/// strata; each holds one ray at a random place that depends on (seed, ping, ray) only, so means over pings are
+/// unbiased. Strata are narrow in u where the transmit pattern is high (edges on a Cauchy distribution, the envelope of
+/// sinc^2) and narrow in phi towards grazing.
+class Fan {
+ public:
+  /// Throws std::invalid_argument for a shape without rays or a swath of 180 degrees or more.
+  explicit Fan(const FanShape& shape);
+
+  std::size_t size() const { return (sine_edges_.size() - 1) * (across_edges_rad_.size() - 1); }
+
+  /// Ray i has along-track stratum i % along and across-track stratum i / along (neighbours in order, for packets).
+  void fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) const;
+
+ private:
+  std::vector<double> sine_edges_;
+  std::vector<double> across_edges_rad_;
+};
+
+}  // namespace ensonify::trace

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernels/frames/pose.h"
+#include "kernels/terrain/tile.h"
+#include "kernels/trace/fan.h"
+
+namespace ensonify::trace {
+
+/// Where a ray met the seabed.
+struct Hit {
+  frames::Vec3 position_enu_m = frames::Vec3::Zero();
+  Eigen::Vector3f normal_enu = Eigen::Vector3f::UnitZ();  // of the facet, unit, towards the ray's origin
+  float range_m = 0.0F;                                   // along the ray; 0 is a miss
+  float sin_grazing = 0.0F;  // sine of the angle between the ray and the facet's plane, 0..1
+  std::uint8_t sediment = 0;
+
+  bool hit() const { return range_m > 0.0F; }
+};
+
+/// Seabed tiles to trace rays against.
+///
+/// Each tile is one Embree scene of grid primitives (two triangles per cell), built when it comes; tiles share the bits
+/// of their edge posts and the intersection is watertight, so no ray passes between neighbours (a test aims at the
+/// seams). A cell that touches a hole (NaN post) has no triangles. Embree computes in float, relative to
+/// `origin_enu_m`: keep it within 4 km of the tiles and the head, where a coordinate rounds by less than 0.13 mm.
+/// Positions of hits are double.
+///
+/// The answer depends on the tiles, the pose and the rays; never on the order of insertion or the number of threads.
+class Scene {
+ public:
+  explicit Scene(const frames::Vec2& origin_enu_m);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  /// Adds or replaces a tile. Throws std::invalid_argument with terrain::fault_of when its sizes do not fit.
+  void insert(const terrain::TileKey& key, const terrain::Tile& tile);
+
+  /// Takes a tile away; false when there was none.
+  bool remove(const terrain::TileKey& key);
+
+  /// Moves the origin of Embree's coordinates; rebuilds every tile.
+  void recentre(const frames::Vec2& origin_enu_m);
+
+  bool empty() const;
+  std::size_t size() const;
+  bool contains(const terrain::TileKey& key) const;
+  const frames::Vec2& origin_enu_m() const;
+
+  /// The first facet that each ray meets within max_range_m. hits is resized to rays and overwritten.
+  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ensonify::trace
