@@ -173,10 +173,8 @@ void write_canonical(const ConfigNode& node, std::size_t indent, std::string& ou
 std::string to_json(const ConfigNode& node) {
   std::string out;
   switch (node.kind) {
-    case ConfigNode::Kind::kNull:
-      return "null";
-    case ConfigNode::Kind::kScalar:
-      return json_scalar(node);
+    case ConfigNode::Kind::kNull: return "null";
+    case ConfigNode::Kind::kScalar: return json_scalar(node);
     case ConfigNode::Kind::kList:
       for (const auto& item : node.items) {
         out += (out.empty() ? "" : ",") + to_json(item);

@@ -20,14 +20,10 @@ std::string quoted(const std::string& text) {
 
 std::string described(const ConfigNode& node) {
   switch (node.kind) {
-    case ConfigNode::Kind::kNull:
-      return "has no value";
-    case ConfigNode::Kind::kList:
-      return "is a list";
-    case ConfigNode::Kind::kMap:
-      return "is a map of keys";
-    case ConfigNode::Kind::kScalar:
-      break;
+    case ConfigNode::Kind::kNull: return "has no value";
+    case ConfigNode::Kind::kList: return "is a list";
+    case ConfigNode::Kind::kMap: return "is a map of keys";
+    case ConfigNode::Kind::kScalar: break;
   }
   return "is " + quoted(node.scalar);
 }
