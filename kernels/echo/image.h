@@ -1,0 +1,34 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace ensonify::echo {
+
+/// When a receiver samples: sample k is taken at start_s + k * period_s after the start of transmission.
+struct Sampling {
+  double start_s = 0.0;
+  double period_s = 50e-6;  // at most half the pulse, or echoes fall between samples
+  int count = 0;
+};
+
+/// Complex envelope, beam by sample: the square of the magnitude is mean-square pressure at the receiver, uPa^2, as the
+/// equivalent plane wave on the beam's axis.
+struct Image {
+  int beams = 0;
+  int samples = 0;
+  std::vector<std::complex<float>> envelope_upa;  // row by row, one row per beam
+
+  std::span<std::complex<float>> row(int beam) {
+    return std::span(envelope_upa)
+        .subspan(static_cast<std::size_t>(beam) * static_cast<std::size_t>(samples), static_cast<std::size_t>(samples));
+  }
+  std::span<const std::complex<float>> row(int beam) const {
+    return std::span(envelope_upa)
+        .subspan(static_cast<std::size_t>(beam) * static_cast<std::size_t>(samples), static_cast<std::size_t>(samples));
+  }
+};
+
+}  // namespace ensonify::echo
