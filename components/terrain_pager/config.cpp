@@ -1,0 +1,27 @@
+#include "components/terrain_pager/config.h"
+
+#include "components/runtime/config/config_reader.h"
+
+namespace ensonify {
+
+TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& scenario, const std::string&) {
+  TerrainPagerConfig config;
+  from.optional("rate_hz", config.rate_hz, 1, 20);
+  from.optional("feed_margin_m", config.feed_margin_m, 0, 50e3);
+  from.optional("release_hysteresis_m", config.release_hysteresis_m, 0, 50e3);
+  from.optional("load_ahead_s", config.load_ahead_s, 1, 3600);
+  from.optional("threads", config.threads, 1, 64);
+  from.optional("lsb_m", config.lsb_m, 1e-6, 4e-3);
+  from.optional("corridor_half_deg", config.corridor_half_deg, 0, 85);
+  from.optional("raster_crs", config.raster_crs);
+  from.optional("raster_band", config.raster_band, 1, 1000);
+  from.optional("raster_nodata", config.raster_nodata);
+
+  config.scenario_file = scenario.file;
+  config.site = scenario.site;
+  config.seabed = scenario.seabed;
+  config.mission = scenario.mission;
+  return config;
+}
+
+}  // namespace ensonify

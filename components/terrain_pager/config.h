@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/scenario.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// What the pager is told: its own parameters and, from the scenario, which seabed and where the survey goes.
+struct TerrainPagerConfig {
+  int rate_hz = 2;                     // how often it looks where the vehicle is
+  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: three times the greatest depth + 20 m
+  double release_hysteresis_m = 50.0;  // and give them up when farther than feed margin + this
+  double load_ahead_s = 60.0;          // tiles are fetched into memory for as far as the vehicle goes in this time
+  int threads = 2;                     // that fetch
+  double lsb_m = 0.0002;               // heights are whole multiples of this
+  double corridor_half_deg = 65.0;     // holes matter within this angle either side of nadir along the runlines
+  std::string raster_crs;              // reference system of a raster that names none (or a wrong one)
+  int raster_band = 1;
+  std::optional<double> raster_nodata;  // mark for missing values of a raster that declares none
+
+  // From the scenario.
+  std::string scenario_file;
+  Site site;
+  Seabed seabed;
+  Mission mission;
+
+  static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+};
+
+}  // namespace ensonify

@@ -1,0 +1,26 @@
+#include "components/terrain_pager/config.h"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "components/runtime/config/config_reader.h"
+
+using namespace ensonify;
+
+TEST_CASE("default.yaml of the pager says what the struct says") {
+  const std::string source = std::getenv("ENSONIFY_SOURCE");
+  auto from = ConfigReader::from_file(source + "/components/terrain_pager/default.yaml");
+  const auto read = TerrainPagerConfig::read(from, Scenario{}, "pager");
+  from.finish();
+  const TerrainPagerConfig d;
+  CHECK(read.rate_hz == d.rate_hz);
+  CHECK(read.feed_margin_m == d.feed_margin_m);
+  CHECK(read.release_hysteresis_m == d.release_hysteresis_m);
+  CHECK(read.load_ahead_s == d.load_ahead_s);
+  CHECK(read.threads == d.threads);
+  CHECK(read.lsb_m == d.lsb_m);
+  CHECK(read.corridor_half_deg == d.corridor_half_deg);
+  CHECK(read.raster_crs == d.raster_crs);
+  CHECK(read.raster_band == d.raster_band);
+  CHECK(read.raster_nodata == d.raster_nodata);
+}

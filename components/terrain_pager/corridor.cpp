@@ -1,0 +1,70 @@
+#include "components/terrain_pager/corridor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "components/runtime/config/config_error.h"
+
+namespace ensonify::pager {
+namespace {
+
+constexpr int kAcross = 12;  // places probed to either side of the line
+
+std::string place_text(const Vec2& place) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f) m", place.x(), place.y());
+  return text;
+}
+
+std::string extent_text(const Extent& extent) {
+  char text[128];
+  std::snprintf(text, sizeof text, "east %.1f to %.1f m and north %.1f to %.1f m", extent.west_m, extent.east_m,
+                extent.south_m, extent.north_m);
+  return text;
+}
+
+std::optional<std::string> fault_of(const TerrainSource& terrain, const navigation::Runline& line,
+                                    const CorridorRules& rules) {
+  const Extent extent = terrain.extent();
+  for (const Vec2& end : {line.start_enu_m, line.end_enu_m}) {
+    if (!extent.contains(end)) {
+      return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
+    }
+  }
+  if (!rules.refuse_holes) return std::nullopt;
+  const double length = navigation::length_m(line);
+  const double step = std::max(terrain.native_spacing_m(), length / 2000.0);
+  const Vec2 along = (line.end_enu_m - line.start_enu_m) / length;
+  const Vec2 starboard(along.y(), -along.x());
+  const auto steps = static_cast<int>(std::ceil(length / step));
+  for (int i = 0; i <= steps; ++i) {
+    const Vec2 place = navigation::point_on(line, length * i / steps);
+    const double height = terrain.height_m(place);
+    const double reach = std::tan(rules.half_swath_rad) * std::max(0.0, -height);
+    for (int k = -kAcross; k <= kAcross; ++k) {
+      const Vec2 probe = place + starboard * (std::isnan(height) ? 0.0 : reach * k / kAcross);
+      if (extent.contains(probe) && std::isnan(terrain.height_m(probe))) {
+        return "the terrain has a hole at " + place_text(probe) +
+               " inside the surveyed corridor; move the line, or set seabed.raster.holes to keep or fill";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
+                     const CorridorRules& rules, const std::string& scenario_file) {
+  std::vector<ConfigProblem> problems;
+  for (std::size_t i = 0; i < runlines.size(); ++i) {
+    if (const auto fault = fault_of(terrain, runlines[i], rules)) {
+      problems.push_back({{scenario_file, 0, 0}, "mission runline " + std::to_string(i + 1), *fault});
+    }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+}  // namespace ensonify::pager

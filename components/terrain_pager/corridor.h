@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/terrain_pager/terrain_source.h"
+#include "kernels/navigation/runline.h"
+
+namespace ensonify::pager {
+
+/// What must be known of the seabed along the runlines.
+struct CorridorRules {
+  double half_swath_rad = 1.134;  // the corridor reaches tan(half_swath) times the depth to either side
+  bool refuse_holes = true;       // else only the lines' ends and the depth under them are asked for
+};
+
+/// Throws ConfigError, one problem per runline at most, if a line leaves the terrain or, with refuse_holes, if a place
+/// of its corridor inside the terrain has no height. `scenario_file` is the place that the message names.
+void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
+                     const CorridorRules& rules, const std::string& scenario_file);
+
+}  // namespace ensonify::pager

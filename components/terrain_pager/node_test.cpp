@@ -1,0 +1,111 @@
+#include "components/terrain_pager/node.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/testing.h"
+
+using namespace ensonify;
+
+namespace {
+
+/// 800 m x 800 m of slope with tiles of 102.4 m.
+TerrainPagerConfig small_slope() {
+  TerrainPagerConfig config;
+  config.seabed.post_spacing_m = 0.1;
+  config.seabed.synthetic.reference_depth_m = 15.0;
+  config.seabed.synthetic.slope_rad = 0.01;
+  config.seabed.synthetic_size_m = {800.0, 800.0};
+  config.feed_margin_m = 60.0;
+  config.release_hysteresis_m = 20.0;
+  return config;
+}
+
+msg::Pose pose_at(SimTime t, double east_m, double north_m) {
+  msg::Pose pose;
+  pose.stamp_ns = t.count();
+  pose.position_enu_m = {east_m, north_m, 0.0};
+  pose.velocity_enu_mps = {4.0, 0.0, 0.0};
+  return pose;
+}
+
+}  // namespace
+
+TEST_CASE("the chart goes out once, at the start") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  const auto charts = pager.step_until<msg::Chart>("chart", 5_s);
+  REQUIRE(charts.size() == 1);
+  CHECK(charts[0].deepest_m == Approx(15.0 + 400 * 0.01).margin(0.1));
+  CHECK(charts[0].height_m.rows() <= 256);
+}
+
+TEST_CASE("the tiles around the vehicle go out in the first event, each once") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  pager.give("pose", pose_at(0_s, 50, 50), pose_at(1_s, 51, 50));
+  const auto tiles = pager.step_until<msg::Tile>("tile", 2_s);
+  REQUIRE(tiles.size() == 5);  // its own and the four beside it; the corners are farther than 60 m
+  CHECK(tiles[0].col == 0);
+  CHECK(tiles[0].row == 0);
+  CHECK(tiles[0].height_m.rows() == 1025);
+  CHECK(tiles[0].height_m(0, 0) == Approx(-15.0).margin(1e-4));
+  CHECK(tiles[0].height_m(1024, 0) == Approx(-15.0 - 102.4 * std::tan(0.01)).margin(2e-4));
+}
+
+TEST_CASE("a vehicle under way gets tiles ahead and gives up those behind") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  for (int s = 0; s <= 50; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 4.0 * s, 0.0));
+  std::set<std::pair<std::int64_t, std::int64_t>> held;
+  for (const auto& tile : pager.step_until<msg::Tile>("tile", 50_s)) CHECK(held.emplace(tile.col, tile.row).second);
+  const auto releases = pager.step_until<msg::TileRelease>("release", 50_s);
+  CHECK(releases.size() >= 2);
+  for (const auto& release : releases) CHECK(held.erase({release.col, release.row}) == 1);
+  CHECK(held.contains({-1, 0}));  // under the vehicle, at (-100, 0)
+  CHECK(held.contains({-1, -1}));
+  CHECK_FALSE(held.contains({-3, 0}));  // its eastern edge is 104 m behind
+}
+
+TEST_CASE("what is published does not depend on the threads that make it") {
+  const auto published = [](int threads) {
+    auto config = small_slope();
+    config.threads = threads;
+    NodeUnderTest<TerrainPagerNode> pager(config);
+    for (int s = 0; s <= 20; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 10.0 * s, 0.0));
+    return pager.step_until<msg::Tile>("tile", 20_s);
+  };
+  const auto one = published(1), four = published(4);
+  REQUIRE(one.size() == four.size());
+  REQUIRE(one.size() > 4);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].col == four[i].col);
+    CHECK(one[i].row == four[i].row);
+    CHECK(one[i].sediment == four[i].sediment);
+    CHECK(msg::same_bytes(one[i].height_m.buffer(), four[i].height_m.buffer()));  // NaN equals NaN here
+  }
+}
+
+TEST_CASE("outside the terrain nothing is published and health says so") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  pager.give("pose", pose_at(0_s, 900, 0));
+  CHECK(pager.step_until<msg::Tile>("tile", 1_s).empty());
+  const auto health = pager.step_until<msg::Health>("health", 1_s);
+  REQUIRE_FALSE(health.empty());
+  CHECK(health.back().state == "degraded");
+  CHECK(health.back().message == "the vehicle is outside the terrain");
+}
+
+TEST_CASE("posts too fine for the depth are refused before the run") {
+  auto config = small_slope();
+  config.seabed.post_spacing_m = 0.01;
+  CHECK_THROWS_WITH(NodeUnderTest<TerrainPagerNode>(config), Catch::Contains("at most 64 are allowed"));
+}
+
+TEST_CASE("a runline outside the terrain is refused") {
+  auto config = small_slope();
+  config.scenario_file = "bay.yaml";
+  config.mission.runlines = {{{0, 0}, {100, 0}}, {{0, 0}, {500, 0}}};
+  CHECK_THROWS_WITH(
+      NodeUnderTest<TerrainPagerNode>(config),
+      "bay.yaml: mission runline 2: its end (500.0, 0.0) m is outside the terrain; allowed is east -400.0 "
+      "to 400.0 m and north -400.0 to 400.0 m");
+}

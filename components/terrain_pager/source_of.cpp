@@ -1,0 +1,86 @@
+#include "components/terrain_pager/source_of.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/terrain_pager/raster_source.h"
+#include "components/terrain_pager/synthetic_source.h"
+
+namespace ensonify::pager {
+namespace {
+
+constexpr int kChartPosts = 256;
+
+}  // namespace
+
+std::unique_ptr<TerrainSource> source_of(const TerrainPagerConfig& config) {
+  const Seabed& seabed = config.seabed;
+  if (seabed.kind == Seabed::Kind::kSynthetic) {
+    const double east = seabed.synthetic_size_m[0] / 2, north = seabed.synthetic_size_m[1] / 2;
+    return std::make_unique<SyntheticSource>(seabed.synthetic, Extent{-east, -north, east, north}, config.site.origin,
+                                             seabed.post_spacing_m);
+  }
+  RasterOptions options;
+  options.path = seabed.raster.path;
+  options.band = config.raster_band;
+  options.crs = config.raster_crs;
+  options.values_are_depths = seabed.raster.values == RasterSeabed::Values::kDepth;
+  options.nodata = config.raster_nodata;
+  options.fill_holes = seabed.raster.holes == RasterSeabed::Holes::kFill;
+  std::optional<frames::Geodetic> origin;
+  if (!config.site.origin_from_raster) origin = config.site.origin;
+  return std::make_unique<RasterSource>(options, origin);
+}
+
+double post_spacing_m(const TerrainPagerConfig& config, const TerrainSource& terrain) {
+  return std::min(config.seabed.post_spacing_m, terrain.native_spacing_m());
+}
+
+msg::Tile make_tile(const TerrainSource& terrain, const terrain::TileGrid& grid, const terrain::TileKey& key) {
+  const int posts = grid.cells + 1;
+  const PostBlock block{std::int64_t{key.east} * grid.cells, std::int64_t{key.north} * grid.cells, posts, posts,
+                        grid.spacing_m};
+  const auto side = static_cast<std::size_t>(posts);
+  msg::Tile tile;
+  tile.col = key.east;
+  tile.row = key.north;
+  tile.origin_east_m = block.east_m(0);
+  tile.origin_north_m = block.north_m(0);
+  tile.spacing_m = grid.spacing_m;
+  tile.height_m = msg::Array<float>({side, side});
+  tile.sediment = msg::Array<std::uint8_t>({side, side});
+  terrain.sample(block, tile.height_m.flat(), tile.sediment.flat());
+  for (float& height : tile.height_m.flat()) height = terrain::on_lattice(height, grid.lsb_m);
+  return tile;
+}
+
+msg::Chart make_chart(const TerrainSource& terrain) {
+  const Extent extent = terrain.extent();
+  const double side = std::max(extent.east_m - extent.west_m, extent.north_m - extent.south_m);
+  PostBlock block;
+  block.spacing_m = side / (kChartPosts - 1);
+  block.first_east = static_cast<std::int64_t>(std::ceil(extent.west_m / block.spacing_m));
+  block.first_north = static_cast<std::int64_t>(std::ceil(extent.south_m / block.spacing_m));
+  const auto count = [&](double to, std::int64_t first) {
+    return std::clamp(static_cast<int>(std::floor(to / block.spacing_m) - static_cast<double>(first)) + 1, 1,
+                      kChartPosts);
+  };
+  block.columns = count(extent.east_m, block.first_east);
+  block.rows = count(extent.north_m, block.first_north);
+  msg::Chart chart;
+  chart.origin_latitude_deg = terrain.origin().latitude_deg;
+  chart.origin_longitude_deg = terrain.origin().longitude_deg;
+  chart.west_m = block.east_m(0);
+  chart.south_m = block.north_m(0);
+  chart.east_m = block.east_m(block.columns - 1);
+  chart.north_m = block.north_m(block.rows - 1);
+  chart.shallowest_m = -terrain.highest_m();
+  chart.deepest_m = -terrain.lowest_m();
+  chart.spacing_m = block.spacing_m;
+  chart.height_m = msg::Array<float>({static_cast<std::size_t>(block.rows), static_cast<std::size_t>(block.columns)});
+  std::vector<std::uint8_t> sediment(block.size());
+  terrain.sample(block, chart.height_m.flat(), sediment);
+  return chart;
+}
+
+}  // namespace ensonify::pager

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernels/frames/local_projection.h"
+#include "kernels/terrain/tile.h"
+
+namespace ensonify::pager {
+
+using frames::Vec2;
+
+/// A rectangle in the world frame, m.
+struct Extent {
+  double west_m = 0.0;
+  double south_m = 0.0;
+  double east_m = 0.0;
+  double north_m = 0.0;
+
+  bool contains(const Vec2& place) const {
+    return place.x() >= west_m && place.x() <= east_m && place.y() >= south_m && place.y() <= north_m;
+  }
+};
+
+/// Posts (first_east + i, first_north + j) of a lattice through the world's origin.
+struct PostBlock {
+  std::int64_t first_east = 0;
+  std::int64_t first_north = 0;
+  int columns = 0;  // to the east
+  int rows = 0;     // to the north
+  double spacing_m = 1.0;
+
+  std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  double east_m(int column) const { return static_cast<double>(first_east + column) * spacing_m; }
+  double north_m(int row) const { return static_cast<double>(first_north + row) * spacing_m; }
+};
+
+/// Where heights come from: a raster or a generator. All functions are pure and may be called from any thread.
+class TerrainSource {
+ public:
+  virtual ~TerrainSource() = default;
+
+  /// The smallest rectangle outside which nothing is known.
+  virtual Extent extent() const = 0;
+  /// Lowest and highest height, ENU z, m.
+  virtual double lowest_m() const = 0;
+  virtual double highest_m() const = 0;
+  /// Where the world's origin lies on the ellipsoid.
+  virtual frames::Geodetic origin() const = 0;
+  /// Distance between posts that loses nothing worth keeping, m.
+  virtual double native_spacing_m() const = 0;
+
+  /// Heights (ENU z, m; NaN where nothing is known) and sediment classes, row by row from the south-west. The value of
+  /// a post depends on its place in the lattice only, so blocks that share posts agree bit by bit.
+  virtual void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const = 0;
+  /// Height at one place; NaN where nothing is known.
+  virtual double height_m(const Vec2& place) const = 0;
+};
+
+}  // namespace ensonify::pager

@@ -1,5 +1,0 @@
-#include <iostream>
-
-#include "messages/schema.h"
-
-int main() { std::cout << ensonify::msg::reference_page(); }
