@@ -384,6 +384,8 @@ void ConfigReader::add(const ConfigError& error) const {
 
 bool ConfigReader::good() const { return state_->documents->problems.empty(); }
 
+std::vector<std::string> ConfigReader::known_keys() const { return {state_->known.begin(), state_->known.end()}; }
+
 std::size_t ConfigReader::problem_count() const { return state_->documents->problems.size(); }
 
 void ConfigReader::finish() const {

@@ -97,6 +97,8 @@ class ConfigReader {
   const ConfigNode& node() const;
 
   bool has(std::string_view key) const;
+  /// The keys of this map that somebody has asked for so far.
+  std::vector<std::string> known_keys() const;
   /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out).
   void problem(std::string_view key, const std::string& message) const;
   /// Adds another document to the same list of problems, e.g. a file that this one names.

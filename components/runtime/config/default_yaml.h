@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/scenario.h"
+
+namespace ensonify {
+
+/// For tests: "" when components/<component>/default.yaml lists every parameter of Config, each with the value that
+/// the struct's initialiser gives it; otherwise what differs. `exempt` are parameters without a default. Config needs
+/// ==.
+template <class Config>
+std::string default_yaml_fault(const std::string& component, const Scenario& scenario,
+                               const std::vector<std::string>& exempt = {}) {
+  const std::string path = std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/" + component + "/default.yaml";
+  ConfigReader file = ConfigReader::from_file(path);
+  ConfigReader nothing = ConfigReader::from_text("{}", "nothing.yaml");
+  const Config written = Config::read(file, scenario, component);
+  const Config initial = Config::read(nothing, scenario, component);
+  file.finish();
+  nothing.finish();
+  for (const std::string& key : file.known_keys()) {
+    if (!file.has(key) && std::find(exempt.begin(), exempt.end(), key) == exempt.end()) return path + " lacks " + key;
+  }
+  return written == initial ? "" : path + " has values other than the struct's initialisers";
+}
+
+}  // namespace ensonify

@@ -1,0 +1,66 @@
+#include "components/vehicle/config.h"
+
+#include <catch2/catch.hpp>
+
+#include "components/runtime/config/default_yaml.h"
+
+using namespace ensonify;
+
+namespace {
+
+Scenario two_vehicles() {
+  Scenario scenario;
+  scenario.file = "bay.yaml";
+  scenario.mission.runlines = {{{0, 0}, {0, 100}}};
+  Vehicle auv, ship;
+  auv.name = "auv";
+  ship.name = "ship";
+  ship.limits.turning_radius_m = 40;
+  scenario.vehicles = {auv, ship};
+  return scenario;
+}
+
+std::string problem(const std::string& yaml, const Scenario& scenario, const std::string& process) {
+  auto from = ConfigReader::from_text(yaml, "v.yaml");
+  VehicleConfig::read(from, scenario, process);
+  try {
+    from.finish();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("vehicle/default.yaml lists every parameter with its default") {
+  Scenario scenario = two_vehicles();
+  scenario.vehicles.pop_back();
+  CHECK(default_yaml_fault<VehicleConfig>("vehicle", scenario) == "");
+}
+
+TEST_CASE("a process finds its vehicle by its own name or by the key") {
+  const Scenario scenario = two_vehicles();
+  auto by_name = ConfigReader::from_text("{}", "v.yaml");
+  CHECK(VehicleConfig::read(by_name, scenario, "ship").limits.turning_radius_m == 40);
+  auto by_key = ConfigReader::from_text("vehicle: ship", "v.yaml");
+  CHECK(VehicleConfig::read(by_key, scenario, "auv").limits.turning_radius_m == 40);
+  CHECK(problem("{}", scenario, "rov") ==
+        "v.yaml:1:1: vehicle: is missing, and no vehicle is named rov; allowed: auv, ship");
+  CHECK(problem("vehicle: shup", scenario, "auv") ==
+        "v.yaml:1:10: vehicle: \"shup\" is no vehicle of the scenario; allowed: auv, ship");
+  CHECK(problem("{}", Scenario{}, "auv").find("has no vehicle") != std::string::npos);
+}
+
+TEST_CASE("a vehicle told no start begins the first line's run-in at mission speed") {
+  Scenario scenario = two_vehicles();
+  scenario.mission.run_in_m = 15;
+  scenario.mission.depth_m = 4;
+  scenario.mission.speed_mps = 1.5;
+  auto from = ConfigReader::from_text("{}", "v.yaml");
+  const auto start = VehicleConfig::read(from, scenario, "auv").start;
+  REQUIRE(start.has_value());
+  CHECK((start->position_enu_m - frames::Vec3(0, -15, -4)).norm() < 1e-9);
+  CHECK(start->heading_rad == Approx(0.0));
+  CHECK(start->speed_mps == 1.5);
+}
