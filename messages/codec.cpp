@@ -1,5 +1,6 @@
 #include "messages/codec.h"
 
+#include <bit>
 #include <msgpack.hpp>
 #include <optional>
 
@@ -7,7 +8,21 @@ namespace ensonify::msg {
 
 namespace {
 
-using Packer = msgpack::packer<msgpack::sbuffer>;
+class Packer : public msgpack::packer<msgpack::sbuffer> {
+ public:
+  explicit Packer(msgpack::sbuffer& bytes) : msgpack::packer<msgpack::sbuffer>(bytes), bytes_(bytes) {}
+
+  /// Always eight bytes: the library's pack_double turns 2.0 into an integer and loses the sign of -0.
+  void pack_float64(double number) {
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    char bytes[9] = {'\xCB'};
+    for (int i = 0; i < 8; ++i) bytes[1 + i] = static_cast<char>(bits >> (56 - 8 * i));
+    bytes_.write(bytes, sizeof bytes);
+  }
+
+ private:
+  msgpack::sbuffer& bytes_;
+};
 
 /// Where a message's arrays go: into frames behind the map, or into the map itself.
 struct ArrayPlace {
@@ -60,7 +75,7 @@ void pack(Packer& to, const Value& value, ArrayPlace place) {
   } else if (const auto* large = value.as<std::uint64_t>()) {
     to.pack_uint64(*large);
   } else if (const auto* number = value.as<double>()) {
-    to.pack_double(*number);
+    to.pack_float64(*number);
   } else {
     to.pack_nil();
   }
@@ -79,7 +94,8 @@ Buffer packed(const Value& value, ArrayPlace place) {
 /// element count costs nothing; depth is bounded here.
 class Builder : public msgpack::null_visitor {
  public:
-  Builder(const Buffer& source, const std::vector<Buffer>* frames) : source_(source), frames_(frames) {}
+  Builder(const Buffer& source, const std::vector<Buffer>* frames)
+      : source_(source), frames_(frames), frame_used_(frames ? frames->size() : 0) {}
 
   Value take() { return std::move(result_); }
   const std::string& error() const { return error_; }
@@ -146,6 +162,7 @@ class Builder : public msgpack::null_visitor {
 
   bool add(Value value) {
     if (expects_key_) return fail("a map key is not text");
+    if (++values_ > kMaxValues) return fail("has more than " + std::to_string(kMaxValues) + " values");
     if (open_.empty()) {
       result_ = std::move(value);
       return true;
@@ -156,7 +173,9 @@ class Builder : public msgpack::null_visitor {
       return true;
     }
     if (parent.value.find(parent.key)) return fail(parent.key + ": stands twice");
-    std::get<Value::Map>(parent.value.is).emplace_back(parent.key, std::move(value));
+    auto& map = std::get<Value::Map>(parent.value.is);
+    if (map.size() >= kMaxKeys) return fail("has a map of more than " + std::to_string(kMaxKeys) + " keys");
+    map.emplace_back(parent.key, std::move(value));
     return true;
   }
 
@@ -190,7 +209,7 @@ class Builder : public msgpack::null_visitor {
     return array;
   }
 
-  bool find_bytes(const Value& map, Buffer& bytes) const {
+  bool find_bytes(const Value& map, Buffer& bytes) {
     if (!frames_) {
       const Value* data = map.find("data");
       const auto* raw = data ? data->as<RawArray>() : nullptr;
@@ -201,13 +220,16 @@ class Builder : public msgpack::null_visitor {
     const auto* number = frame ? frame->as<std::int64_t>() : nullptr;
     if (!number || *number < static_cast<std::int64_t>(kFirstArrayFrame)) return false;
     const auto index = static_cast<std::size_t>(*number) - kFirstArrayFrame;
-    if (index >= frames_->size()) return false;
+    if (index >= frames_->size() || frame_used_[index]) return false;  // each frame has one owner
+    frame_used_[index] = true;
     bytes = (*frames_)[index];
     return true;
   }
 
   const Buffer& source_;
   const std::vector<Buffer>* frames_;
+  std::vector<bool> frame_used_;
+  std::size_t values_ = 0;
   std::vector<Open> open_;
   Value result_;
   std::string error_;

@@ -17,9 +17,10 @@ struct Counter {
   }
 };
 
-/// How a process is doing, in sim time: published when it changes. Wall-clock facts are the clock's.
 struct Health {
   static constexpr const char* kType = "health/1";
+  static constexpr const char* kAbout =
+      "How a process is doing, in sim time: published when it changes. Wall-clock facts are the clock's.";
   std::int64_t stamp_ns = 0;
   std::string state = "ok";
   std::string message;

@@ -6,9 +6,10 @@
 
 namespace ensonify::msg {
 
-/// Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.
 struct Pose {
   static constexpr const char* kType = "pose/1";
+  static constexpr const char* kAbout =
+      "Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.";
   std::int64_t stamp_ns = 0;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_body{1, 0, 0, 0};
@@ -18,16 +19,18 @@ struct Pose {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of validity, sim time", self.stamp_ns);
-    visit("position_enu_m", "m", "body origin in the world frame: east, north, up from chart datum", self.position_enu_m);
-    visit("enu_from_body", "1", "attitude quaternion w, x, y, z (w >= 0) from body FRD to world ENU", self.enu_from_body);
+    visit("position_enu_m", "m", "body origin in the world frame: east, north, up from chart datum",
+          self.position_enu_m);
+    visit("enu_from_body", "1", "attitude quaternion w, x, y, z (w >= 0) from body FRD to world ENU",
+          self.enu_from_body);
     visit("velocity_enu_mps", "m/s", "velocity of the body origin in the world frame", self.velocity_enu_mps);
     visit("rate_body_radps", "rad/s", "angular rate in the body frame, FRD", self.rate_body_radps);
   }
 };
 
-/// What a pilot (autopilot or agent) asks of a vehicle.
 struct Guidance {
   static constexpr const char* kType = "guidance/1";
+  static constexpr const char* kAbout = "What a pilot (autopilot or agent) asks of a vehicle.";
   std::int64_t stamp_ns = 0;
   double heading_grid_rad = 0.0;
   double speed_mps = 0.0;
@@ -40,9 +43,9 @@ struct Guidance {
   }
 };
 
-/// What the mission is doing.
 struct MissionState {
   static constexpr const char* kType = "mission_state/1";
+  static constexpr const char* kAbout = "What the mission is doing.";
   std::int64_t stamp_ns = 0;
   std::string state;
   std::int64_t line = -1;

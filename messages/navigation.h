@@ -5,9 +5,9 @@
 
 namespace ensonify::msg {
 
-/// What the motion sensor and gyro report.
 struct Attitude {
   static constexpr const char* kType = "attitude/1";
+  static constexpr const char* kAbout = "What the motion sensor and gyro report.";
   std::int64_t stamp_ns = 0;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -24,9 +24,9 @@ struct Attitude {
   }
 };
 
-/// What the positioning system reports, referred to the body origin.
 struct Position {
   static constexpr const char* kType = "position/1";
+  static constexpr const char* kAbout = "What the positioning system reports, referred to the body origin.";
   std::int64_t stamp_ns = 0;
   std::array<double, 3> position_enu_m{};
   double latitude_deg = 0.0;
@@ -45,9 +45,10 @@ struct Position {
   }
 };
 
-/// The navigation estimate: what autopilot, agents and records use for where the vehicle is.
 struct Estimate {
   static constexpr const char* kType = "estimate/1";
+  static constexpr const char* kAbout =
+      "The navigation estimate: what autopilot, agents and records use for where the vehicle is.";
   std::int64_t stamp_ns = 0;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_body{1, 0, 0, 0};
@@ -57,7 +58,8 @@ struct Estimate {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of validity, sim time", self.stamp_ns);
     visit("position_enu_m", "m", "estimated body origin in the world frame: east, north, up", self.position_enu_m);
-    visit("enu_from_body", "1", "estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU", self.enu_from_body);
+    visit("enu_from_body", "1", "estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU",
+          self.enu_from_body);
     visit("velocity_enu_mps", "m/s", "estimated velocity of the body origin", self.velocity_enu_mps);
   }
 };

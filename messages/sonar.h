@@ -6,9 +6,9 @@
 
 namespace ensonify::msg {
 
-/// What one transmission brought back, for any head.
 struct Ping {
   static constexpr const char* kType = "ping/1";
+  static constexpr const char* kAbout = "What one transmission brought back, for any head.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   double sample_period_s = 0.0;
@@ -38,9 +38,10 @@ struct Ping {
   }
 };
 
-/// What the head made of a ping: one entry per beam. Positions use the estimated pose and the measured mounting.
 struct Soundings {
   static constexpr const char* kType = "soundings/1";
+  static constexpr const char* kAbout =
+      "What the head made of a ping: one entry per beam. Positions use the estimated pose and the measured mounting.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   Array<float> beam_angle_rad;
@@ -59,14 +60,15 @@ struct Soundings {
     visit("backscatter_db", "dB", "level of the detection re 1 uPa, uncorrected", self.backscatter_db);
     visit("quality", "1", "signal to noise ratio of the detection, dB", self.quality);
     visit("valid", "1", "1 where the beam has a detection; other entries of that beam mean nothing if 0", self.valid);
-    visit("position_enu_m", "m", "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",
+    visit("position_enu_m", "m",
+          "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",
           self.position_enu_m);
   }
 };
 
-/// A head transmitted: other heads may hear it.
 struct Transmit {
   static constexpr const char* kType = "transmit/1";
+  static constexpr const char* kAbout = "A head transmitted: other heads may hear it.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   double frequency_hz = 0.0;

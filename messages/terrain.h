@@ -6,9 +6,9 @@
 
 namespace ensonify::msg {
 
-/// A square piece of seabed. Truth.
 struct Tile {
   static constexpr const char* kType = "tile/1";
+  static constexpr const char* kAbout = "A square piece of seabed. Truth.";
   std::int64_t col = 0;
   std::int64_t row = 0;
   double origin_east_m = 0.0;
@@ -29,9 +29,9 @@ struct Tile {
   }
 };
 
-/// The pager will not refer to this tile again until it sends it anew.
 struct TileRelease {
   static constexpr const char* kType = "tile_release/1";
+  static constexpr const char* kAbout = "The pager will not refer to this tile again until it sends it anew.";
   std::int64_t col = 0;
   std::int64_t row = 0;
 
@@ -42,9 +42,10 @@ struct TileRelease {
   }
 };
 
-/// What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
 struct Chart {
   static constexpr const char* kType = "chart/1";
+  static constexpr const char* kAbout =
+      "What is known of the terrain as a whole, as a chart would tell: mission planning may use it.";
   double origin_latitude_deg = 0.0;
   double origin_longitude_deg = 0.0;
   double west_m = 0.0;
@@ -58,7 +59,8 @@ struct Chart {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("origin_latitude_deg", "deg", "geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)",
+    visit("origin_latitude_deg", "deg",
+          "geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)",
           self.origin_latitude_deg);
     visit("origin_longitude_deg", "deg", "longitude of the world's origin, WGS 84", self.origin_longitude_deg);
     visit("west_m", "m", "world east of the western edge", self.west_m);
@@ -68,7 +70,8 @@ struct Chart {
     visit("shallowest_m", "m", "least depth below chart datum, positive down", self.shallowest_m);
     visit("deepest_m", "m", "greatest depth below chart datum, positive down", self.deepest_m);
     visit("spacing_m", "m", "distance between the posts of height_m", self.spacing_m);
-    visit("height_m", "m", "coarse heights (north x east, south-west first), up; NaN where nothing is known", self.height_m);
+    visit("height_m", "m", "coarse heights (north x east, south-west first), up; NaN where nothing is known",
+          self.height_m);
   }
 };
 

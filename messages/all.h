@@ -1,0 +1,23 @@
+#pragma once
+
+#include <tuple>
+
+#include "messages/health.h"
+#include "messages/motion.h"
+#include "messages/navigation.h"
+#include "messages/sonar.h"
+#include "messages/terrain.h"
+
+namespace ensonify::msg {
+
+/// Every message type, the only list of them. A new type is added here; a test finds one that was forgotten.
+using AllMessages = std::tuple<Pose, Guidance, MissionState, Attitude, Position, Estimate, Ping, Soundings, Transmit,
+                               Tile, TileRelease, Chart, Health>;
+
+/// Calls `visit(M{})` for every message type.
+template <class Visit>
+void for_each_message(Visit&& visit) {
+  std::apply([&](const auto&... message) { (visit(message), ...); }, AllMessages{});
+}
+
+}  // namespace ensonify::msg

@@ -1,0 +1,5 @@
+#include <iostream>
+
+#include "messages/schema.h"
+
+int main() { std::cout << ensonify::msg::reference_page(); }
