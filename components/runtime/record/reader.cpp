@@ -39,7 +39,7 @@ RecordReader::RecordReader(std::filesystem::path file) : file_(std::move(file)) 
   if (descriptor_ < 0 || ::fstat(descriptor_, &facts) != 0) {
     const std::string cause = std::strerror(errno);
     if (descriptor_ >= 0) ::close(descriptor_);
-    throw RecordError(file_.string() + ": cannot be read: " + cause);
+    throw UserError(file_.string() + ": cannot be read: " + cause);
   }
   file_bytes_ = S_ISREG(facts.st_mode) ? static_cast<std::uint64_t>(facts.st_size) : 0;
   try {
@@ -57,7 +57,7 @@ RecordReader::RecordReader(std::filesystem::path file) : file_(std::move(file)) 
     if (!has_info_) throw Malformed("it has no facts about its run");
   } catch (const Malformed& error) {
     ::close(descriptor_);
-    throw RecordError(file_.string() + ": is no record: " + error.what());
+    throw UserError(file_.string() + ": is no record: " + error.what());
   }
 }
 

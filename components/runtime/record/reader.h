@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/exit_error.h"
 #include "components/runtime/record/bytes.h"
-#include "components/runtime/record/errors.h"
 #include "components/runtime/record/format.h"
 #include "components/runtime/sim_time.h"
 #include "messages/buffer.h"
@@ -27,7 +27,7 @@ struct RecordedMessage {
 /// an error, never a crash.
 class RecordReader {
  public:
-  /// Reads up to the first chunk. Throws RecordError for a file that cannot be read or is no record of a known major.
+  /// Reads up to the first chunk. Throws UserError for a file that cannot be read or is no record of a known major.
   explicit RecordReader(std::filesystem::path file);
   ~RecordReader();
   RecordReader(const RecordReader&) = delete;

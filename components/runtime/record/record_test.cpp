@@ -93,7 +93,7 @@ Outcome read_all(const fs::path& file) {
       }
     }
     outcome.truncated = reader.truncated();
-  } catch (const RecordError&) {
+  } catch (const UserError&) {
     outcome.refused = true;
   }
   return outcome;
@@ -236,7 +236,7 @@ TEST_CASE("what is no record is refused with its name and the reason") {
   const auto refusal = [](const fs::path& file) {
     try {
       RecordReader reader(file);
-    } catch (const RecordError& error) {
+    } catch (const UserError& error) {
       return std::string(error.what());
     }
     return std::string("accepted");
@@ -263,7 +263,7 @@ TEST_CASE("a file that cannot be created is named with the cause") {
   const auto problem = [](const fs::path& file) {
     try {
       RecordWriter writer(file, {});
-    } catch (const RecordError& error) {
+    } catch (const UserError& error) {
       return std::string(error.what());
     }
     return std::string("none");

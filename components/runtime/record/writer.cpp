@@ -31,10 +31,10 @@ RecordWriter::RecordWriter(std::filesystem::path file, const RecordInfo& info,
   if (file_.has_parent_path()) {
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
-    if (error) throw RecordError(file_.string() + ": cannot make its folder: " + error.message());
+    if (error) throw UserError(file_.string() + ": cannot make its folder: " + error.message());
   }
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) throw RecordError(file_.string() + ": cannot be written: " + cause());
+  if (descriptor_ < 0) throw UserError(file_.string() + ": cannot be written: " + cause());
   try {
     put(std::as_bytes(std::span(kMcapMagic)));
     ByteSink header;

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "components/runtime/exit_error.h"
 #include "components/runtime/record/bytes.h"
 #include "components/runtime/record/crc32.h"
-#include "components/runtime/record/errors.h"
 #include "components/runtime/record/format.h"
 #include "components/runtime/sim_time.h"
 #include "messages/buffer.h"
@@ -19,7 +19,7 @@ namespace ensonify::record {
 /// Until close() the file is a truncated record: readable to its last whole chunk.
 class RecordWriter {
  public:
-  /// Creates the file and the folders above it. Throws RecordError, naming the file and the cause, if that fails.
+  /// Creates the file and the folders above it. Throws UserError, naming the file and the cause, if that fails.
   RecordWriter(std::filesystem::path file, const RecordInfo& info, const std::vector<Attachment>& attachments = {});
   /// Closes, if the owner has not; what goes wrong then stays a truncated record.
   ~RecordWriter();
