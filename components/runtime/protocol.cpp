@@ -229,6 +229,10 @@ std::string encode_proven(const std::vector<std::string>& tokens) {
 }
 std::vector<std::string> read_tokens(std::string_view text) { return parse(text).at("tokens"); }
 std::vector<std::string> read_problems(std::string_view text) { return parse(text).at("problems"); }
+std::string read_message(std::string_view text) { return parse(text).value("message", ""); }
+std::string encode_refused(const std::vector<std::string>& problems) {
+  return json{{"kind", "refused"}, {"problems", problems}}.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 int read_code(std::string_view text) { return parse(text).value("code", 0); }
 
 }  // namespace ensonify::protocol

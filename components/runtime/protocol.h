@@ -75,6 +75,10 @@ std::string encode_failed(int code, const std::string& message);
 /// {"kind":"proven","tokens":[..]}
 std::string encode_proven(const std::vector<std::string>& tokens);
 std::vector<std::string> read_tokens(std::string_view json);
+/// "message" of a failure.
+std::string read_message(std::string_view json);
+/// {"kind":"refused","problems":[..]}
+std::string encode_refused(const std::vector<std::string>& problems);
 /// The texts under "problems" of a refusal.
 std::vector<std::string> read_problems(std::string_view json);
 /// "code" of an end.

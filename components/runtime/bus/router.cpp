@@ -56,7 +56,7 @@ std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
   }
   while (true) {
     zmq::pollitem_t items[] = {{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0}, {nullptr, sockets_->alarm, ZMQ_POLLIN, 0}};
-    zmq::poll(items, until ? 2 : 1, std::chrono::milliseconds(-1));
+    if (zmq_poll(items, until ? 2 : 1, -1) < 0) return std::nullopt;  // a signal: the caller looks why
     if (receive(sockets_->socket, message)) return message;
     if (until && std::chrono::steady_clock::now() >= *until) return std::nullopt;
   }

@@ -1,0 +1,261 @@
+#include "components/clock/clock.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/launch_wiring.h"
+#include "components/runtime/log.h"
+
+namespace ensonify::clock {
+
+namespace {
+
+using std::chrono::steady_clock;
+
+std::atomic<bool> stop_requested{false};
+
+WallTime after(WallTime t, double s) {
+  return t + std::chrono::duration_cast<WallTime::duration>(std::chrono::duration<double>(s));
+}
+
+}  // namespace
+
+void request_stop() { stop_requested = true; }
+
+Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir)
+    : launch_(launch),
+      router_(router),
+      out_dir_(std::move(out_dir)),
+      registry_(launch),
+      pacer_(launch.clock.rate, from_seconds(launch.clock.slip_after_s)),
+      phase_began_(steady_clock::now()) {}
+
+int Clock::run() {
+  while (phase_ != Phase::kOver) {
+    const auto message = router_.wait(next_alarm());
+    if (message) on_message(*message);
+    on_time(steady_clock::now());
+  }
+  write_report();
+  return exit_code_;
+}
+
+std::optional<WallTime> Clock::next_alarm() const {
+  const double deadline_s = launch_.clock.progress_deadline_s;
+  if (phase_ == Phase::kJoining || phase_ == Phase::kProving) {
+    double patience_s = launch_.clock.connect_timeout_s;
+    for (const ProcessSpec& p : launch_.processes) {
+      if (p.external) patience_s = std::max(patience_s, p.join_s);
+    }
+    return after(phase_began_, patience_s);
+  }
+  if (phase_ == Phase::kEnding) return after(phase_began_, deadline_s);
+  std::optional<WallTime> alarm;
+  if (conductor_->busy()) alarm = after(last_progress_, deadline_s * (stall_stage_ == 0 ? 1 : stall_stage_ == 1 ? 3 : 10));
+  const auto paced = pacer_.when(conductor_->next_capped());
+  return paced && (!alarm || *paced < *alarm) ? paced : alarm;
+}
+
+void Clock::on_message(const bus::Router::Message& message) {
+  if (const auto done = protocol::read_done(message.text)) return on_done(message.from, *done);
+  const std::string kind = protocol::kind_of(message.text);
+  try {
+    if (kind == "hello") on_hello(message.from, message.text);
+    else if (kind == "proven") on_proven(message.text);
+    else if (kind == "failed") on_failed(message.from, message.text);
+    else if (kind == "bye") {
+      if (const auto rank = registry_.rank_of(message.from); rank && *rank < said_bye_.size()) said_bye_[*rank] = true;
+    } else {
+      on_request(message.from, kind, message.text);
+    }
+  } catch (const std::exception& e) {  // a stranger's malformed text must not end the run
+    log::line("clock", conductor_ ? conductor_->now() : SimTime{0}, "bad_message",
+              "from=" + message.from + " error=" + e.what());
+  }
+}
+
+void Clock::on_hello(const std::string& from, const std::string& text) {
+  const std::string refusal =
+      phase_ == Phase::kJoining ? registry_.join(from, protocol::read_hello(text)) : from + ": the run has started";
+  if (!refusal.empty()) {
+    router_.send(from, protocol::encode_refused({refusal}));
+  } else if (registry_.complete()) {
+    gather();
+  }
+}
+
+void Clock::gather() {
+  const std::vector<std::string>& problems = registry_.check();
+  if (!problems.empty()) {
+    std::string all;
+    for (const std::string& problem : problems) {
+      log::line("clock", SimTime{0}, "refused", problem);
+      all += (all.empty() ? "" : "\n") + problem;
+    }
+    tell_all(protocol::encode_refused(problems));
+    fail(kExitUserError, "", all);
+    return;
+  }
+  conductor_ = make_conductor(registry_.graph(), registry_.declarations(), launch_);
+  published_.assign(registry_.graph().topics.size(), 0);
+  inputs_.resize(registry_.size());
+  said_bye_.resize(registry_.size());
+  for (const Graph::Edge& edge : registry_.graph().edges) {
+    std::vector<std::uint32_t>& topics = inputs_[edge.to];
+    const auto topic = static_cast<std::uint32_t>(edge.topic);
+    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+  }
+  for (const protocol::Hello& hello : registry_.hellos()) {
+    accounts_.push_back({hello.declaration.process, hello.pid, 0, 0, 0, SimTime{0}});
+  }
+  phase_ = Phase::kProving;
+  phase_began_ = steady_clock::now();
+  for (std::size_t rank = 0; rank < registry_.size(); ++rank) {
+    router_.send(accounts_[rank].name, protocol::encode(registry_.welcome(rank), registry_.declarations()[rank]));
+  }
+  if (registry_.ready()) start();
+}
+
+void Clock::on_proven(const std::string& text) {
+  for (const std::string& token : protocol::read_tokens(text)) registry_.proven(token);
+  if (phase_ == Phase::kProving && registry_.ready()) start();
+}
+
+void Clock::start() {
+  phase_ = Phase::kRunning;
+  run_began_ = last_progress_ = steady_clock::now();
+  log::line("clock", SimTime{0}, "go",
+            fmt::format("processes={} edges={} connect_s={:.4f}", registry_.size(), registry_.graph().edges.size(),
+                        std::chrono::duration<double>(run_began_ - phase_began_).count()));
+  pacer_.start(run_began_);
+  hand_out();
+}
+
+void Clock::hand_out() {
+  conductor_->set_cap(pacer_.cap(steady_clock::now()));
+  for (const Conductor::Grant& grant : conductor_->grants()) {
+    protocol::Grant message;
+    message.horizon = grant.horizon;
+    for (const std::uint32_t topic : inputs_[grant.participant]) message.inputs.emplace_back(topic, published_[topic]);
+    ++accounts_[grant.participant].grants;
+    router_.send(accounts_[grant.participant].name, protocol::encode(message));
+  }
+  if (conductor_->finished()) end(0);
+}
+
+void Clock::on_done(const std::string& from, const protocol::Done& done) {
+  const auto rank = registry_.rank_of(from);
+  if (phase_ != Phase::kRunning || !rank || !conductor_->running(*rank)) return;
+  const WallTime now = steady_clock::now();
+  last_progress_ = now;
+  stall_stage_ = 0;
+  for (const auto& [topic, count] : done.outputs) {
+    if (topic < published_.size() && registry_.graph().topics[topic].publisher == *rank) published_[topic] = count;
+  }
+  Account& account = accounts_[*rank];
+  account.cost_ns += done.cost_ns;
+  const bool was_last = conductor_->next(*rank) == conductor_->now();
+  const SimTime late = pacer_.lateness(conductor_->now(), now);
+  if (was_last && late > kLateAfter) {
+    ++account.late_events;
+    account.worst_lateness = std::max(account.worst_lateness, late);
+  }
+  if (done.finish) conductor_->end_at(done.next - SimTime{1} + kFinishMargin);
+  conductor_->done(*rank, done.next);
+  if (const SimTime slipped = pacer_.slip(conductor_->now(), now); slipped > SimTime{0}) {
+    ++slips_;
+    slipped_ += slipped;
+    log::line("clock", conductor_->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), from));
+    if (launch_.clock.slip_policy == ClockSettings::SlipPolicy::kFail) {
+      return fail(kExitStall, from, fmt::format("{} made the run {:.3f} s late; slip_policy is fail", from, seconds(slipped)));
+    }
+  }
+  hand_out();
+}
+
+void Clock::on_failed(const std::string& from, const std::string& text) {
+  fail(protocol::read_code(text), from, protocol::read_message(text));
+}
+
+void Clock::on_time(WallTime now) {
+  if (stop_requested.exchange(false)) {
+    if (phase_ == Phase::kRunning) conductor_->end_now();
+    else if (phase_ != Phase::kEnding) fail(kExitInterrupted, "", "stopped before time started");
+  }
+  switch (phase_) {
+    case Phase::kJoining:
+    case Phase::kProving: {
+      if (now < *next_alarm()) return;
+      std::string missing;
+      for (const auto& name : phase_ == Phase::kJoining ? registry_.missing() : registry_.unproven()) {
+        missing += (missing.empty() ? "" : ", ") + name;
+      }
+      return fail(kExitStall, missing,
+                  (phase_ == Phase::kJoining ? "no hello from: " : "no proof of delivery on: ") + missing);
+    }
+    case Phase::kRunning:
+      hand_out();
+      if (phase_ == Phase::kRunning) watch_progress(now);
+      return;
+    case Phase::kEnding:
+      if (std::all_of(said_bye_.begin(), said_bye_.end(), [](bool bye) { return bye; }) || now >= *next_alarm()) {
+        phase_ = Phase::kOver;
+      }
+      return;
+    case Phase::kOver: return;
+  }
+}
+
+void Clock::watch_progress(WallTime now) {
+  if (!conductor_->busy()) {
+    last_progress_ = now;
+    stall_stage_ = 0;
+    return;
+  }
+  const double deadline_s = launch_.clock.progress_deadline_s;
+  const double silent_s = std::chrono::duration<double>(now - last_progress_).count();
+  if (stall_stage_ == 0 && silent_s >= deadline_s) {
+    stall_stage_ = 1;
+    log::line("clock", conductor_->now(), "no_progress", fmt::format("for_s={:.2f} waiting_for={}", silent_s, name_stalled()));
+  } else if (stall_stage_ == 1 && silent_s >= 3 * deadline_s) {
+    stall_stage_ = 2;
+    dump_stall();
+  } else if (stall_stage_ == 2 && silent_s >= 10 * deadline_s) {
+    const std::string culprit = name_stalled();
+    dump_stall();
+    fail(kExitStall, culprit, fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s,
+                                          seconds(conductor_->now()), culprit));
+  }
+}
+
+void Clock::fail(int code, const std::string& culprit, const std::string& message) {
+  if (exit_code_ == 0) {  // the first fault wins
+    exit_code_ = code;
+    culprit_ = culprit;
+    message_ = message;
+    log::line("clock", conductor_ ? conductor_->now() : SimTime{0}, "failed",
+              fmt::format("code={} culprit={} message={}", code, culprit, message));
+  }
+  end(exit_code_);
+}
+
+void Clock::end(int code) {
+  if (phase_ == Phase::kEnding || phase_ == Phase::kOver) return;
+  run_ended_ = phase_began_ = steady_clock::now();
+  // Those who failed, stall or never joined cannot be waited for.
+  phase_ = code == 0 ? Phase::kEnding : Phase::kOver;
+  tell_all(fmt::format(R"({{"kind":"end","code":{}}})", code));
+  if (code == 0) {
+    log::line("clock", std::min(conductor_->now(), conductor_->end()), "end",
+              fmt::format("wall_s={:.3f}", std::chrono::duration<double>(run_ended_ - run_began_).count()));
+  }
+}
+
+void Clock::tell_all(const std::string& text) {
+  for (const protocol::Hello& hello : registry_.hellos()) {
+    if (!hello.declaration.process.empty()) router_.send(hello.declaration.process, text);
+  }
+}
+
+}  // namespace ensonify::clock

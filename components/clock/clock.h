@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/clock/accounts.h"
+#include "components/clock/pacer.h"
+#include "components/clock/registry.h"
+#include "components/runtime/bus/router.h"
+#include "components/runtime/lockstep/conductor.h"
+
+namespace ensonify::clock {
+
+/// The conductor process: gathers everybody, checks the wiring, proves every edge, then hands out sim time until the
+/// end. One thread, one socket.
+class Clock {
+ public:
+  Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir);
+
+  /// Runs to the end; returns the run's exit code.
+  int run();
+
+ private:
+  enum class Phase { kJoining, kProving, kRunning, kEnding, kOver };
+
+  std::optional<WallTime> next_alarm() const;
+  void on_message(const bus::Router::Message& message);
+  void on_hello(const std::string& from, const std::string& text);
+  void on_proven(const std::string& text);
+  void on_done(const std::string& from, const protocol::Done& done);
+  void on_failed(const std::string& from, const std::string& text);
+  void on_request(const std::string& from, const std::string& kind, const std::string& text);
+  void on_time(WallTime now);
+
+  void gather();
+  void start();
+  void hand_out();
+  void watch_progress(WallTime now);
+  void fail(int code, const std::string& culprit, const std::string& message);
+  void end(int code);
+  void tell_all(const std::string& text);
+
+  std::string name_stalled() const;
+  void dump_stall() const;
+  Summary summary() const;
+  std::string status_json() const;
+  std::string registry_json() const;
+  void write_report() const;
+
+  const Launch& launch_;
+  bus::Router& router_;
+  std::filesystem::path out_dir_;
+  Registry registry_;
+  Pacer pacer_;
+  std::optional<Conductor> conductor_;
+  Phase phase_ = Phase::kJoining;
+  WallTime phase_began_;
+  WallTime run_began_{};
+  WallTime run_ended_{};
+  WallTime last_progress_{};
+  int stall_stage_ = 0;
+  std::vector<Account> accounts_;
+  std::vector<std::vector<std::uint32_t>> inputs_;  // topic ids that each participant reads
+  std::vector<std::uint64_t> published_;            // per topic, as of the last DONE
+  std::vector<bool> said_bye_;
+  std::uint64_t slips_ = 0;
+  SimTime slipped_{0};
+  int exit_code_ = 0;
+  std::string culprit_;
+  std::string message_;
+};
+
+/// Set by SIGINT and SIGTERM: the run ends in order.
+void request_stop();
+
+}  // namespace ensonify::clock

@@ -1,0 +1,80 @@
+#include "components/clock/registry.h"
+
+#include <algorithm>
+
+#include "components/runtime/launch_wiring.h"
+
+namespace ensonify::clock {
+
+Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)) {
+  for (const ProcessSpec& process : launch.processes) names_.push_back(process.name);
+  joined_.resize(names_.size());
+  has_joined_.resize(names_.size());
+  facts_ = facts_of(launch);
+}
+
+std::optional<std::size_t> Registry::rank_of(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+std::string Registry::join(const std::string& from, const protocol::Hello& hello) {
+  const std::string& name = hello.declaration.process;
+  if (name != from) return "hello of " + name + " came from " + from;
+  const auto rank = rank_of(name);
+  if (!rank) return name + ": the launch file names no such process" + " (did you mean " + nearest(name, names_) + "?)";
+  if (has_joined_[*rank]) return name + ": has joined already";
+  joined_[*rank] = hello;
+  has_joined_[*rank] = true;
+  for (const auto& [key, text] : hello.facts) facts_[name + "/" + key] = text;
+  return "";
+}
+
+std::vector<std::string> Registry::missing() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!has_joined_[i]) names.push_back(names_[i]);
+  }
+  return names;
+}
+
+const std::vector<std::string>& Registry::check() {
+  for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
+  graph_ = wire(declarations_, rules_);
+  for (std::size_t e = 0; e < graph_.edges.size(); ++e) unproven_.insert(token_of(e));
+  return graph_.problems;
+}
+
+protocol::Welcome Registry::welcome(std::size_t rank) const {
+  protocol::Welcome w;
+  w.rank = static_cast<std::uint32_t>(rank);
+  w.facts = facts_;
+  for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
+    if (graph_.topics[t].publisher != rank) continue;
+    w.outs.push_back({graph_.topics[t].name, static_cast<std::uint32_t>(t)});
+    std::vector<std::string>& tokens = w.out_tokens.emplace_back();
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (graph_.edges[e].topic == t) tokens.push_back(token_of(e));
+    }
+  }
+  for (const Feed& feed : feeds_of(graph_, declarations_, rank)) {
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const Graph::Edge& edge = graph_.edges[e];
+      if (edge.to != rank || edge.topic != feed.topic_id || edge.in_port != feed.in_index) continue;
+      w.ins.push_back({feed, joined_[feed.rank].sync_endpoint, token_of(e)});
+    }
+  }
+  return w;
+}
+
+std::vector<std::string> Registry::unproven() const {
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+    if (!unproven_.contains(token_of(e))) continue;
+    names.push_back(graph_.topics[graph_.edges[e].topic].name + " -> " + names_[graph_.edges[e].to]);
+  }
+  return names;
+}
+
+}  // namespace ensonify::clock

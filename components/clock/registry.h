@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/protocol.h"
+
+namespace ensonify::clock {
+
+/// Who is in the run, checked as a whole before time starts. One address to know for everybody.
+class Registry {
+ public:
+  explicit Registry(const Launch& launch);
+
+  /// Takes a HELLO; an answer other than "" says why it is refused.
+  std::string join(const std::string& from, const protocol::Hello& hello);
+  /// Names of processes that have not said HELLO.
+  std::vector<std::string> missing() const;
+  bool complete() const { return missing().empty(); }
+
+  /// Checks the wiring of all; problems are empty when it is sound. After this the graph stands.
+  const std::vector<std::string>& check();
+  protocol::Welcome welcome(std::size_t rank) const;
+  /// The edge of this token delivers.
+  void proven(const std::string& token) { unproven_.erase(token); }
+  bool ready() const { return unproven_.empty(); }
+  /// "bow/ping -> recorder" for each edge that has not been proven.
+  std::vector<std::string> unproven() const;
+
+  const Graph& graph() const { return graph_; }
+  const std::vector<Declaration>& declarations() const { return declarations_; }
+  const std::vector<protocol::Hello>& hellos() const { return joined_; }
+  std::optional<std::size_t> rank_of(const std::string& name) const;
+  std::size_t size() const { return declarations_.size(); }
+  const std::map<std::string, std::string>& facts() const { return facts_; }
+
+ private:
+  static std::string token_of(std::size_t edge) { return "e" + std::to_string(edge); }
+
+  std::vector<std::string> names_;  // in the order of ranks
+  std::vector<WireRule> rules_;
+  std::vector<protocol::Hello> joined_;
+  std::vector<bool> has_joined_;
+  std::vector<Declaration> declarations_;
+  Graph graph_;
+  std::set<std::string> unproven_;
+  std::map<std::string, std::string> facts_;
+};
+
+}  // namespace ensonify::clock

@@ -1,0 +1,219 @@
+// What the clock tells people: stall reports, status, registry, the report of a finished run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "components/clock/clock.h"
+#include "components/runtime/exit_error.h"
+#include "components/runtime/log.h"
+
+namespace ensonify::clock {
+
+namespace {
+
+using nlohmann::json;
+using std::chrono::steady_clock;
+
+/// R running, S sleeping, T stopped, Z dead...; ? when the system does not tell. Linux /proc/<pid>/stat, third field.
+char process_state(std::int64_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(stat, text);
+  const std::size_t name_end = text.rfind(')');
+  return name_end == std::string::npos || name_end + 2 >= text.size() ? '?' : text[name_end + 2];
+}
+
+double elapsed_s(WallTime from, WallTime to) { return std::chrono::duration<double>(to - from).count(); }
+
+json to_json(const Summary& s) {
+  json j = {{"state", s.state},
+            {"sim_ns", s.reached == kNever ? json(nullptr) : json(s.reached.count())},
+            {"end_ns", s.end ? json(s.end->count()) : json(nullptr)},
+            {"wall_s", s.wall_s},
+            {"rate", s.rate ? json(*s.rate) : json("free")},
+            {"slips", s.slips},
+            {"slip_s", seconds(s.slipped)},
+            {"exit_code", s.exit_code},
+            {"culprit", s.culprit},
+            {"message", s.message}};
+  return j;
+}
+
+json to_json(const Account& a) {
+  return {{"name", a.name},
+          {"pid", a.pid},
+          {"grants", a.grants},
+          {"cost_s", static_cast<double>(a.cost_ns) * 1e-9},
+          {"late_events", a.late_events},
+          {"worst_lateness_s", seconds(a.worst_lateness)}};
+}
+
+}  // namespace
+
+/// A stopped process first, then a busy one, then whoever has a grant: a participant that blocks on a full queue of a
+/// stopped one has a grant too, but is not to blame.
+std::string Clock::name_stalled() const {
+  for (const char state : {'T', 't', 'R'}) {
+    for (std::size_t p = 0; p < accounts_.size(); ++p) {
+      const bool suspect = state != 'R' || conductor_->running(p);
+      if (suspect && process_state(accounts_[p].pid) == state) return accounts_[p].name;
+    }
+  }
+  std::string names;
+  for (std::size_t p = 0; p < accounts_.size(); ++p) {
+    if (conductor_->running(p)) names += (names.empty() ? "" : ", ") + accounts_[p].name;
+  }
+  return names;
+}
+
+void Clock::dump_stall() const {
+  for (std::size_t p = 0; p < accounts_.size(); ++p) {
+    std::string waits;
+    for (const std::size_t q : conductor_->waits_for(p)) waits += (waits.empty() ? "" : ",") + accounts_[q].name;
+    log::line("clock", conductor_->now(), "stall",
+              fmt::format("process={} has_grant={} next_s={:.3f} granted_to_s={:.3f} waits_for=[{}] system_state={}",
+                          accounts_[p].name, conductor_->running(p), seconds(conductor_->next(p)),
+                          seconds(conductor_->granted(p)), waits, process_state(accounts_[p].pid)));
+  }
+  for (const Graph::Topic& topic : registry_.graph().topics) {
+    if (!conductor_->running(topic.publisher)) continue;
+    const auto id = static_cast<std::size_t>(&topic - registry_.graph().topics.data());
+    log::line("clock", conductor_->now(), "stall", fmt::format("topic={} published={}", topic.name, published_[id]));
+  }
+}
+
+Summary Clock::summary() const {
+  Summary s;
+  s.rate = pacer_.rate();
+  s.slips = slips_;
+  s.slipped = slipped_;
+  s.exit_code = exit_code_;
+  s.culprit = culprit_;
+  s.message = message_;
+  const bool over = phase_ == Phase::kEnding || phase_ == Phase::kOver;
+  if (over) s.state = exit_code_ == 0 ? "done" : "failed";
+  else if (phase_ == Phase::kRunning) s.state = pacer_.paused() ? "paused" : "running";
+  if (conductor_) {
+    s.reached = std::min(conductor_->now(), conductor_->end());
+    if (conductor_->end() != kNever) s.end = conductor_->end();
+    if (run_began_ != WallTime{}) s.wall_s = elapsed_s(run_began_, over ? run_ended_ : steady_clock::now());
+  }
+  return s;
+}
+
+std::string Clock::status_json() const {
+  json j = to_json(summary());
+  j["kind"] = "status";
+  j["participants"] = json::array();
+  for (std::size_t p = 0; p < accounts_.size(); ++p) {
+    json entry = to_json(accounts_[p]);
+    std::vector<std::string> waits;
+    for (const std::size_t q : conductor_->waits_for(p)) waits.push_back(accounts_[q].name);
+    const SimTime next = conductor_->next(p);
+    entry["next_ns"] = next == kNever ? json(nullptr) : json(next.count());
+    entry["running"] = conductor_->running(p);
+    entry["waiting_on"] = waits;
+    j["participants"].push_back(entry);
+  }
+  if (phase_ == Phase::kJoining) j["missing"] = registry_.missing();
+  return j.dump();
+}
+
+std::string Clock::registry_json() const {
+  json topics = json::array();
+  const Graph& graph = registry_.graph();
+  for (std::size_t t = 0; t < graph.topics.size(); ++t) {
+    const Graph::Topic& topic = graph.topics[t];
+    json subscribers = json::array();
+    for (const Graph::Edge& edge : graph.edges) {
+      if (edge.topic == t) {
+        subscribers.push_back({{"process", registry_.declarations()[edge.to].process},
+                               {"port", registry_.declarations()[edge.to].ins[edge.in_port].port},
+                               {"delay_ns", edge.delay.count()}});
+      }
+    }
+    const protocol::Hello& publisher = registry_.hellos()[topic.publisher];
+    topics.push_back({{"topic", topic.name},
+                      {"topic_id", t},
+                      {"type", topic.type},
+                      {"publisher", publisher.declaration.process},
+                      {"component", publisher.declaration.component},
+                      {"max_bytes", topic.max_bytes},
+                      {"rate", {topic.rate.num, topic.rate.den}},
+                      {"live", publisher.live_endpoint},
+                      {"sync", publisher.sync_endpoint},
+                      {"published", t < published_.size() ? published_[t] : 0},
+                      {"subscribers", subscribers}});
+  }
+  json processes = json::array();
+  for (const Declaration& d : registry_.declarations()) {
+    processes.push_back({{"name", d.process}, {"component", d.component}});
+  }
+  return json{{"kind", "registry"}, {"topics", topics}, {"processes", processes}}.dump();
+}
+
+void Clock::on_request(const std::string& from, const std::string& kind, const std::string& text) {
+  const json request = json::parse(text, nullptr, false);
+  const WallTime now = steady_clock::now();
+  const SimTime reached = conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0};
+  std::string problem;
+  if (kind == "status") {
+    router_.send(from, status_json());
+    return;
+  }
+  if (kind == "registry") {
+    router_.send(from, registry_json());
+    return;
+  }
+  if (kind == "get") {
+    const auto& facts = registry_.facts();
+    json answer = {{"kind", "get"}};
+    if (!request.contains("what")) {
+      answer["facts"] = json::array();
+      for (const auto& fact : facts) answer["facts"].push_back(fact.first);
+    } else if (const auto found = facts.find(request.value("what", "")); found != facts.end()) {
+      answer["what"] = found->first;
+      answer["text"] = found->second;
+    } else {
+      answer["error"] = "no such fact";
+    }
+    router_.send(from, answer.dump());
+    return;
+  }
+  if (kind == "pause") {
+    pacer_.pause(reached, now);
+  } else if (kind == "resume") {
+    pacer_.resume(now);
+  } else if (kind == "step" && request.value("ns", std::int64_t{0}) > 0) {
+    const SimTime from_here = pacer_.paused() ? std::max(pacer_.cap(now), SimTime{-1}) : reached - SimTime{1};
+    pacer_.step_to(from_here + SimTime{request["ns"].get<std::int64_t>()}, reached, now);
+  } else if (kind == "rate" && request.value("rate", -1.0) >= 0.0) {
+    const double rate = request["rate"];
+    pacer_.set_rate(rate > 0.0 ? std::optional(rate) : std::nullopt, reached, now);
+  } else if (kind == "stop") {
+    request_stop();
+  } else {
+    problem = "unknown request; known: status, registry, get, pause, resume, step (ns > 0), rate (>= 0), stop";
+  }
+  json answer = {{"kind", kind}, {"ok", problem.empty()}};
+  if (!problem.empty()) answer["error"] = problem;
+  router_.send(from, answer.dump());
+}
+
+void Clock::write_report() const {
+  json j = to_json(summary());
+  j["sim_s"] = conductor_ ? seconds(summary().reached) : 0.0;
+  std::uint64_t late = 0;
+  j["participants"] = json::array();
+  for (const Account& account : accounts_) {
+    late += account.late_events;
+    j["participants"].push_back(to_json(account));
+  }
+  j["late_events"] = late;
+  std::ofstream file(out_dir_ / "clock.json");
+  file << j.dump(2) << '\n';
+}
+
+}  // namespace ensonify::clock

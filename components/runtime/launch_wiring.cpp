@@ -1,0 +1,32 @@
+#include "components/runtime/launch_wiring.h"
+
+#include "components/runtime/version.h"
+
+namespace ensonify {
+
+std::vector<WireRule> wire_rules(const Launch& launch) {
+  std::vector<WireRule> rules;
+  for (const Connection& c : launch.wiring) {
+    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), to_string(c.place)});
+  }
+  return rules;
+}
+
+std::map<std::string, std::string> facts_of(const Launch& launch) {
+  return {{"launch", launch.launch_text},
+          {"scenario", launch.scenario_text},
+          {"version", kVersion},
+          {"seed", std::to_string(launch.scenario.seed)}};
+}
+
+Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {
+  std::vector<Conductor::Edge> edges;
+  for (const Graph::Edge& e : graph.edges) edges.push_back({graph.topics[e.topic].publisher, e.to, e.delay});
+  std::vector<bool> may_finish;
+  for (const Declaration& d : processes) may_finish.push_back(d.may_finish);
+  Conductor conductor(processes.size(), std::move(edges), std::move(may_finish), from_seconds(launch.clock.window_s));
+  if (launch.duration) conductor.end_at(*launch.duration);
+  return conductor;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/lockstep/conductor.h"
+#include "components/runtime/wiring.h"
+
+namespace ensonify {
+
+/// A launch file's `wiring:` as rules with places.
+std::vector<WireRule> wire_rules(const Launch& launch);
+
+/// What is fixed for the run and kept for whoever asks: "launch", "scenario", "version", "seed", "start_utc".
+std::map<std::string, std::string> facts_of(const Launch& launch);
+
+/// The wiring as the conductor sees it: who waits for whom.
+Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch);
+
+}  // namespace ensonify

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/ports.h"
+
+namespace ensonify {
+
+/// A component's node behind one interface: what the participant's loop and the in-process runner drive.
+class AnyNode {
+ public:
+  virtual ~AnyNode() = default;
+  virtual SimTime step(SimTime now) = 0;
+  /// The run has ended in order: files are completed here, where an error can still be told.
+  virtual void finish_run() = 0;
+  /// What the process exits with after an orderly end.
+  virtual int exit_code() const = 0;
+};
+
+/// Reads a process's configuration and constructs its node, which declares its ports.
+using NodeFactory =
+    std::function<std::unique_ptr<AnyNode>(const LaunchFile& launch, const Process& process, Ports& ports)>;
+
+template <class Node>
+class NodeHolder : public AnyNode {
+ public:
+  NodeHolder(const typename Node::Config& config, Ports& ports) : node_(config, ports) {}
+  SimTime step(SimTime now) override { return node_.step(now); }
+  void finish_run() override {
+    if constexpr (requires { node_.finish_run(); }) node_.finish_run();
+  }
+  int exit_code() const override {
+    if constexpr (requires { node_.exit_code(); }) return node_.exit_code();
+    else return 0;
+  }
+
+ private:
+  Node node_;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,122 @@
+#include "components/runtime/participant.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <set>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/log.h"
+#include "components/runtime/protocol.h"
+
+namespace ensonify {
+
+namespace {
+
+/// The loop between HELLO and END.
+class Participant {
+ public:
+  Participant(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting)
+      : ports_(ports),
+        node_(node),
+        declaration_(declaration_of(component, ports)),
+        stepper_(ports, [&node](SimTime now) { return node.step(now); }),
+        link_(ports.process(), meeting.clock_endpoint, meeting.address, queue_length(declaration_, kLongestWindow)) {}
+
+  int run() {
+    link_.send_control(protocol::encode(
+        protocol::Hello{declaration_, getpid(), SimTime{0}, link_.sync_endpoint(), link_.live_endpoint(), {}}));
+    while (true) {
+      const bus::Link::Event event = link_.wait();
+      if (event.kind == bus::Link::Event::kClockLost) throw ExitError(kExitDied, "the clock is gone");
+      if (event.kind == bus::Link::Event::kTokens) {
+        tell_proven(event.tokens);
+      } else if (const auto grant = protocol::read_grant(event.control)) {
+        run_grant(*grant);
+      } else {
+        const std::string kind = protocol::kind_of(event.control);
+        if (kind == "welcome") welcome(event.control);
+        if (kind == "refused") return refused(event.control);
+        if (kind == "end") return end(protocol::read_code(event.control));
+      }
+    }
+  }
+
+  void tell_failed(int code, const std::string& message) { link_.send_control(protocol::encode_failed(code, message)); }
+
+ private:
+  // The queue must not depend on the launch file, which a program may not have read; the longest window allowed is 5 s.
+  static constexpr SimTime kLongestWindow = std::chrono::seconds(5);
+
+  void welcome(const std::string& text) {
+    protocol::Welcome w = protocol::read_welcome(text, ports_.outs(), ports_.ins());
+    epoch_ = w.epoch;
+    std::vector<Feed> feeds;
+    std::vector<bus::Subscription> subscriptions;
+    for (const protocol::WelcomeIn& in : w.ins) {
+      const Feed& c = in.feed;
+      feeds.push_back(c);
+      subscriptions.push_back({c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes});
+    }
+    stepper_.wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
+                  [this](msg::Packet&& packet) { link_.publish(packet); });
+    link_.subscribe(subscriptions, w.epoch);
+  }
+
+  void tell_proven(const std::vector<std::string>& tokens) { link_.send_control(protocol::encode_proven(tokens)); }
+
+  void run_grant(const protocol::Grant& grant) {
+    if (grant.epoch != epoch_) return;
+    link_.wait_arrived(grant.inputs);
+    for (const msg::Packet& packet : link_.take()) stepper_.insert(packet);
+    const auto begin = std::chrono::steady_clock::now();
+    protocol::Done done;
+    done.finish = stepper_.run_to(grant.horizon);
+    done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
+    done.epoch = epoch_;
+    done.next = done.finish ? stepper_.last() + SimTime{1} : stepper_.next();
+    for (std::size_t i = 0; i < stepper_.outs().size(); ++i) {
+      done.outputs.emplace_back(stepper_.outs()[i].topic_id, stepper_.published()[i]);
+    }
+    link_.send_control(protocol::encode(done));
+  }
+
+  int refused(const std::string& text) {
+    for (const std::string& problem : protocol::read_problems(text)) log::line(ports_.process(), SimTime{0}, "refused", problem);
+    return kExitUserError;
+  }
+
+  int end(int code) {
+    if (code == 0) node_.finish_run();
+    link_.send_control(R"({"kind":"bye"})");
+    return node_.exit_code();
+  }
+
+  Ports& ports_;
+  AnyNode& node_;
+  Declaration declaration_;
+  Stepper stepper_;
+  bus::Link link_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace
+
+Declaration declaration_of(const std::string& component, const Ports& ports) {
+  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish()};
+}
+
+int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting) {
+  Participant participant(component, ports, node, meeting);
+  try {
+    return participant.run();
+  } catch (const ExitError& e) {
+    participant.tell_failed(e.code, e.what());
+    throw;
+  } catch (const std::exception& e) {
+    participant.tell_failed(kExitDied, e.what());
+    throw;
+  }
+}
+
+}  // namespace ensonify

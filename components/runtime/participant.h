@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "components/runtime/bus/link.h"
+#include "components/runtime/node.h"
+
+namespace ensonify {
+
+/// Where a participant finds the others.
+struct Meeting {
+  std::string clock_endpoint;
+  bus::Address address;
+};
+
+/// Takes part in a run: HELLO, the proof of every edge, grants until the end. Returns the process's exit code; throws
+/// what the node or the bus throws, after telling the clock.
+int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting);
+
+/// What the process is to everybody else.
+Declaration declaration_of(const std::string& component, const Ports& ports);
+
+}  // namespace ensonify
