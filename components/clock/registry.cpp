@@ -23,7 +23,7 @@ std::string Registry::join(const std::string& from, const protocol::Hello& hello
   const std::string& name = hello.declaration.process;
   if (name != from) return "hello of " + name + " came from " + from;
   const auto rank = rank_of(name);
-  if (!rank) return name + ": the launch file names no such process" + " (did you mean " + nearest(name, names_) + "?)";
+  if (!rank) return name + ": the launch file names no such process";
   if (has_joined_[*rank]) return name + ": has joined already";
   joined_[*rank] = hello;
   has_joined_[*rank] = true;

@@ -4,10 +4,17 @@
 
 namespace ensonify {
 
+namespace {
+std::string place_of(const Connection& c) {
+  return c.place.line == 0 ? c.place.file
+                           : c.place.file + ":" + std::to_string(c.place.line) + ":" + std::to_string(c.place.column);
+}
+}  // namespace
+
 std::vector<WireRule> wire_rules(const Launch& launch) {
   std::vector<WireRule> rules;
   for (const Connection& c : launch.wiring) {
-    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), to_string(c.place)});
+    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), place_of(c)});
   }
   return rules;
 }

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
-#include <string>
 
 #include "components/runtime/config/launch_file.h"
 #include "components/runtime/ports.h"
@@ -21,9 +19,8 @@ class AnyNode {
   virtual int exit_code() const = 0;
 };
 
-/// Reads a process's configuration and constructs its node, which declares its ports.
-using NodeFactory =
-    std::function<std::unique_ptr<AnyNode>(const LaunchFile& launch, const Process& process, Ports& ports)>;
+/// Reads a process's parameters and constructs its node, which declares its ports. Throws ConfigError.
+using NodeFactory = std::function<std::unique_ptr<AnyNode>(const Launch&, const ProcessSpec&, Ports&)>;
 
 template <class Node>
 class NodeHolder : public AnyNode {
@@ -41,5 +38,16 @@ class NodeHolder : public AnyNode {
  private:
   Node node_;
 };
+
+/// The factory of a node class: its Config reads the process's own parameters and, from the scenario, the world.
+template <class Node>
+NodeFactory factory_of() {
+  return [](const Launch& launch, const ProcessSpec& process, Ports& ports) -> std::unique_ptr<AnyNode> {
+    ConfigReader from = process.reader();
+    const auto config = Node::Config::read(from, launch.scenario, process.name);
+    from.finish();
+    return std::make_unique<NodeHolder<Node>>(config, ports);
+  };
+}
 
 }  // namespace ensonify

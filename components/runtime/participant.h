@@ -4,6 +4,7 @@
 
 #include "components/runtime/bus/link.h"
 #include "components/runtime/node.h"
+#include "components/runtime/wiring.h"
 
 namespace ensonify {
 

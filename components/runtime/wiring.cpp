@@ -2,26 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "components/runtime/config/config_error.h"
 
 namespace ensonify {
 
 namespace {
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
-}
 
 /// "*" and "name/*" are patterns; anything else is a name.
 bool is_pattern(const std::string& topic) { return topic.ends_with('*'); }
@@ -30,7 +16,7 @@ bool matches(const std::string& pattern, const std::string& topic) {
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(name, candidates);
+  const std::string near = nearest_name(name, candidates);
   return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 
@@ -226,19 +212,6 @@ int queue_length(const Declaration& process, SimTime window) {
     messages += 2.0 + std::ceil(seconds(window) * rate_hz);
   }
   return static_cast<int>(messages);
-}
-
-std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(3, name.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace ensonify

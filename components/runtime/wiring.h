@@ -56,7 +56,4 @@ std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& p
 /// Messages that may be on their way on a sync socket at once: 2 + window x rate, summed over its topics.
 int queue_length(const Declaration& process, SimTime window);
 
-/// The candidate closest in spelling, or "" if none is near.
-std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
-
 }  // namespace ensonify

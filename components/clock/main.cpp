@@ -1,0 +1,58 @@
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "components/clock/clock.h"
+#include "components/runtime/exit_error.h"
+#include "components/runtime/log.h"
+#include "components/runtime/run.h"
+#include "components/runtime/version.h"
+
+namespace {
+
+using namespace ensonify;
+
+/// Tells everybody where the clock is. Renamed into place, so that whoever sees the file sees all of it.
+void write_endpoint(const std::filesystem::path& run_dir, const std::string& endpoint) {
+  const std::filesystem::path unfinished = run_dir / "clock.endpoint.new";
+  std::ofstream(unfinished) << endpoint;
+  std::filesystem::rename(unfinished, run_dir / "clock.endpoint");
+}
+
+int run_clock(const LaunchOptions& options, const std::string& run_dir) {
+  const Launch launch = read_launch(options);
+  const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  int code = 0;
+  {
+    bus::Router router({tcp, run_dir, ""});
+    write_endpoint(run_dir, router.endpoint());
+    code = clock::Clock(launch, router, options.out).run();
+  }
+  std::error_code ignored;  // somebody may have removed it already
+  std::filesystem::remove_all(run_dir, ignored);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("ensonify-clock: conducts a run. `ensonify run` starts it; `ensonify clock` asks it.");
+  LaunchOptions options;
+  std::string run_dir;
+  app.set_version_flag("--version", kVersion);
+  add_options(app, options, false);
+  app.add_option("--run-dir", run_dir, "private directory of the run; removed at the end")->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    app.exit(e);
+    return kExitUserError;
+  }
+  std::signal(SIGTERM, [](int) { clock::request_stop(); });
+  std::signal(SIGINT, [](int) { clock::request_stop(); });
+  return exit_code_of([&] { return run_clock(options, run_dir); });
+}

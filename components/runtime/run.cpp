@@ -1,0 +1,86 @@
+#include "components/runtime/run.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/exit_error.h"
+#include "components/runtime/participant.h"
+#include "components/runtime/protocol.h"
+#include "components/runtime/version.h"
+
+namespace ensonify {
+
+namespace {
+
+struct Options {
+  LaunchOptions launch;
+  std::string name;
+  std::string clock;
+  std::string run_dir;
+  bool check = false;
+};
+
+/// Returns an exit code if the program is to end here (help, bad arguments).
+std::optional<int> parse(const char* component, int argc, char** argv, Options& options) {
+  CLI::App app(fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
+                           "talks, `ensonify describe {}` what it takes.", component, component));
+  app.set_version_flag("--version", kVersion);
+  add_options(app, options.launch, false);
+  app.add_option("--name", options.name, "name of this process in the launch file")->required();
+  app.add_option("--clock", options.clock, "endpoint of the clock");
+  app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
+  app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    app.exit(e);
+    return kExitUserError;
+  }
+  return std::nullopt;
+}
+
+int run_process(const char* component, const NodeFactory& factory, const Options& options) {
+  const Launch launch = read_launch(options.launch);
+  const ProcessSpec& process = launch.process(options.name);
+  Ports ports(options.name, options.launch.out);
+  const std::unique_ptr<AnyNode> node = factory(launch, process, ports);
+  ports.seal();
+  if (options.check) {
+    std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
+    return kExitOk;
+  }
+  if (options.clock.empty()) throw UserError("--clock: is missing; `ensonify run` sets it");
+  const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  return participate(component, ports, *node, {options.clock, {tcp, options.run_dir, ""}});
+}
+
+}  // namespace
+
+int exit_code_of(const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const ConfigError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return kExitUserError;
+  } catch (const ExitError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return e.code;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return kExitDied;
+  }
+}
+
+int run_component(const char* component, const NodeFactory& factory, int argc, char** argv) {
+  Options options;
+  if (const auto code = parse(component, argc, argv, options)) return *code;
+  return exit_code_of([&] { return run_process(component, factory, options); });
+}
+
+}  // namespace ensonify
