@@ -40,7 +40,7 @@ target_compile_features(ensonify_settings INTERFACE cxx_std_20)
 target_compile_options(ensonify_settings INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wpedantic;-Wno-missing-field-initializers>
   # g++ 12 sees uninitialised variants where there are none (GCC bugs 105562, 107919).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>
   $<$<BOOL:${ENSONIFY_WERROR}>:$<BUILD_INTERFACE:-Werror>>
   # The same source gives the same bits: no fused multiply-add unless written (docs/architecture.md).
   $<BUILD_INTERFACE:-ffp-contract=off>)
