@@ -7,6 +7,8 @@
 namespace ensonify::trace {
 namespace {
 
+constexpr std::size_t kRowsTogether = 4;
+
 std::vector<double> sine_edges(const FanShape& shape) {
   const double core = 0.6 / shape.transmit_length_in_waves;
   const double reach = std::min(shape.along_reach / shape.transmit_length_in_waves, 1.0);
@@ -51,17 +53,19 @@ Fan::Fan(const FanShape& shape) {
 }
 
 void Fan::fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) const {
-  const std::size_t along = sine_edges_.size() - 1;
+  const std::size_t along = sine_edges_.size() - 1, across = across_edges_rad_.size() - 1;
   rays.resize(size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::size_t a = i % along, b = i / along;
+    const std::size_t first_row = i / (along * kRowsTogether) * kRowsTogether;
+    const std::size_t rows = std::min(kRowsTogether, across - first_row);
+    const std::size_t a = (i - first_row * along) / rows, b = first_row + (i - first_row * along) % rows;
     const auto bits = jitter.bits(ping, i);
     const double du = sine_edges_[a + 1] - sine_edges_[a];
     const double dphi = across_edges_rad_[b + 1] - across_edges_rad_[b];
     const double u = sine_edges_[a] + du * (0x1p-32 * bits[0]);
     const double phi = across_edges_rad_[b] + dphi * (0x1p-32 * bits[1]);
-    const double across = std::sqrt(1.0 - u * u);
-    const frames::Vec3 direction(u, across * std::sin(phi), across * std::cos(phi));
+    const double beside = std::sqrt(1.0 - u * u);
+    const frames::Vec3 direction(u, beside * std::sin(phi), beside * std::cos(phi));
     rays[i] = {direction.cast<float>(), static_cast<float>(du * dphi)};
   }
 }

@@ -39,7 +39,15 @@ TEST_CASE("rays are dense where the pattern is high and where the seabed is graz
   int inside_main_lobe = 0;
   for (const Ray& ray : rays) inside_main_lobe += std::abs(ray.direction_head.x()) < 1.0 / 50;
   CHECK(inside_main_lobe > 0.6 * rays.size());  // of the width they have an eighth
-  CHECK(rays.back().solid_angle_sr < 0.5 * rays[rays.size() / 2 + 23].solid_angle_sr);
+  const auto between = [&](double low_deg, double high_deg) {
+    int count = 0;
+    for (const Ray& ray : rays) {
+      const double phi = std::atan2(ray.direction_head.y(), ray.direction_head.z()) * 180 / std::numbers::pi;
+      count += phi > low_deg && phi < high_deg;
+    }
+    return count;
+  };
+  CHECK(between(60, 65) > 2 * between(5, 10));
 }
 
 TEST_CASE("rays repeat for a ping and move with the next") {
