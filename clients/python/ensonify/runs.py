@@ -1,0 +1,53 @@
+"""Finding the clock of a run: by run directory, by $ENSONIFY_RUN, or the only live one of this user."""
+import os
+import pathlib
+import socket
+
+from ensonify.session import EXIT_BAD_INPUT, RunError
+
+ENDPOINT_FILE = "clock.endpoint"
+
+
+def run_root() -> pathlib.Path:
+    """Where this user's run directories are."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR")
+    return pathlib.Path(runtime) / "ensonify" if runtime else pathlib.Path(f"/tmp/ensonify-{os.getuid()}")
+
+
+def find_clock(run: str | os.PathLike | None = None) -> str:
+    """The clock's endpoint. `run` is a run directory, the id of one, or an endpoint."""
+    run = os.fspath(run) if run is not None else os.environ.get("ENSONIFY_RUN")
+    if run:
+        if run.startswith(("ipc://", "tcp://")):
+            return run
+        folder = pathlib.Path(run) if "/" in run else run_root() / run
+        return _endpoint(folder)
+    live = [folder for folder in _folders() if _is_live(_endpoint(folder))]
+    if len(live) == 1:
+        return _endpoint(live[0])
+    if not live:
+        raise RunError(f"no run is live under {run_root()}", EXIT_BAD_INPUT)
+    raise RunError("several runs are live, name one: " + ", ".join(folder.name for folder in live), EXIT_BAD_INPUT)
+
+
+def _folders() -> list:
+    root = run_root()
+    return sorted(file.parent for file in root.glob(f"*/{ENDPOINT_FILE}")) if root.is_dir() else []
+
+
+def _endpoint(folder: pathlib.Path) -> str:
+    try:
+        return (folder / ENDPOINT_FILE).read_text().strip()
+    except OSError as error:
+        raise RunError(f"{folder} is no run directory: {error.strerror}", EXIT_BAD_INPUT) from None
+
+
+def _is_live(endpoint: str) -> bool:
+    """Somebody listens there. A connection that says nothing does a ROUTER no harm."""
+    if endpoint.startswith("ipc://"):
+        probe, address = socket.socket(socket.AF_UNIX), endpoint[len("ipc://"):]
+    else:
+        host, _, port = endpoint[len("tcp://"):].rpartition(":")
+        probe, address = socket.socket(), (host, int(port))
+    with probe:
+        return probe.connect_ex(address) == 0

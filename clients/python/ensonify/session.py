@@ -1,0 +1,254 @@
+"""A participant's sockets: joining, proving edges, collecting what a grant names, answering it (docs/wire.md)."""
+import json
+import os
+import re
+import time
+from typing import Any, NamedTuple
+
+import zmq
+import zmq.utils.monitor
+
+from ensonify import wire
+
+LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
+FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
+WAKE_MS = 1000  # how often a waiting participant looks whether the clock is still there
+
+EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_DATA_LOST = 0, 2, 3, 5
+
+
+class RunError(Exception):
+    """The run cannot go on for this process. `code` is the exit code that says why."""
+
+    def __init__(self, message: str, code: int):
+        super().__init__(message)
+        self.code = code
+
+
+class Packet(NamedTuple):
+    """A message as it arrived, not yet decoded."""
+
+    envelope: wire.Envelope
+    head: Any  # the msgpack map
+    arrays: list  # raw frames
+
+
+class Session:
+    """Everything between a participant and ZeroMQ. No thread of ours: libzmq's own drains the data, and the clock's
+    window bounds how much can be on its way, so the receiving queue needs no limit."""
+
+    def __init__(self, name: str, clock: str):
+        self.name = name
+        self._context = zmq.Context()
+        self._control = self._context.socket(zmq.DEALER)
+        self._control.setsockopt(zmq.LINGER, FLUSH_MS)
+        self._control.setsockopt(zmq.RECONNECT_IVL, 5)
+        self._control.setsockopt(zmq.RCVTIMEO, WAKE_MS)
+        self._monitor = self._control.get_monitor_socket(zmq.EVENT_DISCONNECTED)
+        self._sync = self._context.socket(zmq.XPUB)
+        self._sync.setsockopt(zmq.XPUB_NODROP, 1)
+        self._sync.setsockopt(zmq.LINGER, FLUSH_MS)
+        self._live = self._context.socket(zmq.PUB)
+        self._live.setsockopt(zmq.SNDHWM, LIVE_QUEUE)
+        self._live.setsockopt(zmq.LINGER, 0)
+        self._sub = self._context.socket(zmq.SUB)
+        self._sub.setsockopt(zmq.RCVHWM, 0)
+        self._sub.setsockopt(zmq.RCVTIMEO, WAKE_MS)
+        self._sub.setsockopt(zmq.LINGER, 0)
+        self.epoch = 0
+        self.rank = 0
+        self.end_code = None  # set once the run has ended
+        self._arrived: dict = {}  # topic id -> messages so far
+        self._inputs: dict = {}  # topic id -> its entry in WELCOME
+        self._published: dict = {}  # topic id -> messages so far
+        try:
+            self._bind(clock)
+        except zmq.ZMQError as error:
+            self.close()
+            raise RunError(f"{name}: cannot reach {clock}: {error}", EXIT_BAD_INPUT) from None
+
+    def _bind(self, clock: str) -> None:
+        if clock.startswith("ipc://"):
+            folder = os.path.dirname(clock)
+            self.endpoints = {"sync": f"{folder}/{self.name}.sync", "live": f"{folder}/{self.name}.live"}
+        elif re.fullmatch(r"tcp://127\.0\.0\.1:\d+", clock):
+            self.endpoints = {"sync": "tcp://127.0.0.1:*", "live": "tcp://127.0.0.1:*"}
+        else:
+            self.close()
+            raise RunError(f"{self.name}: {clock!r} is no clock; ipc://... and tcp://127.0.0.1:PORT are", EXIT_BAD_INPUT)
+        for plane, socket in (("sync", self._sync), ("live", self._live)):
+            socket.bind(self.endpoints[plane])
+            self.endpoints[plane] = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
+        self._control.connect(clock)
+
+    # --- joining
+
+    def join(self, hello: dict) -> dict:
+        """Says HELLO and returns the WELCOME once every edge into this process is subscribed and every edge out of it
+        is proven."""
+        self._tell({"kind": "hello", "name": self.name, **hello, **self.endpoints})
+        welcome = self._await_json("welcome")
+        self.epoch, self.rank = welcome["epoch"], welcome["rank"]
+        self._sync.setsockopt(zmq.SNDHWM, sum(out["queue"] for out in welcome["out"]))
+        self._published = {out["topic_id"]: 0 for out in welcome["out"]}
+        self._subscribe(welcome["in"])
+        self._prove({token for out in welcome["out"] for token in out["tokens"]})
+        return welcome
+
+    def _subscribe(self, inputs: list) -> None:
+        for endpoint in {entry["endpoint"] for entry in inputs}:
+            self._sub.connect(endpoint)
+        for entry in inputs:
+            self._inputs[entry["topic_id"]] = {**entry, "hash": wire.type_hash(entry["type"])}
+            self._arrived[entry["topic_id"]] = 0
+            self._sub.subscribe(entry["topic"].encode() + b"\0")
+        for entry in inputs:  # last, so that a token vouches for the topics before it
+            self._sub.subscribe(b"!" + entry["token"].encode())
+
+    def _prove(self, tokens: set) -> None:
+        poller = zmq.Poller()
+        poller.register(self._sync, zmq.POLLIN)
+        poller.register(self._control, zmq.POLLIN)
+        while tokens:
+            ready = dict(poller.poll(WAKE_MS))
+            if not ready:
+                self._check_clock()
+            if self._control in ready:
+                self._control_message(self._control.recv())  # an end, before it began
+                if self.end_code is not None:
+                    return
+            proven = []
+            while self._sync in ready and self._sync.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+                subscription = self._sync.recv()
+                token = subscription[2:].decode() if subscription[:2] == b"\x01!" else None
+                if token in tokens:
+                    tokens.discard(token)
+                    proven.append(token)
+            if proven:
+                self._tell({"kind": "proven", "tokens": proven})
+
+    # --- running
+
+    def wait_grant(self) -> wire.Grant | None:
+        """The next grant of this epoch, or None once the run has ended."""
+        while self.end_code is None:
+            grant = self._control_message(self._receive_control())
+            if grant is not None and grant.epoch == self.epoch:
+                return grant
+        return None
+
+    def collect(self, grant: wire.Grant, deliver) -> bool:
+        """Calls deliver(topic id, packet) for whatever arrives until the grant's input vector has. False if the run
+        ended meanwhile."""
+        for topic_id, count in grant.counts:
+            while self._arrived.get(topic_id, count) < count:
+                try:
+                    frames = self._sub.recv_multipart(copy=False)
+                except zmq.Again:
+                    self._check_clock()
+                    if self._control.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+                        self._control_message(self._control.recv())
+                    if self.end_code is not None:
+                        return False
+                    continue
+                packet = self._checked(frames)
+                if packet is not None:
+                    deliver(packet.envelope.topic_id, packet)
+        return True
+
+    def done(self, next_ns: int, finish: bool, cost_ns: int) -> None:
+        """Answers the grant. Whatever was published until now has been handed to ZeroMQ before."""
+        self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, list(self._published.items())))
+
+    def publish(self, topic: bytes, topic_id: int, type_hash: int, t_sim_ns: int, body: list) -> None:
+        """Sends on both planes; waits while a participant does not keep up. `topic` ends in NUL."""
+        seq = self._published[topic_id]
+        self._published[topic_id] = seq + 1
+        envelope = wire.encode_envelope(
+            wire.Envelope(0, self.epoch, self.rank, topic_id, 2 + len(body), type_hash, seq, t_sim_ns))
+        frames = [topic, envelope, *body]
+        self._sync.send_multipart(frames, copy=False)
+        self._live.send_multipart(frames, copy=False)
+
+    # --- leaving
+
+    def bye(self) -> None:
+        """Answers the end."""
+        self._tell({"kind": "bye"})
+
+    def fail(self, code: int, message: str) -> None:
+        """Tells the clock why this process leaves."""
+        self._tell({"kind": "failed", "code": code, "message": message})
+
+    def close(self) -> None:
+        """Lets what has been sent leave, then gives every socket back."""
+        if self._context.closed:
+            return
+        self._control.disable_monitor()
+        for socket in (self._monitor, self._control, self._sync, self._live, self._sub):
+            socket.close()
+        self._context.term()
+
+    # --- inside
+
+    def _tell(self, what: dict) -> None:
+        self._control.send(json.dumps(what, separators=(",", ":")).encode())
+
+    def _receive_control(self) -> bytes:
+        while True:
+            try:
+                return self._control.recv()
+            except zmq.Again:
+                self._check_clock()
+
+    def _await_json(self, kind: str) -> dict:
+        while True:
+            message = json.loads(self._receive_control())
+            if message.get("kind") == kind:
+                return message
+            self._refused_or_ended(message)
+            if self.end_code is not None:
+                raise RunError(f"{self.name}: the run ended before it began", EXIT_DIED)
+
+    def _control_message(self, data: bytes) -> wire.Grant | None:
+        if data[:1] == b"G":
+            return wire.decode_grant(data)
+        self._refused_or_ended(json.loads(data))
+        return None
+
+    def _refused_or_ended(self, message: dict) -> None:
+        if message.get("kind") == "refused":
+            raise RunError("\n".join(message["problems"]), EXIT_BAD_INPUT)
+        if message.get("kind") == "end":
+            self.end_code = message.get("code", EXIT_OK)
+
+    def _check_clock(self) -> None:
+        if self._monitor.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+            raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
+
+    def _checked(self, frames: list) -> Packet | None:
+        """The packet if it is of this epoch and the one that its topic expects."""
+        if len(frames) < 3:
+            raise RunError(f"{self.name}: a message of {len(frames)} frames arrived", EXIT_DATA_LOST)
+        envelope = wire.decode_envelope(frames[1].bytes)
+        if envelope.epoch != self.epoch:
+            return None
+        entry = self._inputs.get(envelope.topic_id)
+        if entry is None or envelope.type_hash != entry["hash"] or envelope.frame_count != len(frames):
+            raise RunError(f"{self.name}: {frames[0].bytes!r} brought what was not announced", EXIT_DATA_LOST)
+        expected = self._arrived[envelope.topic_id]
+        if envelope.seq != expected:
+            raise RunError(f"{self.name}: {entry['topic']} lost messages: seq {envelope.seq}, expected {expected}",
+                           EXIT_DATA_LOST)
+        self._arrived[envelope.topic_id] = expected + 1
+        last = len(frames) - (envelope.flags & wire.FLAG_WALL_FACTS)
+        size = sum(len(frame) for frame in frames[2:last])
+        if size > entry["max_bytes"]:
+            raise RunError(f"{self.name}: {entry['topic']} has {size} bytes, at most {entry['max_bytes']} were declared",
+                           EXIT_DATA_LOST)
+        return Packet(envelope, frames[2].bytes, [frame.buffer for frame in frames[3:last]])
+
+
+def wall_ns() -> int:
+    """For what an event costs; never part of a result."""
+    return time.perf_counter_ns()
