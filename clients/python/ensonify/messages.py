@@ -40,7 +40,7 @@ class Counter(Struct):
 
 @dataclass(eq=False)
 class Health(Message):
-    """How a process is doing, in sim time: published when it changes. Wall-clock facts are the clock's.
+    """Part of a message: Health.
 
     stamp_ns [ns]: time of the report, sim time
     state: ok, degraded or failed
@@ -57,7 +57,7 @@ class Health(Message):
 
 @dataclass(eq=False)
 class Pose(Message):
-    """Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.
+    """Part of a message: Pose.
 
     stamp_ns [ns]: time of validity, sim time
     position_enu_m [m]: body origin in the world frame: east, north, up from chart datum
@@ -76,7 +76,7 @@ class Pose(Message):
 
 @dataclass(eq=False)
 class Guidance(Message):
-    """What a pilot (autopilot or agent) asks of a vehicle.
+    """Part of a message: Guidance.
 
     stamp_ns [ns]: time of the command, sim time
     heading_grid_rad [rad]: heading to steer, clockwise from grid north
@@ -91,7 +91,7 @@ class Guidance(Message):
 
 @dataclass(eq=False)
 class MissionState(Message):
-    """What the mission is doing.
+    """Part of a message: MissionState.
 
     stamp_ns [ns]: time of the state, sim time
     state: run_in, on_line, turn or done
@@ -112,7 +112,7 @@ class MissionState(Message):
 
 @dataclass(eq=False)
 class Attitude(Message):
-    """What the motion sensor and gyro report.
+    """Part of a message: Attitude.
 
     stamp_ns [ns]: time of measurement, sim time
     roll_rad [rad]: roll, positive starboard down
@@ -131,7 +131,7 @@ class Attitude(Message):
 
 @dataclass(eq=False)
 class Position(Message):
-    """What the positioning system reports, referred to the body origin.
+    """Part of a message: Position.
 
     stamp_ns [ns]: time of measurement, sim time
     position_enu_m [m]: measured body origin in the world frame: east, north, up
@@ -152,7 +152,7 @@ class Position(Message):
 
 @dataclass(eq=False)
 class Estimate(Message):
-    """The navigation estimate: what autopilot, agents and records use for where the vehicle is.
+    """Part of a message: Estimate.
 
     stamp_ns [ns]: time of validity, sim time
     position_enu_m [m]: estimated body origin in the world frame: east, north, up
@@ -169,7 +169,7 @@ class Estimate(Message):
 
 @dataclass(eq=False)
 class Ping(Message):
-    """What one transmission brought back, for any head.
+    """Part of a message: Ping.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -200,7 +200,7 @@ class Ping(Message):
 
 @dataclass(eq=False)
 class Soundings(Message):
-    """What the head made of a ping: one entry per beam. Positions use the estimated pose and the measured mounting.
+    """Part of a message: Soundings.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -225,7 +225,7 @@ class Soundings(Message):
 
 @dataclass(eq=False)
 class Transmit(Message):
-    """A head transmitted: other heads may hear it.
+    """Part of a message: Transmit.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -244,7 +244,7 @@ class Transmit(Message):
 
 @dataclass(eq=False)
 class Tile(Message):
-    """A square piece of seabed. Truth.
+    """Part of a message: Tile.
 
     col [1]: tile index, east
     row [1]: tile index, north
@@ -267,7 +267,7 @@ class Tile(Message):
 
 @dataclass(eq=False)
 class TileRelease(Message):
-    """The pager will not refer to this tile again until it sends it anew.
+    """Part of a message: TileRelease.
 
     col [1]: tile index, east
     row [1]: tile index, north
@@ -280,7 +280,7 @@ class TileRelease(Message):
 
 @dataclass(eq=False)
 class Chart(Message):
-    """What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
+    """Part of a message: Chart.
 
     origin_latitude_deg [deg]: geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)
     origin_longitude_deg [deg]: longitude of the world's origin, WGS 84

@@ -117,6 +117,7 @@ class Participant:
         self.name = name or os.environ.get("ENSONIFY_NAME") or os.path.splitext(os.path.basename(sys.argv[0]))[0]
         self.config = configuration() if config is None else config
         self._clock = clock or os.environ.get("ENSONIFY_CLOCK")
+        self.facts: dict = {}  # of the epoch, known once joined: "launch", "scenario", ...
         self._may_finish = may_finish
         self._finish = False
         self._ins: list = []
@@ -172,7 +173,13 @@ class Participant:
                 self._now_ns = None
                 if step.next_ns <= t_ns:
                     raise ValueError(f"next_ns must be later than this step ({t_ns} ns), not {step.next_ns}")
-            session.done(step.next_ns, self._finish, wall_ns() - began)
+                if self._finish:
+                    break
+            if self._finish:  # the clock takes the end from this promise; events until then come with later grants
+                self._finish = False
+                session.done(t_ns + 1, True, wall_ns() - began)
+            else:
+                session.done(step.next_ns, False, wall_ns() - began)
         self._leave()
 
     def finish(self) -> None:
@@ -223,6 +230,7 @@ class Participant:
         self._session = Session(self.name, self._clock)
         hello = {**self.declaration(), "pid": os.getpid(), "first_ns": first_ns, "facts": {}}
         welcome = self._session.join(hello)
+        self.facts = welcome.get("facts", {})
         outs = {port.port: port for port in self._outs}
         ins = {port.port: port for port in self._ins}
         for entry in welcome["out"]:
@@ -262,11 +270,12 @@ class Participant:
     def _idle(self) -> None:
         """The user left the loop: promise to publish nothing more, and stay until the run ends."""
         session = self._session
-        session.done(wire.NEVER, self._finish, 0)
+        finish, self._finish = self._finish and self._now_ns is not None, False
+        session.done(self._now_ns + 1 if finish else wire.NEVER, finish, 0)
         while (grant := session.wait_grant()) is not None:
             if not session.collect(grant, lambda topic_id, packet: None):
                 break
-            session.done(wire.NEVER, self._finish, 0)
+            session.done(wire.NEVER, False, 0)
         self._leave()
 
     def _leave(self) -> None:

@@ -11,6 +11,7 @@ import zmq.utils.monitor
 from ensonify import wire
 
 LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
+LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of its readers
 FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
 WAKE_MS = 1000  # how often a waiting participant looks whether the clock is still there
 
@@ -42,6 +43,7 @@ class Session:
         self._context = zmq.Context()
         self._control = self._context.socket(zmq.DEALER)
         self._control.setsockopt(zmq.LINGER, FLUSH_MS)
+        self._control.setsockopt(zmq.IDENTITY, name.encode())
         self._control.setsockopt(zmq.RECONNECT_IVL, 5)
         self._control.setsockopt(zmq.RCVTIMEO, WAKE_MS)
         self._monitor = self._control.get_monitor_socket(zmq.EVENT_DISCONNECTED)
@@ -86,10 +88,10 @@ class Session:
     def join(self, hello: dict) -> dict:
         """Says HELLO and returns the WELCOME once every edge into this process is subscribed and every edge out of it
         is proven."""
-        self._tell({"kind": "hello", "name": self.name, **hello, **self.endpoints})
+        self._sync.setsockopt(zmq.SNDHWM, sum(queue_length(*out["rate"]) for out in hello["out"]))
+        self._tell({**hello, "kind": "hello", "name": self.name, **self.endpoints})
         welcome = self._await_json("welcome")
         self.epoch, self.rank = welcome["epoch"], welcome["rank"]
-        self._sync.setsockopt(zmq.SNDHWM, sum(out["queue"] for out in welcome["out"]))
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
         self._subscribe(welcome["in"])
         self._prove({token for out in welcome["out"] for token in out["tokens"]})
@@ -224,6 +226,7 @@ class Session:
 
     def _check_clock(self) -> None:
         if self._monitor.getsockopt(zmq.EVENTS) & zmq.POLLIN:
+            self._control.setsockopt(zmq.LINGER, 0)  # nobody will read what is left
             raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
 
     def _checked(self, frames: list) -> Packet | None:
@@ -247,6 +250,11 @@ class Session:
             raise RunError(f"{self.name}: {entry['topic']} has {size} bytes, at most {entry['max_bytes']} were declared",
                            EXIT_DATA_LOST)
         return Packet(envelope, frames[2].bytes, [frame.buffer for frame in frames[3:last]])
+
+
+def queue_length(num: int, den: int) -> int:
+    """Messages of an output at num / den Hz that may be on their way at once."""
+    return 2 + -(-LONGEST_WINDOW_S * num // den)
 
 
 def wall_ns() -> int:

@@ -112,7 +112,9 @@ class InARun(unittest.TestCase):
                 if step.t_ns == 3 * SECOND:
                     me.finish()
         self.finish(clock, head)
-        self.assertEqual(step.t_ns, 5 * SECOND)
+        self.assertEqual(step.t_ns, 4 * SECOND)
+        self.assertEqual(clock.counts[0], 81)
+        self.assertEqual(me.facts, {"seed": "1"})
 
     def test_leaving_the_loop_lets_the_run_go_on(self):
         clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, 5 * SECOND)

@@ -8,6 +8,7 @@ import zmq
 from ensonify import wire
 
 WINDOW_NS = 1_000_000_000
+FINISH_MARGIN_NS = 1_000_000_000  # from the event that ends the run to the end
 
 
 class TinyClock(threading.Thread):
@@ -71,7 +72,7 @@ class TinyClock(threading.Thread):
                 unproven -= set(message["tokens"])
 
     def _welcome(self, rank):
-        outs = [{"port": t["out"]["port"], "topic": name, "topic_id": t["id"], "queue": 100,
+        outs = [{"port": t["out"]["port"], "topic": name, "topic_id": t["id"],
                  "tokens": [e["token"] for e in self.edges if e["topic"] == name]}
                 for name, t in self.topics.items() if t["rank"] == rank]
         ins = []
@@ -82,7 +83,7 @@ class TinyClock(threading.Thread):
                         "type": topic["out"]["type"], "publisher": hello["name"], "rank": topic["rank"],
                         "endpoint": hello["sync"], "delay_ns": edge["in"]["delay_ns"],
                         "max_bytes": topic["out"]["max_bytes"], "token": edge["token"]})
-        return {"kind": "welcome", "epoch": self.epoch, "rank": rank, "end_ns": None, "out": outs, "in": ins}
+        return {"kind": "welcome", "epoch": self.epoch, "rank": rank, "facts": {"seed": "1"}, "out": outs, "in": ins}
 
     def _horizon(self, rank):
         horizon = self.end_ns
@@ -92,6 +93,9 @@ class TinyClock(threading.Thread):
                 horizon = min(horizon, self.members[publisher]["next"] + edge["in"]["delay_ns"] - 1)
             if publisher == rank:
                 horizon = min(horizon, self.members[edge["to"]]["next"] + WINDOW_NS)
+        for member in self.members:
+            if member["hello"]["may_finish"]:
+                horizon = min(horizon, member["next"] + FINISH_MARGIN_NS)
         return horizon
 
     def _conduct(self):
@@ -127,7 +131,7 @@ class TinyClock(threading.Thread):
         member["running"], member["next"] = False, done.next_ns
         self.counts.update(done.counts)
         if done.finish:
-            self.end_ns = min(self.end_ns, done.next_ns + 1_000_000_000)
+            self.end_ns = min(self.end_ns, done.next_ns - 1 + FINISH_MARGIN_NS)
 
     def _end(self):
         for member in self.members:
