@@ -96,6 +96,11 @@ class Ports {
                });
   }
 
+  /// An input whose type is only known at run time; messages come undecoded.
+  void in_raw(const std::string& port, const std::string& type, PacketHandler handler, InOptions options = {}) {
+    declare_in({port, type, options.delay, options.optional, {}, 0}, std::move(handler));
+  }
+
   /// Every message of the topics that match `topics` ("*" and "name/*" are patterns), undecoded. For recorders and
   /// assertions, which know no types. A topic of its own is never matched.
   void in_any(const std::string& port, std::vector<std::string> topics, PacketHandler handler) {
