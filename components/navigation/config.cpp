@@ -1,0 +1,30 @@
+#include "components/navigation/config.h"
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/own_vehicle.h"
+
+namespace ensonify {
+
+NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+  NavigationConfig config;
+  from.optional("attitude_rate_hz", config.attitude_rate_hz, 1, 1000);
+  from.optional("position_rate_hz", config.position_rate_hz, 1, 100);
+  from.optional("position_gain", config.position_gain, 0.001, 1);
+  NavigationErrors& sigma = config.sigma;
+  from.optional("sigma_roll_deg", sigma.roll_rad, 0, 10, kDegrees);
+  from.optional("sigma_pitch_deg", sigma.pitch_rad, 0, 10, kDegrees);
+  from.optional("sigma_heading_deg", sigma.heading_rad, 0, 10, kDegrees);
+  from.optional("sigma_heave_m", sigma.heave_m, 0, 5);
+  from.optional("sigma_horizontal_m", sigma.horizontal_m, 0, 100);
+  from.optional("sigma_vertical_m", sigma.vertical_m, 0, 100);
+  from.optional("sigma_velocity_mps", sigma.velocity_mps, 0, 5);
+
+  own_vehicle(from, scenario, process);  // the pose is wired; the name is checked for the user's sake
+  config.seed = scenario.seed;
+  config.process = process;
+  config.mean_height_m = -scenario.mission.depth_m;
+  if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
+  return config;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,149 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "components/navigation/node.h"
+#include "components/runtime/config/default_yaml.h"
+#include "components/runtime/testing.h"
+#include "messages/terrain.h"
+
+using namespace ensonify;
+constexpr double kPi = std::numbers::pi;
+
+namespace {
+
+NavigationConfig config_of(double scale) {
+  NavigationConfig config;
+  config.process = "nav";
+  config.origin = frames::Geodetic{44.0, -63.0};
+  config.mean_height_m = -2.0;
+  NavigationErrors& s = config.sigma;
+  for (double* sigma :
+       {&s.roll_rad, &s.pitch_rad, &s.heading_rad, &s.heave_m, &s.horizontal_m, &s.vertical_m, &s.velocity_mps}) {
+    *sigma *= scale;
+  }
+  return config;
+}
+
+/// North at 2 m/s, heaving 0.3 m in 5 s about 2 m below datum, rolled 5 degrees.
+msg::Pose truth_at(SimTime t) {
+  const double w = 2 * kPi / 5.0;
+  msg::Pose pose;
+  pose.stamp_ns = t.count();
+  pose.position_enu_m = {10.0, 2.0 * seconds(t), -2.0 + 0.3 * std::sin(w * seconds(t))};
+  pose.velocity_enu_mps = {0.0, 2.0, 0.3 * w * std::cos(w * seconds(t))};
+  pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{0.5, 0.0, 5 * kPi / 180}));
+  return pose;
+}
+
+void give_truth(NodeUnderTest<NavigationNode>& navigation, int seconds_long) {
+  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", truth_at(i * 10_ms));
+}
+
+struct Moments {
+  double sum = 0, squares = 0;
+  int n = 0;
+  void add(double x) { sum += x, squares += x * x, ++n; }
+  double mean() const { return sum / n; }
+  double sigma() const { return std::sqrt(squares / n - mean() * mean()); }
+};
+
+}  // namespace
+
+TEST_CASE("navigation/default.yaml lists every parameter with its default") {
+  Scenario scenario;
+  scenario.vehicles.resize(1);
+  CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario) == "");
+}
+
+TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {
+  NodeUnderTest<NavigationNode> navigation(config_of(1));
+  give_truth(navigation, 2);
+  navigation.run_until(2_s);
+  CHECK(navigation.take("attitude").size() == 201);
+  CHECK(navigation.take("position").size() == 11);
+  CHECK(navigation.take("estimate").size() == 201);
+}
+
+TEST_CASE("without noise the instruments tell the truth") {
+  NodeUnderTest<NavigationNode> navigation(config_of(0));
+  give_truth(navigation, 10);
+  const auto estimates = navigation.step_until<msg::Estimate>("estimate", 10_s);
+  const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 10_s);
+  const auto positions = navigation.step_until<msg::Position>("position", 10_s);
+  CHECK(attitudes[125].roll_rad == Approx(5 * kPi / 180));
+  CHECK(attitudes[125].heading_grid_rad == Approx(0.5));
+  CHECK(attitudes[125].heave_m == Approx(0.3));
+  const frames::LocalProjection world({44.0, -63.0});
+  const auto place = world.enu_of({positions[20].latitude_deg, positions[20].longitude_deg});
+  CHECK((place - frames::Vec2(10.0, 2.0 * 4.0)).norm() < 1e-6);
+  for (std::size_t i = 0; i < estimates.size(); i += 7) {
+    const msg::Pose truth = truth_at(SimTime{estimates[i].stamp_ns});
+    // Trapezoids follow a sine of 0.3 m and 5 s within w^2 h^2 / 12 of its height.
+    for (std::size_t k = 0; k < 3; ++k) {
+      REQUIRE(estimates[i].position_enu_m[k] == Approx(truth.position_enu_m[k]).margin(1e-5));
+    }
+    REQUIRE(estimates[i].enu_from_body[0] == Approx(truth.enu_from_body[0]));
+  }
+}
+
+TEST_CASE("noise has the stated sigma and no mean, and depends on seed and process") {
+  NodeUnderTest<NavigationNode> navigation(config_of(1));
+  give_truth(navigation, 100);
+  navigation.run_until(100_s);
+  Moments roll, heading, heave;
+  for (const auto& a : navigation.step_until<msg::Attitude>("attitude", 100_s)) {
+    roll.add(a.roll_rad - 5 * kPi / 180);
+    heading.add(a.heading_grid_rad - 0.5);
+    heave.add(a.heave_m - (truth_at(SimTime{a.stamp_ns}).position_enu_m[2] + 2.0));
+  }
+  const NavigationErrors sigma;
+  // 10001 samples: a mean strays by sigma / 100, a sigma by sigma / 141; four times that is allowed.
+  CHECK(roll.mean() == Approx(0).margin(0.04 * sigma.roll_rad));
+  CHECK(roll.sigma() == Approx(sigma.roll_rad).epsilon(0.03));
+  CHECK(heading.sigma() == Approx(sigma.heading_rad).epsilon(0.03));
+  CHECK(heave.sigma() == Approx(sigma.heave_m).epsilon(0.03));
+  Moments east;
+  for (const auto& p : navigation.step_until<msg::Position>("position", 100_s)) east.add(p.position_enu_m[0] - 10);
+  CHECK(east.sigma() == Approx(sigma.horizontal_m).epsilon(0.13));  // 501 samples
+
+  const auto first_roll = [](NavigationConfig config) {
+    NodeUnderTest<NavigationNode> other(config);
+    other.give("pose", truth_at(0_s));
+    return other.step_until<msg::Attitude>("attitude", 0_s).at(0).roll_rad;
+  };
+  NavigationConfig other_seed = config_of(1), other_process = config_of(1);
+  other_seed.seed = 2;
+  other_process.process = "nav2";
+  CHECK(first_roll(config_of(1)) == first_roll(config_of(1)));
+  CHECK(first_roll(config_of(1)) != first_roll(other_seed));
+  CHECK(first_roll(config_of(1)) != first_roll(other_process));
+}
+
+TEST_CASE("the estimate is quieter than the fixes by what the filter's theory says") {
+  NavigationConfig config = config_of(1);
+  config.sigma.velocity_mps = 0.0;
+  NodeUnderTest<NavigationNode> navigation(config);
+  give_truth(navigation, 400);
+  Moments east;
+  for (const auto& e : navigation.step_until<msg::Estimate>("estimate", 400_s)) {
+    if (e.stamp_ns > 20'000'000'000) east.add(e.position_enu_m[0] - 10);
+  }
+  // 1900 fixes with a memory of about 2 / gain fixes are some 190 independent ones: sigma within 5 %, here 4 x that.
+  CHECK(east.sigma() == Approx(config.sigma.horizontal_m * std::sqrt(0.2 / 1.8)).epsilon(0.2));
+}
+
+TEST_CASE("an origin left to the raster comes with the chart; nothing is measured before") {
+  NavigationConfig config = config_of(0);
+  config.origin.reset();
+  NodeUnderTest<NavigationNode> navigation(config);
+  msg::Chart chart;
+  chart.origin_latitude_deg = 10.0;
+  chart.origin_longitude_deg = 20.0;
+  navigation.give_at("chart", 1_s, chart);
+  give_truth(navigation, 2);
+  const auto positions = navigation.step_until<msg::Position>("position", 2_s);
+  REQUIRE(positions.size() == 6);
+  CHECK(positions[0].stamp_ns == 1'000'000'000);
+  CHECK(positions[0].latitude_deg == Approx(10.0).margin(1e-4));
+}

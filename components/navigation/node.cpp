@@ -1,0 +1,62 @@
+#include "components/navigation/node.h"
+
+#include <algorithm>
+
+#include "messages/terrain.h"
+
+namespace ensonify {
+namespace {
+
+std::array<double, 3> plain(const frames::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+NavigationNode::NavigationNode(const Config& config, Ports& ports)
+    : sensors_(config),
+      filter_(config.position_gain),
+      attitude_due_(Rate{config.attitude_rate_hz, 1}),
+      position_due_(Rate{config.position_rate_hz, 1}),
+      attitudes_(ports.out<msg::Attitude>("attitude", {.rate = Rate{config.attitude_rate_hz, 1}})),
+      positions_(ports.out<msg::Position>("position", {.rate = Rate{config.position_rate_hz, 1}})),
+      estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{config.attitude_rate_hz, 1}})) {
+  if (config.origin) world_.emplace(*config.origin);
+  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { truth_ = pose; });
+  if (!world_) {
+    ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) {
+      world_.emplace(frames::Geodetic{chart.origin_latitude_deg, chart.origin_longitude_deg});
+    });
+  }
+}
+
+SimTime NavigationNode::step(SimTime now) {
+  const std::int64_t sample = attitude_due_.count(), fix = position_due_.count();
+  const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
+  if (truth_ && world_) {
+    if (attitude) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(*truth_, sample));
+    if (position) measure_position(fix);
+    if (attitude) estimate(sensors_.attitude(*truth_, sample));
+  }
+  return std::min(attitude_due_.next(), position_due_.next());
+}
+
+void NavigationNode::measure_position(std::int64_t n) {
+  const msg::Position position = sensors_.position(*truth_, n, *world_);
+  positions_.send(position);
+  const auto& fix = position.position_enu_m;
+  filter_.predict(SimTime{position.stamp_ns}, filter_.velocity_enu_mps());
+  filter_.correct({fix[0], fix[1], fix[2]});
+}
+
+void NavigationNode::estimate(const msg::Attitude& attitude) {
+  attitudes_.send(attitude);
+  if (!filter_.ready()) return;
+  msg::Estimate estimate;
+  estimate.stamp_ns = attitude.stamp_ns;
+  estimate.position_enu_m = plain(filter_.position_enu_m());
+  estimate.enu_from_body = frames::wxyz_of(
+      frames::enu_from_body(frames::Attitude{attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad}));
+  estimate.velocity_enu_mps = plain(filter_.velocity_enu_mps());
+  estimates_.send(estimate);
+}
+
+}  // namespace ensonify

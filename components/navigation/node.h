@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "components/navigation/dead_reckoning.h"
+#include "components/navigation/sensors.h"
+#include "components/runtime/ports.h"
+
+namespace ensonify {
+
+class NavigationNode {
+ public:
+  using Config = NavigationConfig;
+  static constexpr const char* kComponent = "navigation";
+
+  NavigationNode(const Config& config, Ports& ports);
+
+  SimTime step(SimTime now);
+
+ private:
+  void measure_position(std::int64_t n);
+  void estimate(const msg::Attitude& attitude);
+
+  NavigationSensors sensors_;
+  DeadReckoning filter_;
+  Periodic attitude_due_, position_due_;
+  std::optional<frames::LocalProjection> world_;
+  std::optional<msg::Pose> truth_;
+  Ports::Out<msg::Attitude> attitudes_;
+  Ports::Out<msg::Position> positions_;
+  Ports::Out<msg::Estimate> estimates_;
+};
+
+}  // namespace ensonify

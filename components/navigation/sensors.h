@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "components/navigation/config.h"
+#include "kernels/random/stream.h"
+#include "messages/motion.h"
+#include "messages/navigation.h"
+
+namespace ensonify {
+
+/// Attitude, position and velocity sensors at the body's origin: truth plus white Gaussian noise, without bias or
+/// latency. Sample n of a sensor is a pure function of (seed, process, n) and the truth.
+class NavigationSensors {
+ public:
+  explicit NavigationSensors(const NavigationConfig& config);
+
+  msg::Attitude attitude(const msg::Pose& truth, std::int64_t n) const;
+  /// Latitude and longitude are those of the noisy place.
+  msg::Position position(const msg::Pose& truth, std::int64_t n, const frames::LocalProjection& world) const;
+  frames::Vec3 velocity_enu_mps(const msg::Pose& truth, std::int64_t n) const;
+
+ private:
+  NavigationErrors sigma_;
+  double mean_height_m_;
+  random::Stream attitude_noise_, position_noise_, velocity_noise_;
+};
+
+}  // namespace ensonify
