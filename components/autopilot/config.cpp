@@ -1,0 +1,21 @@
+#include "components/autopilot/config.h"
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/own_vehicle.h"
+
+namespace ensonify {
+
+AutopilotConfig AutopilotConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+  AutopilotConfig config;
+  from.optional("command_rate_hz", config.command_rate_hz, 1, 100);
+  from.optional("lookahead_radii", config.lookahead_radii, 0.2, 20);
+  from.optional("turn_margin", config.turn_margin, 1, 10);
+  from.optional("turn_speed_fraction", config.turn_speed_fraction, 0.1, 1);
+  config.plan = MissionPlan::of(scenario, own_vehicle(from, scenario, process));
+  if (!config.plan.needs_chart() && scenario.mission.runlines.empty()) {
+    from.problem("", "the scenario's mission has no runline");
+  }
+  return config;
+}
+
+}  // namespace ensonify

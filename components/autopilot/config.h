@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "components/runtime/mission/auto_plan.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+struct AutopilotConfig {
+  int command_rate_hz = 10;
+  double lookahead_radii = 1.5;      // line-of-sight distance in turning radii; smaller steers harder
+  double turn_margin = 1.2;          // planned turns are this much wider than the vehicle's turning circle
+  double turn_speed_fraction = 1.0;  // speed in turns, of the mission's
+
+  // From the scenario.
+  MissionPlan plan;
+
+  static AutopilotConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  /// The parameters of its own, which default.yaml lists.
+  bool operator==(const AutopilotConfig& other) const {
+    return command_rate_hz == other.command_rate_hz && lookahead_radii == other.lookahead_radii &&
+           turn_margin == other.turn_margin && turn_speed_fraction == other.turn_speed_fraction;
+  }
+};
+
+}  // namespace ensonify
