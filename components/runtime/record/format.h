@@ -64,7 +64,6 @@ struct Channel {
   std::string type;           // message type such as "ping/1"
   std::string schema;         // JSON Schema of the type; empty for a type that only foreign programs know
   std::uint32_t rank = 0;     // of the publishing process in the launch file
-  std::uint32_t epoch = 0;    // reset counts epochs
   std::size_t max_bytes = 0;  // largest message body that the publisher declared; 0 if unknown
 };
 

@@ -163,7 +163,6 @@ void RecordReader::read_channel(ByteSource in) {
   const TextMap map = in.map();
   channel.type = text_in(map, "type");
   channel.rank = number_in<std::uint32_t>(map, "rank");
-  channel.epoch = number_in<std::uint32_t>(map, "epoch");
   channel.max_bytes = number_in<std::size_t>(map, "max_bytes");
   if (const auto found = schemas_.find(schema); found != schemas_.end()) channel.schema = found->second;
   channels_.emplace(channel.id, std::move(channel));

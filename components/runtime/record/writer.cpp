@@ -152,7 +152,6 @@ void RecordWriter::add_channel(const Channel& channel) {
   content.text(kMessageEncoding);
   content.map({{"type", channel.type},
                {"rank", std::to_string(channel.rank)},
-               {"epoch", std::to_string(channel.epoch)},
                {"max_bytes", std::to_string(channel.max_bytes)}});
   append_record(chunk_, Op::channel, content);
   append_record(channels_, Op::channel, content);
