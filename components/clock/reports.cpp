@@ -187,7 +187,8 @@ void Clock::on_request(const std::string& from, const std::string& kind, const s
   } else if (kind == "resume") {
     pacer_.resume(now);
   } else if (kind == "step" && request.value("ns", std::int64_t{0}) > 0) {
-    const SimTime from_here = pacer_.paused() ? std::max(pacer_.cap(now), SimTime{-1}) : reached - SimTime{1};
+    const SimTime stepped_to = pacer_.paused() ? pacer_.cap(now) : SimTime{-1};
+    const SimTime from_here = stepped_to >= SimTime{0} ? stepped_to : reached - SimTime{1};
     pacer_.step_to(from_here + SimTime{request["ns"].get<std::int64_t>()}, reached, now);
   } else if (kind == "rate" && request.value("rate", -1.0) >= 0.0) {
     const double rate = request["rate"];

@@ -1,0 +1,56 @@
+#include "components/clock/pacer.h"
+
+#include <catch2/catch.hpp>
+
+using namespace ensonify;
+using clock::Pacer;
+using clock::WallTime;
+using namespace std::chrono_literals;
+
+namespace {
+const WallTime kStart{100s};
+Pacer started(std::optional<double> rate) {
+  Pacer pacer(rate, 500_ms);
+  pacer.start(kStart);
+  return pacer;
+}
+}  // namespace
+
+TEST_CASE("the cap follows wall time at the rate") {
+  CHECK(started(1.0).cap(kStart + 2s) == 2_s);
+  CHECK(started(4.0).cap(kStart + 2s) == 8_s);
+  CHECK(started({}).cap(kStart) == kNever);
+}
+
+TEST_CASE("waiting until `when` is enough: the cap has then reached the event") {
+  for (const double rate : {0.3, 1.0, 4.0, 7.7}) {
+    const Pacer pacer = started(rate);
+    for (int n = 1; n < 1000; ++n) CHECK(pacer.cap(*pacer.when(event_time(n, {100, 1}))) >= event_time(n, {100, 1}));
+  }
+}
+
+TEST_CASE("lateness is how far paced time is ahead; beyond the limit the origin moves once") {
+  Pacer pacer = started(1.0);
+  CHECK(pacer.lateness(1_s, kStart + 1300ms) == 300_ms);
+  CHECK(pacer.slip(1_s, kStart + 1300ms) == 0_s);
+  CHECK(pacer.slip(1_s, kStart + 1700ms) == 700_ms);
+  CHECK(pacer.cap(kStart + 1700ms) == 1_s);
+  CHECK(pacer.slip(1_s, kStart + 1700ms) == 0_s);
+}
+
+TEST_CASE("a pause holds the cap, a step moves it, resuming goes on from there") {
+  Pacer pacer = started(1.0);
+  pacer.pause(2_s, kStart + 2s);
+  CHECK(pacer.cap(kStart + 9s) < 2_s);
+  CHECK_FALSE(pacer.when(3_s));
+  pacer.step_to(2100_ms, 2_s, kStart + 9s);
+  CHECK(pacer.cap(kStart + 20s) == 2100_ms);
+  pacer.resume(kStart + 30s);
+  CHECK(pacer.cap(kStart + 31s) == 3100_ms);
+}
+
+TEST_CASE("a change of rate goes on from where the run is") {
+  Pacer pacer = started(1.0);
+  pacer.set_rate(10.0, 2_s, kStart + 2s);
+  CHECK(pacer.cap(kStart + 3s) == 12_s);
+}

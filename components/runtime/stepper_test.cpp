@@ -1,0 +1,137 @@
+#include "components/runtime/stepper.h"
+
+#include <catch2/catch.hpp>
+
+#include "components/runtime/assert.h"
+#include "components/runtime/testing.h"
+#include "messages/motion.h"
+
+using namespace ensonify;
+
+namespace {
+
+msg::Guidance command_at(SimTime t, double speed_mps) { return {t.count(), 0.0, speed_mps}; }
+
+/// Notes what it was given at each event, steps at 10 Hz, repeats the last speed on its output.
+struct Listener {
+  struct Config {
+    SimTime delay{0};
+  };
+  Listener(const Config& config, Ports& ports)
+      : ports_(ports), echo(ports.out<msg::Guidance>("echo", {.rate = {10, 1}})), events({10, 1}) {
+    ports.in<msg::Guidance>("command", [this](const msg::Guidance& g) { heard.emplace_back(ports_.now(), g.speed_mps); },
+                            {.delay = config.delay});
+    ports.in_any("all", {"*"}, [this](const msg::Packet& p) { order.push_back(p.topic + "#" + std::to_string(p.envelope.seq)); });
+    ports.may_finish();
+  }
+  SimTime step(SimTime now) {
+    events.due(now);
+    if (!heard.empty()) echo.send(command_at(now, heard.back().second));
+    if (now == finish_at) ports_.finish();
+    return events.next();
+  }
+  Ports& ports_;
+  Ports::Out<msg::Guidance> echo;
+  Periodic events;
+  SimTime finish_at{-1};
+  std::vector<std::pair<SimTime, double>> heard;
+  std::vector<std::string> order;
+};
+
+}  // namespace
+
+TEST_CASE("an event sees exactly the messages stamped up to its time, however early they came") {
+  NodeUnderTest<Listener> listener({});
+  listener.give("command", command_at(0_s, 1.0), command_at(100_ms, 2.0), command_at(101_ms, 3.0));
+  listener.run_until(100_ms);
+  CHECK(listener.node().heard == std::vector<std::pair<SimTime, double>>{{0_s, 1.0}, {100_ms, 2.0}});
+  listener.run_until(200_ms);
+  CHECK(listener.node().heard.back() == std::pair<SimTime, double>{200_ms, 3.0});
+}
+
+TEST_CASE("a delayed input sees a message at the first event at or after its time plus the delay") {
+  NodeUnderTest<Listener> listener({.delay = 100_ms});
+  listener.give("command", command_at(0_s, 1.0), command_at(50_ms, 2.0));
+  listener.run_until(300_ms);
+  CHECK(listener.node().heard == std::vector<std::pair<SimTime, double>>{{100_ms, 1.0}, {200_ms, 2.0}});
+}
+
+TEST_CASE("messages of several topics come by time, then publisher, then topic, then seq") {
+  NodeUnderTest<Listener> listener({});
+  listener.connect_any("all", "b/y", "guidance/1");
+  listener.connect_any("all", "c/x", "guidance/1");
+  listener.give("c/x", command_at(0_s, 0.0), command_at(5_ms, 0.0), command_at(5_ms, 0.0));
+  listener.give("b/y", command_at(0_s, 0.0), command_at(3_ms, 0.0), command_at(5_ms, 0.0));
+  listener.run_until(100_ms);
+  CHECK(listener.node().order == std::vector<std::string>{"b/y#0", "c/x#0", "b/y#1", "b/y#2", "c/x#1", "c/x#2"});
+}
+
+TEST_CASE("a gap in a topic's sequence is data lost") {
+  NodeUnderTest<Listener> listener({});
+  msg::Packet packet;
+  packet.envelope.seq = 1;  // the first must be 0
+  Ports ports("p");
+  Stepper stepper(ports, [](SimTime) { return kNever; });
+  stepper.wire({{0, "a/b", 0, "guidance/1", "a", 0, SimTime{0}, 0}}, {}, {}, 1, 0, [](msg::Packet&&) {});
+  CHECK_THROWS_AS(stepper.insert(packet), DataLost);
+}
+
+TEST_CASE("a node that asks for the end stops there, whatever the horizon") {
+  NodeUnderTest<Listener> listener({});
+  listener.node().finish_at = 200_ms;
+  listener.run_until(5_s);
+  CHECK(listener.finished());
+  CHECK(listener.ports().now() == 200_ms);
+}
+
+TEST_CASE("published messages carry the event's time and count up per topic") {
+  NodeUnderTest<Listener> listener({});
+  listener.give("command", command_at(0_s, 4.0));
+  listener.run_until(200_ms);
+  const auto packets = listener.take("echo");
+  REQUIRE(packets.size() == 3);
+  CHECK(packets[2].envelope.seq == 2);
+  CHECK(packets[2].envelope.t_sim_ns == 200'000'000);
+  CHECK(packets[2].envelope.type_hash == msg::type_hash("guidance/1"));
+}
+
+namespace {
+struct Stuck {
+  struct Config {};
+  Stuck(const Config&, Ports&) {}
+  SimTime step(SimTime now) { return now; }
+};
+struct TooBig {
+  struct Config {};
+  TooBig(const Config&, Ports& ports) : out(ports.out<msg::Guidance>("out", {.max_bytes = 4})) {}
+  SimTime step(SimTime) {
+    out.send({});
+    return kNever;
+  }
+  Ports::Out<msg::Guidance> out;
+};
+}  // namespace
+
+TEST_CASE("an event that does not advance, or a message larger than declared, is a mistake of ours with its values") {
+  NodeUnderTest<Stuck> stuck({});
+  CHECK_THROWS_AS(stuck.run_until(1_s), AssertionError);
+  NodeUnderTest<TooBig> big({});
+  CHECK_THROWS_WITH(big.run_until(1_s), Catch::Contains("test/out") && Catch::Contains("declared at most 4"));
+}
+
+TEST_CASE("health goes out when it changes, at most once a second, with every count") {
+  struct Counting {
+    struct Config {};
+    Counting(const Config&, Ports& p) : ports(p) {}
+    SimTime step(SimTime now) {
+      ports.count("late_tile");
+      return now + 100_ms;
+    }
+    Ports& ports;
+  };
+  NodeUnderTest<Counting> node(Counting::Config{});
+  const auto health = node.step_until<msg::Health>("health", 2_s);
+  REQUIRE(health.size() == 3);
+  CHECK(health[1].stamp_ns == 1'000'000'000);
+  CHECK(health[1].counters.at(0).count == 11);
+}

@@ -1,0 +1,83 @@
+#include "components/runtime/wiring.h"
+
+#include <catch2/catch.hpp>
+
+using namespace ensonify;
+
+namespace {
+
+Declaration process(const std::string& name, std::vector<OutPort> outs, std::vector<InPort> ins) {
+  return {name, name, std::move(outs), std::move(ins), false};
+}
+OutPort out(const std::string& port, const std::string& type) { return {port, type, 4096, {10, 1}}; }
+InPort in(const std::string& port, const std::string& type, SimTime delay = SimTime{0}) { return {port, type, delay, false, {}, 0}; }
+
+std::string only_problem(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules = {}) {
+  const Graph graph = wire(processes, rules);
+  REQUIRE(graph.problems.size() == 1);
+  return graph.problems[0];
+}
+
+const std::vector<Declaration> kLoop = {process("auv", {out("pose", "pose/1")}, {in("command", "guidance/1", 100_ms)}),
+                                        process("pilot", {out("command", "guidance/1")}, {in("pose", "pose/1")})};
+
+}  // namespace
+
+TEST_CASE("an input finds the only publisher of its type") {
+  const Graph graph = wire(kLoop, {});
+  CHECK(graph.problems.empty());
+  REQUIRE(graph.edges.size() == 2);
+  CHECK(graph.topics[graph.edges[0].topic].name == "pilot/command");
+  CHECK(graph.edges[0].delay == 100_ms);
+}
+
+TEST_CASE("two publishers of a type must be told apart by a rule") {
+  auto processes = kLoop;
+  processes.push_back(process("agent", {out("command", "guidance/1")}, {}));
+  CHECK(only_problem(processes) ==
+        "auv.command: several publishers offer guidance/1 (pilot/command, agent/command); name one under wiring:");
+  CHECK(wire(processes, {{"auv.command", "agent/command", SimTime{-1}, "x.yaml:3:1"}}).problems.empty());
+}
+
+TEST_CASE("a misspelt topic or input is named with the nearest one") {
+  CHECK(only_problem(kLoop, {{"auv.command", "pilot/comand", SimTime{-1}, "x.yaml:3:1"}}) ==
+        "x.yaml:3:1: wiring.auv.command: no process publishes pilot/comand (did you mean pilot/command?)");
+  CHECK(only_problem(kLoop, {{"auv.comand", "pilot/command", SimTime{-1}, "x.yaml:3:1"}}) ==
+        "x.yaml:3:1: wiring.auv.comand: no process has this input (did you mean auv.command?)");
+}
+
+TEST_CASE("a wrong type, a missing publisher and a shortened delay are refused") {
+  CHECK(only_problem(kLoop, {{"auv.command", "auv/pose", SimTime{-1}, "x.yaml:3:1"}}) ==
+        "x.yaml:3:1: wiring.auv.command: auv/pose is pose/1, the input takes guidance/1");
+  CHECK(only_problem({process("head", {}, {in("pose", "pose/1")})}) == "head.pose: no publisher offers pose/1");
+  CHECK(only_problem(kLoop, {{"auv.command", "pilot/command", 50_ms, "x.yaml:3:1"}}) ==
+        "x.yaml:3:1: wiring.auv.command: delay_ms 50 is shorter than the port's 100; a launch file may only lengthen it");
+}
+
+TEST_CASE("another major version of a type is another type") {
+  CHECK(only_problem({process("auv", {out("pose", "pose/2")}, {}), process("head", {}, {in("pose", "pose/1")})}) ==
+        "head.pose: no publisher offers pose/1");
+}
+
+TEST_CASE("every cycle needs a delayed edge, and the one without is named") {
+  auto processes = kLoop;
+  processes[0].ins[0].delay = SimTime{0};
+  CHECK(only_problem(processes) ==
+        "wiring: auv -> pilot -> auv: a cycle without a delayed edge; give one of its inputs a delay_ms");
+  CHECK(wire(processes, {{"auv.command", "pilot/command", 20_ms, "x.yaml:3:1"}}).problems.empty());
+}
+
+TEST_CASE("a pattern takes every topic but its owner's, and a name that nobody publishes is refused") {
+  auto processes = kLoop;
+  processes.push_back({"recorder", "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false});
+  const Graph graph = wire(processes, {});
+  CHECK(graph.problems.empty());
+  CHECK(feeds_of(graph, processes, 2).size() == 2);
+  processes[2].ins[0].topics = {"auv/poze"};
+  CHECK(only_problem(processes) == "recorder.all: no process publishes auv/poze (did you mean auv/pose?)");
+}
+
+TEST_CASE("a sync queue holds two messages and a window of each topic") {
+  const Declaration p = process("auv", {{"pose", "pose/1", 4096, {100, 1}}, {"health", "health/1", 4096, {1, 1}}}, {});
+  CHECK(queue_length(p, 1_s) == 2 + 100 + 2 + 1);
+}
