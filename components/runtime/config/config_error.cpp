@@ -59,7 +59,7 @@ std::string ConfigProblem::text() const {
 }
 
 ConfigError::ConfigError(std::vector<ConfigProblem> problems)
-    : std::runtime_error(joined(sorted(problems))), problems_(sorted(std::move(problems))) {}
+    : UserError(joined(sorted(problems))), problems_(sorted(std::move(problems))) {}
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongestComparedName = 200;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "components/runtime/exit_error.h"
 
 namespace ensonify {
 
@@ -27,7 +28,7 @@ struct ConfigProblem {
 };
 
 /// Everything that is wrong with what the user wrote, sorted by place. what() is one line per problem. Exit code 2.
-class ConfigError : public std::runtime_error {
+class ConfigError : public UserError {
  public:
   explicit ConfigError(std::vector<ConfigProblem> problems);
 

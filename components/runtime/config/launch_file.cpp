@@ -32,7 +32,7 @@ ClockSettings read_clock(ConfigReader from) {
     from.required("rate", value, 1e-3, 1e6);
     clock.rate = value;
   }
-  from.optional("window_s", clock.window_s, 0.01, 100);
+  from.optional("window_s", clock.window_s, 0.01, 5.0);
   from.optional("slip_after_s", clock.slip_after_s, 0.0, 1000);
   from.optional_choice("slip_policy", clock.slip_policy,
                        {{"count", ClockSettings::SlipPolicy::kCount}, {"fail", ClockSettings::SlipPolicy::kFail}});

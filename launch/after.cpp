@@ -1,0 +1,58 @@
+#include "launch/after.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "launch/child.h"
+#include "launch/signals.h"
+
+namespace ensonify::launcher {
+namespace {
+
+int run_step(const Command& command, Signals& signals) {
+  Child child(command);
+  bool interrupted = false;
+  while (child.running()) {
+    signals.wait(std::chrono::milliseconds(-1));
+    if (signals.take().interrupts > 0) {
+      child.send(interrupted ? SIGKILL : SIGTERM);
+      interrupted = true;
+    }
+    while (const auto reaped = reap()) {
+      if (reaped->pid == child.pid()) {
+        child.ended(reaped->wait_status, reaped->max_rss_kib, reaped->cpu_s);
+      }
+    }
+  }
+  if (interrupted) {
+    return kExitInterrupted;
+  }
+  const Ending ending = *child.ending();
+  const bool ours = ending.signal == 0 && ending.exit_code <= kExitDiffer;
+  return ours ? ending.exit_code : int{kExitDied};
+}
+
+}  // namespace
+
+int run_after(const Launch& launch, const RunPlaces& places) {
+  std::vector<Command> commands;
+  for (const auto& step : launch.after) {
+    commands.push_back(after_command(step, places));
+  }
+  Signals signals;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (const int code = run_step(commands[i], signals); code != kExitOk) {
+      std::string words;
+      for (const auto& word : launch.after[i]) {
+        words += (words.empty() ? "" : " ") + word;
+      }
+      fmt::print(stderr, "ensonify run: after: `{}` ended with exit code {}\n", words, code);
+      return code;
+    }
+  }
+  return kExitOk;
+}
+
+}  // namespace ensonify::launcher

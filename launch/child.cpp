@@ -1,0 +1,194 @@
+#include "launch/child.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <fstream>
+
+#include "components/runtime/exit_error.h"
+
+extern char** environ;
+
+namespace ensonify::launcher {
+namespace {
+
+std::vector<std::string> environment(const std::map<std::string, std::string>& added) {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    if (added.count(text.substr(0, text.find('='))) == 0) {
+      all.push_back(text);
+    }
+  }
+  for (const auto& [name, value] : added) {
+    all.push_back(name + "=" + value);
+  }
+  return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (auto& text : texts) {
+    all.push_back(text.data());
+  }
+  all.push_back(nullptr);
+  return all;
+}
+
+/// What the new process does before it becomes the program. Other threads of ours may have held locks when we forked,
+/// so only system calls are allowed here. Gives back errno when a step failed.
+int become(const std::vector<char*>& argv, const std::vector<char*>& env, const cpu_set_t* cpus, int log_fd,
+           int keep_fd, pid_t parent) {
+  ::setpgid(0, 0);
+  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0) {
+    return errno;
+  }
+  if (::getppid() != parent) {  // it died before the line above
+    return ESRCH;
+  }
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+  if (cpus != nullptr && ::sched_setaffinity(0, sizeof *cpus, cpus) != 0) {
+    return errno;
+  }
+  if (log_fd >= 0 && (::dup2(log_fd, STDOUT_FILENO) < 0 || ::dup2(log_fd, STDERR_FILENO) < 0)) {
+    return errno;
+  }
+  if (keep_fd >= 0) {
+    ::fcntl(keep_fd, F_SETFD, 0);
+  }
+  ::execve(argv[0], argv.data(), env.data());
+  return errno;
+}
+
+/// The read end tells errno of a child that could not become its program; exec closes it silently.
+int wait_for_exec(int read_fd) {
+  int error = 0;
+  ssize_t got = 0;
+  do {
+    got = ::read(read_fd, &error, sizeof error);
+  } while (got < 0 && errno == EINTR);
+  return got == static_cast<ssize_t>(sizeof error) ? error : 0;
+}
+
+}  // namespace
+
+std::string find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    return ::access(name.c_str(), X_OK) == 0 ? name : "";
+  }
+  const char* path = std::getenv("PATH");
+  std::string rest = path != nullptr ? path : "/usr/bin:/bin";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    const std::string candidate = rest.substr(0, colon) + "/" + name;
+    if (::access(candidate.c_str(), X_OK) == 0) {
+      return candidate;
+    }
+    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+  }
+  return "";
+}
+
+Child::Child(const Command& command) {
+  std::vector<std::string> argv_texts = command.argv;
+  std::vector<std::string> env_texts = environment(command.env);
+  const std::vector<char*> argv = pointers(argv_texts);
+  const std::vector<char*> env = pointers(env_texts);
+  cpu_set_t cpus;
+  CPU_ZERO(&cpus);
+  for (const int cpu : command.cpus) {
+    CPU_SET(static_cast<std::size_t>(cpu), &cpus);
+  }
+  int log_fd = -1;
+  if (!command.log_file.empty()) {
+    log_fd = ::open(command.log_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (log_fd < 0) {
+      throw UserError(command.log_file + ": cannot be written: " + std::strerror(errno));
+    }
+  }
+  int pipe_fds[2];
+  if (::pipe2(pipe_fds, O_CLOEXEC) != 0) {
+    throw UserError(command.argv[0] + ": cannot be started: " + std::strerror(errno));
+  }
+  const pid_t parent = ::getpid();
+  pid_ = ::fork();
+  if (pid_ == 0) {
+    const int error = become(argv, env, command.cpus.empty() ? nullptr : &cpus, log_fd, command.keep_fd, parent);
+    [[maybe_unused]] const ssize_t written = ::write(pipe_fds[1], &error, sizeof error);
+    ::_exit(kExitDied);
+  }
+  const int fork_error = errno;
+  ::close(pipe_fds[1]);
+  if (log_fd >= 0) {
+    ::close(log_fd);
+  }
+  const int error = pid_ < 0 ? fork_error : wait_for_exec(pipe_fds[0]);
+  ::close(pipe_fds[0]);
+  if (error != 0) {
+    if (pid_ > 0) {
+      ::waitpid(pid_, nullptr, 0);
+    }
+    throw UserError(command.argv[0] + ": cannot be started: " + std::strerror(error));
+  }
+  ::setpgid(pid_, pid_);  // the child does it too; whoever comes first
+}
+
+void Child::send(int signal) const {
+  if (running()) {
+    ::kill(-pid_, signal);
+  }
+}
+
+void Child::ended(int wait_status, long max_rss_kib, double cpu_s) {
+  ending_ = WIFSIGNALED(wait_status) ? Ending{0, WTERMSIG(wait_status)} : Ending{WEXITSTATUS(wait_status), 0};
+  max_rss_kib_ = max_rss_kib;
+  cpu_s_ = cpu_s;
+}
+
+std::optional<Reaped> reap() {
+  siginfo_t info{};
+  if (::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0) {
+    return std::nullopt;
+  }
+  // Whatever it has started and left in its group goes with it, while its number cannot be anybody else's yet.
+  ::kill(-info.si_pid, SIGKILL);
+  Reaped reaped;
+  rusage usage{};
+  reaped.pid = ::wait4(info.si_pid, &reaped.wait_status, 0, &usage);
+  const auto in_s = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  reaped.max_rss_kib = usage.ru_maxrss;
+  reaped.cpu_s = in_s(usage.ru_utime) + in_s(usage.ru_stime);
+  return reaped;
+}
+
+std::string tail(const std::string& file, int lines) {
+  std::ifstream stream(file);
+  std::deque<std::string> last;
+  for (std::string line; std::getline(stream, line);) {
+    last.push_back(line);
+    if (last.size() > static_cast<std::size_t>(lines)) {
+      last.pop_front();
+    }
+  }
+  std::string text;
+  for (const auto& line : last) {
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
+}
+
+}  // namespace ensonify::launcher

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launch/verdict.h"
+
+namespace ensonify::launcher {
+
+/// What to start.
+struct Command {
+  std::vector<std::string> argv;           // argv[0] is the path of the program
+  std::map<std::string, std::string> env;  // added to our own environment
+  std::vector<int> cpus;                   // empty: any
+  std::string log_file;                    // standard output and error; "": ours
+  int keep_fd = -1;                        // a descriptor that the child inherits
+};
+
+/// The path of a program as a shell would find it ("" when there is none).
+std::string find_program(const std::string& name);
+
+/// A process of its own process group that is sent SIGTERM when we die.
+class Child {
+ public:
+  /// Throws UserError when it cannot be started.
+  explicit Child(const Command& command);
+
+  pid_t pid() const { return pid_; }
+  /// To its whole group. Nothing when it has ended.
+  void send(int signal) const;
+
+  /// Called with what wait4 said.
+  void ended(int wait_status, long max_rss_kib, double cpu_s);
+  bool running() const { return !ending_.has_value(); }
+  const std::optional<Ending>& ending() const { return ending_; }
+  long max_rss_kib() const { return max_rss_kib_; }
+  double cpu_s() const { return cpu_s_; }
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<Ending> ending_;
+  long max_rss_kib_ = 0;
+  double cpu_s_ = 0.0;
+};
+
+/// A child that has ended since the last call, or nothing. What was left of its process group is killed.
+struct Reaped {
+  pid_t pid = -1;
+  int wait_status = 0;
+  long max_rss_kib = 0;
+  double cpu_s = 0.0;
+};
+std::optional<Reaped> reap();
+
+/// The last `lines` lines of a text file, without the line end of the last; "" when it cannot be read.
+std::string tail(const std::string& file, int lines);
+
+}  // namespace ensonify::launcher

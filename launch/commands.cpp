@@ -1,0 +1,111 @@
+#include "launch/commands.h"
+
+#include <sched.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "components/runtime/config/data_paths.h"
+#include "components/runtime/exit_error.h"
+
+namespace ensonify::launcher {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string log_file(const RunPlaces& places, const std::string& name) { return places.out + "/log/" + name + ".log"; }
+
+Command native(const std::string& program, const Launch& launch, const RunPlaces& places) {
+  Command command;
+  command.argv = {places.program_folder + "/ensonify-" + program};
+  const auto arguments = to_arguments(launch.options);
+  command.argv.insert(command.argv.end(), arguments.begin(), arguments.end());
+  command.argv.insert(command.argv.end(), {"--run-dir", places.run_dir});
+  return command;
+}
+
+/// `python3` from PATH; `examples/agent.py` from the working folder, the launch file's or the project's.
+std::string resolved(const std::string& word, const Launch& launch) {
+  std::error_code error;
+  if (word.find('/') == std::string::npos || fs::exists(word, error)) {
+    return word;
+  }
+  const std::string found = find_data(word, {fs::path(launch.file).parent_path().string()});
+  return found.empty() ? word : found;
+}
+
+/// Our Python client, importable without being installed.
+std::string python_path() {
+  const char* given = std::getenv("PYTHONPATH");
+  std::string path = given != nullptr ? given : "";
+  const std::string client = find_data("clients/python", {});
+  return client.empty() ? path : client + (path.empty() ? "" : ":" + path);
+}
+
+void check_cpus(const ProcessSpec& process) {
+  cpu_set_t available;
+  CPU_ZERO(&available);
+  ::sched_getaffinity(0, sizeof available, &available);
+  for (const int cpu : process.cpus) {
+    if (cpu >= CPU_SETSIZE || !CPU_ISSET(static_cast<std::size_t>(cpu), &available)) {
+      throw ConfigError({{process.place, "processes." + process.name + ".cpus",
+                          "CPU " + std::to_string(cpu) + " is not available to this launcher"}});
+    }
+  }
+}
+
+}  // namespace
+
+Command clock_command(const Launch& launch, const RunPlaces& places) {
+  Command command = native("clock", launch, places);
+  command.log_file = log_file(places, "clock");
+  return command;
+}
+
+Command process_command(const Launch& launch, const ProcessSpec& process, const RunPlaces& places,
+                        const std::string& clock_endpoint) {
+  Command command;
+  if (process.argv.empty()) {
+    command = native(process.component, launch, places);
+    command.argv.insert(command.argv.end(), {"--name", process.name});
+  } else {
+    for (const auto& word : process.argv) {
+      command.argv.push_back(resolved(word, launch));
+    }
+    command.argv[0] = find_program(command.argv[0]);
+    command.env = {{"ENSONIFY_CLOCK", clock_endpoint},
+                   {"ENSONIFY_NAME", process.name},
+                   {"ENSONIFY_RUN_DIR", places.run_dir},
+                   {"ENSONIFY_OUT", places.out},
+                   {"ENSONIFY_CONFIG", to_json(process.config.root)},
+                   {"PYTHONPATH", python_path()},
+                   {"PYTHONUNBUFFERED", "1"}};
+  }
+  if (command.argv[0].empty() || find_program(command.argv[0]).empty()) {
+    const std::string program = process.argv.empty() ? "ensonify-" + process.component : process.argv[0];
+    throw ConfigError({{process.place, "processes." + process.name + ".run",
+                        "there is no program " + program +
+                            (process.argv.empty() ? " beside ensonify-run (is the component misspelt?)" : "")}});
+  }
+  for (const auto& [name, value] : process.env) {
+    command.env[name] = value;
+  }
+  check_cpus(process);
+  command.log_file = log_file(places, process.name);
+  command.cpus = process.cpus;
+  return command;
+}
+
+Command after_command(const std::vector<std::string>& words, const RunPlaces& places) {
+  Command command;
+  command.argv = words;
+  const bool ours = words[0] == "ensonify" || words[0].starts_with("ensonify-");
+  command.argv[0] = find_program(ours ? places.program_folder + "/" + words[0] : words[0]);
+  if (command.argv[0].empty()) {
+    throw UserError("after: there is no program " + words[0]);
+  }
+  command.env = {{"ENSONIFY_OUT", places.out}, {"PYTHONPATH", python_path()}};
+  return command;
+}
+
+}  // namespace ensonify::launcher

@@ -1,0 +1,100 @@
+// ensonify: executes ensonify-X found beside itself.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/config/data_paths.h"
+#include "components/runtime/exit_error.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace ensonify;
+
+const std::string kPrefix = "ensonify-";
+
+/// Verbs are the programs beside this one; the processes of a run are programs too, but nobody types them.
+struct Programs {
+  std::vector<std::string> verbs;
+  std::vector<std::string> processes;
+};
+
+const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
+    {"run", "start the processes of a launch file and watch over them"},
+    {"check", "check a launch file, its configurations and its wiring without running it"},
+    {"topic", "list, info, echo, hz and bw of the topics of a live run"},
+    {"graph", "draw who talks to whom"},
+    {"clock", "status, pause, resume, step and rate of a live run"},
+    {"replay", "feed a record back"},
+    {"compare", "say where two records differ"},
+    {"describe", "a component's parameters, ports and messages"},
+    {"doctor", "look for what is wrong with this machine or installation"},
+    {"plot", "pictures and summary of a survey"},
+    {"terrain", "import, make and show terrain"},
+};
+
+Programs programs_in(const std::string& folder) {
+  Programs programs;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kPrefix) || ::access(entry.path().c_str(), X_OK) != 0) {
+      continue;
+    }
+    const std::string verb = name.substr(kPrefix.size());
+    const bool known =
+        std::any_of(kKnownVerbs.begin(), kKnownVerbs.end(), [&](const auto& v) { return v.first == verb; });
+    (known ? programs.verbs : programs.processes).push_back(verb);
+  }
+  std::sort(programs.processes.begin(), programs.processes.end());
+  return programs;
+}
+
+void print_usage(const Programs& programs, std::FILE* to) {
+  fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help tells more)\n\n");
+  for (const auto& [verb, what] : kKnownVerbs) {
+    if (std::find(programs.verbs.begin(), programs.verbs.end(), verb) != programs.verbs.end()) {
+      fmt::print(to, "  {:<10} {}\n", verb, what);
+    }
+  }
+  if (!programs.processes.empty()) {
+    fmt::print(to, "\nProcesses of a launch file: {}\n", fmt::join(programs.processes, ", "));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string folder = program_folder();
+  const Programs programs = programs_in(folder);
+  const std::string verb = argc > 1 ? argv[1] : "";
+  if (verb == "--help" || verb == "-h" || verb == "help") {
+    print_usage(programs, stdout);
+    return kExitOk;
+  }
+  if (verb == "--version") {
+    fmt::print("ensonify {}\n", ENSONIFY_VERSION);
+    return kExitOk;
+  }
+  if (verb.empty()) {
+    print_usage(programs, stderr);
+    return kExitUserError;
+  }
+  const std::string program = folder + "/" + kPrefix + verb;
+  if (verb.find('/') == std::string::npos) {
+    argv[1] = const_cast<char*>(program.c_str());
+    ::execv(program.c_str(), argv + 1);
+  }
+  std::vector<std::string> all = programs.verbs;
+  all.insert(all.end(), programs.processes.begin(), programs.processes.end());
+  const std::string nearest = nearest_name(verb, all);
+  fmt::print(stderr, "ensonify: there is no {}{}\n\n", verb, nearest.empty() ? "" : "; did you mean " + nearest + "?");
+  print_usage(programs, stderr);
+  return kExitUserError;
+}

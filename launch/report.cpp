@@ -1,0 +1,120 @@
+#include "launch/report.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace ensonify::launcher {
+namespace {
+
+std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\n': out += "&#10;"; break;
+      default: out += byte < 0x20 && c != '\t' ? '?' : c;  // XML has no other control characters
+    }
+  }
+  return out;
+}
+
+std::string test_case(const std::string& suite, const std::string& name, double time_s, const std::string& failure) {
+  const std::string head =
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", suite, xml_text(name), time_s);
+  return failure.empty()
+             ? head + "/>\n"
+             : head + fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", xml_text(failure));
+}
+
+std::string test_suite(const std::string& name, std::size_t tests, std::size_t failures, const std::string& cases) {
+  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n", name, tests,
+                     failures, cases);
+}
+
+}  // namespace
+
+std::vector<Expectation> read_expectations(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    return {};
+  }
+  try {
+    std::vector<Expectation> expectations;
+    for (const auto& item : nlohmann::json::parse(stream)) {
+      expectations.push_back({item.at("name"), item.at("ok"), item.value("t_s", 0.0), item.value("message", "")});
+    }
+    return expectations;
+  } catch (const nlohmann::json::exception& error) {
+    throw ExitError(kExitDied, file + ": is not what expect writes: " + error.what());
+  }
+}
+
+std::string junit_xml(const RunReport& report) {
+  std::string expectations, processes;
+  std::size_t failed = 0, died = 0;
+  for (const auto& item : report.expectations) {
+    failed += item.ok ? 0 : 1;
+    expectations += test_case("expect", item.name, item.t_s,
+                              item.ok                ? ""
+                              : item.message.empty() ? "not fulfilled"
+                                                     : item.message);
+  }
+  for (const auto& process : report.processes) {
+    died += process.fault ? 1 : 0;
+    processes += test_case("process", process.name, process.cpu_s, process.fault ? process.fault->message : "");
+  }
+  if (report.cause) {  // also what no single process did, such as Ctrl-C
+    ++died;
+    processes += test_case("run", "run", report.wall_s, report.cause->culprit + " " + report.cause->message);
+  }
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" +
+         test_suite("expect", report.expectations.size(), failed, expectations) +
+         test_suite("processes", report.processes.size() + (report.cause ? 1 : 0), died, processes) + "</testsuites>\n";
+}
+
+std::string json_text(const RunReport& report) {
+  using nlohmann::json;
+  json processes = json::array();
+  for (const auto& process : report.processes) {
+    json item{{"name", process.name}, {"state", process.state}};
+    if (process.ending) {
+      item["exit_code"] = process.ending->signal == 0 ? json(process.ending->exit_code) : json(nullptr);
+      item["signal"] = process.ending->signal == 0 ? json(nullptr) : json(process.ending->signal);
+      item["max_rss_kib"] = process.max_rss_kib;
+      item["cpu_s"] = process.cpu_s;
+    }
+    processes.push_back(std::move(item));
+  }
+  json expectations = json::array();
+  for (const auto& item : report.expectations) {
+    expectations.push_back({{"name", item.name}, {"ok", item.ok}, {"t_s", item.t_s}, {"message", item.message}});
+  }
+  json out{{"exit_code", report.code},
+           {"culprit", report.cause ? json(report.cause->culprit) : json(nullptr)},
+           {"message", report.cause ? json(report.cause->message) : json(nullptr)},
+           {"sim_s", report.sim_s},
+           {"wall_s", report.wall_s},
+           {"real_time_factor", report.wall_s > 0.0 ? report.sim_s / report.wall_s : 0.0},
+           {"processes", processes},
+           {"expect", expectations}};
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+void write_text(const std::string& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw DataLost(file + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+}  // namespace ensonify::launcher

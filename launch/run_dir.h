@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+namespace ensonify::launcher {
+
+/// A private folder (mode 0700) for one run's sockets: `$XDG_RUNTIME_DIR/ensonify/<id>`, or `/tmp/ensonify-<uid>/<id>`
+/// when that variable is unset or its path leaves too little of a socket path's 107 bytes.
+///
+/// While a run lives, somebody holds a flock on `<folder>/lock`. Making a new one removes the folders of dead runs,
+/// those whose lock is free; so two runs at once never see each other.
+class RunDir {
+ public:
+  /// Throws UserError when no safe folder can be made.
+  RunDir();
+  /// Removes the folder.
+  ~RunDir();
+  RunDir(const RunDir&) = delete;
+  RunDir& operator=(const RunDir&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  /// Descriptor of the lock, for a child that shall keep the run alive when we die.
+  int lock_fd() const { return lock_fd_; }
+
+ private:
+  std::string path_;
+  int lock_fd_ = -1;
+};
+
+/// The folder that holds all runs of this user, made when it is missing. Throws UserError.
+std::string runs_folder();
+
+/// Removes the folders of runs that nobody holds any more; returns how many. The caller need not lock anything.
+int remove_dead_runs(const std::string& folder);
+
+}  // namespace ensonify::launcher

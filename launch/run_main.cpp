@@ -1,0 +1,150 @@
+// ensonify-run: starts, supervises and ends the processes of a launch file.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <set>
+
+#include "components/runtime/config/data_paths.h"
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/exit_error.h"
+#include "launch/after.h"
+#include "launch/supervisor.h"
+
+namespace {
+
+using namespace ensonify;
+using namespace ensonify::launcher;
+
+struct Options {
+  LaunchOptions launch;
+  double rate = 0.0;
+  bool free = false;
+  bool in_process = false;
+  bool json = false;
+  bool quiet = false;
+  std::string junit;
+};
+
+void declare(CLI::App& app, Options& options) {
+  add_options(app, options.launch, true);
+  auto* rate = app.add_option("--rate", options.rate, "sim seconds per wall second (default: as the launch file says)")
+                   ->check(CLI::Range(1e-3, 1e6));
+  app.add_flag("--free", options.free, "run as fast as possible")->excludes(rate);
+  app.add_flag("--in-process", options.in_process, "run everything in one process, one thread (debugging, sanitizers)");
+  app.add_option("--junit", options.junit, "write expectations and process endings as JUnit XML to this file");
+  app.add_flag("--json", options.json, "print the result as JSON on standard output");
+  app.add_flag("--quiet,-q", options.quiet, "no progress, no summary");
+  app.footer(
+      "Exit codes: 0 all well, 1 an expectation failed, 2 files or arguments are wrong, 3 a process died, 4 stall,\n"
+      "5 data lost, 6 runs differ, 130 after Ctrl-C. Logs: <out>/log. Result: <out>/run.json.");
+}
+
+[[noreturn]] void become_local(const Options& options) {
+  std::vector<std::string> words{program_folder() + "/ensonify-local"};
+  for (auto& word : to_arguments(options.launch)) {
+    words.push_back(std::move(word));
+  }
+  std::vector<char*> argv;
+  for (auto& word : words) {
+    argv.push_back(word.data());
+  }
+  argv.push_back(nullptr);
+  ::execv(argv[0], argv.data());
+  throw UserError(words[0] + ": cannot be started");
+}
+
+/// What the user has to read: the words of those who refused their files, or the last lines of the culprit's log.
+void explain(const RunReport& report, const std::string& out) {
+  if (!report.cause || report.code == kExitInterrupted) {
+    return;
+  }
+  const Fault& cause = *report.cause;
+  if (cause.code == kExitUserError) {
+    std::set<std::string> shown;
+    for (const auto& process : report.processes) {
+      const std::string text = tail(out + "/log/" + process.name + ".log", 50);
+      if (process.fault && process.fault->code == kExitUserError && !text.empty() && shown.insert(text).second) {
+        fmt::print(stderr, "{}\n", text);
+      }
+    }
+  } else if (cause.code == kExitAssertionFailed) {
+    for (const auto& item : report.expectations) {
+      if (!item.ok) {
+        fmt::print(stderr, "failed: {}: {} (t={:.3f} s)\n", item.name, item.message, item.t_s);
+      }
+    }
+  } else if (!cause.culprit.empty()) {
+    const std::string log = out + "/log/" + cause.culprit + ".log";
+    if (const std::string text = tail(log, 10); !text.empty()) {
+      fmt::print(stderr, "{}, last lines:\n{}\n", log, text);
+    }
+  }
+  fmt::print(stderr, "ensonify run: {}{}{}; t={:.3f} s; exit code {}\n", cause.culprit,
+             cause.culprit.empty() ? "" : " ", cause.message, report.sim_s, report.code);
+}
+
+void summarize(const RunReport& report, const std::string& out) {
+  fmt::print(stderr, "ensonify run: {:.1f} s of sim time in {:.1f} s ({:.1f}x real time); results in {}\n",
+             report.sim_s, report.wall_s, report.wall_s > 0 ? report.sim_s / report.wall_s : 0.0, out);
+  for (const auto& item : report.expectations) {
+    fmt::print(stderr, "{}: {}\n", item.ok ? "ok" : "failed", item.name);
+  }
+}
+
+int run(Options& options) {
+  if (options.free) {
+    options.launch.sets.emplace_back("clock.rate=free");
+  } else if (options.rate > 0.0) {
+    options.launch.sets.push_back(fmt::format("clock.rate={}", options.rate));
+  }
+  if (options.in_process) {
+    become_local(options);
+  }
+  const Launch launch = read_launch(options.launch);
+  const std::string& out = options.launch.out;
+  RunReport report;
+  {
+    Supervisor supervisor(launch, program_folder(), options.quiet || options.json);
+    report = supervisor.run();
+  }
+  write_text(out + "/run.json", json_text(report));
+  if (!options.junit.empty()) {
+    write_text(options.junit, junit_xml(report));
+  }
+  explain(report, out);
+  if (report.code == kExitOk) {
+    if (!options.quiet) {
+      summarize(report, out);
+    }
+    report.code = run_after(launch, {program_folder(), "", out});
+  }
+  if (options.json) {
+    fmt::print("{}", json_text(report));
+  }
+  return report.code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("ensonify run: starts the processes of a launch file, watches over them and says how it went.");
+  app.name("ensonify run");
+  Options options;
+  declare(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitOk : kExitUserError;
+  }
+  try {
+    return run(options);
+  } catch (const ExitError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return error.code;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ensonify run: {}\n", error.what());
+    return kExitDied;
+  }
+}

@@ -1,0 +1,358 @@
+#include "launch/supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace ensonify::launcher {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kAskEvery{200};
+constexpr milliseconds kAnswerPatience{50};
+constexpr milliseconds kSettle{50};             // deaths noticed together are judged together
+constexpr milliseconds kSettleUserErrors{300};  // so that the mistakes in several configurations are shown at once
+constexpr milliseconds kGraceAfterStop{5000};   // an orderly end after Ctrl-C
+constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death
+constexpr milliseconds kGraceToLeave{10000};    // after the clock's end, e.g. a recorder that writes its index
+constexpr milliseconds kLeftTooEarly{2000};
+constexpr milliseconds kRespawnAfter{1000};
+
+double elapsed_s(steady_clock::time_point from, steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw UserError(folder + ": cannot be made: " + error.message() + "; choose another folder with --out");
+  }
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(const Launch& launch, const std::string& program_folder, bool quiet)
+    : launch_(launch),
+      guard_(run_dir_.path()),
+      places_{program_folder, run_dir_.path(), launch.options.out},
+      progress_(quiet, expected_duration_s(launch)) {}
+
+RunReport Supervisor::run() {
+  began_ = steady_clock::now();
+  make_folder(places_.out + "/log");
+  std::error_code ignored;
+  for (const char* stale : {"/expect.json", "/clock.json", "/run.json"}) {
+    std::filesystem::remove(places_.out + stale, ignored);
+  }
+  members_.push_back({.name = "clock"});
+  for (const auto& process : launch_.processes) {
+    members_.push_back({.name = process.name, .spec = &process});
+  }
+  // All programs are known before the first starts.
+  for (const auto& process : launch_.processes) {
+    if (!process.external) {
+      process_command(launch_, process, places_, "");
+    }
+  }
+  try {
+    start_clock();
+    if (!clock_endpoint_.empty()) {
+      start_members();
+    }
+    supervise();
+  } catch (...) {
+    send_all(SIGKILL);
+    throw;
+  }
+  progress_.finish();
+  return report();
+}
+
+void Supervisor::start(Member& member, const Command& command) {
+  member.child.emplace(command);
+  member.state = "STARTING";
+  guard_.watch(member.child->pid());
+}
+
+void Supervisor::start_clock() {
+  FileWatch watch(places_.run_dir);
+  start(clock(), clock_command(launch_, places_));
+  const std::string file = run_dir_.file("clock.endpoint");
+  const auto until = began_ + std::chrono::duration_cast<steady_clock::duration>(
+                                  std::chrono::duration<double>(launch_.clock.connect_timeout_s));
+  while (clock().child->running() && interrupts_ == 0) {
+    if (std::ifstream stream(file); stream) {
+      std::getline(stream, clock_endpoint_);
+      asker_ = std::make_unique<bus::Asker>(clock_endpoint_);
+      last_answer_ = steady_clock::now();
+      return;
+    }
+    const auto now = steady_clock::now();
+    if (now >= until) {
+      noticed_.push_back(
+          {kExitStall, "clock", fmt::format("did not start within {} s", launch_.clock.connect_timeout_s)});
+      judge_at_ = now;
+      return;
+    }
+    watch.wait(signals_, std::chrono::ceil<milliseconds>(until - now));
+    take_signals();
+  }
+}
+
+void Supervisor::start_members() {
+  for (auto& member : members_) {
+    if (member.spec != nullptr && !member.spec->external) {
+      start(member, process_command(launch_, *member.spec, places_, clock_endpoint_));
+    }
+  }
+}
+
+void Supervisor::supervise() {
+  while (anything_runs() || !noticed_.empty()) {
+    signals_.wait(noticed_.empty() ? milliseconds(50) : milliseconds(10));
+    take_signals();
+    on_time(steady_clock::now());
+  }
+}
+
+void Supervisor::take_signals() {
+  const auto arrived = signals_.take();
+  while (const auto reaped = reap()) {
+    on_ended(*reaped);
+  }
+  if (arrived.interrupts == 0) {
+    return;
+  }
+  const auto now = steady_clock::now();
+  interrupts_ += arrived.interrupts;
+  verdict_.interrupted();
+  if (interrupts_ == 1 && asker_ && clock().child->running()) {
+    progress_.finish();
+    fmt::print(stderr, "ensonify run: stopping in order; press Ctrl-C again to stop at once\n");
+    asker_->ask(R"({"kind":"stop"})", kAnswerPatience);
+    begin(Ending::kAsked, now, kGraceAfterStop);
+  } else {
+    begin(Ending::kTerminated, now, kGraceAfterFault);
+  }
+}
+
+void Supervisor::on_ended(const Reaped& reaped) {
+  const auto found = std::find_if(members_.begin(), members_.end(), [&](const Member& m) {
+    return m.child && m.child->running() && m.child->pid() == reaped.pid;
+  });
+  if (found == members_.end()) {
+    return;  // the guard
+  }
+  Member& member = *found;
+  const auto now = steady_clock::now();
+  member.child->ended(reaped.wait_status, reaped.max_rss_kib, reaped.cpu_s);
+  guard_.forget(reaped.pid);
+  if (member.spec == nullptr) {
+    on_clock_ended(member);
+    return;
+  }
+  const bool native = member.spec->argv.empty();
+  auto fault = fault_of(member.name, native, *member.child->ending());
+  const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
+  member.state = fault ? "FAILED" : "DONE";
+  if (!fault) {
+    member.left_at = now;
+  } else if (fault->code == kExitAssertionFailed) {
+    member.fault = fault;
+    verdict_.assertion_failed(fault->message);
+  } else if (member.spec->observer) {
+    if (member.spec->respawn && ending_ == Ending::kNo && clock().child->running()) {
+      member.respawn_at = now + kRespawnAfter;
+    }
+  } else if (!by_us) {
+    member.fault = fault;
+    noticed_.push_back(*fault);
+    judge_at_ = now + (fault->code == kExitUserError ? kSettleUserErrors : kSettle);
+  }
+}
+
+/// The clock knows more than its exit code: it wrote down who is to blame.
+void Supervisor::on_clock_ended(Member& member) {
+  auto fault = fault_of("clock", true, *member.child->ending());
+  member.state = fault ? "FAILED" : "DONE";
+  const auto now = steady_clock::now();
+  const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
+  std::ifstream stream(places_.out + "/clock.json");
+  const auto told = nlohmann::json::parse(stream, nullptr, false);
+  if (told.is_object()) {
+    sim_s_ = told.value("sim_s", sim_s_);
+    if (fault && told.value("exit_code", 0) == fault->code) {
+      const std::string message = told.value("message", "");
+      fault->culprit = told.value("culprit", "").empty() ? fault->culprit : told.value("culprit", "");
+      fault->message = message.empty() ? fault->message : message;
+    }
+  }
+  if (fault && !by_us && fault->code != kExitInterrupted) {
+    member.fault = fault;
+    noticed_.push_back(*fault);
+    judge_at_ = now + kSettle;
+  } else if (ending_ == Ending::kNo || ending_ == Ending::kAsked) {
+    begin(Ending::kAsked, now, kGraceToLeave);
+    for (auto& other : members_) {  // observers have nothing left to see
+      if (other.child && other.spec != nullptr && other.spec->observer) {
+        other.child->send(SIGTERM);
+      }
+    }
+  }
+}
+
+void Supervisor::judge() {
+  verdict_.fault(most_telling(noticed_));
+  noticed_.clear();
+}
+
+void Supervisor::begin(Ending ending, WallTime now, milliseconds grace) {
+  if (ending < ending_) {
+    return;
+  }
+  ending_ = ending;
+  ending_until_ = now + grace;
+  if (ending == Ending::kTerminated) {
+    send_all(SIGTERM);
+    send_all(SIGCONT);
+  } else if (ending == Ending::kKilled) {
+    send_all(SIGKILL);
+  }
+}
+
+void Supervisor::on_time(WallTime now) {
+  if (!noticed_.empty() && now >= judge_at_) {
+    judge();
+    begin(Ending::kTerminated, now, kGraceAfterFault);
+  }
+  if (ending_ != Ending::kNo && now >= ending_until_ && anything_runs()) {
+    if (ending_ == Ending::kAsked) {
+      for (const auto& member : members_) {
+        if (!clock().child->running() && member.child && member.child->running() && !member.spec->observer) {
+          noticed_.push_back({kExitStall, member.name, "did not leave after the end of the run"});
+        }
+      }
+      if (!noticed_.empty()) {
+        judge();
+      }
+      begin(Ending::kTerminated, now, kGraceAfterFault);
+    } else {
+      begin(Ending::kKilled, now, kGraceAfterFault);
+    }
+  }
+  if (ending_ == Ending::kNo && asker_) {
+    ask_clock(now);
+    check_leavers(now);
+    respawn(now);
+  }
+  progress_.show(sim_s_, elapsed_s(began_, now), clock_state_);
+}
+
+void Supervisor::ask_clock(WallTime now) {
+  if (now - last_asked_ < kAskEvery || !clock().child->running()) {
+    return;
+  }
+  last_asked_ = now;
+  if (const auto answer = asker_->ask(R"({"kind":"status"})", kAnswerPatience)) {
+    last_answer_ = now;
+    read_status(*answer);
+    return;
+  }
+  const double patience_s = 10.0 * launch_.clock.progress_deadline_s;
+  if (noticed_.empty() && elapsed_s(last_answer_, now) > patience_s) {
+    clock().fault = Fault{kExitStall, "clock", fmt::format("has not answered for {:.1f} s", patience_s)};
+    noticed_.push_back(*clock().fault);
+    judge_at_ = now;
+  }
+}
+
+void Supervisor::read_status(const std::string& text) {
+  const auto status = nlohmann::json::parse(text, nullptr, false);
+  if (!status.is_object() || status.value("kind", "") != "status") {
+    return;
+  }
+  clock_state_ = upper(status.value("state", "starting"));
+  if (status.contains("sim_ns") && status["sim_ns"].is_number()) {
+    sim_s_ = 1e-9 * status["sim_ns"].get<double>();
+  }
+  const bool runs = clock_state_ == "RUNNING" || clock_state_ == "PAUSED";
+  const auto missing = status.value("missing", std::vector<std::string>{});
+  for (auto& member : members_) {
+    const bool joined = std::find(missing.begin(), missing.end(), member.name) == missing.end();
+    if (member.state == "STARTING" || member.state == "CONNECTED" || member.state == "READY") {
+      member.state = runs ? "RUNNING" : status.contains("missing") ? (joined ? "CONNECTED" : "STARTING") : "READY";
+    }
+  }
+}
+
+void Supervisor::check_leavers(WallTime now) {
+  for (auto& member : members_) {
+    const bool early = member.left_at && now - *member.left_at > kLeftTooEarly && !member.spec->observer;
+    if (early && !member.fault && clock_state_ != "DONE") {
+      member.state = "FAILED";
+      member.fault = Fault{kExitDied, member.name, "left before the end of the run"};
+      noticed_.push_back(*member.fault);
+      judge_at_ = now;
+    }
+  }
+}
+
+void Supervisor::respawn(WallTime now) {
+  for (auto& member : members_) {
+    if (member.respawn_at && now >= *member.respawn_at) {
+      member.respawn_at.reset();
+      start(member, process_command(launch_, *member.spec, places_, clock_endpoint_));
+    }
+  }
+}
+
+void Supervisor::send_all(int signal) {
+  for (const auto& member : members_) {
+    if (member.child) {
+      member.child->send(signal);
+    }
+  }
+}
+
+bool Supervisor::anything_runs() const {
+  return std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.child && m.child->running(); });
+}
+
+RunReport Supervisor::report() const {
+  RunReport report;
+  report.code = verdict_.code();
+  report.cause = verdict_.cause();
+  report.sim_s = sim_s_;
+  report.wall_s = elapsed_s(began_, steady_clock::now());
+  for (const auto& member : members_) {
+    ProcessReport process;
+    process.name = member.name;
+    process.state = member.state;
+    process.external = member.spec != nullptr && member.spec->external;
+    process.fault = member.fault;
+    if (member.child) {
+      process.ending = member.child->ending();
+      process.max_rss_kib = member.child->max_rss_kib();
+      process.cpu_s = member.child->cpu_s();
+    }
+    report.processes.push_back(std::move(process));
+  }
+  report.expectations = read_expectations(places_.out + "/expect.json");
+  return report;
+}
+
+}  // namespace ensonify::launcher

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/runtime/bus/router.h"
+#include "components/runtime/config/launch_file.h"
+#include "launch/child.h"
+#include "launch/commands.h"
+#include "launch/guard.h"
+#include "launch/progress.h"
+#include "launch/report.h"
+#include "launch/run_dir.h"
+#include "launch/signals.h"
+#include "launch/verdict.h"
+
+namespace ensonify::launcher {
+
+/// Starts the processes of a launch, watches over them and ends them. One thread: it waits for signals (a child has
+/// ended, Ctrl-C) and five times a second asks the clock how far it is.
+class Supervisor {
+ public:
+  Supervisor(const Launch& launch, const std::string& program_folder, bool quiet);
+
+  /// Runs the launch to its end; nothing that it started is left. Throws UserError for what cannot be started.
+  RunReport run();
+
+ private:
+  using WallTime = std::chrono::steady_clock::time_point;
+
+  /// A process of the launch, or the clock (spec is nullptr).
+  struct Member {
+    std::string name;
+    const ProcessSpec* spec = nullptr;
+    std::optional<Child> child;
+    std::string state = "STARTING";
+    std::optional<Fault> fault;
+    std::optional<WallTime> left_at;  // ended without a fault
+    std::optional<WallTime> respawn_at;
+  };
+
+  /// How the run is being ended; each step has a deadline after which the next begins.
+  enum class Ending { kNo, kAsked, kTerminated, kKilled };
+
+  void start_clock();
+  void start_members();
+  void start(Member& member, const Command& command);
+  void supervise();
+  bool wait(std::chrono::milliseconds patience);
+  void take_signals();
+  void on_ended(const Reaped& reaped);
+  void on_clock_ended(Member& clock);
+  void judge();
+  void on_time(WallTime now);
+  void ask_clock(WallTime now);
+  void read_status(const std::string& text);
+  void check_leavers(WallTime now);
+  void respawn(WallTime now);
+  void begin(Ending ending, WallTime now, std::chrono::milliseconds grace);
+  void send_all(int signal);
+  bool anything_runs() const;
+  RunReport report() const;
+
+  Member& clock() { return members_.front(); }
+  const Member& clock() const { return members_.front(); }
+
+  const Launch& launch_;
+  Signals signals_;  // before anything is forked or threaded
+  RunDir run_dir_;
+  Guard guard_;
+  RunPlaces places_;
+  Progress progress_;
+  std::vector<Member> members_;  // the clock first
+  std::unique_ptr<bus::Asker> asker_;
+  std::string clock_endpoint_;
+  Verdict verdict_;
+  std::vector<Fault> noticed_;  // faults that wait for their judgement
+  WallTime judge_at_{};
+  Ending ending_ = Ending::kNo;
+  WallTime ending_until_{};
+  int interrupts_ = 0;
+  WallTime began_{};
+  WallTime last_asked_{};
+  WallTime last_answer_{};
+  double sim_s_ = 0.0;
+  std::string clock_state_ = "STARTING";
+};
+
+}  // namespace ensonify::launcher
