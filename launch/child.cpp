@@ -62,6 +62,14 @@ int become(const std::vector<char*>& argv, const std::vector<char*>& env, const 
   if (cpus != nullptr && ::sched_setaffinity(0, sizeof *cpus, cpus) != 0) {
     return errno;
   }
+  // A process in the background must not read the terminal.
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0) {
+    return errno;
+  }
+  if (nothing != STDIN_FILENO) {
+    ::close(nothing);
+  }
   if (log_fd >= 0 && (::dup2(log_fd, STDOUT_FILENO) < 0 || ::dup2(log_fd, STDERR_FILENO) < 0)) {
     return errno;
   }

@@ -63,7 +63,7 @@ void Progress::show(double sim_s, double wall_s, const std::string& state) {
     return;
   }
   const std::string text = progress_text(sim_s, wall_s, duration_s_, state);
-  fmt::print(stderr, terminal_ ? "\r\033[K{}" : "{}\n", text);
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", text, terminal_ ? "" : "\n");
   std::fflush(stderr);
   shown_ = terminal_;
   next_line_s_ = wall_s + kLineEvery_s;
