@@ -82,7 +82,7 @@ Gravity centre_of_gravity(const Trace& trace, double middle_s, double half_windo
     const double t = trace.time_s(k) - 0.5 * settings.pulse_length_s;
     if (t <= 0.0) continue;
     const double ratio = t / middle_s;
-    const double w = (trace.power(k) - noise) * ratio * ratio * ratio * std::exp(loss_np_ps * (t - middle_s));
+    const double w = (trace.power(k) - noise) * ratio * ratio * std::exp(loss_np_ps * (t - middle_s));
     weight += w;
     inverse_square += w / (ratio * ratio);
     first_moment += w * (t - middle_s);

@@ -1,0 +1,160 @@
+// How fast one fan of rays meets a tile of seabed, against Embree alone with the same rays and geometry (the floor).
+#include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "kernels/trace/scene.h"
+
+using namespace ensonify;
+
+namespace {
+
+constexpr float kMaxRange = 200.0F;
+const frames::HeadPose kHead{{3.0, 4.0, -1.0}, frames::enu_from_ned()};
+
+double seabed(double x, double y) { return -20.0 + 0.3 * std::sin(x) * std::sin(1.1 * y) + 0.02 * x; }
+
+const terrain::Tile& tile() {
+  static const terrain::Tile value =
+      terrain::sample_tile({.origin_enu_m = {-256, -256}, .spacing_m = 0.5}, {0, 0}, seabed);
+  return value;
+}
+
+std::vector<trace::Ray> fan(int across) {
+  std::vector<trace::Ray> rays;
+  trace::Fan({.across = across}).fill({1, "rays"}, 0, rays);
+  return rays;
+}
+
+trace::Scene scene() {
+  trace::Scene value({0, 0});
+  value.insert({0, 0}, tile());
+  return value;
+}
+
+/// Embree alone: one grid over the whole tile.
+struct Raw {
+  RTCDevice device = rtcNewDevice("isa=avx2,threads=1");
+  RTCScene scene = rtcNewScene(device);
+
+  Raw() {
+    RTCGeometry grid = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+    auto* v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, tile().height_m.size()));
+    for (int row = 0; row < tile().rows; ++row) {
+      for (int column = 0; column < tile().columns; ++column) {
+        const auto post = tile().position_enu_m(column, row);
+        for (int axis = 0; axis < 3; ++axis) *v++ = static_cast<float>(post[axis]);
+      }
+    }
+    auto* g = static_cast<RTCGrid*>(
+        rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
+    *g = {0, static_cast<unsigned>(tile().columns), static_cast<unsigned short>(tile().columns),
+          static_cast<unsigned short>(tile().rows)};
+    rtcCommitGeometry(grid);
+    rtcAttachGeometry(scene, grid);
+    rtcReleaseGeometry(grid);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(scene);
+  }
+  ~Raw() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  std::vector<RTCRayHit16> packets_of(const std::vector<trace::Ray>& rays) const {
+    std::vector<RTCRayHit16> packets(rays.size() / 16);
+    const Eigen::Matrix3d turn = kHead.enu_from_head.toRotationMatrix();
+    for (std::size_t i = 0; i < packets.size() * 16; ++i) {
+      auto& packet = packets[i / 16];
+      const std::size_t lane = i % 16;
+      const frames::Vec3 d = turn * rays[i].direction_head.cast<double>();
+      packet.ray.org_x[lane] = static_cast<float>(kHead.position_enu_m.x());
+      packet.ray.org_y[lane] = static_cast<float>(kHead.position_enu_m.y());
+      packet.ray.org_z[lane] = static_cast<float>(kHead.position_enu_m.z());
+      packet.ray.dir_x[lane] = static_cast<float>(d.x());
+      packet.ray.dir_y[lane] = static_cast<float>(d.y());
+      packet.ray.dir_z[lane] = static_cast<float>(d.z());
+      packet.ray.tnear[lane] = packet.ray.time[lane] = 0.0F;
+      packet.ray.mask[lane] = ~0U;
+    }
+    return packets;
+  }
+
+  void trace(std::vector<RTCRayHit16>& packets) const {
+    alignas(64) int on[16];
+    for (int& lane : on) lane = -1;
+    for (auto& packet : packets) {
+      for (int lane = 0; lane < 16; ++lane) {
+        packet.ray.tfar[lane] = kMaxRange;
+        packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      }
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcIntersect16(on, scene, &context, &packet);
+    }
+  }
+};
+
+/// Both must find the same ranges, or the times mean nothing.
+void check() {
+  const auto rays = fan(1024);
+  std::vector<trace::Hit> hits;
+  scene().trace(kHead, rays, kMaxRange, hits);
+  const Raw raw;
+  auto packets = raw.packets_of(rays);
+  raw.trace(packets);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].hit() || std::abs(hits[i].range_m - packets[i / 16].ray.tfar[i % 16]) > 1e-3F) {
+      std::fprintf(stderr, "ray %zu: %g m, Embree alone %g m\n", i, hits[i].range_m, packets[i / 16].ray.tfar[i % 16]);
+      std::exit(1);
+    }
+  }
+}
+
+void embree_alone(benchmark::State& state) {
+  const Raw raw;
+  auto packets = raw.packets_of(fan(static_cast<int>(state.range(0))));
+  for (auto _ : state) raw.trace(packets);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packets.size()) * 16);
+}
+
+void trace_fan(benchmark::State& state) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto rays = fan(static_cast<int>(state.range(0)));
+  const auto seabed_scene = scene();
+  std::vector<trace::Hit> hits;
+  for (auto _ : state) seabed_scene.trace(kHead, rays, kMaxRange, hits);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
+}
+
+void fill_fan(benchmark::State& state) {
+  const trace::Fan shape({.across = 1024});
+  std::vector<trace::Ray> rays;
+  std::uint64_t ping = 0;
+  for (auto _ : state) shape.fill({1, "rays"}, ping++, rays);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
+}
+
+void insert_tile(benchmark::State& state) {
+  trace::Scene value({0, 0});
+  for (auto _ : state) value.insert({0, 0}, tile());
+}
+
+BENCHMARK(embree_alone)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(trace_fan)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_fan)->Unit(benchmark::kMillisecond);
+BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  check();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
