@@ -67,7 +67,7 @@ Command process_command(const Launch& launch, const ProcessSpec& process, const 
   Command command;
   if (process.argv.empty()) {
     command = native(process.component, launch, places);
-    command.argv.insert(command.argv.end(), {"--name", process.name});
+    command.argv.insert(command.argv.end(), {"--name", process.name, "--clock", clock_endpoint});
   } else {
     for (const auto& word : process.argv) {
       command.argv.push_back(resolved(word, launch));

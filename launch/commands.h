@@ -16,10 +16,10 @@ struct RunPlaces {
 
 Command clock_command(const Launch& launch, const RunPlaces& places);
 
-/// A native process: `ensonify-<component> --launch FILE ... --name NAME --run-dir DIR --out DIR`. A foreign program:
-/// its own words, and ENSONIFY_CLOCK, _NAME, _RUN_DIR, _OUT and _CONFIG (its parameters as JSON) in its environment.
-/// Words that name a file of the project (`examples/agent.py`) become its path. Throws UserError when there is no such
-/// program.
+/// A native process: `ensonify-<component> --launch FILE ... --run-dir DIR --name NAME --clock ENDPOINT`. A foreign
+/// program: its own words, and ENSONIFY_CLOCK, _NAME, _RUN_DIR, _OUT and _CONFIG (its parameters as JSON) in its
+/// environment. Words that name a file of the project (`examples/agent.py`) become its path. Throws UserError when
+/// there is no such program.
 Command process_command(const Launch& launch, const ProcessSpec& process, const RunPlaces& places,
                         const std::string& clock_endpoint);
 

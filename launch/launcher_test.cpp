@@ -238,8 +238,8 @@ TEST_CASE("native and foreign processes get what they need to join") {
 
   const Command bow = process_command(launch, launch.processes[0], places, "ipc:///run/dir/clock");
   CHECK(bow.argv == std::vector<std::string>{folder.file("./ensonify-multibeam"), "--launch", folder.file("x.yaml"),
-                                             "--set", "bow.a=1", "--out", "o", "--run-dir", "/run/dir", "--name",
-                                             "bow"});
+                                             "--set", "bow.a=1", "--out", "o", "--run-dir", "/run/dir", "--name", "bow",
+                                             "--clock", "ipc:///run/dir/clock"});
   CHECK(bow.log_file == "o/log/bow.log");
   CHECK(clock_command(launch, places).argv.back() == "/run/dir");
 

@@ -11,7 +11,7 @@ namespace ensonify::launcher {
 /// What became of one process.
 struct ProcessReport {
   std::string name;
-  std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED
+  std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED, STOPPED (by the launcher)
   std::optional<Ending> ending;
   bool external = false;
   long max_rss_kib = 0;

@@ -81,8 +81,9 @@ void explain(const RunReport& report, const std::string& out) {
       fmt::print(stderr, "{}, last lines:\n{}\n", log, text);
     }
   }
-  fmt::print(stderr, "ensonify run: {}{}{}; t={:.3f} s; exit code {}\n", cause.culprit,
-             cause.culprit.empty() ? "" : " ", cause.message, report.sim_s, report.code);
+  const bool named = cause.culprit.empty() || cause.message.starts_with(cause.culprit);
+  fmt::print(stderr, "ensonify run: {}{}; t={:.3f} s; exit code {}\n", named ? "" : cause.culprit + " ", cause.message,
+             report.sim_s, report.code);
 }
 
 void summarize(const RunReport& report, const std::string& out) {

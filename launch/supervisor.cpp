@@ -168,7 +168,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
   const bool native = member.spec->argv.empty();
   auto fault = fault_of(member.name, native, *member.child->ending());
   const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
-  member.state = fault ? "FAILED" : "DONE";
+  member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
   if (!fault) {
     member.left_at = now;
   } else if (fault->code == kExitAssertionFailed) {
@@ -188,9 +188,9 @@ void Supervisor::on_ended(const Reaped& reaped) {
 /// The clock knows more than its exit code: it wrote down who is to blame.
 void Supervisor::on_clock_ended(Member& member) {
   auto fault = fault_of("clock", true, *member.child->ending());
-  member.state = fault ? "FAILED" : "DONE";
   const auto now = steady_clock::now();
   const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
+  member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
   std::ifstream stream(places_.out + "/clock.json");
   const auto told = nlohmann::json::parse(stream, nullptr, false);
   if (told.is_object()) {
