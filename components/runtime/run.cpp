@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
+#include <fstream>
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/exit_error.h"
@@ -31,7 +31,7 @@ std::optional<int> parse(const char* component, int argc, char** argv, Options& 
   app.set_version_flag("--version", kVersion);
   add_options(app, options.launch, false);
   app.add_option("--name", options.name, "name of this process in the launch file")->required();
-  app.add_option("--clock", options.clock, "endpoint of the clock");
+  app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
   app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
   try {
@@ -45,6 +45,17 @@ std::optional<int> parse(const char* component, int argc, char** argv, Options& 
   return std::nullopt;
 }
 
+/// The clock's address: given, or as the run directory says.
+std::string clock_of(const Options& options) {
+  if (!options.clock.empty()) return options.clock;
+  std::string endpoint;
+  std::ifstream(options.run_dir + "/clock.endpoint") >> endpoint;
+  if (endpoint.empty()) {
+    throw UserError("--run-dir: " + options.run_dir + " holds no clock.endpoint; `ensonify run` starts processes");
+  }
+  return endpoint;
+}
+
 int run_process(const char* component, const NodeFactory& factory, const Options& options) {
   const Launch launch = read_launch(options.launch);
   const ProcessSpec& process = launch.process(options.name);
@@ -55,9 +66,8 @@ int run_process(const char* component, const NodeFactory& factory, const Options
     std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
     return kExitOk;
   }
-  if (options.clock.empty()) throw UserError("--clock: is missing; `ensonify run` sets it");
   const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
-  return participate(component, ports, *node, {options.clock, {tcp, options.run_dir, ""}});
+  return participate(component, ports, *node, {clock_of(options), {tcp, options.run_dir, ""}});
 }
 
 }  // namespace
