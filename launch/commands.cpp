@@ -57,7 +57,7 @@ void check_cpus(const ProcessSpec& process) {
 }  // namespace
 
 Command clock_command(const Launch& launch, const RunPlaces& places) {
-  Command command = native("clock", launch, places);
+  Command command = native("conductor", launch, places);
   command.log_file = log_file(places, "clock");
   return command;
 }

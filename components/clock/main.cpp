@@ -38,7 +38,7 @@ int run_clock(const LaunchOptions& options, const std::string& run_dir) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("ensonify-clock: conducts a run. `ensonify run` starts it; `ensonify clock` asks it.");
+  CLI::App app("ensonify-conductor: the clock process of a run. `ensonify run` starts it; `ensonify clock` asks it.");
   LaunchOptions options;
   std::string run_dir;
   app.set_version_flag("--version", kVersion);
