@@ -1,0 +1,46 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <new>
+
+#include "components/multibeam/head.h"
+#include "components/multibeam/tile_set.h"
+
+namespace {
+
+std::atomic<int> allocations{0};
+
+}  // namespace
+
+// Every `new` of this program, from whichever thread.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace ensonify;
+
+TEST_CASE("after the first ping, listening allocates nothing") {
+  msg::Tile tile;
+  tile.origin_east_m = tile.origin_north_m = -64.0;
+  tile.spacing_m = 0.5;
+  tile.height_m = msg::Array<float>({257, 257});
+  for (float& height : tile.height_m.flat()) height = -20.0F;
+  tile.sediment = msg::Array<std::uint8_t>({257, 257});
+  TileSet tiles;
+  tiles.insert(tile);
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {});
+
+  MultibeamHead head(MultibeamConfig{});
+  const int before_anything = allocations;
+  head.listen({0, SimTime{0}, 60.0}, truth, tiles.scene());
+  CHECK(allocations > before_anything);  // the count works
+  head.listen({1, SimTime{0}, 60.0}, truth, tiles.scene());
+  const int before = allocations;
+  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, truth, tiles.scene());
+  CHECK(allocations - before == 0);
+}

@@ -1,0 +1,79 @@
+// Time of one ping on a generated bay: 256 beams, 20,480 rays, range 75 m.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "components/multibeam/head.h"
+#include "components/multibeam/soundings.h"
+#include "components/multibeam/tile_set.h"
+
+using namespace ensonify;
+
+namespace {
+
+msg::Tile wavy_tile() {
+  msg::Tile tile;
+  tile.origin_east_m = tile.origin_north_m = -128.0;
+  tile.spacing_m = 0.25;
+  tile.height_m = msg::Array<float>({1025, 1025});
+  tile.sediment = msg::Array<std::uint8_t>({1025, 1025});
+  for (std::size_t row = 0; row < 1025; ++row) {
+    for (std::size_t col = 0; col < 1025; ++col) {
+      tile.height_m(row, col) =
+          static_cast<float>(-25.0 + std::sin(0.05 * col) + 0.3 * std::sin(0.31 * row + 0.2 * col));
+    }
+  }
+  return tile;
+}
+
+frames::PoseHistory at_rest() {
+  frames::PoseHistory truth(10'000'000'000);
+  truth.push(0, {});
+  truth.push(1'000'000'000, {});
+  return truth;
+}
+
+void one_ping(benchmark::State& state) {
+  const MultibeamConfig config;
+  MultibeamHead head(config);
+  TileSet tiles;
+  tiles.insert(wavy_tile());
+  const auto truth = at_rest();
+  Shot shot{0, SimTime{0}, 75.0};
+  head.listen(shot, truth, tiles.scene());
+  if (head.rays_that_hit() < 15000) throw std::runtime_error("the rays miss the seabed");
+  for (auto _ : state) {
+    ++shot.ping;
+    benchmark::DoNotOptimize(head.listen(shot, truth, tiles.scene()).amplitude_upa.data());
+  }
+}
+BENCHMARK(one_ping)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+void detections(benchmark::State& state) {
+  const MultibeamConfig config;
+  MultibeamHead head(config);
+  SoundingMaker maker(config, head.beam_angle_rad());
+  TileSet tiles;
+  tiles.insert(wavy_tile());
+  const auto truth = at_rest();
+  const Shot shot{0, SimTime{0}, 75.0};
+  const auto image = head.listen(shot, truth, tiles.scene());
+  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, image, truth).valid.data());
+  if (maker.ranges_m().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
+}
+BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+void insert_tile(benchmark::State& state) {
+  const auto tile = wavy_tile();
+  for (auto _ : state) {
+    TileSet tiles;
+    tiles.insert(tile);
+    benchmark::DoNotOptimize(tiles.scene().size());
+  }
+}
+BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();

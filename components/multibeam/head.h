@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "components/multibeam/config.h"
+#include "components/multibeam/shot.h"
+#include "kernels/detect/bottom.h"
+#include "kernels/echo/echo.h"
+#include "kernels/echo/noise.h"
+#include "kernels/frames/pose.h"
+#include "kernels/random/stream.h"
+#include "kernels/trace/fan.h"
+#include "kernels/trace/scene.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// The acoustics of a Mills-cross head: what its beams hear. Uses the true motion and the actual mounting, as the sea
+/// does; what the instrument makes of it is in soundings.h.
+class MultibeamHead {
+ public:
+  explicit MultibeamHead(const MultibeamConfig& config);
+
+  /// The beam-time image of a ping: rays from the true pose at transmission, echoes at the true poses at reception,
+  /// noise. A function of the shot, the poses during it and the tiles. Valid until the next call.
+  detect::Amplitudes listen(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed);
+
+  /// How many rays of the last ping met the seabed within its range.
+  int rays_that_hit() const { return rays_that_hit_; }
+
+  /// The last image as a message; it shares the samples.
+  msg::Ping ping_message(const Shot& shot) const;
+  std::size_t max_ping_bytes() const;
+
+  /// Beam axes that the head was told to form, rad in its frame.
+  const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
+  /// Noise in a beam after beam forming, dB re 1 uPa^2.
+  double beam_noise_db() const { return beam_noise_db_; }
+
+ private:
+  void trace_rays(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed);
+  echo::Sampling sampling(const Shot& shot) const;
+  void track_receiver(const Shot& shot, const frames::PoseHistory& truth);
+
+  MultibeamConfig config_;
+  echo::Sonar sonar_;
+  trace::Fan fan_;
+  random::Stream ray_jitter_, ray_phase_, noise_;
+  std::vector<float> beam_angle_rad_;
+  std::vector<float> sin_beams_true_;
+  double beam_noise_db_;
+
+  // Memory of the ping path, sized by the first ping of a range.
+  std::vector<trace::Ray> rays_;
+  std::vector<trace::Hit> hits_;
+  std::vector<float> backscatter_;
+  std::vector<frames::HeadPose> receiver_;
+  echo::Workspace workspace_;
+  echo::Image image_;
+  std::shared_ptr<std::vector<float>> amplitude_upa_;  // a new one while messages still hold the last
+  int rays_that_hit_ = 0;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,104 @@
+#include "components/multibeam/node.h"
+
+#include <fmt/format.h>
+
+namespace ensonify {
+namespace {
+
+/// Poses older than the longest ping and its processing are never asked for again.
+std::int64_t keep_ns(const MultibeamConfig& config) {
+  const SimTime ping = config.listening_time(config.range_m) + from_seconds(config.processing_latency_s);
+  return (2 * ping + 1_s).count();
+}
+
+frames::Pose pose_of(const std::array<double, 3>& position, const std::array<double, 4>& wxyz) {
+  return {{position[0], position[1], position[2]}, frames::quaternion_of(wxyz)};
+}
+
+std::size_t soundings_bytes(const MultibeamConfig& config) {
+  return static_cast<std::size_t>(config.beams) * 48 + 4096;
+}
+
+}  // namespace
+
+MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
+    : ports_(ports),
+      config_(config),
+      head_(config),
+      soundings_(config, head_.beam_angle_rad()),
+      clock_(config.ping_rate(), from_seconds(config.dead_time_s)),
+      range_(config.range_m),
+      truth_(keep_ns(config)),
+      estimate_(keep_ns(config)),
+      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.ping_rate()})),
+      soundings_out_(
+          ports.out<msg::Soundings>("soundings", {.max_bytes = soundings_bytes(config), .rate = config.ping_rate()})),
+      transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = config.ping_rate()})) {
+  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
+    truth_.push(pose.stamp_ns, pose_of(pose.position_enu_m, pose.enu_from_body));
+  });
+  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) {
+    estimate_.push(estimate.stamp_ns, pose_of(estimate.position_enu_m, estimate.enu_from_body));
+  });
+  ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
+  ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
+}
+
+SimTime MultibeamNode::step(SimTime now) {
+  while (!pending_.empty() && pending_.front().ready <= now) {
+    receive(pending_.front().shot);
+    pending_.pop_front();
+  }
+  if (clock_.next() <= now) transmit(now);
+  return pending_.empty() ? clock_.next() : std::min(clock_.next(), pending_.front().ready);
+}
+
+void MultibeamNode::transmit(SimTime now) {
+  if (truth_.empty()) return skip("no pose of the vehicle has arrived");
+  const auto body = truth_.at(now.count(), frames::PoseHistory::Outside::kNearest);
+  const frames::Vec3 place = frames::head_pose(*body, config_.mounting.actual).position_enu_m;
+  if (!tiles_.covers(place.head<2>())) {
+    return skip(fmt::format("no seabed tile under the head at ({:.0f}, {:.0f}) m", place.x(), place.y()));
+  }
+  const Shot shot{pings_++, now, config_.auto_range ? range_.range_m() : config_.range_m};
+  msg::Transmit transmit;
+  transmit.stamp_ns = now.count();
+  transmit.ping = shot.ping;
+  transmit.frequency_hz = config_.frequency_hz;
+  transmit.pulse_length_s = config_.pulse_length_s;
+  transmit.source_level_db = config_.source_level_db;
+  transmit_out_.send(transmit);
+  const SimTime listening = config_.listening_time(shot.range_m);
+  pending_.push_back({shot, now + listening + from_seconds(config_.processing_latency_s)});
+  clock_.transmitted(listening);
+}
+
+void MultibeamNode::skip(const std::string& why) {
+  clock_.skipped();
+  ports_.count("pings_skipped");
+  ports_.health("degraded", why);
+}
+
+void MultibeamNode::receive(const Shot& shot) {
+  const detect::Amplitudes image = head_.listen(shot, truth_, tiles_.scene());
+  ports_.count("pings");
+  if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot));
+  soundings_out_.send(soundings_.make(shot, image, estimate_));
+  const std::size_t detections = soundings_.ranges_m().size();
+  range_.update(soundings_.ranges_m(), static_cast<std::size_t>(config_.beams), shot.range_m);
+  report(shot, detections);
+}
+
+void MultibeamNode::report(const Shot& shot, std::size_t detections) {
+  if (head_.rays_that_hit() == 0) {
+    return ports_.health("degraded",
+                         fmt::format("no seabed within the range of {:.0f} m: the range is below the altitude, "
+                                     "or the terrain has a hole here",
+                                     shot.range_m));
+  }
+  if (estimate_.empty()) return ports_.health("degraded", "no navigation estimate has arrived: no soundings");
+  if (detections == 0) return ports_.health("degraded", "no beam detects the seabed");
+  ports_.health("ok", "");
+}
+
+}  // namespace ensonify

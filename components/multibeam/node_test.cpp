@@ -1,0 +1,273 @@
+#include "components/multibeam/node.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "components/runtime/testing.h"
+
+using namespace ensonify;
+
+namespace {
+
+/// A square of seabed at one height about the origin, 256 m wide.
+msg::Tile flat_tile(double height_m) {
+  msg::Tile tile;
+  tile.origin_east_m = tile.origin_north_m = -128.0;
+  tile.spacing_m = 0.25;
+  tile.height_m = msg::Array<float>({1025, 1025});
+  for (float& h : tile.height_m.flat()) h = static_cast<float>(height_m);
+  tile.sediment = msg::Array<std::uint8_t>({1025, 1025});
+  return tile;
+}
+
+struct Track {
+  double speed_mps = 0.0;
+  double roll_rad = 0.0;  // amplitude
+  double heave_m = 0.0;
+  frames::Vec3 offset_enu_m = frames::Vec3::Zero();  // of the estimate from the truth
+};
+
+frames::Pose pose_on(const Track& track, SimTime t) {
+  const double s = seconds(t);
+  frames::Pose pose;
+  pose.position_enu_m = {0.0, track.speed_mps * s, track.heave_m * std::sin(1.1 * s)};
+  pose.enu_from_body = frames::enu_from_body({0.0, 0.0, track.roll_rad * std::sin(1.3 * s)});
+  return pose;
+}
+
+using Head = NodeUnderTest<MultibeamNode>;
+
+void give_motion(Head& head, const Track& track, SimTime until) {
+  for (SimTime t{0}; t <= until; t += 10_ms) {
+    const frames::Pose truth = pose_on(track, t);
+    msg::Pose pose;
+    pose.stamp_ns = t.count();
+    for (std::size_t i = 0; i < 3; ++i) pose.position_enu_m[i] = truth.position_enu_m[static_cast<Eigen::Index>(i)];
+    pose.enu_from_body = frames::wxyz_of(truth.enu_from_body);
+    head.give("pose", pose);
+    msg::Estimate estimate;
+    estimate.stamp_ns = t.count();
+    for (std::size_t i = 0; i < 3; ++i) {
+      estimate.position_enu_m[i] = pose.position_enu_m[i] + track.offset_enu_m[static_cast<Eigen::Index>(i)];
+    }
+    estimate.enu_from_body = pose.enu_from_body;
+    head.give("estimate", estimate);
+  }
+}
+
+/// 20 m of water, 60 m of range.
+MultibeamConfig shallow() {
+  MultibeamConfig config;
+  config.auto_range = false;
+  config.range_m = 60.0;
+  return config;
+}
+
+std::vector<msg::Soundings> survey(const MultibeamConfig& config, const Track& track, SimTime until) {
+  Head head(config);
+  give_motion(head, track, until);
+  head.give("tile", flat_tile(-20.0));
+  return head.step_until<msg::Soundings>("soundings", until);
+}
+
+int valid_count(const msg::Soundings& s) { return std::accumulate(s.valid.flat().begin(), s.valid.flat().end(), 0); }
+
+struct Spread {
+  double mean = 0.0, sd = 0.0;
+  int count = 0;
+};
+
+/// Depth minus 20 m of the soundings whose beam lies between two angles (to either side).
+Spread depth_error(const std::vector<msg::Soundings>& pings, double from_deg, double to_deg) {
+  double sum = 0.0, squares = 0.0;
+  int n = 0;
+  for (const auto& s : pings) {
+    for (std::size_t beam = 0; beam < s.valid.size(); ++beam) {
+      const double angle_deg = std::abs(s.beam_angle_rad[beam]) / MultibeamConfig::kDegree;
+      if (s.valid[beam] == 0 || angle_deg < from_deg || angle_deg > to_deg) continue;
+      const double error = -s.position_enu_m(beam, 2) - 20.0;
+      sum += error, squares += error * error, ++n;
+    }
+  }
+  if (n == 0) return {};
+  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * sum / n)), n};
+}
+
+std::string last_health(Head& head, SimTime t) {
+  const auto health = head.step_until<msg::Health>("health", t);
+  return health.empty() ? "none" : health.back().state + ": " + health.back().message;
+}
+
+}  // namespace
+
+TEST_CASE("a flat seabed 20 m below answers after 26.7 ms at nadir") {
+  Head head(shallow());
+  give_motion(head, {}, 200_ms);
+  head.give("tile", flat_tile(-20.0));
+  const auto pings = head.step_until<msg::Ping>("ping", 150_ms);
+  REQUIRE(pings.size() == 1);
+  const msg::Ping& ping = pings[0];
+  CHECK(ping.stamp_ns == 0);
+  REQUIRE(ping.amplitude_upa.rows() == 256);
+  const auto nadir = ping.amplitude_upa.row(128);
+  const float strongest = *std::max_element(nadir.begin(), nadir.end());
+  const auto first = std::find_if(nadir.begin(), nadir.end(), [&](float a) { return a > 0.1F * strongest; });
+  const double first_echo_s = ping.first_sample_s + (first - nadir.begin()) * ping.sample_period_s;
+  CHECK(first_echo_s == Approx(2 * 20.0 / 1500.0).margin(1.5 * ping.sample_period_s));
+}
+
+TEST_CASE("without a tile there is no ping, and health says why") {
+  Head head(shallow());
+  give_motion(head, {}, 1_s);
+  CHECK(head.step_until<msg::Ping>("ping", 1_s).empty());
+  CHECK(head.step_until<msg::Transmit>("transmit", 1_s).empty());
+  CHECK(last_health(head, 2_s) == "degraded: no seabed tile under the head at (0, 0) m");
+}
+
+TEST_CASE("a released tile is not pinged on") {
+  Head head(shallow());
+  give_motion(head, {}, 2_s);
+  head.give("tile", flat_tile(-20.0));
+  head.run_until(500_ms);
+  const auto before = head.step_until<msg::Transmit>("transmit", 500_ms).size();
+  CHECK(before == 6);
+  head.give_at("release", 550_ms, msg::TileRelease{0, 0});
+  CHECK(head.step_until<msg::Transmit>("transmit", 2_s).empty());
+}
+
+TEST_CASE("a range below the altitude is said in health") {
+  auto config = shallow();
+  config.range_m = 15.0;
+  Head head(config);
+  give_motion(head, {}, 3_s);
+  head.give("tile", flat_tile(-20.0));
+  CHECK(
+      last_health(head, 2500_ms) ==
+      "degraded: no seabed within the range of 15 m: the range is below the altitude, or the terrain has a hole here");
+}
+
+TEST_CASE("a source level of -200 dB gives no soundings") {
+  auto config = shallow();
+  config.source_level_db = -200.0;
+  const auto soundings = survey(config, {}, 1_s);
+  REQUIRE(soundings.size() == 9);
+  for (const auto& s : soundings) CHECK(valid_count(s) == 0);
+}
+
+TEST_CASE("on a flat bottom depths are unbiased from nadir to the edge of the swath") {
+  const auto soundings = survey(shallow(), {}, 3_s);
+  REQUIRE(soundings.size() == 29);
+  for (const auto& s : soundings) CHECK(valid_count(s) == 256);
+  // Amplitude detection (PHYSICS section 9): some cm at nadir, growing with the footprint; means over 29 pings.
+  for (const auto& [from, to, bias_m, sd_m] :
+       {std::array{0.0, 15.0, 0.01, 0.03}, {15.0, 45.0, 0.01, 0.05}, {45.0, 65.0, 0.03, 0.08}}) {
+    const Spread error = depth_error(soundings, from, to);
+    INFO(from << " to " << to << " deg: mean " << error.mean << " m, sd " << error.sd << " m of " << error.count);
+    CHECK(std::abs(error.mean) < bias_m);
+    CHECK(error.sd < sd_m);
+  }
+}
+
+TEST_CASE("motion during the ping does not disturb depths when the navigation is right") {
+  const auto soundings = survey(shallow(), {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5}, 5_s);
+  const Spread port_and_starboard = depth_error(soundings, 0.0, 60.0);
+  CHECK(std::abs(port_and_starboard.mean) < 0.01);
+  CHECK(port_and_starboard.sd < 0.06);
+}
+
+TEST_CASE("a 1 m error in the measured lever arm shows as 1 m in the soundings") {
+  auto wrong = shallow();
+  wrong.mounting.measured.position_body_m = {0.0, 1.0, 0.0};  // starboard: east, as the bow is to north
+  const auto right = survey(shallow(), {}, 500_ms), off = survey(wrong, {}, 500_ms);
+  REQUIRE(right.size() == off.size());
+  for (std::size_t beam = 0; beam < 256; ++beam) {
+    CHECK(off[0].position_enu_m(beam, 0) - right[0].position_enu_m(beam, 0) == Approx(1.0).margin(1e-9));
+    CHECK(off[0].position_enu_m(beam, 2) == Approx(right[0].position_enu_m(beam, 2)).margin(1e-9));
+  }
+}
+
+TEST_CASE("soundings never use the truth: an estimate 5 m off moves them by 5 m") {
+  const Track off{.speed_mps = 2.0, .roll_rad = 0.05, .offset_enu_m = {3.0, -4.0, 0.0}};
+  Track right = off;
+  right.offset_enu_m = frames::Vec3::Zero();
+  const auto a = survey(shallow(), right, 1_s), b = survey(shallow(), off, 1_s);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t ping = 0; ping < a.size(); ++ping) {
+    CHECK(a[ping].travel_time_s == b[ping].travel_time_s);  // what is heard is the same
+    for (std::size_t beam = 0; beam < 256; ++beam) {
+      REQUIRE(b[ping].position_enu_m(beam, 0) - a[ping].position_enu_m(beam, 0) == Approx(3.0).margin(1e-9));
+      REQUIRE(b[ping].position_enu_m(beam, 1) - a[ping].position_enu_m(beam, 1) == Approx(-4.0).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("without an estimate there are pings but no soundings") {
+  Head head(shallow());
+  for (SimTime t{0}; t <= 1_s; t += 10_ms) {
+    msg::Pose pose;
+    pose.stamp_ns = t.count();
+    pose.enu_from_body = frames::wxyz_of(frames::enu_from_ned());
+    head.give("pose", pose);
+  }
+  head.give("tile", flat_tile(-20.0));
+  const auto soundings = head.step_until<msg::Soundings>("soundings", 1_s);
+  REQUIRE(soundings.size() == 9);
+  CHECK(valid_count(soundings.back()) == 0);
+  CHECK(head.step_until<msg::Ping>("ping", 1_s).size() == 9);
+}
+
+TEST_CASE("the ping interval obeys 2 R / c plus dead time, always") {
+  auto config = shallow();
+  config.range_m = 120.0;
+  config.dead_time_s = 0.004;
+  Head head(config);
+  give_motion(head, {}, 2_s);
+  head.give("tile", flat_tile(-20.0));
+  const auto shots = head.step_until<msg::Transmit>("transmit", 2_s);
+  REQUIRE(shots.size() > 10);
+  const std::int64_t least_ns = from_seconds(2 * 120.0 / 1500.0 + config.pulse_length_s + 0.004).count();
+  for (std::size_t i = 1; i < shots.size(); ++i) CHECK(shots[i].stamp_ns - shots[i - 1].stamp_ns == least_ns);
+}
+
+TEST_CASE("auto range starts at the longest and settles beyond the swath's edge") {
+  auto config = shallow();
+  config.auto_range = true;
+  config.range_m = 200.0;
+  Head head(config);
+  give_motion(head, {}, 3_s);
+  head.give("tile", flat_tile(-20.0));
+  const auto pings = head.step_until<msg::Ping>("ping", 3_s);
+  REQUIRE(pings.size() > 10);
+  CHECK(pings.front().range_m == 200.0);
+  const double edge_m = 20.0 / std::cos(65.0 * MultibeamConfig::kDegree);
+  CHECK(pings.back().range_m > edge_m * 1.03);
+  CHECK(pings.back().range_m < edge_m * 1.2);
+  CHECK((pings.back().stamp_ns - pings[pings.size() - 2].stamp_ns) * 1e-9 == Approx(0.1));
+}
+
+TEST_CASE("a ping is published at its last echo plus the processing latency") {
+  const MultibeamConfig config = shallow();
+  Head head(config);
+  give_motion(head, {}, 500_ms);
+  head.give("tile", flat_tile(-20.0));
+  head.run_until(400_ms);
+  const auto packets = head.take("soundings");
+  REQUIRE_FALSE(packets.empty());
+  CHECK(packets[0].envelope.t_sim_ns == from_seconds(2 * 60.0 / 1500.0 + 100e-6).count() + 20'000'000);
+}
+
+TEST_CASE("the same ping twice has the same bytes, another seed has others") {
+  const auto heard = [](std::uint64_t seed) {
+    auto config = shallow();
+    config.seed = seed;
+    Head head(config);
+    give_motion(head, {.speed_mps = 2.0, .roll_rad = 0.1}, 300_ms);
+    head.give("tile", flat_tile(-20.0));
+    return head.step_until<msg::Ping>("ping", 300_ms);
+  };
+  const auto a = heard(1), b = heard(1), other = heard(2);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].amplitude_upa == b[i].amplitude_upa);
+  CHECK_FALSE(a[0].amplitude_upa == other[0].amplitude_upa);
+}

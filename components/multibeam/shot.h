@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+#include "components/runtime/sim_time.h"
+
+namespace ensonify {
+
+/// One transmission: its number, when it left and how far it is listened to.
+struct Shot {
+  std::int64_t ping = 0;
+  SimTime transmit{0};
+  double range_m = 0.0;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,71 @@
+#include "components/multibeam/soundings.h"
+
+#include <cmath>
+
+#include "components/multibeam/geometry.h"
+#include "kernels/array/line.h"
+
+namespace ensonify {
+
+SoundingMaker::SoundingMaker(const MultibeamConfig& config, std::vector<float> beam_angle_rad)
+    : config_(config), beam_angle_rad_(std::move(beam_angle_rad)) {
+  for (const float angle : beam_angle_rad_) sin_beams_.push_back(std::sin(angle));
+  settings_.pulse_length_s = config.pulse_length_s;
+  settings_.gate_db = config.detection_threshold_db;
+  settings_.sound_speed_mps = config.known_sound_speed_mps();
+  settings_.absorption_dbpm = config.absorption_dbpm;
+  settings_.receive_length_in_waves = array::length_in_waves_for(config.receive_beamwidth_rad);
+}
+
+msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& image,
+                                   const frames::PoseHistory& estimate) {
+  detect::detect_bottom(settings_, sin_beams_, image, detections_);
+  const std::size_t beams = sin_beams_.size();
+  msg::Soundings soundings;
+  soundings.stamp_ns = shot.transmit.count();
+  soundings.ping = shot.ping;
+  soundings.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
+  soundings.travel_time_s = msg::Array<float>({beams});
+  soundings.backscatter_db = msg::Array<float>({beams});
+  soundings.quality = msg::Array<float>({beams});
+  soundings.valid = msg::Array<std::uint8_t>({beams});
+  soundings.position_enu_m = msg::Array<double>({beams, 3});
+  ranges_m_.clear();
+  if (estimate.empty()) return soundings;
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    if (detections_[beam].valid && heard_whole(shot, beam)) place(shot, estimate, beam, soundings);
+  }
+  return soundings;
+}
+
+/// Listening must not have ended within the beam's footprint: the centre of half an echo is no depth.
+bool SoundingMaker::heard_whole(const Shot& shot, std::size_t beam) const {
+  const double half_width = array::half_power_half_width(settings_.receive_length_in_waves);
+  const double sine = std::abs(sin_beams_[beam]);
+  const double half_footprint = sine * half_width / std::max(1.0 - sine * sine, half_width * half_width);
+  return detections_[beam].two_way_s * (1.0 + half_footprint) + config_.pulse_length_s <
+         seconds(config_.listening_time(shot.range_m));
+}
+
+void SoundingMaker::place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam,
+                          msg::Soundings& soundings) {
+  const detect::Detection& detection = detections_[beam];
+  const auto pose_at = [&](SimTime t) {
+    return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest),
+                             config_.mounting.measured);
+  };
+  const frames::Vec3 place =
+      sounding_enu_m(pose_at(shot.transmit), pose_at(shot.transmit + from_seconds(detection.two_way_s)),
+                     sin_beams_[beam], detection.two_way_s, config_.known_sound_speed_mps());
+  soundings.travel_time_s[beam] = static_cast<float>(detection.two_way_s);
+  soundings.backscatter_db[beam] =
+      detection.echo_energy_db - static_cast<float>(10.0 * std::log10(config_.pulse_length_s));
+  soundings.quality[beam] = detection.snr_db;
+  soundings.valid[beam] = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    soundings.position_enu_m(beam, axis) = place[static_cast<Eigen::Index>(axis)];
+  }
+  ranges_m_.push_back(0.5 * detection.two_way_s * config_.known_sound_speed_mps());
+}
+
+}  // namespace ensonify

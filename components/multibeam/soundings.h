@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "components/multibeam/config.h"
+#include "components/multibeam/shot.h"
+#include "kernels/detect/bottom.h"
+#include "kernels/frames/pose.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// What the instrument makes of a ping: bottom detections and where they are, by what it knows: its settings, the
+/// navigation estimate, the measured mounting and its sound-speed probe. Never the truth.
+class SoundingMaker {
+ public:
+  SoundingMaker(const MultibeamConfig& config, std::vector<float> beam_angle_rad);
+
+  /// Soundings of a ping. Without an estimate none is valid.
+  msg::Soundings make(const Shot& shot, const detect::Amplitudes& image, const frames::PoseHistory& estimate);
+
+  /// Slant ranges of the last ping's valid soundings, m, in no particular order.
+  std::vector<double>& ranges_m() { return ranges_m_; }
+
+ private:
+  bool heard_whole(const Shot& shot, std::size_t beam) const;
+  void place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam, msg::Soundings& soundings);
+
+  MultibeamConfig config_;
+  std::vector<float> beam_angle_rad_;
+  std::vector<float> sin_beams_;
+  detect::Settings settings_;
+  std::vector<detect::Detection> detections_;
+  std::vector<double> ranges_m_;
+};
+
+}  // namespace ensonify

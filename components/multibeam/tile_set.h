@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kernels/frames/attitude.h"
+#include "kernels/trace/scene.h"
+#include "messages/terrain.h"
+
+namespace ensonify {
+
+/// The tiles that a head holds, ready for rays.
+class TileSet {
+ public:
+  TileSet() : scene_(frames::Vec2::Zero()) {}
+
+  void insert(const msg::Tile& tile);
+  void release(const msg::TileRelease& release);
+
+  /// Whether a tile lies under the place.
+  bool covers(const frames::Vec2& place_enu_m) const;
+  const trace::Scene& scene() const { return scene_; }
+
+ private:
+  trace::Scene scene_;
+  terrain::TileGrid grid_;  // of the tiles held
+};
+
+}  // namespace ensonify
