@@ -2,8 +2,10 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kernels/array/line.h"
@@ -79,7 +81,8 @@ TEST_CASE("the depth of a flat seabed is unbiased to 65 degrees, and its backsca
       REQUIRE(d.valid);
       const double sine = survey.sin_beams[beam], cosine = std::sqrt(1 - sine * sine);
       const double R = 0.5 * 1500 * d.two_way_s;
-      Sums& sums = by_angle[std::size_t(std::lround(std::asin(std::abs(sine)) / kDeg / 10))];
+      const double angle_deg = std::asin(std::abs(sine)) / kDeg;
+      Sums& sums = by_angle[std::min<std::size_t>(6, std::size_t(std::lround(angle_deg / 10)))];
       sums.n += 1;
       sums.depth += R * cosine - kDepth;
       sums.square += std::pow(R * cosine - kDepth, 2);
