@@ -242,7 +242,7 @@ std::unique_ptr<Check> make_check(const Expectation& e) {
     case Kind::kRate: return std::make_unique<MeanRate>(e);
     case Kind::kBounds: return std::make_unique<Bounds>(e);
     case Kind::kEventually: return std::make_unique<Eventually>(e);
-    case Kind::kNever: return std::make_unique<Never>(e);
+    case Kind::kNeverSeen: return std::make_unique<Never>(e);
     case Kind::kOrder: return std::make_unique<Order>(e);
     case Kind::kNoGap: return std::make_unique<NoGap>(e);
     case Kind::kSameAs: return make_same_as(e);

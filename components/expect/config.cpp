@@ -94,10 +94,10 @@ struct KindEntry {
   void (*read)(ConfigReader&, Expectation&);
 };
 constexpr KindEntry kKinds[] = {
-    {"count", Kind::kCount, read_count},    {"rate", Kind::kRate, read_rate},
-    {"bounds", Kind::kBounds, read_bounds}, {"eventually", Kind::kEventually, read_eventually},
-    {"never", Kind::kNever, read_never},    {"order", Kind::kOrder, read_order},
-    {"no_gap", Kind::kNoGap, read_no_gap},  {"same_as", Kind::kSameAs, read_same_as},
+    {"count", Kind::kCount, read_count},     {"rate", Kind::kRate, read_rate},
+    {"bounds", Kind::kBounds, read_bounds},  {"eventually", Kind::kEventually, read_eventually},
+    {"never", Kind::kNeverSeen, read_never}, {"order", Kind::kOrder, read_order},
+    {"no_gap", Kind::kNoGap, read_no_gap},   {"same_as", Kind::kSameAs, read_same_as},
 };
 
 std::optional<Expectation> read_expectation(ConfigReader& from) {

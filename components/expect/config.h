@@ -22,7 +22,7 @@ struct Messages {
 
 /// One expectation of a launch file, as its user wrote it.
 struct Expectation {
-  enum class Kind { kCount, kRate, kBounds, kEventually, kNever, kOrder, kNoGap, kSameAs };
+  enum class Kind { kCount, kRate, kBounds, kEventually, kNeverSeen, kOrder, kNoGap, kSameAs };
 
   Kind kind = Kind::kCount;
   std::string name;           // unique; what it says, unless the user named it
