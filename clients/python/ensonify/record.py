@@ -1,67 +1,181 @@
-"""Reading a record (MCAP) with PyPI's `mcap`.
+"""Reading a record: an uncompressed MCAP file (https://mcap.dev/spec) whose payloads are msgpack maps.
 
     with ensonify.Record("out/demo/survey.mcap") as record:
-        for received in record.messages("bow/soundings"):
+        for topic, t_sim_ns, soundings in record.messages("bow/soundings"):
             ...
+
+The file is mapped, not loaded: only what is asked for is touched. A truncated record is read to its last whole chunk.
 """
+import mmap
 import os
-from typing import Iterator, NamedTuple
+import struct
+from typing import Any, Iterator, NamedTuple
 
 from ensonify import messages, wire
 from ensonify.session import EXIT_BAD_INPUT, RunError
+
+_MAGIC = b"\x89MCAP0\r\n"
+_PROFILE = "x-ensonify/1"
+_HEADER, _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK = 1, 2, 3, 4, 5, 6
+_ATTACHMENT, _METADATA, _DATA_END = 9, 12, 15
+
+_RECORD = struct.Struct("<BQ")
+_MESSAGE_HEAD = struct.Struct("<HIQQ")
+_CHUNK_HEAD = struct.Struct("<QQQI")
 
 
 class Recorded(NamedTuple):
     """A message of a record."""
 
     topic: str
-    utc_ns: int  # log time: the run's start in UTC + sim time
-    content: object  # typed where the type is known, else a map
+    t_sim_ns: int  # time of the event that published it
+    content: Any  # typed where the type is known, else a map
+
+
+class _Channel(NamedTuple):
+    topic: str
+    type: str
+
+
+class _Cursor:
+    """Reads fields of an MCAP record front to back."""
+
+    def __init__(self, data, at: int):
+        self.data, self.at = data, at
+
+    def take(self, form: str) -> int:
+        (value,) = struct.unpack_from("<" + form, self.data, self.at)
+        self.at += struct.calcsize("<" + form)
+        return value
+
+    def bytes(self, length: int) -> bytes:
+        self.at += length
+        return self.data[self.at - length:self.at]
+
+    def text(self) -> str:
+        return self.bytes(self.take("I")).decode()
+
+    def map(self) -> dict:
+        end = self.take("I") + self.at
+        pairs = {}
+        while self.at < end:
+            key = self.text()
+            pairs[key] = self.text()
+        return pairs
 
 
 class Record:
     """A record on disk."""
 
     def __init__(self, file: str | os.PathLike):
-        try:
-            from mcap.reader import make_reader
-        except ImportError:
-            raise RunError("records need the package mcap: pip install mcap", EXIT_BAD_INPUT) from None
-        try:
-            self._stream = open(file, "rb")
-        except OSError as error:
-            raise RunError(f"{os.fspath(file)}: {error.strerror}", EXIT_BAD_INPUT) from None
         self.file = os.fspath(file)
-        self._reader = make_reader(self._stream)
+        try:
+            with open(file, "rb") as stream:
+                self._data = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
+        except (OSError, ValueError) as error:
+            raise RunError(f"{self.file}: {getattr(error, 'strerror', None) or error}", EXIT_BAD_INPUT) from None
+        self._schemas: dict = {0: ""}
+        self._channels: dict = {}  # id -> _Channel
+        self._chunks: list = []  # (begin, end) of the records inside
+        self.attachments: dict = {}  # name to bytes: the resolved launch and scenario
+        self.info: dict = {}  # version, seed, utc_start_ns
+        self.whole = False  # the record was closed in order
+        try:
+            self._index()
+        except (struct.error, UnicodeDecodeError) as error:
+            raise RunError(f"{self.file}: is damaged: {error}", EXIT_BAD_INPUT) from None
+        self.utc_start_ns = int(self.info.get("utc_start_ns", 0))
 
     def topics(self) -> dict:
         """Topic name to (type, number of messages)."""
-        summary = self._reader.get_summary()
-        if summary is None:
-            raise RunError(f"{self.file}: has no summary; was the record cut short?", EXIT_BAD_INPUT)
-        counts = summary.statistics.channel_message_counts if summary.statistics else {}
-        return {channel.topic: (self._type(summary, channel), counts.get(channel.id, 0))
-                for channel in summary.channels.values()}
+        counts = dict.fromkeys(self._channels, 0)
+        for _, channel_id, _, _ in self._walk(lambda channel: True):
+            counts[channel_id] = counts.get(channel_id, 0) + 1
+        return {self._channels[i].topic: (self._channels[i].type, count) for i, count in counts.items()}
+
+    def topics_of(self, message_type: type) -> list:
+        """Names of the topics of a type, in the order of the launch file."""
+        return [channel.topic for _, channel in sorted(self._channels.items()) if channel.type == message_type.TYPE]
 
     def messages(self, *topics: str) -> Iterator[Recorded]:
         """Messages of these topics (all of them if none is named), in the order of the record."""
-        for schema, channel, message in self._reader.iter_messages(topics=topics or None):
-            content = wire.decode_inline(message.data)
-            known = messages.TYPES.get(schema.name) if schema else None
-            yield Recorded(channel.topic, message.log_time, known.from_map(content) if known else content)
+        unknown = set(topics) - {channel.topic for channel in self._channels.values()}
+        if unknown:
+            known = ", ".join(channel.topic for channel in self._channels.values())
+            raise RunError(f"{self.file}: has no topic {', '.join(sorted(unknown))}; it has {known}", EXIT_BAD_INPUT)
+        for utc_ns, channel_id, begin, end in self._walk(lambda channel: not topics or channel.topic in topics):
+            channel = self._channels[channel_id]
+            content: Any = wire.decode_inline(self._data[begin:end])
+            known_type = messages.TYPES.get(channel.type)
+            if known_type is not None:
+                content = known_type.from_map(content)
+            yield Recorded(channel.topic, utc_ns - self.utc_start_ns, content)
 
-    def attachments(self) -> dict:
-        """Name to bytes: the resolved launch and scenario, version and seed."""
-        return {attachment.name: attachment.data for attachment in self._reader.iter_attachments()}
+    def _records(self, at: int, end: int) -> Iterator[tuple]:
+        """(opcode, begin, end) of each whole record."""
+        while at + _RECORD.size <= end:
+            op, length = _RECORD.unpack_from(self._data, at)
+            begin = at + _RECORD.size
+            at = begin + length
+            if at > end:
+                return
+            yield op, begin, at
 
-    @staticmethod
-    def _type(summary, channel) -> str:
-        schema = summary.schemas.get(channel.schema_id)
-        return schema.name if schema else ""
+    def _index(self) -> None:
+        if self._data[:len(_MAGIC)] != _MAGIC:
+            raise RunError(f"{self.file}: is no MCAP file", EXIT_BAD_INPUT)
+        for op, begin, end in self._records(len(_MAGIC), len(self._data)):
+            cursor = _Cursor(self._data, begin)
+            if op == _HEADER and (profile := cursor.text()) != _PROFILE:
+                raise RunError(f"{self.file}: has the profile {profile!r}, not {_PROFILE}", EXIT_BAD_INPUT)
+            elif op == _CHUNK:
+                self._note_chunk(cursor)
+            elif op == _ATTACHMENT:
+                cursor.at += 16  # times
+                name, _ = cursor.text(), cursor.text()
+                self.attachments[name] = cursor.bytes(cursor.take("Q"))
+            elif op == _METADATA:
+                if cursor.text() == "ensonify":
+                    self.info = cursor.map()
+            elif op == _DATA_END:
+                self.whole = True
+                return
+            else:
+                self._note_channel(op, cursor)
+
+    def _note_chunk(self, cursor: _Cursor) -> None:
+        cursor.at += _CHUNK_HEAD.size
+        compression = cursor.text()
+        if compression:
+            raise RunError(f"{self.file}: has chunks compressed with {compression}; records are not", EXIT_BAD_INPUT)
+        length = cursor.take("Q")
+        self._chunks.append((cursor.at, cursor.at + length))
+        for op, begin, _ in self._records(cursor.at, cursor.at + length):
+            if op != _MESSAGE:
+                self._note_channel(op, _Cursor(self._data, begin))
+
+    def _note_channel(self, op: int, cursor: _Cursor) -> None:
+        if op == _SCHEMA:
+            number = cursor.take("H")
+            self._schemas[number] = cursor.text()
+        elif op == _CHANNEL:
+            number, schema = cursor.take("H"), cursor.take("H")
+            topic, _, facts = cursor.text(), cursor.text(), cursor.map()
+            self._channels[number] = _Channel(topic, self._schemas.get(schema) or facts.get("type", ""))
+
+    def _walk(self, wanted) -> Iterator[tuple]:
+        """(log time, channel id, begin, end of the payload) of each message of the wanted channels."""
+        chosen = {number for number, channel in self._channels.items() if wanted(channel)}
+        for chunk in self._chunks:
+            for op, begin, end in self._records(*chunk):
+                if op == _MESSAGE:
+                    channel_id, _, log_time, _ = _MESSAGE_HEAD.unpack_from(self._data, begin)
+                    if channel_id in chosen:
+                        yield log_time, channel_id, begin + _MESSAGE_HEAD.size, end
 
     def close(self) -> None:
         """Closes the file."""
-        self._stream.close()
+        self._data.close()
 
     def __enter__(self) -> "Record":
         return self
