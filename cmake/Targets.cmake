@@ -127,3 +127,26 @@ endfunction()
 add_custom_target(fuzzers)  # every libFuzzer program
 
 enable_testing()
+
+# ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file, run with the project's virtual
+# environment where `./dev` has made one, with our client and PATHS importable.
+function(ensonify_python_test name file)
+  if(NOT ENSONIFY_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "PATHS;LABELS" ${ARGN})
+  set(python /usr/bin/python3)
+  if(EXISTS ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
+    set(python ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
+  endif()
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  list(JOIN ARG_PATHS ":" paths)
+  add_test(NAME ${name} COMMAND ${python} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${paths};PYTHONDONTWRITEBYTECODE=1;ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared")
+endfunction()

@@ -1,0 +1,1 @@
+"""`ensonify plot`: pictures, grids and numbers from a record."""

@@ -1,0 +1,91 @@
+"""Grid and soundings as files that other programs read."""
+import numpy as np
+from osgeo import gdal, osr
+
+from ensonify_plot.grid import Frame
+
+gdal.UseExceptions()
+osr.UseExceptions()
+
+
+def world_crs(origin: tuple | None) -> osr.SpatialReference:
+    """The world's map: transverse Mercator on WGS 84 centred at the scenario's origin, scale 1. Without an origin a
+    local frame that no map knows."""
+    crs = osr.SpatialReference()
+    if origin is None:
+        crs.ImportFromWkt('LOCAL_CS["Ensonify world, origin not recorded",UNIT["metre",1]]')
+        return crs
+    latitude_deg, longitude_deg = origin
+    crs.SetProjCS(f"Ensonify world at {latitude_deg:.6f} {longitude_deg:.6f}")
+    crs.SetWellKnownGeogCS("WGS84")
+    crs.SetTM(latitude_deg, longitude_deg, 1.0, 0.0, 0.0)
+    crs.SetLinearUnits("metre", 1.0)
+    return crs
+
+
+def write_geotiff(file: str, frame: Frame, up_m, count, origin: tuple | None, facts: dict) -> None:
+    """Band 1: mean elevation up from chart datum, NaN without soundings. Band 2: number of soundings."""
+    driver = gdal.GetDriverByName("GTiff")
+    options = ["COMPRESS=DEFLATE", "ZLEVEL=1", "TILED=YES", "BIGTIFF=IF_SAFER"]
+    raster = driver.Create(file, frame.cols, frame.rows, 2, gdal.GDT_Float32, options)
+    west, _, _, north = frame.extent_m
+    raster.SetGeoTransform((west, frame.cell_m, 0.0, north, 0.0, -frame.cell_m))
+    raster.SetProjection(world_crs(origin).ExportToWkt())
+    raster.SetMetadata({key: str(value) for key, value in facts.items()})
+    bands = ((up_m, "elevation, m, up from chart datum (mean of accepted soundings)", "metre"),
+             (count, "number of accepted soundings", "1"))
+    for number, (values, text, unit) in enumerate(bands, start=1):
+        band = raster.GetRasterBand(number)
+        band.SetDescription(text)
+        band.SetUnitType(unit)
+        band.SetNoDataValue(float("nan"))
+        band.WriteArray(np.ascontiguousarray(values[::-1], np.float32))
+    raster.FlushCache()
+
+
+def _digits(values: np.ndarray, decimals: int, sign: bool) -> np.ndarray:
+    """Rows of ASCII: the values with so many decimals, right-aligned behind spaces; NaN is nothing but spaces."""
+    known = np.isfinite(values)
+    scaled = np.rint(np.abs(np.where(known, values, 0)) * 10.0**decimals).astype(np.int64)
+    negative = sign and (values < 0) & (scaled > 0)
+    largest = max(int(scaled.max(initial=0)), 10**decimals)
+    width = len(str(largest))
+    text = np.full((len(values), width + 1 + bool(decimals)), ord(" "), np.uint8)
+    column = text.shape[1] - 1
+    rest = scaled
+    first = np.full(len(values), column)
+    for place in range(width):
+        if decimals and place == decimals:
+            text[:, column] = ord(".")
+            column -= 1
+        quotient = rest // 10
+        shown = (rest > 0) | (place <= decimals)
+        text[shown, column] = (rest - quotient * 10)[shown] + ord("0")
+        first[shown] = column
+        rest = quotient
+        column -= 1
+    if sign:
+        rows = np.flatnonzero(negative)
+        text[rows, first[rows] - 1] = ord("-")
+    text[~known] = ord(" ")
+    return text
+
+
+def write_csv(file: str, columns: list) -> None:
+    """`columns` holds (name, values, decimals) or (name, indices, [texts])."""
+    length = len(columns[0][1])
+    with open(file, "wb") as stream:
+        stream.write(",".join(name for name, _, _ in columns).encode() + b"\n")
+        for begin in range(0, length, 200_000):
+            part = slice(begin, begin + 200_000)
+            blocks = []
+            for _, values, how in columns:
+                if isinstance(how, list):
+                    texts = np.array([text.encode().ljust(max(map(len, how))) for text in how])
+                    block = texts.view(np.uint8).reshape(len(how), -1)[values[part]]
+                else:
+                    block = _digits(values[part], how, True)
+                blocks += [block, np.full((len(block), 1), ord(","), np.uint8)]
+            blocks[-1][:] = ord("\n")
+            text = np.hstack(blocks)
+            stream.write(text[text != ord(" ")].tobytes())

@@ -1,0 +1,201 @@
+"""The command `ensonify plot`."""
+import argparse
+import glob
+import json
+import os
+import sys
+import time
+
+import numpy as np
+
+import ensonify
+from ensonify_plot import files, grid, pictures, ping
+from ensonify_plot.summary import depth_statistics, run_facts
+from ensonify_plot.survey import Survey, UserError, read_survey
+
+
+
+def main(arguments=None) -> int:
+    """Exit code 0, or 2 when the user's files or arguments are wrong."""
+    options = parse(arguments)
+    try:
+        return options.act(options)
+    except (UserError, ensonify.RunError, ensonify.DecodeError) as error:
+        print(f"ensonify plot: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"ensonify plot: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
+    return 2
+
+
+def parse(arguments) -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="ensonify plot", description="Pictures, grids and numbers from a record.")
+    verbs = parser.add_subparsers(required=True, metavar="survey|ping")
+
+    def verb(name, act, text):
+        command = verbs.add_parser(name, help=text, description=text)
+        command.set_defaults(act=act)
+        command.add_argument("record", nargs="?", metavar="RECORD", help="an MCAP file; default: the only one in $ENSONIFY_OUT")
+        command.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
+        return command
+
+    survey = verb("survey", plot_survey, "Gridded bathymetry (GeoTIFF), soundings (CSV), pictures (PNG), summary.json.")
+    survey.add_argument("--cell", type=float, metavar="M", help="cell size in m; default: the finest of 0.1, 0.2, 0.5, ... m at "
+                        f"which {grid.WELL_FILLED:.0%} of the cells hold {grid.MIN_COUNT} soundings".replace("%", "%%"))
+    survey.add_argument("--json", action="store_true", help="print summary.json's content instead of text")
+    one = verb("ping", plot_ping, "One ping as a beam-time image (PNG).")
+    one.add_argument("--ping", type=int, metavar="N", help="ping number; default: the one in the middle of the record")
+    one.add_argument("--topic", help="the head's ping topic; default: the first recorded")
+    return parser.parse_args(arguments)
+
+
+def open_record(options) -> ensonify.Record:
+    """The record that the user means; results go beside it unless --out says otherwise."""
+    file = options.record
+    if file is None:
+        folder = os.environ.get("ENSONIFY_OUT", ".")
+        found = sorted(glob.glob(os.path.join(glob.escape(folder), "*.mcap")))
+        if len(found) != 1:
+            raise UserError(f"{folder}: {'holds no record (*.mcap)' if not found else 'holds several records, name one'}")
+        file = found[0]
+    record = ensonify.Record(file)
+    options.out = options.out or os.path.dirname(os.path.abspath(file))
+    os.makedirs(options.out, exist_ok=True)
+    return record
+
+
+class Writer:
+    """Writes results into the output folder and says so."""
+
+    def __init__(self, folder: str, quiet: bool):
+        self.folder, self.quiet = folder, quiet
+        self.began = time.monotonic()
+        self.files: list = []
+
+    def path(self, name: str) -> str:
+        """Where a result goes; notes it. An old file of that name goes first, so that a failure leaves none."""
+        path = os.path.join(self.folder, name)
+        if os.path.exists(path):
+            os.unlink(path)
+        self.files.append(name)
+        if not self.quiet:
+            print(f"ensonify plot: {time.monotonic() - self.began:5.1f} s  {path}", flush=True)
+        return path
+
+    def picture(self, name: str, figure) -> None:
+        """A PNG."""
+        figure.savefig(self.path(name))
+
+
+def plot_survey(options) -> int:
+    """`ensonify plot survey`."""
+    record = open_record(options)
+    out = Writer(options.out, options.json)
+    survey = read_survey(record)
+    if len(survey.soundings) == 0:
+        raise UserError(f"{record.file}: none of the {survey.beam_count:,} beams of {survey.ping_count:,} pings has an accepted "
+                        "sounding")
+    summary = draw_survey(survey, chosen_cell(survey, options.cell), out)
+    if record.topics_of(ensonify.Ping):
+        out.picture("ping.png", ping.ping_picture(*ping.find_ping(record, None, None)))
+    summary = {"record": os.path.basename(record.file), "whole_record": record.whole, **summary, **run_facts(options.out),
+               "files": [*out.files, "summary.json"]}
+    with open(out.path("summary.json"), "w", encoding="utf-8") as stream:
+        json.dump(summary, stream, indent=2)
+        stream.write("\n")
+    print(json.dumps(summary) if options.json else in_words(summary))
+    return 0
+
+
+def chosen_cell(survey: Survey, given: float | None) -> float:
+    """The cell size in metres: the user's, or what the soundings can fill."""
+    s = survey.soundings
+    if given is None:
+        return grid.choose_cell_m(s.east_m, s.north_m)
+    if not given > 0 or grid.cells_of(s.east_m, s.north_m, given) > grid.MAX_CELLS:
+        raise UserError(f"--cell {given:g}: must be positive and give at most {grid.MAX_CELLS:,} cells")
+    return given
+
+
+def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
+    """Everything about the seabed; returns its part of the summary."""
+    s = survey.soundings
+    frame = grid.frame_around(s.east_m, s.north_m, cell_m)
+    gridder = grid.Gridder(frame, s.east_m, s.north_m)
+    up_m = gridder.mean(s.up_m)
+    facts = {"ENSONIFY_VERSION": survey.info.get("version", ""), "SEED": survey.info.get("seed", ""), "CELL_SIZE_M": cell_m,
+             "VERTICAL_DATUM": "chart datum of the scenario"}
+    files.write_geotiff(out.path("bathymetry.tif"), frame, up_m, gridder.count, survey.origin, facts)
+    files.write_csv(out.path("soundings.csv"), [
+        ("t_s", s.t_s, 6), ("head", s.head, survey.heads), ("ping", s.ping, 0), ("beam", s.beam, 0),
+        ("east_m", s.east_m, 3), ("north_m", s.north_m, 3), ("depth_m", -s.up_m, 3), ("backscatter_db", s.backscatter_db, 2)])
+    relief = pictures.Relief(up_m, cell_m)
+    out.picture("survey.png", pictures.survey_picture(survey, frame, up_m, relief))
+    statistics = None
+    if survey.seabed:
+        true_grid_m = survey.seabed.height_m(*frame.centres())
+        out.picture("truth.png", pictures.truth_picture(frame, true_grid_m, relief))
+        out.picture("survey_and_truth.png", pictures.side_by_side(survey, frame, up_m, true_grid_m, relief))
+        true_up_m = survey.seabed.height_m(s.east_m, s.north_m)
+        statistics = depth_statistics(s.up_m, true_up_m)
+        if statistics:
+            error_m = s.up_m - true_up_m
+            picture = pictures.difference_picture(survey, frame, gridder.mean(error_m), error_m, statistics)
+            out.picture("difference.png", picture)
+    return {
+        "heads": survey.heads, "pings": survey.ping_count, "beams": survey.beam_count, "soundings": len(s),
+        "accepted": len(s) / survey.beam_count, "cell_m": cell_m, "end_s": survey.end_s,
+        "depth_m": {"least": float(-s.up_m.max()), "mean": float(-s.up_m.mean()), "greatest": float(-s.up_m.min())},
+        "coverage": coverage(survey, frame), "depth_against_truth": statistics,
+    }
+
+
+def coverage(survey: Survey, frame: grid.Frame) -> dict:
+    """Share of the surveyed area that has soundings. The area is the convex hull of what was seen on the runlines (or, if
+    the record does not tell these, at any time)."""
+    s = survey.soundings
+    on_line = np.zeros(len(s), bool)
+    for begin, end in survey.on_line_s:
+        on_line |= (s.t_s >= begin) & (s.t_s <= end)
+    told = bool(on_line.any())
+    part = on_line if told else np.ones(len(s), bool)
+    cells = frame.cols * frame.rows
+    index = frame.index(s.east_m, s.north_m)
+    covered_on_line = np.bincount(index[part], minlength=cells).reshape(frame.rows, frame.cols) > 0
+    covered = np.bincount(index, minlength=cells).reshape(frame.rows, frame.cols) > 0
+    area = grid.inside(frame, grid.outline(frame, covered_on_line))
+    share = np.count_nonzero(covered & area) / max(np.count_nonzero(area), 1)
+    return {"share": share, "area_m2": float(np.count_nonzero(area) * frame.cell_m**2),
+            "with_soundings_m2": float(np.count_nonzero(covered) * frame.cell_m**2),
+            "of": "convex hull of the soundings on the runlines" if told else "convex hull of all soundings"}
+
+
+def in_words(summary: dict) -> str:
+    """The summary for people, in some lines."""
+    lines = [f"{summary['soundings']:,} soundings ({summary['accepted']:.1%} of the beams) of {summary['pings']:,} pings, depth "
+             f"{summary['depth_m']['least']:.2f} to {summary['depth_m']['greatest']:.2f} m, cells of {summary['cell_m']:g} m",
+             f"coverage {summary['coverage']['share']:.1%} of {summary['coverage']['area_m2'] / 1e4:.2f} ha "
+             f"({summary['coverage']['of']})"]
+    truth = summary["depth_against_truth"]
+    if truth:
+        lines.append(f"against the true seabed: bias {truth['bias_m']:+.3f} m, standard deviation {truth['std_m']:.3f} m, 95 % "
+                     f"within {truth['within_95_m']:.3f} m, {truth['inside_special_order']:.1%} inside IHO S-44 Special Order")
+    else:
+        lines.append("the record holds no tiles below the soundings: nothing to compare with")
+    if summary.get("real_time_factor"):
+        lines.append(f"{summary['sim_s']:.1f} s in {summary['wall_s']:.1f} s: {summary['real_time_factor']:.1f} times real time, "
+                     f"{summary['late_events']} late events")
+    return "\n".join(lines)
+
+
+def plot_ping(options) -> int:
+    """`ensonify plot ping`."""
+    record = open_record(options)
+    out = Writer(options.out, False)
+    topic, found, soundings = ping.find_ping(record, options.topic, options.ping)
+    out.picture(f"ping_{found.ping}.png", ping.ping_picture(topic, found, soundings))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,229 @@
+"""`ensonify plot` on a synthetic record whose errors are known."""
+import contextlib
+import csv
+import importlib.util
+import io
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+from osgeo import gdal, osr
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import ensonify  # noqa: E402
+from ensonify_plot import files, grid  # noqa: E402
+from ensonify_plot.main import coverage, main  # noqa: E402
+from ensonify_plot.pictures import hillshade  # noqa: E402
+from ensonify_plot.survey import read_survey  # noqa: E402
+from ensonify_plot.truth import Seabed  # noqa: E402
+
+HAS_MCAP = importlib.util.find_spec("mcap") is not None
+if HAS_MCAP:
+    import synthetic_record
+
+NOISE_M, BIAS_M = 0.05, 0.02
+
+
+def run(*arguments):
+    """(exit code, stdout, stderr)."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main([str(argument) for argument in arguments])
+    return code, out.getvalue(), err.getvalue()
+
+
+@unittest.skipUnless(HAS_MCAP, "the package mcap is not installed (./dev test installs it)")
+class OfARecord(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.root = pathlib.Path(cls.folder.name)
+        cls.record = cls.root / "survey.mcap"
+        cls.pings = synthetic_record.write(cls.record, noise_m=NOISE_M, bias_m=BIAS_M)
+        run_facts = {"wall_s": 10.0, "sim_s": 225.0, "late_events": 3, "processes": [{"name": "bow", "peak_rss_bytes": 1000}]}
+        (cls.root / "run.json").write_text(json.dumps(run_facts))
+        cls.code, cls.printed, cls.errors = run("survey", cls.record)
+        cls.summary = json.loads((cls.root / "summary.json").read_text()) if cls.code == 0 else None
+
+    def test_everything_is_written(self):
+        self.assertEqual((self.code, self.errors), (0, ""))
+        wanted = {"bathymetry.tif", "soundings.csv", "survey.png", "truth.png", "survey_and_truth.png", "difference.png",
+                  "ping.png", "summary.json"}
+        self.assertEqual(set(self.summary["files"]), wanted)
+        for name in wanted:
+            self.assertGreater((self.root / name).stat().st_size, 200, name)
+
+    def test_the_planted_errors_are_found(self):
+        truth = self.summary["depth_against_truth"]
+        # Depth noise grows as 1 / cos(beam angle): its variance over the fan is the mean of 1 / cos^2.
+        angles = np.radians(np.linspace(-65, 65, 64))
+        std_m = NOISE_M * np.sqrt(np.mean(1 / np.cos(angles) ** 2))
+        # About 141,000 independent soundings: standard errors of 0.0002 m; the bilinear mesh adds some millimetres.
+        self.assertAlmostEqual(truth["bias_m"], BIAS_M, delta=0.003)
+        self.assertAlmostEqual(truth["std_m"], std_m, delta=0.003)
+        self.assertEqual(self.summary["pings"], self.pings)
+        self.assertEqual(truth["soundings"], self.summary["soundings"])
+        self.assertAlmostEqual(self.summary["accepted"], 0.99, delta=0.005)
+
+    def test_coverage_sees_a_gap_between_lines(self):
+        with tempfile.TemporaryDirectory() as out:
+            record = pathlib.Path(out) / "gap.mcap"
+            shares = []
+            for spacing_m in (40, 180):
+                synthetic_record.write(record, lines=2, spacing_m=spacing_m, leave_out=("tile/1", "ping/1"))
+                survey = read_survey(ensonify.Record(record))
+                frame = grid.frame_around(survey.soundings.east_m, survey.soundings.north_m, 4.0)
+                shares.append(coverage(survey, frame)["share"])
+        self.assertGreater(shares[0], 0.97)
+        # Depths of 20 and 25 m on the two lines: swaths of 86 and 109 m, in an area 180 m + half of both wide.
+        self.assertAlmostEqual(shares[1], (86 + 109) / (180 + (86 + 109) / 2), delta=0.04)
+
+    def test_run_facts(self):
+        self.assertEqual((self.summary["real_time_factor"], self.summary["late_events"]), (22.5, 3))
+        self.assertEqual(self.summary["peak_memory_bytes"], {"bow": 1000})
+
+    def test_the_geotiff_lies_where_it_should(self):
+        raster = gdal.Open(str(self.root / "bathymetry.tif"))
+        up_m, count = raster.ReadAsArray()
+        self.assertEqual(int(count.sum()), self.summary["soundings"])
+        west, cell_m, _, north, _, minus_cell_m = raster.GetGeoTransform()
+        self.assertEqual((cell_m, minus_cell_m), (self.summary["cell_m"], -self.summary["cell_m"]))
+        rows, cols = np.nonzero(count >= 5)
+        east, northing = west + (cols + 0.5) * cell_m, north - (rows + 0.5) * cell_m
+        error_m = up_m[rows, cols] - synthetic_record.seabed_up_m(east, northing)
+        self.assertLess(abs(np.median(error_m) - BIAS_M), 0.01)
+        crs = osr.SpatialReference(raster.GetProjection())
+        self.assertEqual(crs.GetProjParm("latitude_of_origin"), 54.3)
+        self.assertEqual(crs.GetProjParm("central_meridian"), 10.2)
+        self.assertEqual(crs.GetProjParm("scale_factor"), 1.0)
+
+    def test_the_csv_holds_every_accepted_sounding(self):
+        with open(self.root / "soundings.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual(len(rows), self.summary["soundings"])
+        self.assertEqual(list(rows[0]), ["t_s", "head", "ping", "beam", "east_m", "north_m", "depth_m", "backscatter_db"])
+        depths = np.array([float(row["depth_m"]) for row in rows])
+        self.assertAlmostEqual(depths.mean(), self.summary["depth_m"]["mean"], places=3)
+        self.assertEqual(rows[-1]["head"], "bow")
+        self.assertEqual(int(rows[-1]["ping"]), self.pings - 1)
+
+    def test_json_is_the_summary(self):
+        with tempfile.TemporaryDirectory() as out:
+            code, printed, _ = run("survey", self.record, "--out", out, "--json", "--cell", 2)
+            self.assertEqual(code, 0)
+            self.assertEqual(json.loads(printed), json.loads((pathlib.Path(out) / "summary.json").read_text()))
+            self.assertEqual(json.loads(printed)["cell_m"], 2.0)
+
+    def test_one_ping(self):
+        with tempfile.TemporaryDirectory() as out:
+            self.assertEqual(run("ping", self.record, "--out", out, "--ping", 100)[0], 0)
+            self.assertEqual(os.listdir(out), ["ping_100.png"])
+            code, _, errors = run("ping", self.record, "--out", out, "--ping", 101)
+            self.assertEqual(code, 2)
+            self.assertIn("ping 101 of bow/ping was not recorded; the nearest is 100", errors)
+            code, _, errors = run("ping", self.record, "--out", out, "--topic", "stern/ping")
+            self.assertEqual(code, 2)
+            self.assertIn("stern/ping is no recorded ping topic; there are bow/ping", errors)
+
+    def test_the_record_is_found_in_the_output_folder(self):
+        with tempfile.TemporaryDirectory() as out, mock.patch.dict(os.environ, {"ENSONIFY_OUT": out}):
+            code, _, errors = run("ping")
+            self.assertEqual(code, 2)
+            self.assertIn("holds no record (*.mcap)", errors)
+            os.symlink(self.record, pathlib.Path(out) / "a.mcap")
+            self.assertEqual(run("ping")[0], 0)
+            os.symlink(self.record, pathlib.Path(out) / "b.mcap")
+            self.assertIn("several records", run("ping")[2])
+
+    def test_what_was_not_recorded_is_left_out(self):
+        with tempfile.TemporaryDirectory() as out:
+            record = pathlib.Path(out) / "bare.mcap"
+            bare = ("tile/1", "chart/1", "ping/1", "mission_state/1", "estimate/1")
+            synthetic_record.write(record, lines=1, line_m=30, leave_out=bare)
+            code, printed, errors = run("survey", record)
+            self.assertEqual((code, errors), (0, ""))
+            summary = json.loads((pathlib.Path(out) / "summary.json").read_text())
+            self.assertIsNone(summary["depth_against_truth"])
+            self.assertEqual(summary["coverage"]["of"], "convex hull of all soundings")
+            self.assertEqual(set(summary["files"]), {"bathymetry.tif", "soundings.csv", "survey.png", "summary.json"})
+            synthetic_record.write(record, lines=1, line_m=30, leave_out=("soundings/1",))
+            code, _, errors = run("survey", record)
+            self.assertEqual(code, 2)
+            self.assertIn("holds no soundings", errors)
+
+    def test_the_users_mistakes_name_their_cause(self):
+        cases = {
+            ("survey", self.root / "missing.mcap"): "No such file",
+            ("survey", self.root / "run.json"): "is no MCAP file",
+            ("survey", self.record, "--cell", "0"): "--cell 0: must be positive",
+            ("survey", self.record, "--cell", "1e-6"): "at most 20,000,000 cells",
+            ("survey", self.record, "--out", self.record / "x"): "Not a directory",
+        }
+        for arguments, why in cases.items():
+            code, _, errors = run(*arguments)
+            self.assertEqual(code, 2, arguments)
+            self.assertIn(why, errors)
+
+
+class Parts(unittest.TestCase):
+    def test_numbers_are_written_as_text(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "x.csv"
+            values = np.array([0.0, -0.0004, -0.0006, 1234.5678, -7.0, np.nan])
+            files.write_csv(str(path), [("a", values, 3), ("n", np.arange(6) * 11, 0), ("h", np.zeros(6, int), ["bow"])])
+            self.assertEqual(path.read_text(), "a,n,h\n0.000,0,bow\n0.000,11,bow\n-0.001,22,bow\n1234.568,33,bow\n"
+                                               "-7.000,44,bow\n,55,bow\n")
+
+    def test_the_grid_means_and_counts(self):
+        east, north, up = np.array([0.1, 0.4, 2.5]), np.array([0.2, 0.3, 1.5]), np.array([1.0, 3.0, 7.0])
+        frame = grid.frame_around(east, north, 1.0)
+        self.assertEqual((frame.cols, frame.rows, frame.extent_m), (3, 2, (0.0, 3.0, 0.0, 2.0)))
+        gridder = grid.Gridder(frame, east, north)
+        np.testing.assert_array_equal(gridder.count, [[2, 0, 0], [0, 0, 1]])
+        np.testing.assert_array_equal(gridder.mean(up), [[2, np.nan, np.nan], [np.nan, np.nan, 7]])
+
+    def test_the_cell_is_the_finest_that_is_well_filled(self):
+        for step_m, cell_m in ((0.1, 0.5), (0.25, 1.0), (1.0, 5.0)):  # 25, 16 and 25 soundings; 4 at the next finer size
+            east, north = (x.ravel() + step_m / 2 for x in np.meshgrid(np.arange(200) * step_m, np.arange(200) * step_m))
+            self.assertEqual(grid.choose_cell_m(east, north), cell_m)
+
+    def test_the_outline_is_the_convex_hull(self):
+        covered = np.zeros((20, 30), bool)
+        covered[5:15, 5:25] = True
+        covered[8:12, 10:20] = False  # a hole belongs to the area
+        frame = grid.Frame(100.0, 200.0, 2.0, 30, 20)
+        area = grid.inside(frame, grid.outline(frame, covered))
+        expected = np.zeros_like(covered)
+        expected[5:15, 5:25] = True
+        np.testing.assert_array_equal(area, expected)
+
+    def test_the_seabed_is_continuous_across_tiles(self):
+        def plane(east, north):
+            return -10 + 0.1 * east - 0.2 * north
+
+        posts = np.arange(5.0)
+        tiles = []
+        for col in range(2):
+            east, north = np.meshgrid(posts + 4 * col, posts)
+            tiles.append(ensonify.Tile(col=col, row=0, origin_east_m=4.0 * col, origin_north_m=0.0, spacing_m=1.0,
+                                       height_m=plane(east, north).astype("f4")))
+        east, north = np.array([0.0, 3.99, 4.0, 4.01, 7.9, 9.0]), np.array([0.0, 1.5, 2.0, 2.5, 3.9, 1.0])
+        height = Seabed(tiles).height_m(east, north)
+        np.testing.assert_allclose(height[:-1], plane(east, north)[:-1], atol=1e-5)
+        self.assertTrue(np.isnan(height[-1]))
+
+    def test_the_sun_stands_in_the_north_west(self):
+        north, east = np.mgrid[0:9, 0:9].astype(float)
+        slope = (east - north) / np.sqrt(2)  # 45 degrees, falling to the north-west: the sun's rays meet it at right angles
+        np.testing.assert_allclose(hillshade(slope, 1.0, 1.0), 1.0)
+        np.testing.assert_allclose(hillshade(-slope, 1.0, 1.0), 0.0, atol=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
