@@ -208,7 +208,9 @@ void append_recorder(Launch& launch) {
   recorder.component = "recorder";
   recorder.place = {"--record"};
   recorder.config.root = ConfigNode::map(recorder.place);
-  recorder.config.root.set("file", ConfigNode::text(launch.options.record, recorder.place));
+  // As typed, from the working folder; a recorder's own relative paths start at the output folder.
+  const std::string file = fs::absolute(launch.options.record).lexically_normal().string();
+  recorder.config.root.set("file", ConfigNode::text(file, recorder.place));
   recorder.config.root.set("topics", ConfigNode::text("all", recorder.place));
   launch.processes.push_back(std::move(recorder));
 }

@@ -155,7 +155,8 @@ TEST_CASE("--record adds a recorder, expectations add the process that checks th
   const Launch launch = folder.read({.record = "a.mcap"});
   REQUIRE(launch.processes.size() == 6);
   CHECK(launch.processes[4].component == "recorder");
-  CHECK(to_json(launch.processes[4].config.root) == R"({"file":"a.mcap","topics":"all"})");
+  CHECK(to_json(launch.processes[4].config.root) ==
+        R"({"file":")" + (fs::current_path() / "a.mcap").string() + R"(","topics":"all"})");
   CHECK(launch.processes[5].name == "expect");
   CHECK(to_json(launch.processes[5].config.root) == R"({"expect":[{"count":"bow/ping","at_least":3}]})");
 }
