@@ -47,7 +47,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 /// What the new process does before it becomes the program. Other threads of ours may have held locks when we forked,
 /// so only system calls are allowed here. Gives back errno when a step failed.
 int become(const std::vector<char*>& argv, const std::vector<char*>& env, const cpu_set_t* cpus, int log_fd,
-           int keep_fd, pid_t parent) {
+           int error_fd, int keep_fd, pid_t parent) {
   ::setpgid(0, 0);
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0) {
     return errno;
@@ -70,7 +70,7 @@ int become(const std::vector<char*>& argv, const std::vector<char*>& env, const 
   if (nothing != STDIN_FILENO) {
     ::close(nothing);
   }
-  if (log_fd >= 0 && (::dup2(log_fd, STDOUT_FILENO) < 0 || ::dup2(log_fd, STDERR_FILENO) < 0)) {
+  if (log_fd >= 0 && (::dup2(log_fd, STDOUT_FILENO) < 0 || ::dup2(error_fd, STDERR_FILENO) < 0)) {
     return errno;
   }
   if (keep_fd >= 0) {
@@ -78,6 +78,18 @@ int become(const std::vector<char*>& argv, const std::vector<char*>& env, const 
   }
   ::execve(argv[0], argv.data(), env.data());
   return errno;
+}
+
+/// A new file for a child to write, or -1 for no name.
+int open_log(const std::string& file) {
+  if (file.empty()) {
+    return -1;
+  }
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) {
+    throw UserError(file + ": cannot be written: " + std::strerror(errno));
+  }
+  return fd;
 }
 
 /// The read end tells errno of a child that could not become its program; exec closes it silently.
@@ -119,13 +131,8 @@ Child::Child(const Command& command) {
   for (const int cpu : command.cpus) {
     CPU_SET(static_cast<std::size_t>(cpu), &cpus);
   }
-  int log_fd = -1;
-  if (!command.log_file.empty()) {
-    log_fd = ::open(command.log_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (log_fd < 0) {
-      throw UserError(command.log_file + ": cannot be written: " + std::strerror(errno));
-    }
-  }
+  const int log_fd = open_log(command.log_file);
+  const int error_fd = command.error_file.empty() ? log_fd : open_log(command.error_file);
   int pipe_fds[2];
   if (::pipe2(pipe_fds, O_CLOEXEC) != 0) {
     throw UserError(command.argv[0] + ": cannot be started: " + std::strerror(errno));
@@ -133,12 +140,16 @@ Child::Child(const Command& command) {
   const pid_t parent = ::getpid();
   pid_ = ::fork();
   if (pid_ == 0) {
-    const int error = become(argv, env, command.cpus.empty() ? nullptr : &cpus, log_fd, command.keep_fd, parent);
+    const int error =
+        become(argv, env, command.cpus.empty() ? nullptr : &cpus, log_fd, error_fd, command.keep_fd, parent);
     [[maybe_unused]] const ssize_t written = ::write(pipe_fds[1], &error, sizeof error);
     ::_exit(kExitDied);
   }
   const int fork_error = errno;
   ::close(pipe_fds[1]);
+  if (error_fd >= 0 && error_fd != log_fd) {
+    ::close(error_fd);
+  }
   if (log_fd >= 0) {
     ::close(log_fd);
   }

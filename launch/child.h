@@ -17,6 +17,7 @@ struct Command {
   std::map<std::string, std::string> env;  // added to our own environment
   std::vector<int> cpus;                   // empty: any
   std::string log_file;                    // standard output and error; "": ours
+  std::string error_file;                  // standard error apart; "": together with the output
   int keep_fd = -1;                        // a descriptor that the child inherits
 };
 

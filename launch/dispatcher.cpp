@@ -11,6 +11,7 @@
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/config/data_paths.h"
 #include "components/runtime/exit_error.h"
+#include "components/runtime/version.h"
 
 namespace {
 
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
     return kExitOk;
   }
   if (verb == "--version") {
-    fmt::print("ensonify {}\n", ENSONIFY_VERSION);
+    fmt::print("ensonify {}\n", kVersion);
     return kExitOk;
   }
   if (verb.empty()) {

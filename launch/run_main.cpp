@@ -9,6 +9,7 @@
 #include "components/runtime/config/data_paths.h"
 #include "components/runtime/config/launch_file.h"
 #include "components/runtime/exit_error.h"
+#include "components/runtime/version.h"
 #include "launch/after.h"
 #include "launch/supervisor.h"
 
@@ -132,6 +133,7 @@ int run(Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify run: starts the processes of a launch file, watches over them and says how it went.");
   app.name("ensonify run");
+  app.set_version_flag("--version", kVersion);
   Options options;
   declare(app, options);
   try {

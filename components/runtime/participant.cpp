@@ -103,7 +103,7 @@ class Participant {
 }  // namespace
 
 Declaration declaration_of(const std::string& component, const Ports& ports) {
-  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish()};
+  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.notes()};
 }
 
 int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting) {

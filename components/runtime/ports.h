@@ -133,7 +133,11 @@ class Ports {
   /// State "ok", "degraded" or "failed" and one line why.
   void health(const std::string& state, const std::string& message);
 
+  /// A number worth knowing before the run, such as "finest_beam_rad"; `ensonify check` compares them between processes.
+  void note(const std::string& name, double value) { notes_[name] = value; }
+
   // --- for whatever runs the node ---
+  const std::map<std::string, double>& notes() const { return notes_; }
   const std::vector<OutPort>& outs() const { return outs_; }
   const std::vector<InPort>& ins() const { return ins_; }
   bool declares_finish() const { return may_finish_; }
@@ -158,6 +162,7 @@ class Ports {
   std::vector<PacketHandler> handlers_;
   Publish publish_;
   SimTime now_{0};
+  std::map<std::string, double> notes_;
   bool may_finish_ = false;
   bool finish_requested_ = false;
   msg::Health health_;

@@ -23,7 +23,8 @@ json to_json(const Declaration& d) {
                   {"optional", p.optional},
                   {"topics", p.topics}});
   }
-  return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish}, {"out", out}, {"in", in}};
+  return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish},
+          {"out", out},        {"in", in},                 {"notes", d.notes}};
 }
 
 Declaration from_json(const json& j) {
@@ -31,6 +32,7 @@ Declaration from_json(const json& j) {
   d.process = j.at("name");
   d.component = j.value("component", "");
   d.may_finish = j.value("may_finish", false);
+  d.notes = j.value("notes", std::map<std::string, double>{});
   for (const json& p : j.at("out")) {
     OutPort out{p.at("port"), p.at("type"), p.value("max_bytes", std::size_t{4096}), {}};
     if (p.contains("rate")) out.rate = {p.at("rate").at(0), p.at("rate").at(1)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Declaration {
   std::vector<OutPort> outs;
   std::vector<InPort> ins;
   bool may_finish = false;
+  std::map<std::string, double> notes = {};  // Ports::note
 };
 
 /// One line of the launch file's `wiring:`.

@@ -67,4 +67,16 @@ void check_corridors(const TerrainSource& terrain, const std::vector<navigation:
   if (!problems.empty()) throw ConfigError(problems);
 }
 
+double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines) {
+  constexpr double kStep_m = 1.0;
+  double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
+  for (const auto& line : runlines) {
+    for (double along_m = 0.0; along_m <= navigation::length_m(line); along_m += kStep_m) {
+      const double height_m = terrain.height_m(navigation::point_on(line, along_m));
+      highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
+    }
+  }
+  return std::max(0.0, -highest_m);
+}
+
 }  // namespace ensonify::pager

@@ -19,4 +19,7 @@ struct CorridorRules {
 void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
                      const CorridorRules& rules, const std::string& scenario_file);
 
+/// Least depth under the runlines; without any, of the whole terrain. At least 0.
+double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines);
+
 }  // namespace ensonify::pager

@@ -59,6 +59,8 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   pager::check_corridors(*terrain_, config.mission.runlines,
                          {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse},
                          config.scenario_file);
+  ports.note("post_spacing_m", grid_.spacing_m);
+  ports.note("shallowest_m", pager::shallowest_m(*terrain_, config.mission.runlines));
   const Margins margins = margins_of(config, *terrain_);
   const auto extent = terrain_->extent();
   if (std::max(extent.east_m - extent.west_m, extent.north_m - extent.south_m) > 2.0 * margins.release_m) {

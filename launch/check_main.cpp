@@ -1,0 +1,78 @@
+// ensonify-check: is a launch file sound? Nothing is run but the programs' own --check.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "components/runtime/config/data_paths.h"
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/version.h"
+#include "launch/check_ports.h"
+
+namespace {
+
+using namespace ensonify;
+using namespace ensonify::launcher;
+
+int check(const LaunchOptions& options, bool as_json) {
+  CheckedPorts checked;
+  std::vector<std::string> warnings;
+  std::size_t processes = 0;
+  try {
+    const Launch launch = read_launch(options);
+    processes = launch.processes.size();
+    checked = check_ports(launch, {program_folder(), "", options.out});
+    if (checked.problems.empty()) {
+      checked.problems = wiring_problems(launch, checked);
+    }
+    warnings = resolution_warnings(checked);
+    for (const auto& name : checked.unknown) {
+      warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");
+    }
+  } catch (const ConfigError& error) {
+    for (const auto& problem : error.problems()) {
+      checked.problems.push_back(problem.text());
+    }
+  }
+  if (as_json) {
+    fmt::print("{}\n", nlohmann::json{{"problems", checked.problems}, {"warnings", warnings}}.dump(2));
+  } else {
+    for (const auto& problem : checked.problems) {
+      fmt::print(stderr, "{}\n", problem);
+    }
+    for (const auto& warning : warnings) {
+      fmt::print(stderr, "warning: {}\n", warning);
+    }
+    if (checked.problems.empty()) {
+      fmt::print("{}: {} processes, sound\n", options.file, processes);
+    }
+  }
+  return checked.problems.empty() ? kExitOk : kExitUserError;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("ensonify check: reads a launch file, its scenario and every configuration, and checks the wiring.");
+  app.name("ensonify check");
+  app.set_version_flag("--version", kVersion);
+  LaunchOptions options;
+  bool as_json = false;
+  add_options(app, options, true);
+  app.add_flag("--json", as_json, "print problems and warnings as JSON");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitOk : kExitUserError;
+  }
+  try {
+    return check(options, as_json);
+  } catch (const ExitError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return error.code;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ensonify check: {}\n", error.what());
+    return kExitDied;
+  }
+}

@@ -1,0 +1,143 @@
+#include "launch/check_ports.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "components/runtime/launch_wiring.h"
+#include "components/runtime/protocol.h"
+#include "launch/child.h"
+#include "launch/signals.h"
+
+namespace ensonify::launcher {
+namespace {
+
+constexpr std::chrono::seconds kPatience{10};
+constexpr int kAllLines = 100000;
+
+/// A folder for what the programs say, removed at the end.
+struct ScratchFolder {
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ensonify-check-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw UserError(name + ": cannot be made");
+    }
+    path = name;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string path;
+};
+
+struct Answer {
+  Ending ending;
+  std::string out;
+  std::string error;
+};
+
+Answer ask(Command command, const std::string& folder, Signals& signals) {
+  command.argv.emplace_back("--check");
+  command.log_file = folder + "/out";
+  command.error_file = folder + "/error";
+  Child child(command);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  while (child.running()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    if (left.count() <= 0 || signals.take().interrupts > 0) {
+      child.send(SIGKILL);
+    }
+    signals.wait(std::max(left, std::chrono::milliseconds(10)));
+    while (const auto reaped = reap()) {
+      if (reaped->pid == child.pid()) {
+        child.ended(reaped->wait_status, reaped->max_rss_kib, reaped->cpu_s);
+      }
+    }
+  }
+  return {*child.ending(), tail(command.log_file, kAllLines), tail(command.error_file, kAllLines)};
+}
+
+/// Adds what one program said; false when it was no declaration.
+bool add_declaration(const std::string& text, const std::string& name, CheckedPorts& checked) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) {
+    return false;
+  }
+  try {
+    checked.declarations.push_back(protocol::read_declaration(text));
+    checked.declarations.back().process = name;
+    return true;
+  } catch (const std::exception& error) {
+    checked.problems.push_back(name + ": --check printed ports that cannot be read: " + error.what());
+    return true;
+  }
+}
+
+}  // namespace
+
+CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
+  CheckedPorts checked;
+  const ScratchFolder folder;
+  Signals signals;
+  for (const auto& process : launch.processes) {
+    if (process.external) {
+      checked.unknown.push_back(process.name);
+      continue;
+    }
+    try {
+      const Answer answer = ask(process_command(launch, process, places, ""), folder.path, signals);
+      const bool native = process.argv.empty();
+      if (answer.ending.signal == 0 && answer.ending.exit_code == kExitOk &&
+          add_declaration(answer.out, process.name, checked)) {
+        continue;
+      }
+      if (native || answer.ending.exit_code == kExitUserError) {
+        const std::string said = answer.error.empty() ? answer.out : answer.error;
+        checked.problems.push_back(said.empty() ? process.name + ": --check failed without a word" : said);
+      } else {
+        checked.unknown.push_back(process.name);
+      }
+    } catch (const UserError& error) {
+      checked.problems.emplace_back(error.what());
+    }
+  }
+  return checked;
+}
+
+std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked) {
+  if (!checked.unknown.empty() || checked.declarations.size() != launch.processes.size()) {
+    return {};
+  }
+  return wire(checked.declarations, wire_rules(launch)).problems;
+}
+
+std::vector<std::string> resolution_warnings(const CheckedPorts& checked) {
+  std::vector<std::string> warnings;
+  const auto note = [](const std::map<std::string, double>& notes, const char* key) {
+    const auto found = notes.find(key);
+    return found == notes.end() ? 0.0 : found->second;
+  };
+  for (const Declaration& pager : checked.declarations) {
+    const double spacing_m = note(pager.notes, "post_spacing_m");
+    const double depth_m = note(pager.notes, "shallowest_m");
+    for (const Declaration& head : checked.declarations) {
+      const double footprint_m = depth_m * note(head.notes, "finest_beam_rad");
+      if (spacing_m > 0.0 && footprint_m > 0.0 && spacing_m > footprint_m) {
+        warnings.push_back(fmt::format(
+            "{}: posts are {:.3g} m apart, but {} resolves {:.2g} m at {:.3g} m depth; details will be missing",
+            pager.process, spacing_m, head.process, footprint_m, depth_m));
+      }
+    }
+  }
+  return warnings;
+}
+
+}  // namespace ensonify::launcher

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/launch_file.h"
+#include "components/runtime/wiring.h"
+#include "launch/commands.h"
+
+namespace ensonify::launcher {
+
+/// What the programs of a launch say about themselves when they are asked with --check.
+struct CheckedPorts {
+  std::vector<Declaration> declarations;  // of those that could be asked, in the order of ranks
+  std::vector<std::string> problems;      // what is wrong with files and arguments
+  std::vector<std::string> unknown;       // external processes and programs that do not know --check
+};
+
+/// Starts every program of the launch with --check, one after another. A program that says nothing within ten seconds
+/// is ended and counted as unknown.
+CheckedPorts check_ports(const Launch& launch, const RunPlaces& places);
+
+/// Wiring mistakes, each with its place. Nothing is said about inputs when some processes are unknown, since those may
+/// be their publishers.
+std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked);
+
+/// Where the terrain is too coarse for a head: its posts are farther apart than its finest footprint, the narrowest
+/// beam at the least depth. Names both.
+std::vector<std::string> resolution_warnings(const CheckedPorts& checked);
+
+}  // namespace ensonify::launcher
