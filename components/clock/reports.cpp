@@ -158,6 +158,7 @@ void Clock::on_request(const std::string& from, const std::string& kind, const s
   const json request = json::parse(text, nullptr, false);
   const WallTime now = steady_clock::now();
   const SimTime reached = conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0};
+  json answer = {{"kind", kind}};
   std::string problem;
   if (kind == "status") {
     router_.send(from, status_json());
@@ -169,7 +170,6 @@ void Clock::on_request(const std::string& from, const std::string& kind, const s
   }
   if (kind == "get") {
     const auto& facts = registry_.facts();
-    json answer = {{"kind", "get"}};
     if (!request.contains("what")) {
       answer["facts"] = json::array();
       for (const auto& fact : facts) answer["facts"].push_back(fact.first);
@@ -189,7 +189,9 @@ void Clock::on_request(const std::string& from, const std::string& kind, const s
   } else if (kind == "step" && request.value("ns", std::int64_t{0}) > 0) {
     const SimTime stepped_to = pacer_.paused() ? pacer_.cap(now) : SimTime{-1};
     const SimTime from_here = stepped_to >= SimTime{0} ? stepped_to : reached - SimTime{1};
-    pacer_.step_to(from_here + SimTime{request["ns"].get<std::int64_t>()}, reached, now);
+    const SimTime until = from_here + SimTime{request["ns"].get<std::int64_t>()};
+    pacer_.step_to(until, reached, now);
+    answer["until_ns"] = until.count();
   } else if (kind == "rate" && request.value("rate", -1.0) >= 0.0) {
     const double rate = request["rate"];
     pacer_.set_rate(rate > 0.0 ? std::optional(rate) : std::nullopt, reached, now);
@@ -198,7 +200,7 @@ void Clock::on_request(const std::string& from, const std::string& kind, const s
   } else {
     problem = "unknown request; known: status, registry, get, pause, resume, step (ns > 0), rate (>= 0), stop";
   }
-  json answer = {{"kind", kind}, {"ok", problem.empty()}};
+  answer["ok"] = problem.empty();
   if (!problem.empty()) answer["error"] = problem;
   router_.send(from, answer.dump());
 }

@@ -1,0 +1,187 @@
+#include "components/runtime/run_finder.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "components/runtime/exit_error.h"
+
+namespace ensonify {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEndpointFile = "clock.endpoint";
+constexpr std::string_view kIpc = "ipc://";
+constexpr std::string_view kTcp = "tcp://";
+
+/// A descriptor that closes itself.
+struct Descriptor {
+  explicit Descriptor(int number) : fd(number) {}
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int fd;
+};
+
+bool connects(int family, const sockaddr* address, socklen_t size) {
+  const Descriptor probe(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (probe.fd < 0) return false;
+  if (::connect(probe.fd, address, size) == 0 || errno == EAGAIN) return true;  // EAGAIN: many are waiting to connect
+  if (errno != EINPROGRESS) return false;
+  fd_set writable;
+  FD_ZERO(&writable);
+  FD_SET(probe.fd, &writable);
+  timeval patience{1, 0};  // the loopback interface answers at once
+  int error = 1;
+  socklen_t length = sizeof error;
+  return ::select(probe.fd + 1, nullptr, &writable, nullptr, &patience) == 1 &&
+         ::getsockopt(probe.fd, SOL_SOCKET, SO_ERROR, &error, &length) == 0 && error == 0;
+}
+
+/// A connection that says nothing does the clock no harm.
+bool somebody_listens(std::string_view endpoint) {
+  if (endpoint.starts_with(kIpc)) {
+    const std::string_view path = endpoint.substr(kIpc.size());
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.empty() || path.size() >= sizeof address.sun_path) return false;
+    std::memcpy(address.sun_path, path.data(), path.size());
+    return connects(AF_UNIX, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  }
+  const std::size_t colon = endpoint.rfind(':');
+  if (!endpoint.starts_with(kTcp) || colon < kTcp.size()) return false;
+  const std::string host(endpoint.substr(kTcp.size(), colon - kTcp.size()));
+  std::uint16_t port = 0;
+  std::from_chars(endpoint.data() + colon + 1, endpoint.data() + endpoint.size(), port);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  return ::inet_pton(AF_INET, host.c_str(), &address.sin_addr) == 1 &&
+         connects(AF_INET, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+std::string endpoint_in(const fs::path& folder) {
+  std::ifstream file(folder / kEndpointFile);
+  std::string endpoint;
+  std::getline(file, endpoint);
+  return endpoint;
+}
+
+std::vector<fs::path> run_directories(const std::vector<std::string>& folders) {
+  std::vector<fs::path> found;
+  std::error_code ignored;  // a folder that is gone holds no runs
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.is_directory(ignored)) found.push_back(entry.path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Nobody holds the lock of this run directory. The folder's own lock is held meanwhile, as launchers do, so that a
+/// launcher that is about to take its lock never finds it taken by us.
+bool lock_is_free(const fs::path& run) {
+  const Descriptor all(::open((run.parent_path() / "lock").c_str(), O_RDWR | O_CLOEXEC));
+  if (all.fd >= 0) ::flock(all.fd, LOCK_EX);
+  const Descriptor own(::open((run / "lock").c_str(), O_RDWR | O_CLOEXEC));
+  return own.fd < 0 || ::flock(own.fd, LOCK_SH | LOCK_NB) == 0;
+}
+
+std::string names_of(const std::vector<LiveRun>& runs) {
+  std::string names;
+  for (const LiveRun& run : runs) names += (names.empty() ? "" : ", ") + run.id();
+  return names;
+}
+
+std::string hint(const std::vector<std::string>& folders) {
+  const auto runs = live_runs(folders);
+  return runs.empty() ? "no run is live; `ensonify run LAUNCH` starts one" : "live runs: " + names_of(runs);
+}
+
+std::string only_live_run(const std::vector<std::string>& folders) {
+  const auto runs = live_runs(folders);
+  if (runs.size() == 1) return runs.front().endpoint;
+  if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
+  std::string places;
+  for (const std::string& folder : folders) places += (places.empty() ? "" : " or ") + folder;
+  throw UserError("no run is live under " + places +
+                  "; `ensonify run LAUNCH` starts one, --run DIR names one that is elsewhere");
+}
+
+std::string folder_of(const std::string& run, const std::vector<std::string>& folders) {
+  if (run.find('/') != std::string::npos) return run;
+  for (const std::string& folder : folders) {
+    std::error_code ignored;
+    if (fs::is_directory(fs::path(folder) / run, ignored)) return (fs::path(folder) / run).string();
+  }
+  throw UserError(run + ": there is no run of this name; " + hint(folders));
+}
+
+}  // namespace
+
+std::string LiveRun::id() const { return fs::path(folder).filename().string(); }
+
+std::vector<std::string> runs_folders() {
+  std::vector<std::string> candidates;
+  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {
+    candidates.push_back(std::string(runtime) + "/ensonify");
+  }
+  candidates.push_back("/tmp/ensonify-" + std::to_string(::geteuid()));
+  std::erase_if(candidates, [](const std::string& folder) {
+    struct stat info {};
+    return ::stat(folder.c_str(), &info) == 0 && info.st_uid != ::geteuid();
+  });
+  return candidates;
+}
+
+std::vector<LiveRun> live_runs(const std::vector<std::string>& folders) {
+  std::vector<LiveRun> runs;
+  for (const fs::path& folder : run_directories(folders)) {
+    const std::string endpoint = endpoint_in(folder);
+    if (somebody_listens(endpoint)) runs.push_back({folder.string(), endpoint});
+  }
+  return runs;
+}
+
+std::vector<std::string> dead_runs(const std::vector<std::string>& folders) {
+  std::vector<std::string> dead;
+  for (const fs::path& folder : run_directories(folders)) {
+    if (!somebody_listens(endpoint_in(folder)) && lock_is_free(folder)) dead.push_back(folder.string());
+  }
+  return dead;
+}
+
+std::string find_clock(const std::string& run, const std::vector<std::string>& folders) {
+  const char* from_environment = std::getenv("ENSONIFY_RUN");
+  const std::string wanted = !run.empty() || from_environment == nullptr ? run : from_environment;
+  if (wanted.empty()) return only_live_run(folders);
+  std::string endpoint = wanted;
+  if (!wanted.starts_with(kIpc) && !wanted.starts_with(kTcp)) {
+    endpoint = endpoint_in(folder_of(wanted, folders));
+    if (endpoint.empty()) throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folders));
+  }
+  if (!somebody_listens(endpoint)) throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folders));
+  return endpoint;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,60 @@
+#include "components/runtime/tool.h"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/version.h"
+
+namespace ensonify {
+
+namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupts = 1; };
+  action.sa_flags = 0;  // no restart: waiting calls come back
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_DFL);
+}
+
+/// What was printed must have arrived: a full disk behind `>` is not success.
+int flushed(int code) {
+  return code == kExitOk && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) ? kExitDataLost : code;
+}
+
+}  // namespace
+
+bool interrupted() { return interrupts != 0; }
+
+int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  app.set_version_flag("--version", kVersion);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    app.exit(e);
+    return kExitUserError;
+  }
+  catch_interrupts();
+  try {
+    const int code = flushed(body());
+    return interrupted() ? kExitInterrupted : code;
+  } catch (const ExitError& e) {
+    if (interrupted()) return kExitInterrupted;
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
+    return e.code;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
+    return kExitDied;
+  }
+}
+
+}  // namespace ensonify

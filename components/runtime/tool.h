@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace ensonify {
+
+/// main() of a tool: reads the command line, runs `body` and gives its exit code. What `body` throws becomes a text on
+/// standard error and the exit code that belongs to it; wrong arguments give 2, Ctrl-C gives 130.
+///
+/// A reader that closes our standard output (`| head`) ends the tool silently, as it does any Unix program.
+int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// True once Ctrl-C or SIGTERM has come; whoever waits for sockets is woken by it.
+bool interrupted();
+
+}  // namespace ensonify
