@@ -62,7 +62,7 @@ void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   try {
     if (kind == "hello") on_hello(message.from, message.text);
-    else if (kind == "proven") on_proven(message.text);
+    else if (kind == "proven") on_proven(message.from, message.text);
     else if (kind == "failed") on_failed(message.from, message.text);
     else if (kind == "bye") {
       if (const auto rank = registry_.rank_of(message.from); rank && *rank < said_bye_.size()) said_bye_[*rank] = true;
@@ -117,8 +117,8 @@ void Clock::gather() {
   if (registry_.ready()) start();
 }
 
-void Clock::on_proven(const std::string& text) {
-  for (const std::string& token : protocol::read_tokens(text)) registry_.proven(token);
+void Clock::on_proven(const std::string& from, const std::string& text) {
+  for (const std::string& token : protocol::read_tokens(text)) registry_.proven(from, token);
   if (phase_ == Phase::kProving && registry_.ready()) start();
 }
 

@@ -28,7 +28,7 @@ class Clock {
   std::optional<WallTime> next_alarm() const;
   void on_message(const bus::Router::Message& message);
   void on_hello(const std::string& from, const std::string& text);
-  void on_proven(const std::string& text);
+  void on_proven(const std::string& from, const std::string& text);
   void on_done(const std::string& from, const protocol::Done& done);
   void on_failed(const std::string& from, const std::string& text);
   void on_request(const std::string& from, const std::string& kind, const std::string& text);

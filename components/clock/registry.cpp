@@ -42,8 +42,13 @@ std::vector<std::string> Registry::missing() const {
 const std::vector<std::string>& Registry::check() {
   for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
   graph_ = wire(declarations_, rules_);
-  for (std::size_t e = 0; e < graph_.edges.size(); ++e) unproven_.insert(token_of(e));
+  for (std::size_t e = 0; e < graph_.edges.size(); ++e) unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
   return graph_.problems;
+}
+
+void Registry::proven(const std::string& from, const std::string& token) {
+  const auto edge = unproven_.find(token);
+  if (edge != unproven_.end() && edge->second == from) unproven_.erase(edge);
 }
 
 protocol::Welcome Registry::welcome(std::size_t rank) const {

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,9 @@ class Registry {
   /// Checks the wiring of all; problems are empty when it is sound. After this the graph stands.
   const std::vector<std::string>& check();
   protocol::Welcome welcome(std::size_t rank) const;
-  /// The edge of this token delivers.
-  void proven(const std::string& token) { unproven_.erase(token); }
+  /// The edge of this token delivers, says its publisher. A SUB socket sends its subscriptions to everybody it is
+  /// connected to, so the same token reported by another process proves nothing.
+  void proven(const std::string& from, const std::string& token);
   bool ready() const { return unproven_.empty(); }
   /// "bow/ping -> recorder" for each edge that has not been proven.
   std::vector<std::string> unproven() const;
@@ -47,7 +47,7 @@ class Registry {
   std::vector<bool> has_joined_;
   std::vector<Declaration> declarations_;
   Graph graph_;
-  std::set<std::string> unproven_;
+  std::map<std::string, std::string> unproven_;  // token, publisher
   std::map<std::string, std::string> facts_;
 };
 

@@ -1,0 +1,47 @@
+#include "components/clock/registry.h"
+
+#include <catch2/catch.hpp>
+
+using namespace ensonify;
+
+namespace {
+
+Launch launch_of(std::vector<std::string> names) {
+  Launch launch;
+  for (const std::string& name : names) {
+    ProcessSpec process;
+    process.name = name;
+    launch.processes.push_back(process);
+  }
+  return launch;
+}
+
+protocol::Hello hello_of(const std::string& name, std::vector<OutPort> outs, std::vector<InPort> ins) {
+  return {{name, "stub", std::move(outs), std::move(ins), false}, 1, SimTime{0}, "ipc://" + name, "ipc://" + name, {}};
+}
+
+}  // namespace
+
+TEST_CASE("an edge is proven by its own publisher only, whoever else has seen the token") {
+  clock::Registry registry(launch_of({"a", "b", "c"}));
+  CHECK(registry.join("a", hello_of("a", {{"x", "x/1", 100, {1, 1}}}, {})).empty());
+  CHECK(registry.join("b", hello_of("b", {{"y", "y/1", 100, {1, 1}}}, {})).empty());
+  CHECK(registry.missing() == std::vector<std::string>{"c"});
+  CHECK(registry.join("c", hello_of("c", {}, {{"x", "x/1", SimTime{0}, false, {}, 0}, {"y", "y/1", SimTime{0}, false, {}, 0}})).empty());
+  REQUIRE(registry.check().empty());
+  const auto welcome = registry.welcome(2);
+  REQUIRE(welcome.ins.size() == 2);
+  registry.proven("b", welcome.ins[0].token);  // the token of a's edge, seen by b
+  CHECK(registry.unproven().size() == 2);
+  registry.proven("a", welcome.ins[0].token);
+  registry.proven("b", welcome.ins[1].token);
+  CHECK(registry.ready());
+}
+
+TEST_CASE("a stranger, a double and a process under another's name are refused") {
+  clock::Registry registry(launch_of({"a"}));
+  CHECK(registry.join("z", hello_of("z", {}, {})) == "z: the launch file names no such process");
+  CHECK(registry.join("z", hello_of("a", {}, {})) == "hello of a came from z");
+  CHECK(registry.join("a", hello_of("a", {}, {})).empty());
+  CHECK(registry.join("a", hello_of("a", {}, {})) == "a: has joined already");
+}
