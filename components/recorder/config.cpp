@@ -2,6 +2,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/config/scenario.h"
+#include "components/runtime/topic_pattern.h"
 
 namespace ensonify {
 
@@ -31,10 +32,6 @@ std::vector<RecordedTopics> read_topics(ConfigReader& from, const ConfigNode& no
   return topics;
 }
 
-bool matches(const std::string& pattern, const std::string& topic) {
-  return pattern.ends_with('*') ? topic.starts_with(pattern.substr(0, pattern.size() - 1)) : pattern == topic;
-}
-
 std::string text_of(const ConfigPlace& place) {
   if (place.line == 0) return place.file;
   return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
@@ -56,10 +53,10 @@ RecorderConfig RecorderConfig::read(ConfigReader& from, const Scenario& scenario
 std::int64_t RecorderConfig::every(const std::string& topic) const {
   const RecordedTopics* best = nullptr;
   const auto rank = [](const RecordedTopics& t) {
-    return t.pattern.ends_with('*') ? t.pattern.size() : std::string::npos;
+    return is_pattern(t.pattern) ? t.pattern.size() : std::string::npos;
   };
   for (const RecordedTopics& candidate : topics) {
-    if (matches(candidate.pattern, topic) && (!best || rank(candidate) > rank(*best))) best = &candidate;
+    if (topic_matches(candidate.pattern, topic) && (!best || rank(candidate) > rank(*best))) best = &candidate;
   }
   return best ? best->every : 1;
 }

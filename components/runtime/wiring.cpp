@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/topic_pattern.h"
 
 namespace ensonify {
 
 namespace {
-
-/// "*" and "name/*" are patterns; anything else is a name.
-bool is_pattern(const std::string& topic) { return topic.ends_with('*'); }
-bool matches(const std::string& pattern, const std::string& topic) {
-  return is_pattern(pattern) ? topic.starts_with(pattern.substr(0, pattern.size() - 1)) : pattern == topic;
-}
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
   const std::string near = nearest_name(name, candidates);
@@ -90,7 +85,7 @@ class Wirer {
     for (const std::string& wanted : processes_[rank].ins[in].topics) {
       bool any = is_pattern(wanted);
       for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
-        if (graph_.topics[t].publisher == rank || !matches(wanted, graph_.topics[t].name)) continue;
+        if (graph_.topics[t].publisher == rank || !topic_matches(wanted, graph_.topics[t].name)) continue;
         any = true;
         const bool already = std::any_of(graph_.edges.begin(), graph_.edges.end(), [&](const Graph::Edge& e) {
           return e.topic == t && e.to == rank && e.in_port == in;

@@ -7,6 +7,7 @@
 
 #include "components/runtime/record/crc32.h"
 #include "components/runtime/record/value_difference.h"
+#include "components/runtime/topic_pattern.h"
 #include "messages/codec.h"
 
 namespace ensonify::record {
@@ -28,10 +29,6 @@ struct Topic {
   std::deque<Waiting> a;
   std::deque<Waiting> b;
 };
-
-bool matches(const std::string& pattern, const std::string& topic) {
-  return pattern.ends_with('*') ? topic.starts_with(pattern.substr(0, pattern.size() - 1)) : pattern == topic;
-}
 
 std::string time_text(SimTime t) { return std::to_string(t.count()); }
 
@@ -81,7 +78,7 @@ class Comparer {
 
   bool wanted(const std::string& topic) const {
     return patterns_.empty() ||
-           std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return matches(p, topic); });
+           std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return topic_matches(p, topic); });
   }
 
   Topic& topic_of(const Channel& channel) {
