@@ -85,7 +85,10 @@ class Wirer {
     for (const std::string& wanted : processes_[rank].ins[in].topics) {
       bool any = is_pattern(wanted);
       for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
-        if (graph_.topics[t].publisher == rank || !topic_matches(wanted, graph_.topics[t].name)) continue;
+        const std::size_t publisher = graph_.topics[t].publisher;
+        if (publisher == rank || !topic_matches(wanted, graph_.topics[t].name)) continue;
+        // Two that watch everything would wait for each other's health: by pattern, watchers do not watch watchers.
+        if (is_pattern(wanted) && watches_by_pattern(publisher)) continue;
         any = true;
         const bool already = std::any_of(graph_.edges.begin(), graph_.edges.end(), [&](const Graph::Edge& e) {
           return e.topic == t && e.to == rank && e.in_port == in;
@@ -96,6 +99,13 @@ class Wirer {
         problem(input_name(rank, in) + ": no process publishes " + wanted + did_you_mean(wanted, topic_names_));
       }
     }
+  }
+
+  bool watches_by_pattern(std::size_t rank) const {
+    const auto& ins = processes_[rank].ins;
+    return std::any_of(ins.begin(), ins.end(), [](const InPort& port) {
+      return port.type == "*" && std::any_of(port.topics.begin(), port.topics.end(), is_pattern);
+    });
   }
 
   void connect_named(std::size_t rank, std::size_t in, const std::string& topic, const WireRule& rule) {

@@ -81,3 +81,13 @@ TEST_CASE("a sync queue holds two messages and a window of each topic") {
   const Declaration p = process("auv", {{"pose", "pose/1", 4096, {100, 1}}, {"health", "health/1", 4096, {1, 1}}}, {});
   CHECK(queue_length(p, 1_s) == 2 + 100 + 2 + 1);
 }
+
+TEST_CASE("two recorders record everything but each other, and wait for nobody in a circle") {
+  const auto recorder = [](const std::string& name) {
+    return Declaration{name, "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false};
+  };
+  const Graph graph = wire({{"auv", "vehicle", {out("pose", "pose/1")}, {}, false}, recorder("a"), recorder("b")}, {});
+  CHECK(graph.problems.empty());
+  REQUIRE(graph.edges.size() == 2);
+  for (const Graph::Edge& edge : graph.edges) CHECK(graph.topics[edge.topic].name == "auv/pose");
+}
