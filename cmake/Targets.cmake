@@ -54,7 +54,8 @@ endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
 # Labels: unit, physics, system, determinism, golden, wire, bench; and `sanitize` for what also runs under the address
-# and thread sanitizers (presets asan and tsan build those only).
+# and thread sanitizers (presets asan and tsan build those only), or `asan` where threads are TBB's, which the thread
+# sanitizer cannot follow into its library.
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -66,7 +67,7 @@ function(ensonify_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name} --use-colour no)
   ensonify_test_properties(${name} "${ARG_LABELS}" "${ARG_TIMEOUT}")
-  if("sanitize" IN_LIST ARG_LABELS)
+  if("sanitize" IN_LIST ARG_LABELS OR ("asan" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES address))
     add_dependencies(sanitize_tests ${name})
   endif()
 endfunction()
@@ -90,8 +91,11 @@ function(ensonify_test_properties name labels timeout)
   if(NOT timeout)
     set(timeout 120)
   endif()
+  if(ENSONIFY_SANITIZE)
+    math(EXPR timeout "5 * ${timeout}")
+  endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
-    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared")
+    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0")
   foreach(alone system determinism bench soak)
     if(alone IN_LIST labels)
       set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)
