@@ -95,7 +95,7 @@ function(ensonify_test_properties name labels timeout)
     math(EXPR timeout "5 * ${timeout}")
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
-    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0")
+    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_FOLDER=${CMAKE_CURRENT_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0")
   foreach(alone system determinism bench soak)
     if(alone IN_LIST labels)
       set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)

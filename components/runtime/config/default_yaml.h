@@ -10,13 +10,13 @@
 
 namespace ensonify {
 
-/// For tests: "" when components/<component>/default.yaml lists every parameter of Config, each with the value that
-/// the struct's initialiser gives it; otherwise what differs. `exempt` are parameters without a default. Config needs
-/// ==.
+/// For tests: "" when default.yaml beside the test lists every parameter of Config, each with the value that the
+/// struct's initialiser gives it; otherwise what differs. `component` is the name of the process that asks, `exempt` are
+/// parameters without a default. Config needs ==.
 template <class Config>
 std::string default_yaml_fault(const std::string& component, const Scenario& scenario,
                                const std::vector<std::string>& exempt = {}) {
-  const std::string path = std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/" + component + "/default.yaml";
+  const std::string path = std::string(std::getenv("ENSONIFY_FOLDER")) + "/default.yaml";
   ConfigReader file = ConfigReader::from_file(path);
   ConfigReader nothing = ConfigReader::from_text("{}", "nothing.yaml");
   const Config written = Config::read(file, scenario, component);
