@@ -2,32 +2,17 @@
 
 #include <tbb/global_control.h>
 
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <numbers>
 
 #include "kernels/array/line.h"
+#include "kernels/echo/allocations.h"
 #include "kernels/seabed/lambert.h"
 
 using namespace ensonify;
 using namespace ensonify::echo;
 using frames::Vec3;
-
-static std::atomic<long> allocations{0};
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDepth = 20.0, kMu = -25.0;
@@ -210,9 +195,9 @@ TEST_CASE("threads change no bit, and a ping after the first allocates nothing")
   CHECK(energy(one.row(128), 1) > 0);
 
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
-  const long before = allocations;
+  const long before = allocations();
   for (std::uint64_t ping = 8; ping < 18; ++ping) {
     accumulate(sonar, beams, {0, 50e-6, 2000}, met.at(ping), {0, 1, rest}, {5, "phase"}, workspace, one);
   }
-  CHECK(allocations - before == 0);
+  CHECK(allocations() - before == 0);
 }
