@@ -27,7 +27,7 @@ class Participant {
     link_.send_control(protocol::encode(
         protocol::Hello{declaration_, getpid(), SimTime{0}, link_.sync_endpoint(), link_.live_endpoint(), {}}));
     while (true) {
-      const bus::Link::Event event = link_.wait();
+      const bus::Link::Event event = next_event();
       if (event.kind == bus::Link::Event::kClockLost) throw ExitError(kExitDied, "the clock is gone");
       if (event.kind == bus::Link::Event::kTokens) {
         tell_proven(event.tokens);
@@ -48,6 +48,14 @@ class Participant {
   // The queue must not depend on the launch file, which a program may not have read; the longest window allowed is 5 s.
   static constexpr SimTime kLongestWindow = std::chrono::seconds(5);
 
+  /// Once time has started the clock alone has something to say, unless it is gone.
+  bus::Link::Event next_event() {
+    if (granted_) {
+      if (auto control = link_.wait_control()) return {bus::Link::Event::kControl, std::move(*control), {}};
+    }
+    return link_.wait();
+  }
+
   void welcome(const std::string& text) {
     protocol::Welcome w = protocol::read_welcome(text, ports_.outs(), ports_.ins());
     epoch_ = w.epoch;
@@ -67,6 +75,7 @@ class Participant {
 
   void run_grant(const protocol::Grant& grant) {
     if (grant.epoch != epoch_) return;
+    granted_ = true;
     link_.wait_arrived(grant.inputs);
     for (const msg::Packet& packet : link_.take()) stepper_.insert(packet);
     const auto begin = std::chrono::steady_clock::now();
@@ -98,6 +107,7 @@ class Participant {
   Stepper stepper_;
   bus::Link link_;
   std::uint32_t epoch_ = 0;
+  bool granted_ = false;
 };
 
 }  // namespace

@@ -14,11 +14,16 @@
 
 namespace ensonify::bus {
 
+namespace {
+constexpr int kLookAroundMs = 500;  // how soon a lost clock is noticed
+}
+
 struct Link::Sockets {
   Sockets(const std::string& name, const std::string& clock_endpoint)
       : clock(context, zmq::socket_type::dealer), sync(context, zmq::socket_type::xpub),
         live(context, zmq::socket_type::xpub), monitor(context, zmq::socket_type::pair) {
     clock.set(zmq::sockopt::routing_id, name);
+    clock.set(zmq::sockopt::rcvtimeo, kLookAroundMs);
     connect_control(clock, clock_endpoint);
     const std::string watch = "inproc://clock-monitor";
     if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
@@ -118,6 +123,12 @@ const std::string& Link::sync_endpoint() const { return sockets_->sync_endpoint;
 const std::string& Link::live_endpoint() const { return sockets_->live_endpoint; }
 
 void Link::send_control(std::string_view text) { sockets_->clock.send(zmq::buffer(text)); }
+
+std::optional<std::string> Link::wait_control() {
+  zmq::message_t message;
+  if (!sockets_->clock.recv(message)) return std::nullopt;
+  return message.to_string();
+}
 
 Link::Event Link::wait() {
   zmq::pollitem_t items[] = {{sockets_->clock.handle(), 0, ZMQ_POLLIN, 0},

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,9 @@ class Link {
     std::vector<std::string> tokens;  // subscribers that have reached our sync socket
   };
   Event wait();
+
+  /// The clock's next message; nothing after a while without one. Half the price of wait(), which then tells why.
+  std::optional<std::string> wait_control();
 
   /// Starts receiving. The token of each topic is subscribed after the topic itself.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);

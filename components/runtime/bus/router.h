@@ -25,7 +25,7 @@ class Router {
     std::string from;  // routing id: a participant's name, or one that ZeroMQ made up for a tool
     std::string text;
   };
-  /// The next message, or nothing once `until` has passed or a signal came.
+  /// The next message; nothing at `until`, after a signal, or now and then before: look at the time and call again.
   std::optional<Message> wait(std::optional<WallTime> until);
   /// False if that peer is gone.
   bool send(const std::string& to, std::string_view text);
