@@ -23,9 +23,8 @@ int check(const LaunchOptions& options, bool as_json) {
     const Launch launch = read_launch(options);
     processes = launch.processes.size();
     checked = check_ports(launch, {program_folder(), "", options.out});
-    if (checked.problems.empty()) {
-      checked.problems = wiring_problems(launch, checked);
-    }
+    const auto wiring = wiring_problems(launch, checked);
+    checked.problems.insert(checked.problems.end(), wiring.begin(), wiring.end());
     warnings = resolution_warnings(checked);
     for (const auto& name : checked.unknown) {
       warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");

@@ -88,6 +88,9 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
   const ScratchFolder folder;
   Signals signals;
   for (const auto& process : launch.processes) {
+    if (process.observer) {
+      continue;
+    }
     if (process.external) {
       checked.unknown.push_back(process.name);
       continue;
@@ -113,7 +116,7 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
 }
 
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked) {
-  if (!checked.unknown.empty() || checked.declarations.size() != launch.processes.size()) {
+  if (!checked.unknown.empty() || !checked.problems.empty()) {
     return {};
   }
   return wire(checked.declarations, wire_rules(launch)).problems;

@@ -20,8 +20,8 @@ struct CheckedPorts {
 /// is ended and counted as unknown.
 CheckedPorts check_ports(const Launch& launch, const RunPlaces& places);
 
-/// Wiring mistakes, each with its place. Nothing is said about inputs when some processes are unknown, since those may
-/// be their publishers.
+/// Wiring mistakes, each with its place. Nothing is said when some processes are unknown or could not tell their
+/// ports, since those may be the publishers that seem to be missing.
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked);
 
 /// Where the terrain is too coarse for a head: its posts are farther apart than its finest footprint, the narrowest

@@ -78,7 +78,7 @@ void explain(const RunReport& report, const std::string& out) {
     }
   } else if (!cause.culprit.empty()) {
     const std::string log = out + "/log/" + cause.culprit + ".log";
-    if (const std::string text = tail(log, 10); !text.empty()) {
+    if (const std::string text = tail(log, 10); !text.empty() && !cause.message.ends_with(text)) {
       fmt::print(stderr, "{}, last lines:\n{}\n", log, text);
     }
   }

@@ -18,7 +18,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kAskEvery{200};
 constexpr milliseconds kAnswerPatience{50};
-constexpr milliseconds kSettle{50};             // deaths noticed together are judged together
+constexpr milliseconds kSettle{100};            // deaths noticed together are judged together
 constexpr milliseconds kSettleUserErrors{300};  // so that the mistakes in several configurations are shown at once
 constexpr milliseconds kGraceAfterStop{5000};   // an orderly end after Ctrl-C
 constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death
@@ -179,6 +179,10 @@ void Supervisor::on_ended(const Reaped& reaped) {
       member.respawn_at = now + kRespawnAfter;
     }
   } else if (!by_us) {
+    if (member.child->ending()->signal == 0 && fault->code != kExitUserError) {
+      const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
+      fault->message += last_words.empty() ? "" : ": " + last_words;
+    }
     member.fault = fault;
     noticed_.push_back(*fault);
     judge_at_ = now + (fault->code == kExitUserError ? kSettleUserErrors : kSettle);

@@ -7,7 +7,9 @@
 namespace ensonify::clock {
 
 Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)) {
-  for (const ProcessSpec& process : launch.processes) names_.push_back(process.name);
+  for (const ProcessSpec& process : launch.processes) {
+    if (!process.observer) names_.push_back(process.name);  // observers look on; they are no part of the run
+  }
   joined_.resize(names_.size());
   has_joined_.resize(names_.size());
   facts_ = facts_of(launch);

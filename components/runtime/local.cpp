@@ -23,6 +23,7 @@ class LocalRun {
  public:
   LocalRun(const Launch& launch, const std::map<std::string, NodeFactory>& components) : launch_(launch) {
     for (const ProcessSpec& process : launch.processes) {
+      if (process.observer) continue;
       const auto factory = components.find(process.component);
       if (process.external || factory == components.end()) {
         throw UserError(process.name + ": only components of Ensonify can run in this process, not " +
