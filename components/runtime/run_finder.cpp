@@ -119,11 +119,13 @@ std::string hint(const std::vector<std::string>& folders) {
 }
 
 std::string only_live_run(const std::vector<std::string>& folders) {
-  const auto runs = live_runs(folders);
-  if (runs.size() == 1) return runs.front().endpoint;
-  if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
   std::string places;
-  for (const std::string& folder : folders) places += (places.empty() ? "" : " or ") + folder;
+  for (const std::string& folder : folders) {
+    const auto runs = live_runs({folder});
+    if (runs.size() == 1) return runs.front().endpoint;
+    if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
+    places += (places.empty() ? "" : " or ") + folder;
+  }
   throw UserError("no run is live under " + places +
                   "; `ensonify run LAUNCH` starts one, --run DIR names one that is elsewhere");
 }

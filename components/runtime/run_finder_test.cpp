@@ -1,0 +1,118 @@
+#include "components/runtime/run_finder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "components/runtime/exit_error.h"
+
+namespace ensonify {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+/// A folder of run directories, removed at the end, and an environment without $ENSONIFY_RUN.
+class Runs {
+ public:
+  Runs() {
+    ::unsetenv("ENSONIFY_RUN");
+    std::string name = (fs::temp_directory_path() / "ens-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Runs() { fs::remove_all(path_); }
+
+  /// A run directory that says where its clock is.
+  std::string make(const std::string& id) const {
+    fs::create_directory(path_ / id);
+    std::ofstream(path_ / id / "clock.endpoint") << "ipc://" << (path_ / id / "clock").string();
+    return (path_ / id).string();
+  }
+  std::string path() const { return path_.string(); }
+  std::vector<std::string> folders() const { return {path()}; }
+
+ private:
+  fs::path path_;
+};
+
+/// Somebody who listens where a run's clock would.
+class Listener {
+ public:
+  explicit Listener(const std::string& run) : fd_(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, (run + "/clock").c_str(), sizeof address.sun_path - 1);
+    REQUIRE(::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    REQUIRE(::listen(fd_, 1) == 0);
+  }
+  ~Listener() { ::close(fd_); }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+TEST_CASE("the only live run is found, a dead one beside it is not in the way") {
+  const Runs runs;
+  runs.make("run-dead");
+  const std::string live = runs.make("run-live");
+  const Listener clock(live);
+  CHECK(find_clock("", runs.folders()) == "ipc://" + live + "/clock");
+  REQUIRE(live_runs(runs.folders()).size() == 1);
+  CHECK(live_runs(runs.folders()).front().id() == "run-live");
+  CHECK(dead_runs(runs.folders()) == std::vector<std::string>{runs.path() + "/run-dead"});
+}
+
+TEST_CASE("none, several and dead runs are told apart, and the text says what to do") {
+  const Runs runs;
+  CHECK_THROWS_WITH(find_clock("", runs.folders()),
+                    Contains("no run is live under " + runs.path()) && Contains("`ensonify run LAUNCH` starts one"));
+  const std::string a = runs.make("run-a");
+  CHECK_THROWS_WITH(find_clock("run-a", runs.folders()), Contains("run-a: is dead: nobody listens at ipc://"));
+  const Listener clock_a(a);
+  const std::string b = runs.make("run-b");
+  const Listener clock_b(b);
+  CHECK_THROWS_WITH(find_clock("", runs.folders()), "several runs are live; name one with --run: run-a, run-b");
+  CHECK(find_clock("run-b", runs.folders()) == "ipc://" + b + "/clock");
+  CHECK(find_clock(a, {}) == "ipc://" + a + "/clock");
+  CHECK(find_clock("ipc://" + a + "/clock", {}) == "ipc://" + a + "/clock");
+  CHECK_THROWS_WITH(find_clock("run-c", runs.folders()),
+                    "run-c: there is no run of this name; live runs: run-a, run-b");
+  CHECK_THROWS_AS(find_clock("tcp://127.0.0.1:1", {}), UserError);
+}
+
+TEST_CASE("the environment names a run, an argument overrules it") {
+  const Runs runs;
+  const std::string a = runs.make("run-a");
+  const Listener clock_a(a);
+  const std::string b = runs.make("run-b");
+  const Listener clock_b(b);
+  ::setenv("ENSONIFY_RUN", "run-a", 1);
+  CHECK(find_clock("", runs.folders()) == "ipc://" + a + "/clock");
+  CHECK(find_clock("run-b", runs.folders()) == "ipc://" + b + "/clock");
+  ::unsetenv("ENSONIFY_RUN");
+}
+
+TEST_CASE("a run that is starting holds its lock and is neither live nor dead") {
+  const Runs runs;
+  const std::string starting = runs.path() + "/run-new";
+  fs::create_directory(starting);
+  const int lock = ::open((starting + "/lock").c_str(), O_RDWR | O_CREAT, 0600);
+  REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);
+  CHECK(live_runs(runs.folders()).empty());
+  CHECK(dead_runs(runs.folders()).empty());
+  ::close(lock);
+  CHECK(dead_runs(runs.folders()).size() == 1);
+}
+
+}  // namespace ensonify

@@ -1,0 +1,77 @@
+// ensonify topic: looks at the topics of a live run, on the live plane only.
+#include <CLI/CLI.hpp>
+
+#include "components/runtime/tool.h"
+#include "tools/topic/topic.h"
+
+namespace ensonify::topic_tool {
+
+std::optional<bus::Observer::WallTime> deadline(const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  if (options.timeout_s <= 0.0) return std::nullopt;
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.timeout_s));
+}
+
+bus::Observer observe(const std::vector<TopicEntry>& topics) {
+  std::vector<bus::Observer::Topic> watched;
+  for (const TopicEntry& topic : topics) watched.push_back({topic.name, topic.endpoint});
+  return bus::Observer(watched);
+}
+
+namespace {
+
+CLI::App* verb(CLI::App& app, Options& options, const std::string& name, const std::string& about) {
+  CLI::App* sub = app.add_subcommand(name, about);
+  add_run_option(*sub, options.run);
+  sub->add_flag("--json", options.json, "JSON for scripts; times in ns or s, sizes in bytes, as the keys say");
+  sub->add_option("TOPIC", options.topics, "topics, or patterns such as 'bow/*'");
+  return sub;
+}
+
+CLI::App* listener(CLI::App& app, Options& options, const std::string& name, const std::string& about) {
+  CLI::App* sub = verb(app, options, name, about);
+  sub->get_option("TOPIC")->required();
+  sub->add_option("--count,-n", options.count, "leave after so many messages in all (default: at the end of the run)");
+  sub->add_option("--timeout", options.timeout_s, "leave after so long, wall s (default: at the end of the run)")
+      ->check(CLI::Range(1e-3, 1e6));
+  return sub;
+}
+
+void add_verbs(CLI::App& app, Options& options) {
+  verb(app, options, "list", "every topic with type, declared rate and size, messages so far, subscribers");
+  verb(app, options, "info", "one topic in full, with its fields and their units")->get_option("TOPIC")->required();
+  CLI::App* echo = listener(app, options, "echo", "prints messages, arrays abbreviated");
+  echo->add_option("--field", options.field, "only this field, e.g. range_m or position_enu_m.2");
+  echo->add_flag("--full", options.full, "with --json: every element of every array");
+  for (const auto& [name, about] : {std::pair{"hz", "how often: Hz in sim time and wall time, and the jitter of both"},
+                                    {"bw", "how much: bytes per second of wall time and of sim time"}}) {
+    listener(app, options, name, about)
+        ->add_option("--window", options.window, "messages per topic that the rates are taken over")
+        ->check(CLI::Range(2, 1'000'000))
+        ->capture_default_str();
+  }
+}
+
+int run(const CLI::App& app, const Options& options) {
+  const std::string name = app.get_subcommands().front()->get_name();
+  if (name == "list") return list(options);
+  if (name == "info") return info(options);
+  if (name == "echo") return echo(options);
+  return name == "hz" ? hz(options) : bw(options);
+}
+
+}  // namespace
+
+}  // namespace ensonify::topic_tool
+
+int main(int argc, char** argv) {
+  using namespace ensonify::topic_tool;
+  CLI::App app("Looks at the topics of a live run. What is asked for here can never slow the run: a slow reader loses\n"
+               "messages instead, and is told how many.\n"
+               "Exit code: 0 done, 1 fewer messages came than were asked for, 2 no such run, topic or field.",
+               "ensonify topic");
+  Options options;
+  app.require_subcommand(1);
+  add_verbs(app, options);
+  return ensonify::tool_main(app, argc, argv, [&] { return run(app, options); });
+}

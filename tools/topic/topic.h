@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "components/runtime/bus/observer.h"
+#include "components/runtime/clock_client.h"
+
+namespace ensonify::topic_tool {
+
+/// What the user asked for; each verb uses its own.
+struct Options {
+  std::string run;
+  bool json = false;
+  std::vector<std::string> topics;  // names or patterns
+  std::uint64_t count = 0;          // leave after so many messages; 0: never
+  double timeout_s = 0.0;           // leave after so long, wall time; 0: never
+  std::string field;                // echo: only this one
+  bool full = false;                // echo --json: every element of every array
+  std::uint64_t window = 1000;      // hz, bw: messages that the rates are taken over
+};
+
+// Each returns the exit code.
+int list(const Options& options);
+int info(const Options& options);
+int echo(const Options& options);
+int hz(const Options& options);
+int bw(const Options& options);
+
+/// When to leave, or nothing for never.
+std::optional<bus::Observer::WallTime> deadline(const Options& options);
+/// Listens to the live plane of these topics.
+bus::Observer observe(const std::vector<TopicEntry>& topics);
+
+}  // namespace ensonify::topic_tool
