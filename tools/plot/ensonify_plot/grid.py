@@ -4,8 +4,8 @@ from dataclasses import dataclass
 import numpy as np
 
 CELL_SIZES_M = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
-MIN_COUNT = 5  # soundings that a well-filled cell holds ...
-WELL_FILLED = 0.95  # ... and the share of cells that are, as NOAA's survey specifications ask of a surface
+MIN_COUNT = 3  # soundings that a well-filled cell holds ...
+WELL_FILLED = 0.9  # ... and the share of the cells with soundings that are; the rest is the rim of the swath
 MAX_CELLS = 20_000_000
 
 

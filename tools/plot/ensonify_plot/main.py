@@ -35,7 +35,7 @@ def parse(arguments) -> argparse.Namespace:
     def verb(name, act, text):
         command = verbs.add_parser(name, help=text, description=text)
         command.set_defaults(act=act)
-        command.add_argument("record", nargs="?", metavar="RECORD", help="an MCAP file; default: the only one in $ENSONIFY_OUT")
+        command.add_argument("record", nargs="?", metavar="RECORD", help="an MCAP file, or a folder with one; default: $ENSONIFY_OUT")
         command.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
         return command
 
@@ -51,12 +51,11 @@ def parse(arguments) -> argparse.Namespace:
 
 def open_record(options) -> ensonify.Record:
     """The record that the user means; results go beside it unless --out says otherwise."""
-    file = options.record
-    if file is None:
-        folder = os.environ.get("ENSONIFY_OUT", ".")
-        found = sorted(glob.glob(os.path.join(glob.escape(folder), "*.mcap")))
+    file = options.record or os.environ.get("ENSONIFY_OUT", ".")
+    if os.path.isdir(file):
+        found = sorted(glob.glob(os.path.join(glob.escape(file), "*.mcap")))
         if len(found) != 1:
-            raise UserError(f"{folder}: {'holds no record (*.mcap)' if not found else 'holds several records, name one'}")
+            raise UserError(f"{file}: {'holds no record (*.mcap)' if not found else 'holds several records, name one'}")
         file = found[0]
     record = ensonify.Record(file)
     options.out = options.out or os.path.dirname(os.path.abspath(file))

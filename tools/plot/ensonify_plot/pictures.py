@@ -164,18 +164,27 @@ def side_by_side(survey, frame: Frame, survey_up_m, truth_up_m, relief: Relief) 
 
 def difference_picture(survey, frame: Frame, difference_m, error_m, statistics: dict) -> Figure:
     """Map of survey minus truth, histogram of all soundings, and how the error grows with the beam angle."""
-    limit = max(float(np.nanpercentile(np.abs(difference_m), 99)), 0.01)
-    figure = new_figure(12.5, 5.6)
-    left, right = figure.subfigures(1, 2, width_ratios=(1.75, 1))
+    tall = map_size_in(frame)[1] > 0.75 * map_size_in(frame)[0]
+    figure = new_figure(11.0 if tall else 12.5, 7.2 if tall else 5.6)
+    left, right = figure.subfigures(1, 2, width_ratios=(1.25 if tall else 1.75, 1))
+    limit = max(3 * robust_std(error_m), 0.01)
     axes = left.subplots()
     mappable = axes.imshow(difference_m, extent=frame.extent_m, origin="lower", interpolation="nearest", cmap="RdBu",
                            vmin=-limit, vmax=limit)
-    map_axes(axes, frame, f"Survey minus truth, mean per {frame.cell_m:g} m cell\n{_in_words(statistics)}")
+    map_axes(axes, frame, "")
+    left.suptitle(f"Survey minus truth, mean per {frame.cell_m:g} m cell\n{_in_words(statistics)}", x=0.02, ha="left",
+                  fontsize=10)
     colour_bar(left, mappable, axes, "survey minus truth (m); blue: too shallow, red: too deep")
     histogram, by_angle = right.subplots(2, 1)
     _draw_histogram(histogram, error_m, statistics)
     _draw_by_angle(by_angle, survey.soundings.beam_angle_rad, error_m)
     return figure
+
+
+def robust_std(values) -> float:
+    """Standard deviation of a Gaussian with the values' median deviation: outliers do not count."""
+    known = values[np.isfinite(values)]
+    return 1.4826 * float(np.median(np.abs(known - np.median(known))))
 
 
 def _in_words(s):
@@ -185,8 +194,10 @@ def _in_words(s):
 
 def _draw_histogram(axes, error_m, statistics):
     known = error_m[np.isfinite(error_m)]
-    spread = max(float(np.percentile(np.abs(known), 99.5)), 0.01)
+    spread = max(5 * robust_std(known), 0.01)
+    outside = np.mean(np.abs(known) > spread)
     axes.hist(known, bins=np.linspace(-spread, spread, 81), color="#3a86bd")
+    axes.set_title(f"{100 * outside:.2f} % lie outside", fontsize=8, loc="right")
     axes.axvline(0, color="black", linewidth=0.8)
     axes.axvline(statistics["bias_m"], color="#c0392b", linewidth=1.2, label=f"bias {statistics['bias_m']:+.3f} m")
     axes.set(xlabel="sounding minus truth, up (m)", ylabel="soundings")
@@ -209,6 +220,8 @@ def _draw_by_angle(axes, angle_rad, error_m):
                       label="mean ± 2 standard deviations")
     axes.plot(middle, mean, color="#2b2a66", linewidth=1.2, label="mean")
     axes.axhline(0, color="black", linewidth=0.8)
+    reach = 3 * float(np.nanmedian(np.abs(mean) + 2 * spread))
+    axes.set_ylim(-reach, reach)
     axes.set(xlabel="beam angle, positive to starboard (°)", ylabel="sounding minus truth (m)")
     axes.legend(fontsize=7, loc="upper center")
     axes.grid(alpha=0.2)

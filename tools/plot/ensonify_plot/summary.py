@@ -25,14 +25,18 @@ def depth_statistics(up_m: np.ndarray, true_up_m: np.ndarray) -> dict | None:
 
 
 def run_facts(folder: str) -> dict:
-    """What the launcher wrote about the run: wall time, late events, memory. Empty if there is no such file."""
+    """What launcher and clock wrote about the run: wall time, late events, memory. Empty if they wrote nothing."""
+    run, clock = (_json(os.path.join(folder, name)) for name in ("run.json", "clock.json"))
+    if not run:
+        return {}
+    memory = {p["name"]: 1024 * p["max_rss_kib"] for p in run.get("processes", []) if p.get("max_rss_kib") is not None}
+    return {"wall_s": run.get("wall_s"), "sim_s": run.get("sim_s"), "real_time_factor": run.get("real_time_factor"),
+            "late_events": clock.get("late_events"), "peak_memory_bytes": memory}
+
+
+def _json(file: str) -> dict:
     try:
-        with open(os.path.join(folder, "run.json"), encoding="utf-8") as stream:
-            run = json.load(stream)
+        with open(file, encoding="utf-8") as stream:
+            return json.load(stream)
     except OSError:
         return {}
-    facts = {"wall_s": run.get("wall_s"), "sim_s": run.get("sim_s"), "late_events": run.get("late_events")}
-    if facts["wall_s"] and facts["sim_s"] is not None:
-        facts["real_time_factor"] = facts["sim_s"] / facts["wall_s"]
-    memory = {p["name"]: p["peak_rss_bytes"] for p in run.get("processes", []) if p.get("peak_rss_bytes") is not None}
-    return {**facts, "peak_memory_bytes": memory}
