@@ -33,6 +33,10 @@ def is_test(path):
     return path.endswith("_test.cpp")
 
 
+def is_bench(path):
+    return path.endswith("/bench.cpp")
+
+
 def visible_folders(path):
     """The folders whose headers the file may include; None: no restriction."""
     parts = path.split("/")
@@ -66,6 +70,8 @@ def problem_of_library_include(path, target):
     if STANDARD.match(target) or (is_test(path) and TEST_FRAMEWORK.match(target)):
         return None
     area = path.split("/")[0]
+    if is_bench(path) and target.startswith("benchmark/"):
+        return None
     if area == "kernels" and not NUMERIC.match(target) and not is_test(path):
         return f"<{target}>: kernels see the standard library and numeric libraries only"
     if area == "messages" and not is_test(path) and not re.match(r"^(msgpack|nlohmann/)", target):
@@ -94,6 +100,7 @@ def problems(root):
 PLANTED = {
     "kernels/a/a.h": [("<vector>", None), ("<Eigen/Core>", None), ('"messages/m.h"', "out of sight"),
                       ("<sys/socket.h>", "numeric libraries only"), ("<embree3/rtcore.h>", "kernels/trace")],
+    "kernels/a/bench.cpp": [("<benchmark/benchmark.h>", None)],
     "kernels/a/a_test.cpp": [("<catch2/catch.hpp>", None), ('"kernels/a/a.h"', None), ('"a.h"', "does not exist")],
     "kernels/trace/t.cpp": [("<embree3/rtcore.h>", None)],
     "messages/m.h": [("<cstdint>", None), ("<msgpack.hpp>", "messages/*.cpp"), ('"kernels/a/a.h"', "out of sight")],
