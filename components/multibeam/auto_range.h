@@ -7,38 +7,58 @@
 
 namespace ensonify {
 
-/// Chooses how long to listen from what was detected last, as an operator would: a little farther than the farthest
-/// detections, in steps. With hardly any detection it falls back to the longest range.
+/// What a beam heard of the bottom.
+struct HeardBottom {
+  double beam_angle_rad = 0.0;
+  double range_m = 0.0;
+};
+
+/// Chooses how long to listen from what was detected last, as an operator would: a little farther than the edge of the
+/// swath, in steps. With hardly any detection it falls back to the longest range.
 class AutoRange {
  public:
-  explicit AutoRange(double longest_m) : longest_m_(longest_m), range_m_(longest_m) {}
+  AutoRange(double longest_m, double half_swath_rad, int beams)
+      : longest_m_(longest_m), half_swath_rad_(half_swath_rad), beams_(beams), range_m_(longest_m) {}
 
   double range_m() const { return range_m_; }
 
-  /// Slant ranges of the soundings of a ping that listened to `listened_m`, in any order, and how many beams there are.
-  void update(std::vector<double>& ranges_m, std::size_t beams, double listened_m) {
-    if (ranges_m.size() < kFewest * static_cast<double>(beams)) {
+  /// The detections of a ping that listened to `listened_m`.
+  void update(std::span<const HeardBottom> heard, double listened_m) {
+    if (static_cast<double>(heard.size()) < kFewest * beams_) {
       range_m_ = longest_m_;
       return;
     }
-    // A few outliers must not rule: the farthest but 2 %.
-    const auto rank = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(ranges_m.size() - 1));
-    std::nth_element(ranges_m.begin(), ranges_m.begin() + rank, ranges_m.end());
-    double wanted = kMargin * ranges_m[static_cast<std::size_t>(rank)];
-    // Beams without detection at the swath's edges may look beyond what was listened to.
-    if (ranges_m.size() < kMost * static_cast<double>(beams)) wanted = std::max(wanted, kGrow * listened_m);
-    range_m_ = std::clamp(std::ceil(wanted / kStep_m) * kStep_m, std::min(kStep_m, longest_m_), longest_m_);
+    edges_m_.clear();
+    for (const HeardBottom& h : heard) edges_m_.push_back(edge_range_m(h));
+    // A lone outlier must not rule: the farthest but 1 %.
+    const auto rank = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(edges_m_.size() - 1));
+    std::nth_element(edges_m_.begin(), edges_m_.begin() + rank, edges_m_.end());
+    double wanted_m = kMargin * edges_m_[static_cast<std::size_t>(rank)];
+    if (static_cast<double>(heard.size()) < kEnough * beams_) wanted_m = std::max(wanted_m, kGrow * listened_m);
+    range_m_ = std::clamp(std::ceil(wanted_m / kStep_m) * kStep_m, std::min(kStep_m, longest_m_), longest_m_);
   }
 
  private:
   static constexpr double kFewest = 0.1;  // share of beams with a detection
-  static constexpr double kMost = 0.97;
-  static constexpr double kMargin = 1.1;
+  static constexpr double kEnough = 0.6;
+  static constexpr double kMargin = 1.13;  // room for the outermost footprint, and for roll until the next ping
   static constexpr double kGrow = 1.1;
   static constexpr double kStep_m = 1.0;
+  static constexpr double kOuter = 0.75;  // share of the half swath beyond which a beam tells of its edge
+
+  /// Range of the bottom at the swath's edge, were it as level beyond this beam as it is up to there. So beams that
+  /// heard nothing because the range was too short do not shorten it further.
+  double edge_range_m(const HeardBottom& heard) const {
+    const double angle = std::abs(heard.beam_angle_rad);
+    if (angle < kOuter * half_swath_rad_) return heard.range_m;
+    return heard.range_m * std::cos(angle) / std::cos(half_swath_rad_);
+  }
 
   double longest_m_;
+  double half_swath_rad_;
+  int beams_;
   double range_m_;
+  std::vector<double> edges_m_;
 };
 
 }  // namespace ensonify

@@ -60,7 +60,7 @@ void detections(benchmark::State& state) {
   const Shot shot{0, SimTime{0}, 75.0};
   const auto image = head.listen(shot, truth, tiles.scene());
   for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, image, truth).valid.data());
-  if (maker.ranges_m().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
+  if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 

@@ -27,7 +27,7 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
       head_(config),
       soundings_(config, head_.beam_angle_rad()),
       clock_(config.ping_rate(), from_seconds(config.dead_time_s)),
-      range_(config.range_m),
+      range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       truth_(keep_ns(config)),
       estimate_(keep_ns(config)),
       ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.ping_rate()})),
@@ -84,9 +84,8 @@ void MultibeamNode::receive(const Shot& shot) {
   ports_.count("pings");
   if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot));
   soundings_out_.send(soundings_.make(shot, image, estimate_));
-  const std::size_t detections = soundings_.ranges_m().size();
-  range_.update(soundings_.ranges_m(), static_cast<std::size_t>(config_.beams), shot.range_m);
-  report(shot, detections);
+  range_.update(soundings_.heard(), shot.range_m);
+  report(shot, soundings_.heard().size());
 }
 
 void MultibeamNode::report(const Shot& shot, std::size_t detections) {

@@ -30,7 +30,7 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   soundings.quality = msg::Array<float>({beams});
   soundings.valid = msg::Array<std::uint8_t>({beams});
   soundings.position_enu_m = msg::Array<double>({beams, 3});
-  ranges_m_.clear();
+  heard_.clear();
   if (estimate.empty()) return soundings;
   for (std::size_t beam = 0; beam < beams; ++beam) {
     if (detections_[beam].valid && heard_whole(shot, beam)) place(shot, estimate, beam, soundings);
@@ -38,12 +38,12 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   return soundings;
 }
 
-/// Listening must not have ended within the beam's footprint: the centre of half an echo is no depth.
+/// Listening must not have ended within the window about the detection: the centre of half an echo is no depth.
 bool SoundingMaker::heard_whole(const Shot& shot, std::size_t beam) const {
   const double half_width = array::half_power_half_width(settings_.receive_length_in_waves);
   const double sine = std::abs(sin_beams_[beam]);
-  const double half_footprint = sine * half_width / std::max(1.0 - sine * sine, half_width * half_width);
-  return detections_[beam].two_way_s * (1.0 + half_footprint) + config_.pulse_length_s <
+  const double footprint = 2.0 * half_width * sine / std::max(1.0 - sine * sine, half_width * half_width);
+  return detections_[beam].two_way_s * (1.0 + footprint) + config_.pulse_length_s <
          seconds(config_.listening_time(shot.range_m));
 }
 
@@ -65,7 +65,7 @@ void SoundingMaker::place(const Shot& shot, const frames::PoseHistory& estimate,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     soundings.position_enu_m(beam, axis) = place[static_cast<Eigen::Index>(axis)];
   }
-  ranges_m_.push_back(0.5 * detection.two_way_s * config_.known_sound_speed_mps());
+  heard_.push_back({beam_angle_rad_[beam], 0.5 * detection.two_way_s * config_.known_sound_speed_mps()});
 }
 
 }  // namespace ensonify

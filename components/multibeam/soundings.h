@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "components/multibeam/auto_range.h"
 #include "components/multibeam/config.h"
 #include "components/multibeam/shot.h"
 #include "kernels/detect/bottom.h"
@@ -19,8 +20,8 @@ class SoundingMaker {
   /// Soundings of a ping. Without an estimate none is valid.
   msg::Soundings make(const Shot& shot, const detect::Amplitudes& image, const frames::PoseHistory& estimate);
 
-  /// Slant ranges of the last ping's valid soundings, m, in no particular order.
-  std::vector<double>& ranges_m() { return ranges_m_; }
+  /// What the valid soundings of the last ping heard.
+  const std::vector<HeardBottom>& heard() const { return heard_; }
 
  private:
   bool heard_whole(const Shot& shot, std::size_t beam) const;
@@ -31,7 +32,7 @@ class SoundingMaker {
   std::vector<float> sin_beams_;
   detect::Settings settings_;
   std::vector<detect::Detection> detections_;
-  std::vector<double> ranges_m_;
+  std::vector<HeardBottom> heard_;
 };
 
 }  // namespace ensonify

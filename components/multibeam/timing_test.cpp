@@ -27,18 +27,27 @@ TEST_CASE("a long ping moves the beat: never less than listening plus dead time"
   CHECK(clock.next() == 522_ms);
 }
 
-TEST_CASE("auto range follows the farthest detections and falls back to the longest") {
-  AutoRange range(200);
+TEST_CASE("auto range follows the edge of the swath and falls back to the longest") {
+  AutoRange range(200, 1.1, 256);
   CHECK(range.range_m() == 200);
-  std::vector<double> ranges;
-  for (int beam = 0; beam < 256; ++beam) ranges.push_back(20.0 + beam * 0.1);  // to 45.5 m
-  ranges.back() = 190;                                                         // an outlier
-  range.update(ranges, 256, 200);
-  CHECK(range.range_m() == Approx(50).margin(1));
-  ranges.resize(200);  // the outer beams have lost the bottom
-  range.update(ranges, 256, 60);
-  CHECK(range.range_m() == 66);
-  ranges.resize(10);
-  range.update(ranges, 256, 60);
-  CHECK(range.range_m() == 200);
+  std::vector<HeardBottom> level;  // 20 m below
+  for (int beam = 0; beam < 256; ++beam) {
+    const double angle = -1.1 + 2.2 * beam / 255;
+    level.push_back({angle, 20.0 / std::cos(angle)});
+  }
+  const double edge_m = 20.0 / std::cos(1.1);
+  const auto settled = [&](std::vector<HeardBottom> heard, double listened_m) {
+    range.update(heard, listened_m);
+    return range.range_m();
+  };
+  CHECK(settled(level, 200) == std::ceil(1.13 * edge_m));
+  auto outlier = level;
+  outlier[100].range_m = 190;
+  CHECK(settled(outlier, 200) == std::ceil(1.13 * edge_m));
+  // The outer beams of one side are lost: what the others say of the edge still holds.
+  CHECK(settled({level.begin() + 20, level.end()}, 45) == std::ceil(1.13 * edge_m));
+  CHECK(settled({level.begin() + 20, level.end() - 20}, 45) == std::ceil(1.13 * edge_m));
+  // Half of them are lost, as after a step down: listen longer.
+  CHECK(settled({level.begin() + 70, level.end() - 70}, 60) == 66);
+  CHECK(settled({level.begin(), level.begin() + 10}, 60) == 200);
 }
