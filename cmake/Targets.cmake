@@ -83,6 +83,16 @@ function(ensonify_check name)
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 
+# ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file that can import the project's
+# client and what is in PATHS.
+function(ensonify_python_test name file)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "PATHS;LABELS" ${ARGN})
+  ensonify_check(${name} COMMAND ${ENSONIFY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v
+                 LABELS ${ARG_LABELS} TIMEOUT ${ARG_TIMEOUT})
+  list(JOIN ARG_PATHS ":" paths)
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${paths})
+endfunction()
+
 # Labels, time limit and environment of a test. Whole systems and measurements run alone, the others side by side.
 function(ensonify_test_properties name labels timeout)
   if(NOT labels)
@@ -131,26 +141,3 @@ endfunction()
 add_custom_target(fuzzers)  # every libFuzzer program
 
 enable_testing()
-
-# ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file, run with the project's virtual
-# environment where `./dev` has made one, with our client and PATHS importable.
-function(ensonify_python_test name file)
-  if(NOT ENSONIFY_TESTS)
-    return()
-  endif()
-  cmake_parse_arguments(ARG "" "TIMEOUT" "PATHS;LABELS" ${ARGN})
-  set(python /usr/bin/python3)
-  if(EXISTS ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
-    set(python ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
-  endif()
-  if(NOT ARG_LABELS)
-    set(ARG_LABELS unit)
-  endif()
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 120)
-  endif()
-  list(JOIN ARG_PATHS ":" paths)
-  add_test(NAME ${name} COMMAND ${python} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v)
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${paths};PYTHONDONTWRITEBYTECODE=1;ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared")
-endfunction()
