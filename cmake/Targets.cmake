@@ -86,6 +86,9 @@ endfunction()
 # ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file that can import the project's
 # client and what is in PATHS.
 function(ensonify_python_test name file)
+  if(NOT ENSONIFY_TESTS)
+    return()
+  endif()
   cmake_parse_arguments(ARG "" "TIMEOUT" "PATHS;LABELS" ${ARGN})
   ensonify_check(${name} COMMAND ${ENSONIFY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v
                  LABELS ${ARG_LABELS} TIMEOUT ${ARG_TIMEOUT})
