@@ -373,4 +373,27 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   CHECK(place.leftovers().empty());
 }
 
+TEST_CASE("the launch files of the project are sound, and posts too coarse for a head are told") {
+  const Workplace place;
+  const std::string source = std::getenv("ENSONIFY_SOURCE");
+  const auto check = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "ensonify-check");
+    Program program(place, std::move(words));
+    const int code = program.wait();
+    return std::to_string(code) + " " + program.said();
+  };
+  const std::string demo = source + "/launch/demo.yaml";
+  CHECK(check({demo}) == "0 " + demo + ": 7 processes, sound");
+  CHECK(check({demo, "--set", "seabed.post_spacing_m=1"})
+            .find("warning: pager: posts are 1 m apart, but bow resolves 0.2") != std::string::npos);
+  const std::string survey = source + "/launch/survey.yaml";
+  CHECK(check({survey}).find("2 " + survey + ":5:3: args.raster: must be given; use --arg raster=VALUE") == 0);
+  const std::string raster = std::string(std::getenv("ENSONIFY_SHARED")) + "/data/terrain/massbay_5m.tif";
+  if (!fs::exists(raster)) {
+    WARN("skipped: no " << raster);
+    return;
+  }
+  CHECK(check({survey, "--arg", "raster=" + raster}).find("processes, sound") != std::string::npos);
+}
+
 }  // namespace ensonify::launcher

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace ensonify {
 namespace {
 
@@ -34,6 +36,7 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
       soundings_out_(
           ports.out<msg::Soundings>("soundings", {.max_bytes = soundings_bytes(config), .rate = config.ping_rate()})),
       transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = config.ping_rate()})) {
+  ports.note("finest_beam_rad", std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad));
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
     truth_.push(pose.stamp_ns, pose_of(pose.position_enu_m, pose.enu_from_body));
   });
