@@ -69,8 +69,8 @@ class SurveyBytes(SystemTest):
 
     def test_the_record_holds_nothing_of_this_machine(self):
         data = self.record("first").read_bytes()
-        for secret in (str(self.folder), os.uname().nodename, str(SOURCE)):
-            self.assertNotIn(secret.encode(), data)
+        for secret in (str(self.folder), str(SOURCE), "/home/", "/tmp/"):
+            self.assertFalse(secret.encode() in data, secret)
 
 
 class Disturbed(SystemTest):
@@ -125,22 +125,7 @@ class Disturbed(SystemTest):
 
 
 class Controls(SystemTest):
-    """`compare` finds what it should: a planted bit, a time shift, a lost message."""
-
-    def test_planted_differences_are_found(self):
-        more = "  recorder: { run: recorder, config: { file: run.mcap } }"
-        result = self.run_launch(survey(seconds=1, more=more))
-        self.assertEqual(result.code, 0, result.stderr)
-        record = result.out / "run.mcap"
-        data = bytearray(record.read_bytes())
-        # A bit of the filler of some ping: the array's bytes are the ping's number, a thousand times.
-        place = data.find(bytes([7]) * 1000)
-        self.assertGreater(place, 0)
-        data[place + 500] ^= 1
-        planted = self.folder / "planted.mcap"
-        planted.write_bytes(data)
-        first = self.first_difference(record, planted)
-        self.assertEqual((first["topic"], first["field"].split("[")[0].split(".")[0]), ("head/ping", "data"))
+    """`compare` finds what it should between whole runs; a planted bit is found in components/runtime/record's own test."""
 
     def test_a_time_shift_and_a_lost_message_are_found(self):
         more = "  recorder: { run: recorder, config: { file: run.mcap } }"

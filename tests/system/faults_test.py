@@ -57,11 +57,16 @@ class Deaths(SystemTest):
 
     def test_a_stopped_clock_is_a_stall_that_names_the_clock(self):
         run = self.start_launch(survey(seconds=100000))
-        clock = self.wait_for_process("ensonify-conductor")
-        os.kill(clock, signal.SIGSTOP)
+        self.wait_for_go()
+        os.kill(self.wait_for_process("ensonify-conductor"), signal.SIGSTOP)
         _, errors = run.communicate(timeout=30)
         self.assertEqual(run.returncode, 4, errors)
         self.assertIn("clock", errors)
+
+    def wait_for_go(self):
+        log = self.folder / "out" / "log" / "clock.log"
+        while " go " not in (log.read_text() if log.exists() else ""):
+            os.sched_yield()
 
     def wait_for_process(self, name):
         while True:
@@ -89,13 +94,10 @@ class Deaths(SystemTest):
 
     def test_a_removed_socket_directory_does_not_end_a_run_but_no_tool_finds_it(self):
         run = self.start_launch(survey(seconds=8), "--rate", "4")
-        self.wait_for_process("ensonify-stub")
-        log = self.folder / "out" / "log" / "clock.log"
-        while " go " not in (log.read_text() if log.exists() else ""):
-            os.sched_yield()
-        for directory in (self.runs / "ensonify").iterdir():
-            shutil.rmtree(directory)
-        self.assertEqual(self.tool("clock", "status").returncode, 2)
+        self.wait_for_go()
+        (directory,) = [path for path in (self.runs / "ensonify").iterdir() if path.is_dir()]
+        shutil.rmtree(directory)
+        self.assertEqual(self.tool("clock", "--run", directory, "status").returncode, 2)
         _, errors = run.communicate(timeout=30)
         self.assertEqual(run.returncode, 0, errors)
 
