@@ -49,13 +49,13 @@ def visible_folders(path):
         "messages": ["messages"],
         "components": [own, "components/runtime", "messages", "kernels"],
         "launch": [own, "components/runtime", "messages", "kernels"],
-        "tools": [own, "components/runtime", "messages", "kernels"],
+        "tools": [own, "launch", "components/runtime", "messages", "kernels"],
     }[area]
     return seen + ["tests/support"] if is_test(path) else seen
 
 
 def problem_of_project_include(root, path, target):
-    if not (root / target).is_file():
+    if not (root / target).is_file() and not (root / f"{target}.in").is_file():  # configured by CMake
         return f'"{target}" does not exist (includes are written from the repository root)'
     seen = visible_folders(path)
     if seen is not None and not any(target.startswith(folder + "/") for folder in seen):
@@ -112,8 +112,10 @@ PLANTED = {
     "components/x/x_test.cpp": [('"tests/support/s.h"', None), ('"components/y/y.h"', "out of sight")],
     "components/y/y.h": [("<gdal_priv.h>", "terrain_pager"), ('"tests/support/s.h"', "out of sight")],
     "components/terrain_pager/p.cpp": [("<gdal_priv.h>", None)],
-    "tools/plot/p.cpp": [("<ogr_spatialref.h>", None), ('"components/x/x.h"', "out of sight")],
-    "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/runtime/config"), ('"components/y/y.h"', "out of sight")],
+    "tools/plot/p.cpp": [("<ogr_spatialref.h>", None), ('"launch/l.h"', None), ('"components/x/x.h"', "out of sight")],
+    "launch/l.h": [("<vector>", None)],
+    "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/runtime/config"), ('"components/y/y.h"', "out of sight"),
+                     ('"tools/plot/p.cpp"', "out of sight")],
     "tests/support/s.h": [('"components/x/x.h"', None), ('"kernels/a/a.h"', None)],
 }
 

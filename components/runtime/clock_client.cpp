@@ -71,8 +71,9 @@ RunRegistry ClockClient::registry() {
 }
 
 void add_run_option(CLI::App& app, std::string& run) {
-  app.add_option("--run", run, "a live run: its directory, the name of it, or its clock's endpoint (default: "
-                               "$ENSONIFY_RUN, else the only live run)");
+  app.add_option("--run", run,
+                 "a live run: its directory, the name of it, or its clock's endpoint (default: "
+                 "$ENSONIFY_RUN, else the only live run)");
 }
 
 }  // namespace ensonify

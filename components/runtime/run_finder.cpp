@@ -180,9 +180,11 @@ std::string find_clock(const std::string& run, const std::vector<std::string>& f
   std::string endpoint = wanted;
   if (!wanted.starts_with(kIpc) && !wanted.starts_with(kTcp)) {
     endpoint = endpoint_in(folder_of(wanted, folders));
-    if (endpoint.empty()) throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folders));
+    if (endpoint.empty())
+      throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folders));
   }
-  if (!somebody_listens(endpoint)) throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folders));
+  if (!somebody_listens(endpoint))
+    throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folders));
   return endpoint;
 }
 

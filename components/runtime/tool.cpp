@@ -1,7 +1,6 @@
 #include "components/runtime/tool.h"
 
 #include <CLI/CLI.hpp>
-
 #include <csignal>
 #include <cstdio>
 #include <exception>

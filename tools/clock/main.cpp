@@ -58,8 +58,10 @@ int step(ClockClient& clock, const Options& options) {
   json now = clock.ask({{"kind", "status"}});
   while (!reached(now, until_ns) && !interrupted()) {
     if (steady_clock::now() > patience_end) {
-      fmt::print(stderr, "ensonify clock: t={:.9g} s was not reached within {} s; `ensonify clock status` says who holds "
-                 "the run up\n", 1e-9 * static_cast<double>(until_ns), options.patience_s);
+      fmt::print(stderr,
+                 "ensonify clock: t={:.9g} s was not reached within {} s; `ensonify clock status` says who holds "
+                 "the run up\n",
+                 1e-9 * static_cast<double>(until_ns), options.patience_s);
       return kExitStall;
     }
     ::poll(nullptr, 0, kAskEvery_ms);
@@ -120,17 +122,21 @@ int run(const CLI::App& app, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Asks the clock of a live run, and steers it.\n"
-               "Exit code: 0 done, 2 no such run or fact, 4 a step was not reached in time.",
-               "ensonify clock");
+  CLI::App app(
+      "Asks the clock of a live run, and steers it.\n"
+      "Exit code: 0 done, 2 no such run or fact, 4 a step was not reached in time.",
+      "ensonify clock");
   Options options;
   app.require_subcommand(1);
-  verb(app, options, "status", "state, sim time, rate, and per participant: next event, cost, lateness, who it waits for");
+  verb(app, options, "status",
+       "state, sim time, rate, and per participant: next event, cost, lateness, who it waits for");
   verb(app, options, "pause", "no event after those granted already runs until resume or step");
   verb(app, options, "resume", "goes on after a pause, at the rate in force");
   CLI::App* step = verb(app, options, "step", "pauses, lets sim time advance by SECONDS, comes back when it has");
   step->add_option("SECONDS", options.step_s, "sim time to advance by, s")->required()->check(CLI::Range(1e-9, 1e6));
-  step->add_option("--timeout", options.patience_s, "longest wait, wall s")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  step->add_option("--timeout", options.patience_s, "longest wait, wall s")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   CLI::App* rate = verb(app, options, "rate", "paces the run");
   rate->add_option("RATE", options.rate, "sim seconds per wall second")->required()->check(CLI::Range(1e-3, 1e6));
   verb(app, options, "free", "runs as fast as possible");

@@ -52,10 +52,11 @@ void print_fields(const std::vector<msg::FieldInfo>& fields, std::size_t indent)
 }
 
 void print_info(const TopicEntry& topic) {
-  fmt::print("{}\n  type         {}\n  publisher    {} ({})\n  rate         {}\n  at most      {}\n"
-             "  published    {} messages\n  subscribers  {}\n  live plane   {}\n",
-             topic.name, topic.type, topic.publisher, topic.component, rate_text(topic.rate),
-             bytes_text(static_cast<double>(topic.max_bytes)), topic.published, subscribers_text(topic), topic.endpoint);
+  fmt::print(
+      "{}\n  type         {}\n  publisher    {} ({})\n  rate         {}\n  at most      {}\n"
+      "  published    {} messages\n  subscribers  {}\n  live plane   {}\n",
+      topic.name, topic.type, topic.publisher, topic.component, rate_text(topic.rate),
+      bytes_text(static_cast<double>(topic.max_bytes)), topic.published, subscribers_text(topic), topic.endpoint);
   if (const msg::TypeInfo* type = msg::find_type(topic.type)) {
     fmt::print("  {}\n", type->about);
     print_fields(type->fields, 4);

@@ -18,8 +18,8 @@ namespace {
 
 UserError no_such_field(const std::string& type, const std::string& field, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(field, known);
-  const std::string hint = nearest.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
-                                           : fmt::format("did you mean {}?", nearest);
+  const std::string hint =
+      nearest.empty() ? fmt::format("there are {}", fmt::join(known, ", ")) : fmt::format("did you mean {}?", nearest);
   return UserError(fmt::format("--field {}: {} has no such field; {}", field, type, hint));
 }
 
@@ -46,16 +46,18 @@ void print_json(const msg::Packet& packet, const TopicEntry& topic, const msg::V
   constexpr std::size_t kFew = 16;
   const std::size_t elements = options.full ? SIZE_MAX : kFew;
   const msg::Value& shown = chosen(content, topic, options.field);
-  fmt::print(R"({{"topic":{},"type":{},"seq":{},"t_sim_ns":{},"{}":{}}})" "\n", nlohmann::json(topic.name).dump(),
-             nlohmann::json(topic.type).dump(), packet.envelope.seq, packet.envelope.t_sim_ns,
-             options.field.empty() ? "content" : "value", msg::to_json(shown, elements));
+  fmt::print(R"({{"topic":{},"type":{},"seq":{},"t_sim_ns":{},"{}":{}}})"
+             "\n",
+             nlohmann::json(topic.name).dump(), nlohmann::json(topic.type).dump(), packet.envelope.seq,
+             packet.envelope.t_sim_ns, options.field.empty() ? "content" : "value", msg::to_json(shown, elements));
 }
 
 void print_text(const msg::Packet& packet, const TopicEntry& topic, const msg::Value& content, const Options& options) {
   const msg::TypeInfo* type = msg::find_type(topic.type);
   const double t_s = 1e-9 * static_cast<double>(packet.envelope.t_sim_ns);
   if (options.field.empty()) {
-    fmt::print("t={:.3f} s {} {} seq={}\n{}", t_s, topic.name, topic.type, packet.envelope.seq, message_text(content, type));
+    fmt::print("t={:.3f} s {} {} seq={}\n{}", t_s, topic.name, topic.type, packet.envelope.seq,
+               message_text(content, type));
     return;
   }
   const msg::FieldInfo* info = find_field(type, options.field);

@@ -66,10 +66,11 @@ int run(const CLI::App& app, const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ensonify::topic_tool;
-  CLI::App app("Looks at the topics of a live run. What is asked for here can never slow the run: a slow reader loses\n"
-               "messages instead, and is told how many.\n"
-               "Exit code: 0 done, 1 fewer messages came than were asked for, 2 no such run, topic or field.",
-               "ensonify topic");
+  CLI::App app(
+      "Looks at the topics of a live run. What is asked for here can never slow the run: a slow reader loses\n"
+      "messages instead, and is told how many.\n"
+      "Exit code: 0 done, 1 fewer messages came than were asked for, 2 no such run, topic or field.",
+      "ensonify topic");
   Options options;
   app.require_subcommand(1);
   add_verbs(app, options);

@@ -84,7 +84,8 @@ void append_field(std::string& out, const std::string& name, const Value& value,
   }
   out += "\n";
   const FieldInfo* element = info != nullptr && !info->members.empty() ? &info->members.front() : nullptr;
-  for (std::size_t i = 0; i < list->size(); ++i) append_field(out, fmt::format("[{}]", i), (*list)[i], element, indent + 2);
+  for (std::size_t i = 0; i < list->size(); ++i)
+    append_field(out, fmt::format("[{}]", i), (*list)[i], element, indent + 2);
 }
 
 void append_map(std::string& out, const Value::Map& map, const std::vector<FieldInfo>* fields, std::size_t indent) {
@@ -99,7 +100,8 @@ std::string value_text(const Value& value, const std::string& unit) {
   if (const auto* array = value.as<RawArray>()) return array_text(*array, unit);
   if (const auto* text = value.as<std::string>()) return *text;
   if (const auto* number = value.as<double>()) return with_unit(fmt::format("{:.9g}", *number), unit);
-  if (const auto* list = value.as<Value::List>(); list != nullptr && !std::any_of(list->begin(), list->end(), is_struct)) {
+  if (const auto* list = value.as<Value::List>();
+      list != nullptr && !std::any_of(list->begin(), list->end(), is_struct)) {
     std::string text;
     for (const Value& item : *list) text += (text.empty() ? "" : ", ") + value_text(item, "");
     return with_unit("[" + text + "]", unit);
@@ -121,7 +123,8 @@ const FieldInfo* find_field(const msg::TypeInfo* type, std::string_view path) {
     const std::size_t dot = path.find('.');
     const std::string_view step = path.substr(0, dot);
     path = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
-    const bool in_list = here != nullptr && (here->kind == FieldInfo::Kind::list || here->kind == FieldInfo::Kind::fixed_list);
+    const bool in_list =
+        here != nullptr && (here->kind == FieldInfo::Kind::list || here->kind == FieldInfo::Kind::fixed_list);
     if (in_list) {  // an index: the unit stays with the list
       if (here->members.front().kind == FieldInfo::Kind::map) here = &here->members.front();
     } else {

@@ -43,8 +43,9 @@ TEST_CASE("an empty array and a list of structs") {
   msg::Health health;
   health.message = "late";
   health.counters.push_back({"late_tile", 3});
-  CHECK(text_of(health) ==
-        "  stamp_ns: 0 ns\n  state: ok\n  message: late\n  counters:\n    [0]:\n      name: late_tile\n      count: 3\n");
+  CHECK(
+      text_of(health) ==
+      "  stamp_ns: 0 ns\n  state: ok\n  message: late\n  counters:\n    [0]:\n      name: late_tile\n      count: 3\n");
 }
 
 TEST_CASE("a type that is not known is shown without units") {

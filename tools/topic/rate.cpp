@@ -23,18 +23,18 @@ using Meters = std::map<std::string, Meter>;
 
 void print_head(What what, std::size_t width) {
   if (what == What::kRate) {
-    fmt::print("{:<{}} {:>9} {:>9} {:>14} {:>12} {:>15} {:>9} {:>8}\n", "topic", width, "sim Hz", "wall Hz", "interval (ms)",
-               "jitter (ms)", "sim jitter (ms)", "received", "dropped");
+    fmt::print("{:<{}} {:>9} {:>9} {:>14} {:>12} {:>15} {:>9} {:>8}\n", "topic", width, "sim Hz", "wall Hz",
+               "interval (ms)", "jitter (ms)", "sim jitter (ms)", "received", "dropped");
   } else {
-    fmt::print("{:<{}} {:>12} {:>14} {:>10} {:>10} {:>10} {:>9} {:>8}\n", "topic", width, "per wall s", "per sim s", "mean",
-               "smallest", "largest", "received", "dropped");
+    fmt::print("{:<{}} {:>12} {:>14} {:>10} {:>10} {:>10} {:>9} {:>8}\n", "topic", width, "per wall s", "per sim s",
+               "mean", "smallest", "largest", "received", "dropped");
   }
 }
 
 void print_row(What what, const std::string& topic, std::size_t width, const Traffic& t) {
   if (what == What::kRate) {
-    fmt::print("{:<{}} {:>9.3f} {:>9.3f} {:>14.3f} {:>12.3f} {:>15.3f} {:>9} {:>8}\n", topic, width, t.sim_hz, t.wall_hz,
-               1e3 * t.wall.mean_s, 1e3 * t.wall.jitter_s, 1e3 * t.sim.jitter_s, t.received, t.dropped);
+    fmt::print("{:<{}} {:>9.3f} {:>9.3f} {:>14.3f} {:>12.3f} {:>15.3f} {:>9} {:>8}\n", topic, width, t.sim_hz,
+               t.wall_hz, 1e3 * t.wall.mean_s, 1e3 * t.wall.jitter_s, 1e3 * t.sim.jitter_s, t.received, t.dropped);
   } else {
     fmt::print("{:<{}} {:>12} {:>14} {:>10} {:>10} {:>10} {:>9} {:>8}\n", topic, width, bytes_text(t.wall_bytes_per_s),
                bytes_text(t.sim_bytes_per_s), bytes_text(t.mean_bytes), bytes_text(static_cast<double>(t.min_bytes)),

@@ -44,6 +44,8 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.0f} B", bytes);
 }
 
-std::string rate_text(Rate rate) { return rate.num > 0 ? fmt::format("{:g} Hz", rate.hz()) : "at most 10 Hz on average"; }
+std::string rate_text(Rate rate) {
+  return rate.num > 0 ? fmt::format("{:g} Hz", rate.hz()) : "at most 10 Hz on average";
+}
 
 }  // namespace ensonify::topic_tool
