@@ -21,6 +21,7 @@ bool dtype_from_name(std::string_view name, Dtype& dtype);
 
 template <class T>
 constexpr Dtype dtype_of();
+// clang-format off
 template <> constexpr Dtype dtype_of<std::uint8_t>() { return Dtype::u8; }
 template <> constexpr Dtype dtype_of<std::int16_t>() { return Dtype::i16; }
 template <> constexpr Dtype dtype_of<std::uint16_t>() { return Dtype::u16; }
@@ -29,6 +30,7 @@ template <> constexpr Dtype dtype_of<std::uint32_t>() { return Dtype::u32; }
 template <> constexpr Dtype dtype_of<std::int64_t>() { return Dtype::i64; }
 template <> constexpr Dtype dtype_of<float>() { return Dtype::f32; }
 template <> constexpr Dtype dtype_of<double>() { return Dtype::f64; }
+// clang-format on
 
 /// An n-dimensional C-order array that travels as one raw frame. Copies share the elements, as in numpy: write before
 /// you publish, never after. Received arrays are views of the received frame and must not be written.

@@ -28,8 +28,9 @@ struct Packet {
 inline constexpr std::size_t kFirstArrayFrame = 3;
 inline constexpr std::size_t kMaxDepth = 16;
 inline constexpr std::size_t kMaxMapBytes = 1 << 20;
-inline constexpr std::size_t kMaxValues = 1 << 14;  // numbers, texts, lists and maps of one message, arrays counting one
-inline constexpr std::size_t kMaxKeys = 512;        // of one map
+inline constexpr std::size_t kMaxValues = 1
+                                          << 14;  // numbers, texts, lists and maps of one message, arrays counting one
+inline constexpr std::size_t kMaxKeys = 512;      // of one map
 
 /// Arrays become frames without a copy; everything else goes into the map.
 Body encode_value(const Value& message);

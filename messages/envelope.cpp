@@ -31,7 +31,7 @@ static_assert(sizeof(Layout) == kEnvelopeBytes);
 }  // namespace
 
 std::array<std::byte, kEnvelopeBytes> encode_envelope(const Envelope& e) {
-  const Layout layout{kMagic,       e.version,   e.flags, e.epoch,    e.publisher, e.topic_id,
+  const Layout layout{kMagic,        e.version,   e.flags, e.epoch,    e.publisher, e.topic_id,
                       e.frame_count, e.type_hash, e.seq,   e.t_sim_ns, {}};
   std::array<std::byte, kEnvelopeBytes> bytes;
   std::memcpy(bytes.data(), &layout, sizeof layout);

@@ -20,7 +20,7 @@ struct Envelope {
   std::uint32_t topic_id = 0;
   std::uint32_t frame_count = 0;  // of the whole message, topic and envelope included
   std::uint64_t type_hash = 0;
-  std::uint64_t seq = 0;     // counts from 0 for each topic and epoch
+  std::uint64_t seq = 0;      // counts from 0 for each topic and epoch
   std::int64_t t_sim_ns = 0;  // event time at which it was published
 
   bool operator==(const Envelope&) const = default;

@@ -21,6 +21,7 @@
 /// Everything else (bytes, printing, schema, reference page) is derived from that list here.
 namespace ensonify::msg {
 
+// clang-format off
 template <class T>
 concept HasFields = requires(T& t) { T::fields(t, [](const char*, const char*, const char*, auto&) {}); };
 template <class T>
@@ -32,6 +33,7 @@ template <class T> struct IsFixed : std::false_type {};
 template <class T, std::size_t N> struct IsFixed<std::array<T, N>> : std::true_type {};
 template <class T> struct IsVector : std::false_type {};
 template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+// clang-format on
 
 template <class T>
 Value to_value(const T& member) {
@@ -67,8 +69,8 @@ Value to_value(const T& member) {
 
 [[noreturn]] void wrong_type(const std::string& path, const char* wanted);
 
-/// Fills `member` from `value`; throws DecodeError naming `path`. Keys that are not fields are ignored, fields without a
-/// key keep what they hold.
+/// Fills `member` from `value`; throws DecodeError naming `path`. Keys that are not fields are ignored, fields without
+/// a key keep what they hold.
 template <class T>
 void from_value(const Value& value, T& member, const std::string& path) {
   if constexpr (std::is_same_v<T, bool>) {

@@ -140,7 +140,8 @@ void append_json(std::string& out, const Value& value, std::size_t max_elements)
 const char* dtype_name(Dtype dtype) { return kDtypes[static_cast<std::size_t>(dtype)].name; }
 std::size_t dtype_size(Dtype dtype) { return kDtypes[static_cast<std::size_t>(dtype)].size; }
 bool dtype_from_name(std::string_view name, Dtype& dtype) {
-  const auto* found = std::find_if(std::begin(kDtypes), std::end(kDtypes), [&](const auto& d) { return name == d.name; });
+  const auto* found =
+      std::find_if(std::begin(kDtypes), std::end(kDtypes), [&](const auto& d) { return name == d.name; });
   if (found == std::end(kDtypes)) return false;
   dtype = found->dtype;
   return true;

@@ -163,8 +163,10 @@ int main(int argc, char** argv) {
   waitpid(child, nullptr, 0);
   std::filesystem::remove_all(folder);
   std::sort(ages.begin(), ages.end());
-  const auto ms = [&](double q) { return static_cast<double>(ages[static_cast<std::size_t>(q * static_cast<double>(ages.size() - 1))]) * 1e-6; };
-  std::printf("{\"mode\": \"%s\", \"count\": %zu, \"gaps\": %d, \"p50_ms\": %.4f, \"p99_ms\": %.4f}\n", argv[1], ages.size(),
-              gaps, ms(0.5), ms(0.99));
+  const auto ms = [&](double q) {
+    return static_cast<double>(ages[static_cast<std::size_t>(q * static_cast<double>(ages.size() - 1))]) * 1e-6;
+  };
+  std::printf("{\"mode\": \"%s\", \"count\": %zu, \"gaps\": %d, \"p50_ms\": %.4f, \"p99_ms\": %.4f}\n", argv[1],
+              ages.size(), gaps, ms(0.5), ms(0.99));
   return gaps == 0 ? 0 : 5;
 }

@@ -14,7 +14,7 @@ struct Account {
   std::string name;
   std::int64_t pid = 0;
   std::uint64_t grants = 0;
-  std::int64_t cost_ns = 0;      // wall time inside its events
+  std::int64_t cost_ns = 0;       // wall time inside its events
   std::uint64_t late_events = 0;  // grants it finished last, more than kLateAfter behind the paced time
   SimTime worst_lateness{0};
 };

@@ -52,7 +52,8 @@ std::optional<WallTime> Clock::next_alarm() const {
   }
   if (phase_ == Phase::kEnding) return after(phase_began_, deadline_s);
   std::optional<WallTime> alarm;
-  if (conductor_->busy()) alarm = after(last_progress_, deadline_s * (stall_stage_ == 0 ? 1 : stall_stage_ == 1 ? 3 : 10));
+  if (conductor_->busy())
+    alarm = after(last_progress_, deadline_s * (stall_stage_ == 0 ? 1 : stall_stage_ == 1 ? 3 : 10));
   const auto paced = pacer_.when(conductor_->next_capped());
   return paced && (!alarm || *paced < *alarm) ? paced : alarm;
 }
@@ -168,7 +169,8 @@ void Clock::on_done(const std::string& from, const protocol::Done& done) {
     slipped_ += slipped;
     log::line("clock", conductor_->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), from));
     if (launch_.clock.slip_policy == ClockSettings::SlipPolicy::kFail) {
-      return fail(kExitStall, from, fmt::format("{} made the run {:.3f} s late; slip_policy is fail", from, seconds(slipped)));
+      return fail(kExitStall, from,
+                  fmt::format("{} made the run {:.3f} s late; slip_policy is fail", from, seconds(slipped)));
     }
   }
   hand_out();
@@ -217,15 +219,17 @@ void Clock::watch_progress(WallTime now) {
   const double silent_s = std::chrono::duration<double>(now - last_progress_).count();
   if (stall_stage_ == 0 && silent_s >= deadline_s) {
     stall_stage_ = 1;
-    log::line("clock", conductor_->now(), "no_progress", fmt::format("for_s={:.2f} waiting_for={}", silent_s, name_stalled()));
+    log::line("clock", conductor_->now(), "no_progress",
+              fmt::format("for_s={:.2f} waiting_for={}", silent_s, name_stalled()));
   } else if (stall_stage_ == 1 && silent_s >= 3 * deadline_s) {
     stall_stage_ = 2;
     dump_stall();
   } else if (stall_stage_ == 2 && silent_s >= 10 * deadline_s) {
     const std::string culprit = name_stalled();
     dump_stall();
-    fail(kExitStall, culprit, fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s,
-                                          seconds(conductor_->now()), culprit));
+    fail(kExitStall, culprit,
+         fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s, seconds(conductor_->now()),
+                     culprit));
   }
 }
 

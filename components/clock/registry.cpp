@@ -44,7 +44,8 @@ std::vector<std::string> Registry::missing() const {
 const std::vector<std::string>& Registry::check() {
   for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
   graph_ = wire(declarations_, rules_);
-  for (std::size_t e = 0; e < graph_.edges.size(); ++e) unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
+  for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+    unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
   return graph_.problems;
 }
 

@@ -27,7 +27,10 @@ TEST_CASE("an edge is proven by its own publisher only, whoever else has seen th
   CHECK(registry.join("a", hello_of("a", {{"x", "x/1", 100, {1, 1}}}, {})).empty());
   CHECK(registry.join("b", hello_of("b", {{"y", "y/1", 100, {1, 1}}}, {})).empty());
   CHECK(registry.missing() == std::vector<std::string>{"c"});
-  CHECK(registry.join("c", hello_of("c", {}, {{"x", "x/1", SimTime{0}, false, {}, 0}, {"y", "y/1", SimTime{0}, false, {}, 0}})).empty());
+  CHECK(registry
+            .join("c",
+                  hello_of("c", {}, {{"x", "x/1", SimTime{0}, false, {}, 0}, {"y", "y/1", SimTime{0}, false, {}, 0}}))
+            .empty());
   REQUIRE(registry.check().empty());
   const auto welcome = registry.welcome(2);
   REQUIRE(welcome.ins.size() == 2);

@@ -12,9 +12,9 @@ struct AssertionError : std::logic_error {
 
 }  // namespace ensonify
 
-#define ENSONIFY_ASSERT(condition, text)                                                                       \
-  do {                                                                                                         \
-    if (!(condition)) {                                                                                        \
-      throw ::ensonify::AssertionError(std::string(__FILE__ ":") + std::to_string(__LINE__) + ": " + (text));  \
-    }                                                                                                          \
+#define ENSONIFY_ASSERT(condition, text)                                                                      \
+  do {                                                                                                        \
+    if (!(condition)) {                                                                                       \
+      throw ::ensonify::AssertionError(std::string(__FILE__ ":") + std::to_string(__LINE__) + ": " + (text)); \
+    }                                                                                                         \
   } while (false)

@@ -1,7 +1,6 @@
 #include "components/runtime/local.h"
 
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -27,8 +26,9 @@ class LocalRun {
       const auto factory = components.find(process.component);
       if (process.external || factory == components.end()) {
         throw UserError(process.name + ": only components of Ensonify can run in this process, not " +
-                        (process.external ? "an external process" : process.component.empty()
-                             ? "the program " + process.argv.front() : process.component));
+                        (process.external            ? "an external process"
+                         : process.component.empty() ? "the program " + process.argv.front()
+                                                     : process.component));
       }
       members_.push_back(std::make_unique<Member>(process.name, launch.options.out));
       Member& member = *members_.back();

@@ -91,7 +91,8 @@ class Participant {
   }
 
   int refused(const std::string& text) {
-    for (const std::string& problem : protocol::read_problems(text)) log::line(ports_.process(), SimTime{0}, "refused", problem);
+    for (const std::string& problem : protocol::read_problems(text))
+      log::line(ports_.process(), SimTime{0}, "refused", problem);
     return kExitUserError;
   }
 

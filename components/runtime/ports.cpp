@@ -24,9 +24,7 @@ std::size_t Ports::declare_in(InPort port, PacketHandler handler) {
   return ins_.size() - 1;
 }
 
-void Ports::seal() {
-  health_port_ = declare_out({"health", msg::Health::kType, 1 << 16, Rate{1, 1}});
-}
+void Ports::seal() { health_port_ = declare_out({"health", msg::Health::kType, 1 << 16, Rate{1, 1}}); }
 
 void Ports::connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish) {
   feeds_ = std::move(feeds);

@@ -133,7 +133,8 @@ class Ports {
   /// State "ok", "degraded" or "failed" and one line why.
   void health(const std::string& state, const std::string& message);
 
-  /// A number worth knowing before the run, such as "finest_beam_rad"; `ensonify check` compares them between processes.
+  /// A number worth knowing before the run, such as "finest_beam_rad"; `ensonify check` compares them between
+  /// processes.
   void note(const std::string& name, double value) { notes_[name] = value; }
 
   // --- for whatever runs the node ---

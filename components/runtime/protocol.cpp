@@ -23,8 +23,8 @@ json to_json(const Declaration& d) {
                   {"optional", p.optional},
                   {"topics", p.topics}});
   }
-  return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish},
-          {"out", out},        {"in", in},                 {"notes", d.notes}};
+  return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish}, {"out", out},
+          {"in", in},          {"notes", d.notes}};
 }
 
 Declaration from_json(const json& j) {
@@ -40,8 +40,8 @@ Declaration from_json(const json& j) {
     d.outs.push_back(out);
   }
   for (const json& p : j.at("in")) {
-    d.ins.push_back({p.at("port"), p.at("type"), SimTime{p.value("delay_ns", std::int64_t{0})}, p.value("optional", false),
-                     p.value("topics", std::vector<std::string>{}), 0});
+    d.ins.push_back({p.at("port"), p.at("type"), SimTime{p.value("delay_ns", std::int64_t{0})},
+                     p.value("optional", false), p.value("topics", std::vector<std::string>{}), 0});
   }
   return d;
 }
@@ -139,7 +139,8 @@ std::string encode(const Welcome& w, const Declaration& declaration) {
                   {"endpoint", i.endpoint},
                   {"token", i.token}});
   }
-  return json{{"kind", "welcome"}, {"epoch", w.epoch}, {"rank", w.rank}, {"out", out}, {"in", in}, {"facts", w.facts}}.dump();
+  return json{{"kind", "welcome"}, {"epoch", w.epoch}, {"rank", w.rank}, {"out", out}, {"in", in}, {"facts", w.facts}}
+      .dump();
 }
 
 Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, const std::vector<InPort>& ins) {
@@ -224,7 +225,7 @@ std::string kind_of(std::string_view text) {
 
 std::string encode_failed(int code, const std::string& message) {
   return json{{"kind", "failed"}, {"code", code}, {"message", message}}.dump(-1, ' ', false,
-                                                                              json::error_handler_t::replace);
+                                                                             json::error_handler_t::replace);
 }
 std::string encode_proven(const std::vector<std::string>& tokens) {
   return json{{"kind", "proven"}, {"tokens", tokens}}.dump();

@@ -53,7 +53,8 @@ struct Done {
   TopicCounts outputs;
 };
 
-/// Ports as the JSON that `--check` prints and HELLO carries, and back. Reading throws std::runtime_error naming the key.
+/// Ports as the JSON that `--check` prints and HELLO carries, and back. Reading throws std::runtime_error naming the
+/// key.
 std::string declaration_json(const Declaration& declaration);
 Declaration read_declaration(std::string_view json);
 

@@ -25,7 +25,8 @@ TEST_CASE("every truncation and every excess byte of a grant is refused") {
 }
 
 TEST_CASE("ports survive their JSON") {
-  const Declaration d{"bow", "multibeam", {{"ping", "ping/1", 2'000'000, {10, 1}}}, {{"pose", "pose/1", 5_ms, true, {}, 0}}, true};
+  const Declaration d{
+      "bow", "multibeam", {{"ping", "ping/1", 2'000'000, {10, 1}}}, {{"pose", "pose/1", 5_ms, true, {}, 0}}, true};
   const Declaration back = protocol::read_declaration(protocol::declaration_json(d));
   CHECK(back.process == "bow");
   CHECK(back.may_finish);

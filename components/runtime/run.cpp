@@ -1,8 +1,8 @@
 #include "components/runtime/run.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 
@@ -26,8 +26,10 @@ struct Options {
 
 /// Returns an exit code if the program is to end here (help, bad arguments).
 std::optional<int> parse(const char* component, int argc, char** argv, Options& options) {
-  CLI::App app(fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
-                           "talks, `ensonify describe {}` what it takes.", component, component));
+  CLI::App app(
+      fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
+                  "talks, `ensonify describe {}` what it takes.",
+                  component, component));
   app.set_version_flag("--version", kVersion);
   add_options(app, options.launch, false);
   app.add_option("--name", options.name, "name of this process in the launch file")->required();

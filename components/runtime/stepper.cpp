@@ -6,8 +6,8 @@
 
 namespace ensonify {
 
-void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs,
-                   std::map<std::string, std::string> facts, std::uint32_t epoch, std::uint32_t rank, Send send) {
+void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
+                   std::uint32_t epoch, std::uint32_t rank, Send send) {
   epoch_ = epoch;
   rank_ = rank;
   send_ = std::move(send);
@@ -15,8 +15,9 @@ void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs,
   published_.assign(outs_.size(), 0);
   inlets_.clear();
   for (const Feed& feed : feeds) inlets_.push_back({feed, 0, {}});
-  ports_.connect(std::move(feeds), std::move(facts),
-                 [this](std::size_t out, msg::Body body, msg::Buffer wall) { publish(out, std::move(body), std::move(wall)); });
+  ports_.connect(std::move(feeds), std::move(facts), [this](std::size_t out, msg::Body body, msg::Buffer wall) {
+    publish(out, std::move(body), std::move(wall));
+  });
 }
 
 void Stepper::insert(const msg::Packet& packet) {
@@ -57,8 +58,8 @@ bool Stepper::run_to(SimTime horizon) {
     ports_.begin_event(now);
     deliver_due(now);
     next_ = step_(now);
-    ENSONIFY_ASSERT(next_ > now, ports_.process() + ": the event at " + std::to_string(now.count()) +
-                                     " ns returned " + std::to_string(next_.count()) + " ns as the next event");
+    ENSONIFY_ASSERT(next_ > now, ports_.process() + ": the event at " + std::to_string(now.count()) + " ns returned " +
+                                     std::to_string(next_.count()) + " ns as the next event");
     ports_.end_event();
     if (ports_.finish_requested()) return true;
   }

@@ -19,9 +19,11 @@ struct Listener {
   };
   Listener(const Config& config, Ports& ports)
       : ports_(ports), echo(ports.out<msg::Guidance>("echo", {.rate = {10, 1}})), events({10, 1}) {
-    ports.in<msg::Guidance>("command", [this](const msg::Guidance& g) { heard.emplace_back(ports_.now(), g.speed_mps); },
+    ports.in<msg::Guidance>("command",
+                            [this](const msg::Guidance& g) { heard.emplace_back(ports_.now(), g.speed_mps); },
                             {.delay = config.delay});
-    ports.in_any("all", {"*"}, [this](const msg::Packet& p) { order.push_back(p.topic + "#" + std::to_string(p.envelope.seq)); });
+    ports.in_any("all", {"*"},
+                 [this](const msg::Packet& p) { order.push_back(p.topic + "#" + std::to_string(p.envelope.seq)); });
     ports.may_finish();
   }
   SimTime step(SimTime now) {

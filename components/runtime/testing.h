@@ -28,7 +28,8 @@ class NodeUnderTest {
     for (std::size_t i = 0; i < ports_.ins().size(); ++i) {
       const InPort& in = ports_.ins()[i];
       if (in.type == "*") continue;  // given by topic: connect_any
-      feeds.push_back({i, "given/" + in.port, static_cast<std::uint32_t>(i), in.type, "given", 0, in.delay, in.max_bytes});
+      feeds.push_back(
+          {i, "given/" + in.port, static_cast<std::uint32_t>(i), in.type, "given", 0, in.delay, in.max_bytes});
     }
     feeds_ = feeds;
   }
@@ -42,8 +43,8 @@ class NodeUnderTest {
     }
   }
 
-  /// Publishes messages to an input port (or, for in_any, a connected topic), in the order given, each at its stamp_ns or,
-  /// for types without one, at the time of the last event.
+  /// Publishes messages to an input port (or, for in_any, a connected topic), in the order given, each at its stamp_ns
+  /// or, for types without one, at the time of the last event.
   template <msg::Message... M>
   void give(const std::string& port, const M&... messages) {
     (give_at(port, stamp(messages), messages), ...);
@@ -102,7 +103,8 @@ class NodeUnderTest {
     if (started_) return;
     started_ = true;
     std::vector<OutTopic> outs;
-    for (const OutPort& out : ports_.outs()) outs.push_back({"test/" + out.port, static_cast<std::uint32_t>(outs.size())});
+    for (const OutPort& out : ports_.outs())
+      outs.push_back({"test/" + out.port, static_cast<std::uint32_t>(outs.size())});
     stepper_.wire(feeds_, std::move(outs), {}, 1, 1,
                   [this](msg::Packet&& packet) { published_[packet.topic].push_back(std::move(packet)); });
   }

@@ -40,7 +40,8 @@ class Wirer {
     for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
       for (std::size_t other = 0; other < rank; ++other) {
         if (processes_[other].process == processes_[rank].process) {
-          problem(processes_[rank].process + ": two processes have this name, so two publishers would share its topics");
+          problem(processes_[rank].process +
+                  ": two processes have this name, so two publishers would share its topics");
         }
       }
       for (std::size_t port = 0; port < processes_[rank].outs.size(); ++port) {
@@ -60,10 +61,12 @@ class Wirer {
     for (std::size_t i = 0; i < rules_.size(); ++i) {
       const WireRule& rule = rules_[i];
       if (std::find(inputs.begin(), inputs.end(), rule.input) == inputs.end()) {
-        problem(rule.place + ": wiring." + rule.input + ": no process has this input" + did_you_mean(rule.input, inputs));
+        problem(rule.place + ": wiring." + rule.input + ": no process has this input" +
+                did_you_mean(rule.input, inputs));
       }
       for (std::size_t j = 0; j < i; ++j) {
-        if (rules_[j].input == rule.input) problem(rule.place + ": wiring." + rule.input + ": wired twice, two publishers");
+        if (rules_[j].input == rule.input)
+          problem(rule.place + ": wiring." + rule.input + ": wired twice, two publishers");
       }
     }
   }
@@ -140,7 +143,8 @@ class Wirer {
     } else if (offers.size() > 1) {
       std::string names;
       for (const std::size_t t : offers) names += (names.empty() ? "" : ", ") + graph_.topics[t].name;
-      problem(input_name(rank, in) + ": several publishers offer " + port.type + " (" + names + "); name one under wiring:");
+      problem(input_name(rank, in) + ": several publishers offer " + port.type + " (" + names +
+              "); name one under wiring:");
     } else if (!port.optional) {
       problem(input_name(rank, in) + ": no publisher offers " + port.type);
     }
@@ -200,8 +204,8 @@ std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& p
     if (edge.to != rank) continue;
     const Graph::Topic& topic = graph.topics[edge.topic];
     feeds.push_back({edge.in_port, topic.name, static_cast<std::uint32_t>(edge.topic), topic.type,
-                           processes[topic.publisher].process, static_cast<std::uint32_t>(topic.publisher), edge.delay,
-                           topic.max_bytes});
+                     processes[topic.publisher].process, static_cast<std::uint32_t>(topic.publisher), edge.delay,
+                     topic.max_bytes});
   }
   std::sort(feeds.begin(), feeds.end(), [](const Feed& a, const Feed& b) {
     return std::pair(a.in_index, a.topic_id) < std::pair(b.in_index, b.topic_id);

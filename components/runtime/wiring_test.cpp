@@ -10,7 +10,9 @@ Declaration process(const std::string& name, std::vector<OutPort> outs, std::vec
   return {name, name, std::move(outs), std::move(ins), false};
 }
 OutPort out(const std::string& port, const std::string& type) { return {port, type, 4096, {10, 1}}; }
-InPort in(const std::string& port, const std::string& type, SimTime delay = SimTime{0}) { return {port, type, delay, false, {}, 0}; }
+InPort in(const std::string& port, const std::string& type, SimTime delay = SimTime{0}) {
+  return {port, type, delay, false, {}, 0};
+}
 
 std::string only_problem(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules = {}) {
   const Graph graph = wire(processes, rules);
@@ -50,8 +52,9 @@ TEST_CASE("a wrong type, a missing publisher and a shortened delay are refused")
   CHECK(only_problem(kLoop, {{"auv.command", "auv/pose", SimTime{-1}, "x.yaml:3:1"}}) ==
         "x.yaml:3:1: wiring.auv.command: auv/pose is pose/1, the input takes guidance/1");
   CHECK(only_problem({process("head", {}, {in("pose", "pose/1")})}) == "head.pose: no publisher offers pose/1");
-  CHECK(only_problem(kLoop, {{"auv.command", "pilot/command", 50_ms, "x.yaml:3:1"}}) ==
-        "x.yaml:3:1: wiring.auv.command: delay_ms 50 is shorter than the port's 100; a launch file may only lengthen it");
+  CHECK(
+      only_problem(kLoop, {{"auv.command", "pilot/command", 50_ms, "x.yaml:3:1"}}) ==
+      "x.yaml:3:1: wiring.auv.command: delay_ms 50 is shorter than the port's 100; a launch file may only lengthen it");
 }
 
 TEST_CASE("another major version of a type is another type") {
@@ -69,7 +72,8 @@ TEST_CASE("every cycle needs a delayed edge, and the one without is named") {
 
 TEST_CASE("a pattern takes every topic but its owner's, and a name that nobody publishes is refused") {
   auto processes = kLoop;
-  processes.push_back({"recorder", "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false});
+  processes.push_back(
+      {"recorder", "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false});
   const Graph graph = wire(processes, {});
   CHECK(graph.problems.empty());
   CHECK(feeds_of(graph, processes, 2).size() == 2);
@@ -84,7 +88,8 @@ TEST_CASE("a sync queue holds two messages and a window of each topic") {
 
 TEST_CASE("two recorders record everything but each other, and wait for nobody in a circle") {
   const auto recorder = [](const std::string& name) {
-    return Declaration{name, "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false};
+    return Declaration{
+        name, "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false};
   };
   const Graph graph = wire({{"auv", "vehicle", {out("pose", "pose/1")}, {}, false}, recorder("a"), recorder("b")}, {});
   CHECK(graph.problems.empty());

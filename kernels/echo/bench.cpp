@@ -1,7 +1,5 @@
 // How fast the hits of one ping become beams and samples, noise is added and the bottom detected, on one core. The
 // floor of the sum is as many complex additions at as many places, with no patterns.
-#include "kernels/echo/echo.h"
-
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -12,6 +10,7 @@
 
 #include "kernels/array/line.h"
 #include "kernels/detect/bottom.h"
+#include "kernels/echo/echo.h"
 #include "kernels/echo/noise.h"
 #include "kernels/seabed/lambert.h"
 

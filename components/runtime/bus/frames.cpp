@@ -59,7 +59,8 @@ msg::Packet to_packet(std::vector<zmq::message_t>&& frames) {
   if ((packet.envelope.flags & msg::kFlagWallFacts) != 0 && end > msg::kFirstArrayFrame) {
     packet.wall_facts = buffer_of(std::move(frames[--end]));
   }
-  for (std::size_t i = msg::kFirstArrayFrame; i < end; ++i) packet.body.arrays.push_back(buffer_of(std::move(frames[i])));
+  for (std::size_t i = msg::kFirstArrayFrame; i < end; ++i)
+    packet.body.arrays.push_back(buffer_of(std::move(frames[i])));
   return packet;
 }
 

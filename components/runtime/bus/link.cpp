@@ -20,8 +20,10 @@ constexpr int kLookAroundMs = 500;  // how soon a lost clock is noticed
 
 struct Link::Sockets {
   Sockets(const std::string& name, const std::string& clock_endpoint)
-      : clock(context, zmq::socket_type::dealer), sync(context, zmq::socket_type::xpub),
-        live(context, zmq::socket_type::xpub), monitor(context, zmq::socket_type::pair) {
+      : clock(context, zmq::socket_type::dealer),
+        sync(context, zmq::socket_type::xpub),
+        live(context, zmq::socket_type::xpub),
+        monitor(context, zmq::socket_type::pair) {
     clock.set(zmq::sockopt::routing_id, name);
     clock.set(zmq::sockopt::rcvtimeo, kLookAroundMs);
     connect_control(clock, clock_endpoint);

@@ -30,8 +30,8 @@ struct Subscription {
   std::size_t max_bytes = 0;
 };
 
-/// One process's sockets: a DEALER to the clock, two XPUBs (sync: nothing lost; live: lossy, for viewers) and a SUB that
-/// a thread of its own drains at all times. ZeroMQ is seen in this folder only.
+/// One process's sockets: a DEALER to the clock, two XPUBs (sync: nothing lost; live: lossy, for viewers) and a SUB
+/// that a thread of its own drains at all times. ZeroMQ is seen in this folder only.
 class Link {
  public:
   /// Connects to the clock and binds. Throws UserError for an address that cannot be bound or a path over 107 bytes.

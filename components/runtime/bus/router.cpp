@@ -67,7 +67,8 @@ std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
   const itimerspec alarm{{0, 0}, {left / 1'000'000'000, left % 1'000'000'000}};
   timerfd_settime(sockets_->alarm, 0, &alarm, nullptr);
   while (steady_clock::now() < *until) {
-    zmq::pollitem_t items[] = {{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0}, {nullptr, sockets_->alarm, ZMQ_POLLIN, 0}};
+    zmq::pollitem_t items[] = {{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0},
+                               {nullptr, sockets_->alarm, ZMQ_POLLIN, 0}};
     if (zmq_poll(items, 2, -1) < 0) return std::nullopt;  // a signal
     if (receive(sockets_->socket, message, zmq::recv_flags::dontwait)) return message;
   }
@@ -99,7 +100,8 @@ std::optional<std::string> Asker::ask(std::string_view request, std::chrono::mil
   sockets_->socket.send(zmq::buffer(request));
   zmq::pollitem_t item{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0};
   zmq::message_t answer;
-  if (zmq::poll(&item, 1, patience) == 0 || !sockets_->socket.recv(answer, zmq::recv_flags::dontwait)) return std::nullopt;
+  if (zmq::poll(&item, 1, patience) == 0 || !sockets_->socket.recv(answer, zmq::recv_flags::dontwait))
+    return std::nullopt;
   return answer.to_string();
 }
 

@@ -8,7 +8,7 @@
 namespace ensonify::bus {
 
 inline constexpr int kReconnectMs = 5;
-inline constexpr int kLingerMs = 1000;          // a leaving process hands over what it has sent
+inline constexpr int kLingerMs = 1000;         // a leaving process hands over what it has sent
 inline constexpr int kKernelBuffer = 1 << 20;  // fewer switches between processes for multi-megabyte messages
 
 /// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, not on the loopback

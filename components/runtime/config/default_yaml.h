@@ -11,8 +11,8 @@
 namespace ensonify {
 
 /// For tests: "" when default.yaml beside the test lists every parameter of Config, each with the value that the
-/// struct's initialiser gives it; otherwise what differs. `component` is the name of the process that asks, `exempt` are
-/// parameters without a default. Config needs ==.
+/// struct's initialiser gives it; otherwise what differs. `component` is the name of the process that asks, `exempt`
+/// are parameters without a default. Config needs ==.
 template <class Config>
 std::string default_yaml_fault(const std::string& component, const Scenario& scenario,
                                const std::vector<std::string>& exempt = {}) {

@@ -11,8 +11,8 @@ namespace ensonify {
 ///
 /// The horizon of p is the smallest of: next(u) - 1 ns over plain inputs from u, next(u) + d - 1 ns over inputs delayed
 /// by d, next(c) + window over consumers c of p, next(f) + kFinishMargin over those who may end the run, the cap
-/// (pacing, pause, step) and the end. Pure logic: the clock process drives it with sockets and wall time, the in-process
-/// runner with function calls.
+/// (pacing, pause, step) and the end. Pure logic: the clock process drives it with sockets and wall time, the
+/// in-process runner with function calls.
 class Conductor {
  public:
   struct Edge {

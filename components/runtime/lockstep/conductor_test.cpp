@@ -1,7 +1,6 @@
 #include "components/runtime/lockstep/conductor.h"
 
 #include <catch2/catch.hpp>
-
 #include <random>
 
 using namespace ensonify;
@@ -9,9 +8,7 @@ using namespace ensonify;
 namespace {
 
 /// vehicle 0 -> navigation 1 -> pilot 2 -> (delayed 100 ms) vehicle 0.
-Conductor loop() {
-  return Conductor(3, {{0, 1, 0_s}, {1, 2, 0_s}, {2, 0, 100_ms}}, {false, false, true}, 1_s);
-}
+Conductor loop() { return Conductor(3, {{0, 1, 0_s}, {1, 2, 0_s}, {2, 0, 100_ms}}, {false, false, true}, 1_s); }
 
 SimTime horizon_of(const std::vector<Conductor::Grant>& grants, std::size_t p) {
   for (const auto& grant : grants) {
@@ -71,8 +68,8 @@ TEST_CASE("a promise cannot be taken back") {
   CHECK_THROWS_WITH(conductor.done(0, 50_ms), Catch::Contains("taken back"));
 }
 
-// The law behind everything: at an event at t every message that can have t_sim + delay <= t has been sent. Random graphs
-// with a delayed edge in every cycle, random steps, grants finished in random order.
+// The law behind everything: at an event at t every message that can have t_sim + delay <= t has been sent. Random
+// graphs with a delayed edge in every cycle, random steps, grants finished in random order.
 TEST_CASE("no participant ever acts before its inputs are certain, and time always goes on") {
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::mt19937 random(seed);
@@ -82,7 +79,8 @@ TEST_CASE("no participant ever acts before its inputs are certain, and time alwa
     for (std::size_t from = 0; from < n; ++from) {
       for (std::size_t to = 0; to < n; ++to) {
         if (from == to || pick(2) == 0) continue;
-        edges.push_back({from, to, to > from ? 0_ms : SimTime{1 + pick(200) * 1'000'000}});  // backward edges are delayed
+        edges.push_back(
+            {from, to, to > from ? 0_ms : SimTime{1 + pick(200) * 1'000'000}});  // backward edges are delayed
       }
     }
     Conductor conductor(n, edges, std::vector<bool>(n, false), 1_s);

@@ -14,7 +14,8 @@ StubNode::StubNode(const Config& config, Ports& ports)
     : config_(config), ports_(ports), events_({config.rate_hz, 1}), wall_jitter_(static_cast<std::uint64_t>(getpid())) {
   for (const Config::Out& out : config.outs) {
     const auto max_bytes = static_cast<std::size_t>(out.bytes) + 1024;
-    outs_.push_back({ports.declare_out({out.port, out.type, max_bytes, {out.hz, 1}}), Periodic({out.hz, 1}), out.bytes});
+    outs_.push_back(
+        {ports.declare_out({out.port, out.type, max_bytes, {out.hz, 1}}), Periodic({out.hz, 1}), out.bytes});
   }
   for (const Config::In& in : config.ins) {
     ports.in_raw(in.port, in.type, [this](const msg::Packet& packet) { take(packet); },
@@ -26,8 +27,8 @@ StubNode::StubNode(const Config& config, Ports& ports)
 void StubNode::take(const msg::Packet& packet) {
   ++received_;
   const msg::Envelope& e = packet.envelope;
-  for (const std::uint64_t part : {static_cast<std::uint64_t>(e.t_sim_ns), std::uint64_t{e.publisher},
-                                   std::uint64_t{e.topic_id}, e.seq}) {
+  for (const std::uint64_t part :
+       {static_cast<std::uint64_t>(e.t_sim_ns), std::uint64_t{e.publisher}, std::uint64_t{e.topic_id}, e.seq}) {
     digest_ = (digest_ ^ part) * 0x100000001b3U;
   }
   if (!config_.read_every_byte) return;
