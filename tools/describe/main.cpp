@@ -1,5 +1,161 @@
-#include <iostream>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/config/config_node.h"
+#include "components/runtime/exit_error.h"
+#include "components/runtime/run.h"
 #include "messages/schema.h"
+#include "tools/describe/catalogue.h"
 
-int main() { std::cout << ensonify::msg::reference_page(); }
+namespace {
+
+using namespace ensonify;
+using Json = nlohmann::ordered_json;
+
+std::string delay_text(SimTime delay) {
+  return delay == SimTime{0} ? "" : fmt::format("{:g} ms", static_cast<double>(delay.count()) * 1e-6);
+}
+
+void print_ports(const ComponentFacts& facts) {
+  if (facts.example.empty()) {
+    fmt::print("\nPorts: {}\n", facts.no_ports_because);
+    return;
+  }
+  fmt::print("\nPorts of {}:\n", facts.example);
+  for (const OutPort& port : facts.outs) {
+    fmt::print("  out {:<14} {:<18} at most {:g} Hz, {} bytes\n", port.port, port.type, port.rate.hz(), port.max_bytes);
+  }
+  for (const InPort& port : facts.ins) {
+    const std::string delay = delay_text(port.delay);
+    fmt::print("  in  {:<14} {:<18} {}{}{}\n", port.port, port.type == "*" ? "any" : port.type,
+               delay.empty() ? "" : "delay " + delay + (port.optional ? ", " : ""), port.optional ? "optional" : "",
+               port.topics.empty() ? "" : fmt::format(": {}", fmt::join(port.topics, ", ")));
+  }
+}
+
+Json ports_json(const ComponentFacts& facts) {
+  Json json;
+  for (const OutPort& port : facts.outs) {
+    json["out"].push_back(
+        {{"port", port.port}, {"type", port.type}, {"max_bytes", port.max_bytes}, {"rate_hz", port.rate.hz()}});
+  }
+  for (const InPort& port : facts.ins) {
+    json["in"].push_back({{"port", port.port},
+                          {"type", port.type},
+                          {"delay_ns", port.delay.count()},
+                          {"optional", port.optional},
+                          {"topics", port.topics}});
+  }
+  return json;
+}
+
+void print_component(const std::string& name, bool as_yaml, bool as_json) {
+  const ComponentFacts facts = facts_of(name);
+  if (as_yaml) {
+    fmt::print("{}", facts.default_yaml);
+  } else if (as_json) {
+    const ConfigDocument parameters = parse_config(facts.default_yaml, name + "/default.yaml");
+    Json json = {{"component", name}, {"about", facts.about}, {"parameters", Json::parse(to_json(parameters.root))}};
+    if (!facts.example.empty()) {
+      json["ports_of"] = facts.example;
+      json["ports"] = ports_json(facts);
+    }
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}: {}\n", name, facts.about);
+    print_ports(facts);
+    fmt::print("\nParameters (under the process's `config:`):\n{}", facts.default_yaml);
+  }
+}
+
+void print_fields(const std::vector<msg::FieldInfo>& fields, int indent) {
+  std::size_t name_width = 0, type_width = 0, unit_width = 0;
+  for (const msg::FieldInfo& f : fields) {
+    name_width = std::max(name_width, f.name.size());
+    type_width = std::max(type_width, msg::type_in_words(f).size());
+    unit_width = std::max(unit_width, f.unit.size());
+  }
+  for (const msg::FieldInfo& f : fields) {
+    fmt::print("{:{}}{:<{}}  {:<{}}  {:<{}}  {}\n", "", indent, f.name, name_width, msg::type_in_words(f), type_width,
+               f.unit, unit_width, f.about);
+    if (f.kind == msg::FieldInfo::Kind::list) print_fields(f.members.front().members, indent + 4);
+  }
+}
+
+void print_message(const msg::TypeInfo& type, bool as_json) {
+  if (as_json) {
+    fmt::print("{}\n", Json::parse(msg::json_schema(&type)).dump(2));
+    return;
+  }
+  fmt::print("{}: {}\n\n", type.type, type.about);
+  print_fields(type.fields, 2);
+}
+
+void print_all(bool as_json) {
+  if (as_json) {
+    Json json = {{"components", component_names()}, {"messages", Json::array()}};
+    for (const msg::TypeInfo& type : msg::message_types()) json["messages"].push_back(type.type);
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("Components (ensonify describe COMPONENT):\n  {}\n\nMessages (ensonify describe MESSAGE):\n",
+             fmt::join(component_names(), ", "));
+  for (const msg::TypeInfo& type : msg::message_types()) fmt::print("  {:<18} {}\n", type.type, type.about);
+}
+
+/// "ping/1", or "ping" for the highest major there is.
+const msg::TypeInfo* message_named(const std::string& name) {
+  const msg::TypeInfo* found = msg::find_type(name);
+  for (const msg::TypeInfo& type : msg::message_types()) {
+    if (type.type.substr(0, type.type.find('/')) == name) found = &type;
+  }
+  return found;
+}
+
+[[noreturn]] void refuse(const std::string& name) {
+  std::vector<std::string> known = component_names();
+  for (const msg::TypeInfo& type : msg::message_types()) known.push_back(type.type.substr(0, type.type.find('/')));
+  const std::string near = nearest_name(name, known);
+  throw UserError(name + ": is neither a component nor a message type" +
+                  (near.empty() ? "; `ensonify describe` lists them" : "; did you mean " + near + "?"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Says what there is: components with their parameters (defaults and units) and ports, messages with their "
+      "fields.",
+      "ensonify describe");
+  std::string name;
+  bool as_yaml = false, as_json = false, reference = false;
+  app.add_option("NAME", name, "a component or a message type; without it, the list of both");
+  auto* yaml = app.add_flag("--yaml", as_yaml, "only the parameters with their defaults, as a configuration file");
+  app.add_flag("--json", as_json, "as JSON; of a message type its JSON Schema")->excludes(yaml);
+  app.add_flag("--reference", reference, "the page docs/messages.md");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitOk : kExitUserError;
+  }
+  return exit_code_of([&] {
+    const auto components = component_names();
+    if (reference) {
+      fmt::print("{}", msg::reference_page());
+    } else if (name.empty()) {
+      print_all(as_json);
+    } else if (std::find(components.begin(), components.end(), name) != components.end()) {
+      print_component(name, as_yaml, as_json);
+    } else if (const msg::TypeInfo* type = message_named(name)) {
+      if (as_yaml) throw UserError(name + " is a message type; --yaml prints the parameters of a component");
+      print_message(*type, as_json);
+    } else {
+      refuse(name);
+    }
+    return static_cast<int>(kExitOk);
+  });
+}

@@ -96,6 +96,7 @@ bool RecordReader::next_chunk() {
   try {
     while (!ended_) {
       start = offset_;
+      if (offset_ == file_bytes_) throw Malformed("it has no end; its writer was stopped");
       const Head head = take_head();
       switch (head.op) {
         case Op::chunk: read_chunk(take(head.size)); return true;

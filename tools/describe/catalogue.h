@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/runtime/wiring.h"
+
+namespace ensonify {
+
+/// A kind of process, as its folder under components/ and its program's --check tell.
+struct ComponentFacts {
+  std::string name;
+  std::string about;         // first paragraph of its README
+  std::string default_yaml;  // every parameter with its default
+  // As an example launch file configures it, for ports follow from parameters.
+  std::string example;  // "bow in launch/demo.yaml"; "" if no launch file uses the component
+  std::vector<OutPort> outs;
+  std::vector<InPort> ins;
+  std::string no_ports_because;  // why the program could not tell its ports
+};
+
+/// Names of the components whose programs stand beside this one, sorted.
+std::vector<std::string> component_names();
+
+/// What is known of a component; runs its program with --check.
+ComponentFacts facts_of(const std::string& component);
+
+}  // namespace ensonify

@@ -1,0 +1,39 @@
+"""What `ensonify describe` says of everything it lists.   describe_test.py BIN_FOLDER"""
+import json
+import os
+import subprocess
+import sys
+
+SOURCE = os.environ["ENSONIFY_SOURCE"]
+
+
+def describe(*words, wanted=0):
+    done = subprocess.run([os.path.join(sys.argv[1], "ensonify-describe"), *words], capture_output=True, text=True)
+    assert done.returncode == wanted, f"describe {words}: exit code {done.returncode}, {done.stderr}"
+    return done.stdout if wanted == 0 else done.stderr
+
+
+everything = json.loads(describe("--json"))
+folders = {f for f in os.listdir(f"{SOURCE}/components") if os.path.exists(f"{SOURCE}/components/{f}/default.yaml")}
+assert set(everything["components"]) == folders, (everything["components"], folders)
+
+told = []
+for component in everything["components"]:
+    with open(f"{SOURCE}/components/{component}/default.yaml", encoding="utf-8") as file:
+        assert describe(component, "--yaml") == file.read(), component
+    facts = json.loads(describe(component, "--json"))
+    assert facts["about"] and facts["parameters"] is not None, component
+    if "ports" in facts:
+        told.append(component)
+        assert any(p["type"] == "health/1" for p in facts["ports"]["out"]), component
+assert {"vehicle", "multibeam", "recorder"} <= set(told), f"only {told} tell their ports"
+
+for message in everything["messages"]:
+    assert json.loads(describe(message, "--json"))["title"] == message
+    assert describe(message.split("/")[0]).startswith(message)
+
+assert describe("pimg", wanted=2) == "pimg: is neither a component nor a message type; did you mean ping?\n"
+describe("ping", "--yaml", wanted=2)
+with open(f"{SOURCE}/docs/messages.md", encoding="utf-8") as file:
+    assert describe("--reference") == file.read()
+print(f"{len(folders)} components and {len(everything['messages'])} messages are described")
