@@ -15,6 +15,8 @@ LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of i
 FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
 WAKE_MS = 1000  # how often a waiting participant looks whether the clock is still there
 
+_EVENTS, _POLLIN, _SNDMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE)  # plain numbers: pyzmq's enums cost more than the calls
+
 EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_DATA_LOST = 0, 2, 3, 5
 
 
@@ -50,7 +52,8 @@ class Session:
         self._sync = self._context.socket(zmq.XPUB)
         self._sync.setsockopt(zmq.XPUB_NODROP, 1)
         self._sync.setsockopt(zmq.LINGER, FLUSH_MS)
-        self._live = self._context.socket(zmq.PUB)
+        self._live = self._context.socket(zmq.XPUB)
+        self._viewed: set = set()  # what viewers have subscribed to
         self._live.setsockopt(zmq.SNDHWM, LIVE_QUEUE)
         self._live.setsockopt(zmq.LINGER, 0)
         self._sub = self._context.socket(zmq.SUB)
@@ -145,7 +148,7 @@ class Session:
         for topic_id, count in grant.counts:
             while self._arrived.get(topic_id, count) < count:
                 try:
-                    frames = self._sub.recv_multipart(copy=False)
+                    topic = self._sub.recv()
                 except zmq.Again:
                     self._check_clock()
                     if self._control.getsockopt(zmq.EVENTS) & zmq.POLLIN:
@@ -153,7 +156,7 @@ class Session:
                     if self.end_code is not None:
                         return False
                     continue
-                packet = self._checked(frames)
+                packet = self._packet(topic)
                 if packet is not None:
                     deliver(packet.envelope.topic_id, packet)
         return True
@@ -169,8 +172,12 @@ class Session:
         envelope = wire.encode_envelope(
             wire.Envelope(0, self.epoch, self.rank, topic_id, 2 + len(body), type_hash, seq, t_sim_ns))
         frames = [topic, envelope, *body]
-        self._sync.send_multipart(frames, copy=False)
-        self._live.send_multipart(frames, copy=False)
+        _send(self._sync, frames)
+        while self._live.getsockopt(_EVENTS) & _POLLIN:  # lets ZeroMQ take note of new viewers, too
+            subscription = self._live.recv()
+            (self._viewed.add if subscription[:1] == b"\x01" else self._viewed.discard)(subscription[1:])
+        if self._viewed:
+            _send(self._live, frames)
 
     # --- leaving
 
@@ -229,27 +236,39 @@ class Session:
             self._control.setsockopt(zmq.LINGER, 0)  # nobody will read what is left
             raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
 
-    def _checked(self, frames: list) -> Packet | None:
-        """The packet if it is of this epoch and the one that its topic expects."""
-        if len(frames) < 3:
-            raise RunError(f"{self.name}: a message of {len(frames)} frames arrived", EXIT_DATA_LOST)
-        envelope = wire.decode_envelope(frames[1].bytes)
+    def _packet(self, topic: bytes) -> Packet | None:
+        """The rest of the message that begins with `topic`, if it is of this epoch and the one that its topic expects.
+        Small frames are copied, arrays are not."""
+        envelope = wire.decode_envelope(self._sub.recv())
+        if envelope.frame_count < wire.FIRST_ARRAY_FRAME:
+            raise RunError(f"{self.name}: {topic!r} brought {envelope.frame_count} frames", EXIT_DATA_LOST)
+        head = self._sub.recv(copy=False)
+        arrays = [head]
+        while arrays[-1].more:
+            arrays.append(self._sub.recv(copy=False))
         if envelope.epoch != self.epoch:
             return None
         entry = self._inputs.get(envelope.topic_id)
-        if entry is None or envelope.type_hash != entry["hash"] or envelope.frame_count != len(frames):
-            raise RunError(f"{self.name}: {frames[0].bytes!r} brought what was not announced", EXIT_DATA_LOST)
+        if entry is None or envelope.type_hash != entry["hash"] or envelope.frame_count != 2 + len(arrays):
+            raise RunError(f"{self.name}: {topic!r} brought what was not announced", EXIT_DATA_LOST)
         expected = self._arrived[envelope.topic_id]
         if envelope.seq != expected:
             raise RunError(f"{self.name}: {entry['topic']} lost messages: seq {envelope.seq}, expected {expected}",
                            EXIT_DATA_LOST)
         self._arrived[envelope.topic_id] = expected + 1
-        last = len(frames) - (envelope.flags & wire.FLAG_WALL_FACTS)
-        size = sum(len(frame) for frame in frames[2:last])
-        if size > entry["max_bytes"]:
-            raise RunError(f"{self.name}: {entry['topic']} has {size} bytes, at most {entry['max_bytes']} were declared",
-                           EXIT_DATA_LOST)
-        return Packet(envelope, frames[2].bytes, [frame.buffer for frame in frames[3:last]])
+        if envelope.flags & wire.FLAG_WALL_FACTS:
+            arrays.pop()
+        if sum(map(len, arrays)) > entry["max_bytes"]:
+            raise RunError(f"{self.name}: {entry['topic']} has {sum(map(len, arrays))} bytes, at most {entry['max_bytes']} "
+                           "were declared", EXIT_DATA_LOST)
+        return Packet(envelope, head.bytes, [frame.buffer for frame in arrays[1:]])
+
+
+def _send(socket, frames: list) -> None:
+    """A message whose first three frames are bytes and whose arrays are handed over uncopied."""
+    last = len(frames) - 1
+    for n, frame in enumerate(frames):
+        socket.send(frame, _SNDMORE if n < last else 0, n < wire.FIRST_ARRAY_FRAME)
 
 
 def queue_length(num: int, den: int) -> int:
