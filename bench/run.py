@@ -44,6 +44,8 @@ class Bench:
             report = json.loads((pathlib.Path(out) / "clock.json").read_text())
             log = (pathlib.Path(out) / "log" / "clock.log").read_text()
             report["connect_s"] = float(re.search(r"connect_s=([0-9.]+)", log).group(1))
+            for notes in pathlib.Path(out).glob("python_step.json"):
+                report["python_step"] = json.loads(notes.read_text())
             return report
 
 
@@ -105,6 +107,26 @@ def bench_free(b):
     return rows
 
 
+def bench_python(b):
+    """A Python agent in lockstep with a world: from its answer to its next step; the floor is the round with a stub."""
+    rows = []
+    for size, most_us in ((100_000, 150), (4_000_000, 1000)):
+        seconds = 50 if b.quick else 200
+
+        def launch(name):
+            return b.launch(name, "--arg", f"bytes={size}", "--arg", f"seconds={seconds}")
+
+        def ours():
+            step = launch("python_step")["python_step"]
+            assert (step["rounds"], step["bytes"]) == (20 * seconds + 1, size), step
+            return step["p50_us"]
+
+        mine, floor, ratios = interleaved(b.repeat, ours, lambda: launch("python_step_floor")["wall_s"] / (20 * seconds) * 1e6)
+        rows.append(row(f"Python step with {size // 1000} kB, p50", mine, "us", floor, statistics.median(ratios),
+                        f"<= {most_us}", mine <= most_us))
+    return rows
+
+
 def bench_kernels(b):
     """The google-benchmark programs of the kernels, which print their own floors."""
     rows = []
@@ -117,7 +139,7 @@ def bench_kernels(b):
     return rows
 
 
-BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
+BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free, "python": bench_python,
            "kernels": bench_kernels}
 
 
