@@ -23,7 +23,7 @@ struct MultibeamConfig {
   double pulse_length_s = 100e-6;                 // rectangular CW
   double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m
   bool auto_range = true;                         // else range_m always
-  double range_m = 100.0;                         // the longest range that is listened to
+  double range_m = 200.0;                         // the longest range that is listened to
   double ping_rate_hz = 10.0;                     // at most; the interval is never less than 2 R / c + dead time
   double dead_time_s = 0.5e-3;
   double processing_latency_s = 20e-3;  // from the last echo to the published ping

@@ -271,3 +271,16 @@ TEST_CASE("the same ping twice has the same bytes, another seed has others") {
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].amplitude_upa == b[i].amplitude_upa);
   CHECK_FALSE(a[0].amplitude_upa == other[0].amplitude_upa);
 }
+
+TEST_CASE("beams beyond the range give no sounding, not the sidelobes of those within it") {
+  auto config = shallow();
+  config.range_m = 40.0;  // the bottom at 60 deg
+  for (const auto& s : survey(config, {}, 1_s)) {
+    for (std::size_t beam = 0; beam < 256; ++beam) {
+      const double angle_deg = std::abs(s.beam_angle_rad[beam]) / MultibeamConfig::kDegree;
+      if (angle_deg < 56.0) CHECK(s.valid[beam] == 1);
+      if (angle_deg > 60.0) CHECK(s.valid[beam] == 0);
+      if (s.valid[beam] == 1) CHECK(-s.position_enu_m(beam, 2) == Approx(20.0).margin(0.4));
+    }
+  }
+}

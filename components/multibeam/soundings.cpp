@@ -1,5 +1,6 @@
 #include "components/multibeam/soundings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "components/multibeam/geometry.h"
@@ -31,9 +32,10 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   soundings.valid = msg::Array<std::uint8_t>({beams});
   soundings.position_enu_m = msg::Array<double>({beams, 3});
   heard_.clear();
+  drop_beyond_range(shot);
   if (estimate.empty()) return soundings;
   for (std::size_t beam = 0; beam < beams; ++beam) {
-    if (detections_[beam].valid && heard_whole(shot, beam)) place(shot, estimate, beam, soundings);
+    if (detections_[beam].valid) place(shot, estimate, beam, soundings);
   }
   return soundings;
 }
@@ -45,6 +47,22 @@ bool SoundingMaker::heard_whole(const Shot& shot, std::size_t beam) const {
   const double footprint = 2.0 * half_width * sine / std::max(1.0 - sine * sine, half_width * half_width);
   return detections_[beam].two_way_s * (1.0 + footprint) + config_.pulse_length_s <
          seconds(config_.listening_time(shot.range_m));
+}
+
+/// Outward of a beam whose echo is cut off by the range, what a beam hears are the sidelobes of those within it.
+void SoundingMaker::drop_beyond_range(const Shot& shot) {
+  const auto drop_outward = [&](std::ptrdiff_t first, std::ptrdiff_t step) {
+    bool cut_off = false;
+    const auto end = static_cast<std::ptrdiff_t>(detections_.size());
+    for (std::ptrdiff_t i = first; i >= 0 && i < end; i += step) {
+      const auto beam = static_cast<std::size_t>(i);
+      cut_off = cut_off || (detections_[beam].valid && !heard_whole(shot, beam));
+      if (cut_off) detections_[beam].valid = false;
+    }
+  };
+  const auto middle = std::lower_bound(sin_beams_.begin(), sin_beams_.end(), 0.0F) - sin_beams_.begin();
+  drop_outward(middle, 1);
+  drop_outward(middle - 1, -1);
 }
 
 void SoundingMaker::place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam,

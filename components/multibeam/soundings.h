@@ -25,6 +25,7 @@ class SoundingMaker {
 
  private:
   bool heard_whole(const Shot& shot, std::size_t beam) const;
+  void drop_beyond_range(const Shot& shot);
   void place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam, msg::Soundings& soundings);
 
   MultibeamConfig config_;

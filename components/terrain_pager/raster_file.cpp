@@ -99,12 +99,13 @@ void RasterFile::read_reference() {
   } else if (own != nullptr) {
     reference_.reset(own->Clone());
   } else {
-    refuse("has no coordinate reference system; name it with `crs: EPSG:...`");
+    refuse("has no coordinate reference system; name it with the pager's `raster_crs: EPSG:...`");
   }
   if (reference_->IsCompound()) reference_->StripVertical();
   if (!reference_->IsProjected() && !reference_->IsGeographic()) {
     refuse("has a reference system that is neither projected nor geographic (" +
-           std::string(reference_->GetName() ? reference_->GetName() : "unnamed") + "); name one with `crs: EPSG:...`");
+           std::string(reference_->GetName() ? reference_->GetName() : "unnamed") +
+           "); name one with the pager's `raster_crs: EPSG:...`");
   }
   reference_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }
@@ -202,19 +203,21 @@ void RasterFile::check_values() {
   for (const double fill : kUsualFills) {
     const double seen = options_.values_are_depths ? -fill : fill;
     if (lowest_m_ == seen || highest_m_ == seen) {
-      refuse("holds " + number(fill) +
-             ", which looks like a mark for missing values but is not declared as one; set `nodata: " + number(fill) +
-             "`");
+      refuse(
+          "holds " + number(fill) +
+          ", which looks like a mark for missing values but is not declared as one; set the pager's `raster_nodata: " +
+          number(fill) + "`");
     }
   }
   if (lowest_m_ < -kDeepestOcean_m || highest_m_ > kHighestLand_m) {
     refuse("holds heights " + range + "; between " + number(-kDeepestOcean_m) + " and " + number(kHighestLand_m) +
-           " m are allowed (a mark for missing values is declared with `nodata`)");
+           " m are allowed (a mark for missing values is declared with the pager's `raster_nodata`)");
   }
   if (2 * above > valid) {
     refuse("is mostly above the water (heights " + range + " up): " +
-           (options_.values_are_depths ? "its values are elevations or land; `values: elevation` reads them as such"
-                                       : "its values are depths or land; `values: depth` reads them as depths") +
+           (options_.values_are_depths
+                ? "its values are elevations or land; `seabed.raster.values: elevation` reads them as such"
+                : "its values are depths or land; `seabed.raster.values: depth` reads them as depths") +
            ", land alone cannot be surveyed");
   }
 }

@@ -158,9 +158,8 @@ TEST_CASE("depths are turned when declared, and refused when not") {
   raster.height = [](double, double) { return 12.5; };
   auto options = options_for(raster);
   CHECK(refusal(options) ==
-        "is mostly above the water (heights from 12.5 to 12.5 m up): its values are depths or land; `values: depth` "
-        "reads "
-        "them as depths, land alone cannot be surveyed");
+        "is mostly above the water (heights from 12.5 to 12.5 m up): its values are depths or land; "
+        "`seabed.raster.values: depth` reads them as depths, land alone cannot be surveyed");
   options.values_are_depths = true;
   CHECK(RasterSource(options, std::nullopt).height_m({0, 0}) == Approx(-12.5));
 }
@@ -180,7 +179,7 @@ TEST_CASE("rasters that cannot be trusted are refused with cause and remedy") {
   SECTION("no reference system") {
     raster.epsg = 0;
     auto options = options_for(raster);
-    CHECK(refusal(options) == "has no coordinate reference system; name it with `crs: EPSG:...`");
+    CHECK(refusal(options) == "has no coordinate reference system; name it with the pager's `raster_crs: EPSG:...`");
     options.crs = "EPSG:32619";
     CHECK(refusal(options) == "accepted");
   }
@@ -204,7 +203,8 @@ TEST_CASE("rasters that cannot be trusted are refused with cause and remedy") {
     raster.declare_nodata = false;
     auto options = options_for(raster);
     CHECK(refusal(options) ==
-          "holds -9999, which looks like a mark for missing values but is not declared as one; set `nodata: -9999`");
+          "holds -9999, which looks like a mark for missing values but is not declared as one; set the pager's "
+          "`raster_nodata: -9999`");
     options.nodata = kHole;
     CHECK(refusal(options) == "accepted");
   }
@@ -292,10 +292,10 @@ TEST_CASE("real rasters with real faults are refused") {
   if (data.empty()) return;
   RasterOptions options;
   options.path = data + "/german_bight_1km.nc";  // degrees without a reference system, depths positive down
-  CHECK(refusal(options) == "has no coordinate reference system; name it with `crs: EPSG:...`");
+  CHECK(refusal(options) == "has no coordinate reference system; name it with the pager's `raster_crs: EPSG:...`");
   options.crs = "EPSG:4326";
-  CHECK(refusal(options).find("`values: depth` reads them as depths") != std::string::npos);
+  CHECK(refusal(options).find("`seabed.raster.values: depth` reads them as depths") != std::string::npos);
   options.path = data + "/formats/clip.xyz";
   options.crs = "EPSG:32619";
-  CHECK(refusal(options).find("set `nodata: -9999`") != std::string::npos);
+  CHECK(refusal(options).find("set the pager's `raster_nodata: -9999`") != std::string::npos);
 }
