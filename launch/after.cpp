@@ -9,9 +9,9 @@
 #include "launch/signals.h"
 
 namespace ensonify::launcher {
-namespace {
 
-int run_step(const Command& command, Signals& signals) {
+int run_to_end(const Command& command) {
+  Signals signals;
   Child child(command);
   bool interrupted = false;
   while (child.running()) {
@@ -34,16 +34,13 @@ int run_step(const Command& command, Signals& signals) {
   return ours ? ending.exit_code : int{kExitDied};
 }
 
-}  // namespace
-
 int run_after(const Launch& launch, const RunPlaces& places) {
   std::vector<Command> commands;
   for (const auto& step : launch.after) {
     commands.push_back(after_command(step, places));
   }
-  Signals signals;
   for (std::size_t i = 0; i < commands.size(); ++i) {
-    if (const int code = run_step(commands[i], signals); code != kExitOk) {
+    if (const int code = run_to_end(commands[i]); code != kExitOk) {
       std::string words;
       for (const auto& word : launch.after[i]) {
         words += (words.empty() ? "" : " ") + word;

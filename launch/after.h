@@ -5,8 +5,12 @@
 
 namespace ensonify::launcher {
 
-/// Runs the steps of `after:` one after another, with our standard output. Stops at the first that fails and returns
-/// its exit code if that is one of ours, else 3; 130 when interrupted. Throws UserError when there is no such program.
+/// Runs one command to its end with our standard output; Ctrl-C is handed on, a second one kills. Returns its exit code
+/// if that is one of ours, else 3; 130 when interrupted.
+int run_to_end(const Command& command);
+
+/// Runs the steps of `after:` one after another. Stops at the first that fails and returns its exit code. Throws
+/// UserError when there is no such program.
 int run_after(const Launch& launch, const RunPlaces& places);
 
 }  // namespace ensonify::launcher

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -106,6 +107,14 @@ std::string json_text(const RunReport& report) {
            {"processes", processes},
            {"expect", expectations}};
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw UserError(folder + ": cannot be made: " + error.message() + "; choose another folder with --out");
+  }
 }
 
 void write_text(const std::string& file, const std::string& text) {

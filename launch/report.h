@@ -45,6 +45,9 @@ std::string junit_xml(const RunReport& report);
 /// For scripts: exit code, cause, times, and memory per process.
 std::string json_text(const RunReport& report);
 
+/// Makes a folder for results, with those above it. Throws UserError when that is not possible.
+void make_folder(const std::string& folder);
+
 /// Throws ExitError (5) when the file cannot be written whole.
 void write_text(const std::string& file, const std::string& text);
 

@@ -1,5 +1,4 @@
 // `ensonify run` as a user meets it: real processes (stubs of tests/support), real sockets, real signals.
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -331,6 +330,59 @@ TEST_CASE("an observer that dies does not end the run") {
   text.insert(text.find(processes) + processes.size(), "  viewer: {run: [sh, -c, exit 9], observer: true}\n");
   place.write("x.yaml", text);
   CHECK(run(place).code == 0);
+}
+
+TEST_CASE("an observer that may come back is started again") {
+  const Workplace place;
+  place.write("x.yaml",
+              "ensonify: launch/1\nprocesses:\n  a: {run: stub, config: {rate_hz: 10}}\n"
+              "  viewer: {run: [sh, -c, 'echo x >> $(out)/starts; exit 9'], observer: true, respawn: true}\n"
+              "clock: {rate: 1}\nduration_s: 1.5\n");
+  CHECK(run(place).code == 0);
+  CHECK(contents(place.file("out/starts")) == "x\nx");
+}
+
+TEST_CASE("an external process is awaited and may be started by anybody") {
+  const Workplace place;
+  place.two_stubs("", "", "duration_s: 1\n");
+  std::string text = contents(place.file("x.yaml"));
+  text.insert(text.find("  b: {") + 6, "external: true, join_s: 20, ");
+  place.write("x.yaml", text);
+  Program launcher(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
+  std::string run_dir;
+  until([&] {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(place.file("ensonify"), error)) {
+      if (fs::exists(entry.path() / "clock.endpoint")) {
+        run_dir = entry.path().string();
+      }
+    }
+    return !run_dir.empty();
+  });
+  Program b(place,
+            {"ensonify-stub", "--launch", place.file("x.yaml"), "--out", place.file("out"), "--name", "b", "--run-dir",
+             run_dir, "--clock", contents(run_dir + "/clock.endpoint")},
+            "b.txt");
+  CHECK(b.wait() == 0);
+  CHECK(launcher.wait() == 0);
+
+  text.replace(text.find("join_s: 20"), 10, "join_s: 0.2");
+  place.write("x.yaml", text + "\nclock: {connect_timeout_s: 0.2}\n");
+  const Result alone = run(place);
+  CHECK(alone.code == 4);
+  CHECK(alone.said.find("no hello from: b") != std::string::npos);
+}
+
+TEST_CASE("in one process a run has the same end, reports and steps") {
+  const Workplace place;
+  std::ofstream(place.file("x.yaml"))
+      << "ensonify: launch/1\nscenario: scenarios/bay/scenario.yaml\nprocesses: {boat: {run: vehicle}}\nduration_s: 1\n"
+         "expect: [{name: poses, count: {topic: boat/pose, min: 50}}]\nafter: [[touch, $(out)/after]]\n";
+  const Result good = run(place, {"--in-process", "--junit", place.file("junit.xml")});
+  CHECK(good.code == 0);
+  CHECK(fs::exists(place.file("out/after")));
+  CHECK(contents(place.file("junit.xml")).find("name=\"poses\"") != std::string::npos);
+  CHECK(run(place, {"--in-process", "--set", "boat.bogus=1"}).code == 2);
 }
 
 TEST_CASE("steps after the run see the output folder, and the first that fails decides") {

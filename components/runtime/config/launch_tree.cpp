@@ -22,7 +22,7 @@ std::string hint(const std::string& name, const std::vector<std::string>& known)
 }
 
 /// The file's declared arguments with what was given for them.
-Values arguments_of(ConfigNode& root, const Values& given, Problems& problems) {
+Values arguments_of(ConfigNode& root, const Values& given, Problems& problems, bool& missing) {
   Values values;
   std::vector<std::string> declared;
   if (const ConfigNode* args = root.find("args")) {
@@ -39,6 +39,7 @@ Values arguments_of(ConfigNode& root, const Values& given, Problems& problems) {
       } else if (entry.value.is_null()) {
         problems.push_back({entry.place, "args." + entry.key, "must be given; use --arg " + entry.key + "=VALUE"});
         values[entry.key] = ConfigNode::text("", entry.place);
+        missing = true;
       } else {
         problems.push_back({entry.place, "args." + entry.key, "has a default that is not a single value"});
       }
@@ -110,12 +111,13 @@ void merge(ConfigNode& into, ConfigNode from, Problems& problems) {
 class Loader {
  public:
   Problems problems;
+  bool argument_missing = false;
 
   ConfigNode load(const std::string& file, const Values& given) {
     ConfigDocument document = parse_config_file(file);
     problems.insert(problems.end(), document.problems.begin(), document.problems.end());
     ConfigNode root = std::move(document.root);
-    const Values values = arguments_of(root, given, problems);
+    const Values values = arguments_of(root, given, problems, argument_missing);
     remove(root, "args");
     substitute(root, values, kLater, problems);
     const ConfigNode include = remove(root, "include");
@@ -247,6 +249,9 @@ ConfigDocument load_launch_tree(const std::string& file, const std::vector<std::
     }
   }
   ConfigNode root = loader.load(file, given);
+  if (loader.argument_missing) {  // all else would follow from it
+    throw ConfigError(std::move(loader.problems));
+  }
   return {std::move(root), std::move(loader.problems)};
 }
 
