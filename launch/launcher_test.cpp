@@ -84,8 +84,8 @@ TEST_CASE("the next start clears the directories of dead runs and no others") {
   const RuntimeFolder runtime;
   const RunDir living;
   fs::create_directories(runtime.file("ensonify/run-dead01"));
-  std::ofstream(runtime.file("ensonify/run-dead01/lock"));
-  std::ofstream(runtime.file("ensonify/run-dead01/bow.sync"));
+  write_text(runtime.file("ensonify/run-dead01/lock"), "");
+  write_text(runtime.file("ensonify/run-dead01/bow.sync"), "");
   const RunDir next;
   CHECK_FALSE(fs::exists(runtime.file("ensonify/run-dead01")));
   CHECK(fs::exists(living.path()));
