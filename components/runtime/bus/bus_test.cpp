@@ -1,0 +1,162 @@
+#include <stdlib.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "components/runtime/bus/frames.h"
+#include "components/runtime/bus/link.h"
+#include "components/runtime/bus/router.h"
+#include "components/runtime/exit_error.h"
+#include "messages/motion.h"
+#include "messages/terrain.h"
+
+using namespace ensonify;
+using bus::Link;
+
+namespace {
+
+/// A private folder for sockets, removed at the end.
+struct Folder {
+  Folder() {
+    char name[] = "/tmp/ensonify-bus-XXXXXX";
+    path = mkdtemp(name);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string path;
+};
+
+msg::Tile tile_of(std::size_t posts) {
+  msg::Tile tile;
+  tile.col = 7;
+  tile.height_m = msg::Array<float>({posts, posts});
+  for (std::size_t i = 0; i < tile.height_m.size(); ++i) tile.height_m[i] = static_cast<float>(i);
+  tile.sediment = msg::Array<std::uint8_t>({posts, posts});
+  return tile;
+}
+
+msg::Packet packet_of(const msg::Tile& tile, std::uint64_t seq = 0, std::uint32_t epoch = 1) {
+  msg::Packet packet;
+  packet.topic = "pager/tile";
+  packet.body = msg::encode(tile);
+  packet.envelope.epoch = epoch;
+  packet.envelope.topic_id = 3;
+  packet.envelope.type_hash = msg::type_hash("tile/1");
+  packet.envelope.seq = seq;
+  packet.envelope.frame_count = static_cast<std::uint32_t>(msg::kFirstArrayFrame + packet.body.arrays.size());
+  return packet;
+}
+
+/// A publisher and a subscriber whose edge is proven.
+struct Pair {
+  explicit Pair(bool tcp, std::size_t max_bytes = 1 << 24)
+      : clock({tcp, folder.path, ""}),
+        publisher("pub", clock.endpoint(), {tcp, folder.path, ""}, 16),
+        subscriber("sub", clock.endpoint(), {tcp, folder.path, ""}, 16) {
+    subscriber.subscribe({{"pager/tile", 3, "tile/1", publisher.sync_endpoint(), "e0", max_bytes}}, 1);
+    const Link::Event event = publisher.wait();
+    CHECK(event.kind == Link::Event::kTokens);
+    CHECK(event.tokens == std::vector<std::string>{"e0"});
+  }
+  Folder folder;
+  bus::Router clock;
+  Link publisher;
+  Link subscriber;
+};
+
+}  // namespace
+
+TEST_CASE("a message arrives whole over ipc and tcp, its arrays as views of the received frames") {
+  for (const bool tcp : {false, true}) {
+    Pair pair(tcp);
+    const msg::Tile sent = tile_of(129);
+    for (std::uint64_t seq = 0; seq < 100; ++seq) pair.publisher.publish(packet_of(sent, seq));
+    pair.subscriber.wait_arrived({{3, 100}});
+    const auto packets = pair.subscriber.take();
+    REQUIRE(packets.size() == 100);
+    CHECK(packets[99].envelope.seq == 99);
+    const auto received = msg::decode<msg::Tile>(packets[0].body, 1 << 24);
+    CHECK(received.col == 7);
+    CHECK(received.height_m == sent.height_m);
+    CHECK(reinterpret_cast<const std::byte*>(received.height_m.data()) == packets[0].body.arrays[0].data);
+  }
+}
+
+TEST_CASE("what is larger than declared, or of another type, ends the receiver with data lost") {
+  Pair small(false, 1000);
+  small.publisher.publish(packet_of(tile_of(129)));
+  CHECK_THROWS_AS(small.subscriber.wait_arrived({{3, 1}}), DataLost);
+
+  Pair wrong(false);
+  msg::Packet packet = packet_of(tile_of(3));
+  packet.envelope.type_hash = msg::type_hash("tile/2");
+  wrong.publisher.publish(packet);
+  CHECK_THROWS_WITH(wrong.subscriber.wait_arrived({{3, 1}}), Catch::Contains("pager/tile: is not tile/1"));
+}
+
+TEST_CASE("messages of an older epoch are discarded") {
+  Pair pair(false);
+  pair.publisher.publish(packet_of(tile_of(3), 0, 0));
+  pair.publisher.publish(packet_of(tile_of(3), 0, 1));
+  pair.subscriber.wait_arrived({{3, 1}});
+  const auto packets = pair.subscriber.take();
+  REQUIRE(packets.size() == 1);
+  CHECK(packets[0].envelope.epoch == 1);
+}
+
+TEST_CASE("a full sync queue holds the publisher back instead of losing a message") {
+  Pair pair(false);
+  constexpr std::uint64_t kMessages = 400;  // 64 KiB each: far more than 16 queued and the kernel's buffers
+  std::thread publisher([&] {
+    for (std::uint64_t seq = 0; seq < kMessages; ++seq) pair.publisher.publish(packet_of(tile_of(129), seq));
+  });
+  pair.subscriber.wait_arrived({{3, kMessages}});
+  publisher.join();
+  const auto packets = pair.subscriber.take();
+  REQUIRE(packets.size() == kMessages);
+  for (std::uint64_t seq = 0; seq < kMessages; ++seq) REQUIRE(packets[seq].envelope.seq == seq);
+}
+
+TEST_CASE("wall-clock facts travel behind the arrays and stay out of the body") {
+  msg::Packet packet = packet_of(tile_of(3));
+  packet.wall_facts = msg::Buffer::own(std::string("{\"cost_s\":1}"));
+  packet.envelope.flags = msg::kFlagWallFacts;
+  packet.envelope.frame_count += 1;
+  const msg::Packet back = bus::to_packet(bus::to_frames(packet));
+  CHECK(back.wall_facts.text() == "{\"cost_s\":1}");
+  CHECK(back.body.arrays.size() == 2);
+}
+
+TEST_CASE("frames that are no message are refused, not crashed on") {
+  std::vector<zmq::message_t> none(2);
+  CHECK_THROWS_AS(bus::to_packet(std::move(none)), msg::DecodeError);
+  auto frames = bus::to_frames(packet_of(tile_of(3)));
+  frames.pop_back();
+  CHECK_THROWS_WITH(bus::to_packet(std::move(frames)), Catch::Contains("frame count"));
+}
+
+TEST_CASE("addresses that cannot be used are the user's mistake, with the reason") {
+  Folder folder;
+  const std::string long_dir = folder.path + "/" + std::string(100, 'd');
+  CHECK_THROWS_WITH(bus::Router({false, long_dir, ""}), Catch::Contains("at most 107 bytes"));
+  CHECK_THROWS_WITH(bus::Router({true, "", "tcp://0.0.0.0:*"}), Catch::Contains("only tcp://127.0.0.1 is allowed"));
+  CHECK_THROWS_WITH(bus::Router({false, folder.path + "/nowhere", ""}), Catch::Contains("cannot bind"));
+}
+
+TEST_CASE("the router answers whoever asks, and gives up waiting when told") {
+  Folder folder;
+  bus::Router router({false, folder.path, ""});
+  CHECK_FALSE(router.wait(std::chrono::steady_clock::now()));
+  std::thread clock([&] {
+    while (true) {
+      if (const auto message = router.wait(std::nullopt)) {
+        CHECK(router.send(message->from, message->text + "!"));
+        return;
+      }
+    }
+  });
+  bus::Asker asker(router.endpoint());
+  CHECK(asker.ask("hello", std::chrono::seconds(10)) == "hello!");
+  clock.join();
+  CHECK_FALSE(router.send("nobody", "x"));
+}
