@@ -6,6 +6,8 @@
 
 The file is mapped, not loaded: only what is asked for is touched. A truncated record is read to its last whole chunk.
 """
+import array
+import heapq
 import mmap
 import os
 import struct
@@ -76,7 +78,7 @@ class Record:
             raise RunError(f"{self.file}: {getattr(error, 'strerror', None) or error}", EXIT_BAD_INPUT) from None
         self._schemas: dict = {0: ""}
         self._channels: dict = {}  # id -> _Channel
-        self._chunks: list = []  # (begin, end) of the records inside
+        self._messages: dict = {}  # channel id -> log time, begin, end of the payload, one after another
         self.attachments: dict = {}  # name to bytes: the resolved launch and scenario
         self.info: dict = {}  # version, seed, utc_start_ns
         self.whole = False  # the record was closed in order
@@ -88,28 +90,37 @@ class Record:
 
     def topics(self) -> dict:
         """Topic name to (type, number of messages)."""
-        counts = dict.fromkeys(self._channels, 0)
-        for _, channel_id, _, _ in self._walk(lambda channel: True):
-            counts[channel_id] = counts.get(channel_id, 0) + 1
-        return {self._channels[i].topic: (self._channels[i].type, count) for i, count in counts.items()}
+        return {channel.topic: (channel.type, len(self._messages.get(number, ())) // 3)
+                for number, channel in self._channels.items()}
 
     def topics_of(self, message_type: type) -> list:
         """Names of the topics of a type, in the order of the launch file."""
         return [channel.topic for _, channel in sorted(self._channels.items()) if channel.type == message_type.TYPE]
 
-    def messages(self, *topics: str) -> Iterator[Recorded]:
-        """Messages of these topics (all of them if none is named), in the order of the record."""
+    def messages(self, *topics: str, least_apart_ns: int = 0) -> Iterator[Recorded]:
+        """Messages of these topics (all of them if none is named), in the order of the record; with `least_apart_ns`, none
+        that is nearer than this to the last one of its topic."""
         unknown = set(topics) - {channel.topic for channel in self._channels.values()}
         if unknown:
             known = ", ".join(channel.topic for channel in self._channels.values())
             raise RunError(f"{self.file}: has no topic {', '.join(sorted(unknown))}; it has {known}", EXIT_BAD_INPUT)
-        for utc_ns, channel_id, begin, end in self._walk(lambda channel: not topics or channel.topic in topics):
-            channel = self._channels[channel_id]
+        chosen = [n for n, channel in self._channels.items() if not topics or channel.topic in topics]
+        for begin, end, utc_ns, number in heapq.merge(*(self._places(n, least_apart_ns) for n in chosen)):
+            channel = self._channels[number]
             content: Any = wire.decode_inline(self._data[begin:end])
             known_type = messages.TYPES.get(channel.type)
             if known_type is not None:
                 content = known_type.from_map(content)
             yield Recorded(channel.topic, utc_ns - self.utc_start_ns, content)
+
+    def _places(self, number: int, least_apart_ns: int) -> Iterator[tuple]:
+        """(begin, end, log time, channel) of a channel's messages."""
+        places, last_ns = self._messages.get(number, ()), None
+        for at in range(0, len(places), 3):
+            utc_ns, begin, end = places[at:at + 3]
+            if last_ns is None or utc_ns - last_ns >= least_apart_ns:
+                last_ns = utc_ns
+                yield begin, end, utc_ns, number
 
     def _records(self, at: int, end: int) -> Iterator[tuple]:
         """(opcode, begin, end) of each whole record."""
@@ -149,9 +160,11 @@ class Record:
         if compression:
             raise RunError(f"{self.file}: has chunks compressed with {compression}; records are not", EXIT_BAD_INPUT)
         length = cursor.take("Q")
-        self._chunks.append((cursor.at, cursor.at + length))
-        for op, begin, _ in self._records(cursor.at, cursor.at + length):
-            if op != _MESSAGE:
+        for op, begin, end in self._records(cursor.at, cursor.at + length):
+            if op == _MESSAGE:
+                number, _, utc_ns, _ = _MESSAGE_HEAD.unpack_from(self._data, begin)
+                self._messages.setdefault(number, array.array("Q")).extend((utc_ns, begin + _MESSAGE_HEAD.size, end))
+            else:
                 self._note_channel(op, _Cursor(self._data, begin))
 
     def _note_channel(self, op: int, cursor: _Cursor) -> None:
@@ -162,16 +175,6 @@ class Record:
             number, schema = cursor.take("H"), cursor.take("H")
             topic, _, facts = cursor.text(), cursor.text(), cursor.map()
             self._channels[number] = _Channel(topic, self._schemas.get(schema) or facts.get("type", ""))
-
-    def _walk(self, wanted) -> Iterator[tuple]:
-        """(log time, channel id, begin, end of the payload) of each message of the wanted channels."""
-        chosen = {number for number, channel in self._channels.items() if wanted(channel)}
-        for chunk in self._chunks:
-            for op, begin, end in self._records(*chunk):
-                if op == _MESSAGE:
-                    channel_id, _, log_time, _ = _MESSAGE_HEAD.unpack_from(self._data, begin)
-                    if channel_id in chosen:
-                        yield log_time, channel_id, begin + _MESSAGE_HEAD.size, end
 
     def close(self) -> None:
         """Closes the file."""

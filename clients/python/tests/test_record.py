@@ -47,6 +47,8 @@ class Records(unittest.TestCase):
             pings = list(record.messages("bow/ping"))
             self.assertEqual([(p.t_sim_ns, p.content.ping, p.content.amplitude_upa.max()) for p in pings],
                              [(n, n, n) for n in range(30)])
+            thinned = record.messages("bow/ping", least_apart_ns=7)
+            self.assertEqual([p.content.ping for p in thinned], [0, 7, 14, 21, 28])
             self.assertEqual([m.content for m in record.messages("x/y")], [{"a": 1}])
             self.assertEqual(len(list(record.messages())), 31)
             self.assertEqual(record.attachments, {"scenario.yaml": b"seed: 1\n"})

@@ -83,7 +83,7 @@ class Writer:
 
     def picture(self, name: str, figure) -> None:
         """A PNG."""
-        figure.savefig(self.path(name))
+        figure.savefig(self.path(name), pil_kwargs={"compress_level": 3})
 
 
 def plot_survey(options) -> int:

@@ -7,6 +7,9 @@ import ensonify
 from ensonify_plot.truth import Seabed
 
 
+TRACK_NS = 100_000_000  # finer than this no picture shows a track
+
+
 class UserError(Exception):
     """What the user gave cannot be plotted; the text says why. Exit code 2."""
 
@@ -97,7 +100,8 @@ def _track(record: ensonify.Record) -> tuple:
     for message_type in (ensonify.Estimate, ensonify.Position, ensonify.Pose):
         topics = record.topics_of(message_type)
         if topics:
-            rows = [(m.content.stamp_ns * 1e-9, *m.content.position_enu_m[:2]) for m in record.messages(topics[0])]
+            messages = record.messages(topics[0], least_apart_ns=TRACK_NS)
+            rows = [(m.content.stamp_ns * 1e-9, *m.content.position_enu_m[:2]) for m in messages]
             return tuple(np.array(rows).reshape(-1, 3).T)
     return np.empty(0), np.empty(0), np.empty(0)
 
