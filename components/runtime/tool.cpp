@@ -28,6 +28,13 @@ int flushed(int code) {
   return code == kExitOk && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) ? kExitDataLost : code;
 }
 
+/// A signal may be what made a call fail.
+int failed(const CLI::App& app, int code, const char* why) {
+  if (interrupted()) return kExitInterrupted;
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), why);
+  return code;
+}
+
 }  // namespace
 
 bool interrupted() { return interrupts != 0; }
@@ -47,12 +54,9 @@ int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& 
     const int code = flushed(body());
     return interrupted() ? kExitInterrupted : code;
   } catch (const ExitError& e) {
-    if (interrupted()) return kExitInterrupted;
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
-    return e.code;
+    return failed(app, e.code, e.what());
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), e.what());
-    return kExitDied;
+    return failed(app, kExitDied, e.what());
   }
 }
 

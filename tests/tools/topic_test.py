@@ -93,6 +93,13 @@ class Topic(unittest.TestCase):
             self.assertEqual(echo.wait(20), -signal.SIGPIPE)
             self.assertEqual(echo.stderr.read(), "")
 
+    def test_a_full_disk_is_exit_code_5(self):
+        env = {**os.environ, "XDG_RUNTIME_DIR": str(self.run_.folder)}
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([BIN / "ensonify-topic", "echo", "auv/pose"], env=env, stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual((done.returncode, done.stderr), (5, "ensonify topic: standard output cannot be written\n"))
+
     def test_a_run_is_named_by_its_directory_its_id_its_endpoint_and_the_environment(self):
         directory = self.run_.directory()
         for run in (str(directory), directory.name, (directory / "clock.endpoint").read_text()):

@@ -85,7 +85,7 @@ int echo(const Options& options) {
     if (topic == topics.end()) continue;
     const msg::Value content = msg::decode_value(packet->body, topic->second.max_bytes);
     (options.json ? print_json : print_text)(*packet, topic->second, content, options);
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) throw DataLost("standard output cannot be written");
     ++shown;
   }
   if (shown >= options.count) return kExitOk;

@@ -75,7 +75,7 @@ class Reporter {
       headed_ = true;
       print_row(what_, topic, width_, t);
     }
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) throw DataLost("standard output cannot be written");
   }
 
   /// 0 if a rate can be told of at least one topic.

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tools/doctor/finding.h"
+
+/// What is good enough. Pure: the facts come from machine.h.
+namespace ensonify::doctor {
+
+/// `flags`: the "flags" line of /proc/cpuinfo; "" when it cannot be read.
+Finding judge_cpu(const std::string& flags);
+Finding judge_cores(int available);
+/// What may still be used, in bytes, a container's limit included.
+Finding judge_memory(std::uint64_t available_bytes);
+
+/// What statvfs and access say of a folder.
+struct Disk {
+  std::string folder;
+  std::optional<std::uint64_t> free_bytes;  // nothing: it cannot be read
+  bool writable = false;
+};
+/// `needed`: below it fails, below ten times it warns.
+Finding judge_disk(const std::string& check, const Disk& disk, std::uint64_t needed_bytes);
+
+Finding judge_open_files(std::uint64_t soft_limit);
+/// `source`: the kernel's clock source; "" when unknown. `cost_ns`: of reading the clock once.
+Finding judge_clock(const std::string& source, double cost_ns);
+
+/// A folder that holds run directories, or would.
+struct RunsFolder {
+  std::string path;
+  bool exists = false;
+  bool ours = false;         // owned by this user
+  bool is_private = false;   // mode 0700
+  bool can_be_made = false;  // its parent can be written
+};
+/// The longest socket path that a run would need there must have at most 107 bytes.
+Finding judge_socket_path(const RunsFolder& folder);
+Finding judge_runs_folder(const RunsFolder& folder);
+
+/// "1.5 GB"
+std::string size_text(std::uint64_t bytes);
+
+}  // namespace ensonify::doctor

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "tools/doctor/finding.h"
+
+namespace ensonify::doctor {
+
+/// CPU, cores, memory, disks, open files and clock of this machine. `out`: where results will go.
+Findings check_machine(const std::string& out);
+
+}  // namespace ensonify::doctor

@@ -1,0 +1,53 @@
+#include "tools/doctor/runs.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "components/runtime/run_finder.h"
+#include "tools/doctor/judgement.h"
+
+namespace ensonify::doctor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool can_be_made(const fs::path& folder) { return ::access(folder.parent_path().c_str(), W_OK | X_OK) == 0; }
+
+RunsFolder facts_of(const std::string& path) {
+  RunsFolder folder{.path = path, .can_be_made = can_be_made(path)};
+  struct stat info {};
+  if (::lstat(path.c_str(), &info) != 0) return folder;
+  folder.exists = true;
+  folder.ours = S_ISDIR(info.st_mode) && info.st_uid == ::geteuid();
+  folder.is_private = (info.st_mode & 077) == 0;
+  return folder;
+}
+
+Finding live(const std::vector<std::string>& folders) {
+  std::string names;
+  for (const LiveRun& run : live_runs(folders)) names += (names.empty() ? "" : ", ") + run.id();
+  return {"live runs", Level::kOk, names.empty() ? "none" : names, ""};
+}
+
+Finding left_behind(const std::vector<std::string>& folders) {
+  const std::vector<std::string> dead = dead_runs(folders);
+  if (dead.empty()) return {"dead runs", Level::kOk, "none left behind", ""};
+  return {"dead runs", Level::kWarn, fmt::format("left behind: {}", fmt::join(dead, ", ")),
+          "the next `ensonify run` removes them"};
+}
+
+}  // namespace
+
+Findings check_runs() {
+  const std::vector<std::string> folders = runs_folders();
+  RunsFolder used = facts_of(folders.front());
+  const Finding path = judge_socket_path(used);
+  if (path.level != Level::kOk || judge_runs_folder(used).level == Level::kFail) used = facts_of(folders.back());
+  return {path, judge_runs_folder(used), live(folders), left_behind(folders)};
+}
+
+}  // namespace ensonify::doctor
