@@ -11,14 +11,12 @@
 #include <filesystem>
 
 #include "components/runtime/exit_error.h"
+#include "components/runtime/run_finder.h"
 
 namespace ensonify::launcher {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kLongestSocketPath = 107;
-constexpr std::size_t kLongestRest = 60;  // "/run-XXXXXX/" and the longest process name with its ending
 
 std::string reason() { return std::strerror(errno); }
 
@@ -78,7 +76,7 @@ struct FolderLock {
 std::string runs_folder() {
   if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {
     const std::string folder = std::string(runtime) + "/ensonify";
-    if (folder.size() + kLongestRest <= kLongestSocketPath && make_private(folder)) {
+    if (folder.size() <= kLongestRunsFolder && make_private(folder)) {
       return folder;
     }
   }

@@ -86,13 +86,11 @@ std::string endpoint_in(const fs::path& folder) {
   return endpoint;
 }
 
-std::vector<fs::path> run_directories(const std::vector<std::string>& folders) {
+std::vector<fs::path> run_directories(const std::string& folder) {
   std::vector<fs::path> found;
   std::error_code ignored;  // a folder that is gone holds no runs
-  for (const std::string& folder : folders) {
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      if (entry.is_directory(ignored)) found.push_back(entry.path());
-    }
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.is_directory(ignored)) found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -113,78 +111,74 @@ std::string names_of(const std::vector<LiveRun>& runs) {
   return names;
 }
 
-std::string hint(const std::vector<std::string>& folders) {
-  const auto runs = live_runs(folders);
+std::string hint(const std::string& folder) {
+  const auto runs = live_runs(folder);
   return runs.empty() ? "no run is live; `ensonify run LAUNCH` starts one" : "live runs: " + names_of(runs);
 }
 
-std::string only_live_run(const std::vector<std::string>& folders) {
-  std::string places;
-  for (const std::string& folder : folders) {
-    const auto runs = live_runs({folder});
-    if (runs.size() == 1) return runs.front().endpoint;
-    if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
-    places += (places.empty() ? "" : " or ") + folder;
-  }
-  throw UserError("no run is live under " + places +
+std::string only_live_run(const std::string& folder) {
+  const auto runs = live_runs(folder);
+  if (runs.size() == 1) return runs.front().endpoint;
+  if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
+  throw UserError("no run is live under " + folder +
                   "; `ensonify run LAUNCH` starts one, --run DIR names one that is elsewhere");
 }
 
-std::string folder_of(const std::string& run, const std::vector<std::string>& folders) {
+std::string folder_of(const std::string& run, const std::string& folder) {
   if (run.find('/') != std::string::npos) return run;
-  for (const std::string& folder : folders) {
-    std::error_code ignored;
-    if (fs::is_directory(fs::path(folder) / run, ignored)) return (fs::path(folder) / run).string();
-  }
-  throw UserError(run + ": there is no run of this name; " + hint(folders));
+  std::error_code ignored;
+  if (fs::is_directory(fs::path(folder) / run, ignored)) return (fs::path(folder) / run).string();
+  throw UserError(run + ": there is no run of this name; " + hint(folder));
+}
+
+bool can_be_used(const std::string& folder) {
+  struct stat info {};
+  if (folder.size() > kLongestRunsFolder) return false;
+  if (::lstat(folder.c_str(), &info) == 0) return S_ISDIR(info.st_mode) && info.st_uid == ::geteuid();
+  return ::access(fs::path(folder).parent_path().c_str(), W_OK | X_OK) == 0;
 }
 
 }  // namespace
 
 std::string LiveRun::id() const { return fs::path(folder).filename().string(); }
 
-std::vector<std::string> runs_folders() {
-  std::vector<std::string> candidates;
+std::string runs_folder() {
   if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {
-    candidates.push_back(std::string(runtime) + "/ensonify");
+    const std::string folder = std::string(runtime) + "/ensonify";
+    if (can_be_used(folder)) return folder;
   }
-  candidates.push_back("/tmp/ensonify-" + std::to_string(::geteuid()));
-  std::erase_if(candidates, [](const std::string& folder) {
-    struct stat info {};
-    return ::stat(folder.c_str(), &info) == 0 && info.st_uid != ::geteuid();
-  });
-  return candidates;
+  return "/tmp/ensonify-" + std::to_string(::geteuid());
 }
 
-std::vector<LiveRun> live_runs(const std::vector<std::string>& folders) {
+std::vector<LiveRun> live_runs(const std::string& folder) {
   std::vector<LiveRun> runs;
-  for (const fs::path& folder : run_directories(folders)) {
-    const std::string endpoint = endpoint_in(folder);
-    if (somebody_listens(endpoint)) runs.push_back({folder.string(), endpoint});
+  for (const fs::path& run : run_directories(folder)) {
+    const std::string endpoint = endpoint_in(run);
+    if (somebody_listens(endpoint)) runs.push_back({run.string(), endpoint});
   }
   return runs;
 }
 
-std::vector<std::string> dead_runs(const std::vector<std::string>& folders) {
+std::vector<std::string> dead_runs(const std::string& folder) {
   std::vector<std::string> dead;
-  for (const fs::path& folder : run_directories(folders)) {
-    if (!somebody_listens(endpoint_in(folder)) && lock_is_free(folder)) dead.push_back(folder.string());
+  for (const fs::path& run : run_directories(folder)) {
+    if (!somebody_listens(endpoint_in(run)) && lock_is_free(run)) dead.push_back(run.string());
   }
   return dead;
 }
 
-std::string find_clock(const std::string& run, const std::vector<std::string>& folders) {
+std::string find_clock(const std::string& run, const std::string& folder) {
   const char* from_environment = std::getenv("ENSONIFY_RUN");
   const std::string wanted = !run.empty() || from_environment == nullptr ? run : from_environment;
-  if (wanted.empty()) return only_live_run(folders);
+  if (wanted.empty()) return only_live_run(folder);
   std::string endpoint = wanted;
   if (!wanted.starts_with(kIpc) && !wanted.starts_with(kTcp)) {
-    endpoint = endpoint_in(folder_of(wanted, folders));
+    endpoint = endpoint_in(folder_of(wanted, folder));
     if (endpoint.empty())
-      throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folders));
+      throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folder));
   }
   if (!somebody_listens(endpoint))
-    throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folders));
+    throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folder));
   return endpoint;
 }
 

@@ -14,18 +14,21 @@ struct LiveRun {
   std::string id() const;
 };
 
-/// Folders that may hold run directories of this user, best first: `$XDG_RUNTIME_DIR/ensonify`, `/tmp/ensonify-<uid>`.
-/// Folders of other users are left out.
-std::vector<std::string> runs_folders();
+/// Longest name of a folder that can hold run directories: a socket path has at most 107 bytes, and "/run-XXXXXX/" and
+/// the longest process name with its ending follow.
+inline constexpr std::size_t kLongestRunsFolder = 107 - 60;
 
-/// Runs of these folders whose clock listens, sorted by folder. Listening means that its socket takes connections.
-std::vector<LiveRun> live_runs(const std::vector<std::string>& folders);
+/// The folder of this user's run directories, as the launcher chooses it: `$XDG_RUNTIME_DIR/ensonify`, or
+/// `/tmp/ensonify-<uid>` when that variable is unset, or names a folder that is too long or not ours to use.
+std::string runs_folder();
+
+/// Runs of this folder whose clock listens, sorted by name. Listening means that its socket takes connections.
+std::vector<LiveRun> live_runs(const std::string& folder);
 /// Run directories whose clock is gone and whose lock nobody holds: left behind, cleared by the next `ensonify run`.
-std::vector<std::string> dead_runs(const std::vector<std::string>& folders);
+std::vector<std::string> dead_runs(const std::string& folder);
 
 /// The endpoint of a run's clock. `run` is a run directory, the id of one or an endpoint; "" means $ENSONIFY_RUN, else
-/// the only live run of the first folder that has any. Throws UserError when there is none, several, or a dead one, and
-/// says what to do.
-std::string find_clock(const std::string& run, const std::vector<std::string>& folders = runs_folders());
+/// the only live run. Throws UserError when there is none, several, or a dead one, and says what to do.
+std::string find_clock(const std::string& run, const std::string& folder = runs_folder());
 
 }  // namespace ensonify

@@ -38,7 +38,6 @@ class Runs {
     return (path_ / id).string();
   }
   std::string path() const { return path_.string(); }
-  std::vector<std::string> folders() const { return {path()}; }
 
  private:
   fs::path path_;
@@ -67,28 +66,27 @@ TEST_CASE("the only live run is found, a dead one beside it is not in the way") 
   runs.make("run-dead");
   const std::string live = runs.make("run-live");
   const Listener clock(live);
-  CHECK(find_clock("", runs.folders()) == "ipc://" + live + "/clock");
-  REQUIRE(live_runs(runs.folders()).size() == 1);
-  CHECK(live_runs(runs.folders()).front().id() == "run-live");
-  CHECK(dead_runs(runs.folders()) == std::vector<std::string>{runs.path() + "/run-dead"});
+  CHECK(find_clock("", runs.path()) == "ipc://" + live + "/clock");
+  REQUIRE(live_runs(runs.path()).size() == 1);
+  CHECK(live_runs(runs.path()).front().id() == "run-live");
+  CHECK(dead_runs(runs.path()) == std::vector<std::string>{runs.path() + "/run-dead"});
 }
 
 TEST_CASE("none, several and dead runs are told apart, and the text says what to do") {
   const Runs runs;
-  CHECK_THROWS_WITH(find_clock("", runs.folders()),
+  CHECK_THROWS_WITH(find_clock("", runs.path()),
                     Contains("no run is live under " + runs.path()) && Contains("`ensonify run LAUNCH` starts one"));
   const std::string a = runs.make("run-a");
-  CHECK_THROWS_WITH(find_clock("run-a", runs.folders()), Contains("run-a: is dead: nobody listens at ipc://"));
+  CHECK_THROWS_WITH(find_clock("run-a", runs.path()), Contains("run-a: is dead: nobody listens at ipc://"));
   const Listener clock_a(a);
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);
-  CHECK_THROWS_WITH(find_clock("", runs.folders()), "several runs are live; name one with --run: run-a, run-b");
-  CHECK(find_clock("run-b", runs.folders()) == "ipc://" + b + "/clock");
-  CHECK(find_clock(a, {}) == "ipc://" + a + "/clock");
-  CHECK(find_clock("ipc://" + a + "/clock", {}) == "ipc://" + a + "/clock");
-  CHECK_THROWS_WITH(find_clock("run-c", runs.folders()),
-                    "run-c: there is no run of this name; live runs: run-a, run-b");
-  CHECK_THROWS_AS(find_clock("tcp://127.0.0.1:1", {}), UserError);
+  CHECK_THROWS_WITH(find_clock("", runs.path()), "several runs are live; name one with --run: run-a, run-b");
+  CHECK(find_clock("run-b", runs.path()) == "ipc://" + b + "/clock");
+  CHECK(find_clock(a, runs.path()) == "ipc://" + a + "/clock");
+  CHECK(find_clock("ipc://" + a + "/clock", runs.path()) == "ipc://" + a + "/clock");
+  CHECK_THROWS_WITH(find_clock("run-c", runs.path()), "run-c: there is no run of this name; live runs: run-a, run-b");
+  CHECK_THROWS_AS(find_clock("tcp://127.0.0.1:1", runs.path()), UserError);
 }
 
 TEST_CASE("the environment names a run, an argument overrules it") {
@@ -98,8 +96,8 @@ TEST_CASE("the environment names a run, an argument overrules it") {
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);
   ::setenv("ENSONIFY_RUN", "run-a", 1);
-  CHECK(find_clock("", runs.folders()) == "ipc://" + a + "/clock");
-  CHECK(find_clock("run-b", runs.folders()) == "ipc://" + b + "/clock");
+  CHECK(find_clock("", runs.path()) == "ipc://" + a + "/clock");
+  CHECK(find_clock("run-b", runs.path()) == "ipc://" + b + "/clock");
   ::unsetenv("ENSONIFY_RUN");
 }
 
@@ -109,10 +107,28 @@ TEST_CASE("a run that is starting holds its lock and is neither live nor dead") 
   fs::create_directory(starting);
   const int lock = ::open((starting + "/lock").c_str(), O_RDWR | O_CREAT, 0600);
   REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);
-  CHECK(live_runs(runs.folders()).empty());
-  CHECK(dead_runs(runs.folders()).empty());
+  CHECK(live_runs(runs.path()).empty());
+  CHECK(dead_runs(runs.path()).empty());
   ::close(lock);
-  CHECK(dead_runs(runs.folders()).size() == 1);
+  CHECK(dead_runs(runs.path()).size() == 1);
+}
+
+TEST_CASE("runs are looked for where the launcher puts them") {
+  const std::string fallback = "/tmp/ensonify-" + std::to_string(::geteuid());
+  const char* before = std::getenv("XDG_RUNTIME_DIR");
+  const std::string kept = before != nullptr ? before : "";
+  const Runs runs;
+  ::setenv("XDG_RUNTIME_DIR", runs.path().c_str(), 1);
+  CHECK(runs_folder() == runs.path() + "/ensonify");
+  const std::string deep = runs.path() + "/" + std::string(kLongestRunsFolder, 'x');
+  fs::create_directory(deep);
+  ::setenv("XDG_RUNTIME_DIR", deep.c_str(), 1);
+  CHECK(runs_folder() == fallback);
+  ::setenv("XDG_RUNTIME_DIR", "/nowhere/at/all", 1);
+  CHECK(runs_folder() == fallback);
+  ::unsetenv("XDG_RUNTIME_DIR");
+  CHECK(runs_folder() == fallback);
+  if (before != nullptr) ::setenv("XDG_RUNTIME_DIR", kept.c_str(), 1);
 }
 
 }  // namespace ensonify

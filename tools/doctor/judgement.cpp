@@ -4,13 +4,13 @@
 
 #include <sstream>
 
+#include "components/runtime/run_finder.h"
+
 namespace ensonify::doctor {
 
 namespace {
 
 constexpr std::uint64_t kMega = 1'000'000;
-constexpr std::size_t kLongestSocketPath = 107;  // sun_path of Linux, without the NUL
-constexpr std::size_t kLongestRest = 60;         // "/run-XXXXXX/" and the longest process name with its ending
 
 bool has_word(const std::string& text, const std::string& word) {
   std::istringstream words(text);
@@ -84,12 +84,10 @@ Finding judge_clock(const std::string& source, double cost_ns) {
   return {"clock", Level::kOk, text, ""};
 }
 
-Finding judge_socket_path(const RunsFolder& folder) {
-  const std::size_t longest = folder.path.size() + kLongestRest;
-  const std::string text = fmt::format("at most {} of {} bytes under {}", longest, kLongestSocketPath, folder.path);
-  if (longest <= kLongestSocketPath) return {"socket paths", Level::kOk, text, ""};
-  return {"socket paths", Level::kWarn, text,
-          "too long: /tmp is used instead; set XDG_RUNTIME_DIR to a shorter folder"};
+Finding judge_socket_path(const std::string& folder) {
+  const std::string text = fmt::format("{} has {} of at most {} bytes", folder, folder.size(), kLongestRunsFolder);
+  if (folder.size() <= kLongestRunsFolder) return {"socket paths", Level::kOk, text, ""};
+  return {"socket paths", Level::kWarn, text, "/tmp is used instead; or set XDG_RUNTIME_DIR to a shorter folder"};
 }
 
 Finding judge_runs_folder(const RunsFolder& folder) {

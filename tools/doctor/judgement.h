@@ -36,8 +36,8 @@ struct RunsFolder {
   bool is_private = false;   // mode 0700
   bool can_be_made = false;  // its parent can be written
 };
-/// The longest socket path that a run would need there must have at most 107 bytes.
-Finding judge_socket_path(const RunsFolder& folder);
+/// A folder that is too long for the paths of sockets cannot be used.
+Finding judge_socket_path(const std::string& folder);
 Finding judge_runs_folder(const RunsFolder& folder);
 
 /// "1.5 GB"

@@ -35,9 +35,9 @@ TEST_CASE("one core, few descriptors and slow clocks are warned of") {
 }
 
 TEST_CASE("a socket path is judged by the longest name that a run may need") {
-  CHECK(judge_socket_path({.path = "/run/user/1000/ensonify"}).level == Level::kOk);
-  CHECK(judge_socket_path({.path = std::string(47, 'x')}).level == Level::kOk);
-  CHECK(judge_socket_path({.path = std::string(48, 'x')}).level == Level::kWarn);
+  CHECK(judge_socket_path("/run/user/1000/ensonify").level == Level::kOk);
+  CHECK(judge_socket_path(std::string(47, 'x')).level == Level::kOk);
+  CHECK(judge_socket_path(std::string(48, 'x')).level == Level::kWarn);
 }
 
 TEST_CASE("the run folder must be ours, and private") {

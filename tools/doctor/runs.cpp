@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "components/runtime/run_finder.h"
@@ -27,14 +28,14 @@ RunsFolder facts_of(const std::string& path) {
   return folder;
 }
 
-Finding live(const std::vector<std::string>& folders) {
+Finding live(const std::string& folder) {
   std::string names;
-  for (const LiveRun& run : live_runs(folders)) names += (names.empty() ? "" : ", ") + run.id();
+  for (const LiveRun& run : live_runs(folder)) names += (names.empty() ? "" : ", ") + run.id();
   return {"live runs", Level::kOk, names.empty() ? "none" : names, ""};
 }
 
-Finding left_behind(const std::vector<std::string>& folders) {
-  const std::vector<std::string> dead = dead_runs(folders);
+Finding left_behind(const std::string& folder) {
+  const std::vector<std::string> dead = dead_runs(folder);
   if (dead.empty()) return {"dead runs", Level::kOk, "none left behind", ""};
   return {"dead runs", Level::kWarn, fmt::format("left behind: {}", fmt::join(dead, ", ")),
           "the next `ensonify run` removes them"};
@@ -43,11 +44,11 @@ Finding left_behind(const std::vector<std::string>& folders) {
 }  // namespace
 
 Findings check_runs() {
-  const std::vector<std::string> folders = runs_folders();
-  RunsFolder used = facts_of(folders.front());
-  const Finding path = judge_socket_path(used);
-  if (path.level != Level::kOk || judge_runs_folder(used).level == Level::kFail) used = facts_of(folders.back());
-  return {path, judge_runs_folder(used), live(folders), left_behind(folders)};
+  const std::string folder = runs_folder();
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  const bool wished = runtime != nullptr && *runtime == '/';
+  return {judge_socket_path(wished ? std::string(runtime) + "/ensonify" : folder), judge_runs_folder(facts_of(folder)),
+          live(folder), left_behind(folder)};
 }
 
 }  // namespace ensonify::doctor
