@@ -51,7 +51,11 @@ Programs programs_in(const std::string& folder) {
     const std::string verb = name.substr(kPrefix.size());
     const bool known =
         std::any_of(kKnownVerbs.begin(), kKnownVerbs.end(), [&](const auto& v) { return v.first == verb; });
-    (known ? programs.verbs : programs.processes).push_back(verb);
+    if (known) {
+      programs.verbs.push_back(verb);
+    } else if (verb != "conductor" && verb != "local") {  // which `ensonify run` starts by itself
+      programs.processes.push_back(verb);
+    }
   }
   std::sort(programs.processes.begin(), programs.processes.end());
   return programs;

@@ -58,7 +58,7 @@ struct Soundings {
     visit("beam_angle_rad", "rad", "receive beam axes in the head frame, positive to starboard", self.beam_angle_rad);
     visit("travel_time_s", "s", "two-way travel time of the detection", self.travel_time_s);
     visit("backscatter_db", "dB", "level of the detection re 1 uPa, uncorrected", self.backscatter_db);
-    visit("quality", "1", "signal to noise ratio of the detection, dB", self.quality);
+    visit("quality", "dB", "signal to noise ratio of the detection", self.quality);
     visit("valid", "1", "1 where the beam has a detection; other entries of that beam mean nothing if 0", self.valid);
     visit("position_enu_m", "m",
           "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",

@@ -9,6 +9,7 @@ import sys
 
 STRUCT = re.compile(r"((?:^///[^\n]*\n)*)^struct (\w+) \{\n(.*?)^\};", re.M | re.S)
 TYPE = re.compile(r'kType = "([^"]+)"')
+ABOUT = re.compile(r'kAbout =\s*((?:"[^"]*"\s*)+);', re.S)
 MEMBER = re.compile(r"^  ([\w:]+(?:<[^;={]*>)?) (\w+)(?: = ([^;]+)|(\{[^;]*\}))?;", re.M)
 VISIT = re.compile(r'visit\(\s*"(\w+)",\s*"([^"]*)",\s*((?:"[^"]*"\s*)+),\s*self\.(\w+)\)', re.S)
 
@@ -54,7 +55,9 @@ def python_class(comment, name, body):
     """The dataclass of one C++ struct."""
     members = {m[2]: (m[1], m[3], m[4]) for m in MEMBER.finditer(body)}
     message = TYPE.search(body)
-    comment = " ".join(line.strip("/ ") for line in comment.splitlines()) or f"Part of a message: {name}."
+    about = ABOUT.search(body)
+    comment = ("".join(re.findall(r'"([^"]*)"', about[1])) if about
+               else " ".join(line.strip("/ ") for line in comment.splitlines()) or f"Part of a message: {name}.")
     lines = ["@dataclass(eq=False)", f"class {name}({'Message' if message else 'Struct'}):", f'    """{comment}', ""]
     visits = [(m[1], m[2], "".join(re.findall(r'"([^"]*)"', m[3])), m[4]) for m in VISIT.finditer(body)]
     if len(visits) != body.count('visit("') or [v[3] for v in visits] != list(members):

@@ -40,7 +40,7 @@ class Counter(Struct):
 
 @dataclass(eq=False)
 class Health(Message):
-    """Part of a message: Health.
+    """How a process is doing, in sim time: published when it changes. Wall-clock facts are the clock's.
 
     stamp_ns [ns]: time of the report, sim time
     state: ok, degraded or failed
@@ -57,7 +57,7 @@ class Health(Message):
 
 @dataclass(eq=False)
 class Pose(Message):
-    """Part of a message: Pose.
+    """Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.
 
     stamp_ns [ns]: time of validity, sim time
     position_enu_m [m]: body origin in the world frame: east, north, up from chart datum
@@ -76,7 +76,7 @@ class Pose(Message):
 
 @dataclass(eq=False)
 class Guidance(Message):
-    """Part of a message: Guidance.
+    """What a pilot (autopilot or agent) asks of a vehicle.
 
     stamp_ns [ns]: time of the command, sim time
     heading_grid_rad [rad]: heading to steer, clockwise from grid north
@@ -91,7 +91,7 @@ class Guidance(Message):
 
 @dataclass(eq=False)
 class MissionState(Message):
-    """Part of a message: MissionState.
+    """What the mission is doing.
 
     stamp_ns [ns]: time of the state, sim time
     state: run_in, on_line, turn or done
@@ -112,7 +112,7 @@ class MissionState(Message):
 
 @dataclass(eq=False)
 class Attitude(Message):
-    """Part of a message: Attitude.
+    """What the motion sensor and gyro report.
 
     stamp_ns [ns]: time of measurement, sim time
     roll_rad [rad]: roll, positive starboard down
@@ -131,7 +131,7 @@ class Attitude(Message):
 
 @dataclass(eq=False)
 class Position(Message):
-    """Part of a message: Position.
+    """What the positioning system reports, referred to the body origin.
 
     stamp_ns [ns]: time of measurement, sim time
     position_enu_m [m]: measured body origin in the world frame: east, north, up
@@ -152,7 +152,7 @@ class Position(Message):
 
 @dataclass(eq=False)
 class Estimate(Message):
-    """Part of a message: Estimate.
+    """The navigation estimate: what autopilot, agents and records use for where the vehicle is.
 
     stamp_ns [ns]: time of validity, sim time
     position_enu_m [m]: estimated body origin in the world frame: east, north, up
@@ -169,7 +169,7 @@ class Estimate(Message):
 
 @dataclass(eq=False)
 class Ping(Message):
-    """Part of a message: Ping.
+    """What one transmission brought back, for any head.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -200,14 +200,14 @@ class Ping(Message):
 
 @dataclass(eq=False)
 class Soundings(Message):
-    """Part of a message: Soundings.
+    """What the head made of a ping: one entry per beam. Positions use the estimated pose and the measured mounting.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
     beam_angle_rad [rad]: receive beam axes in the head frame, positive to starboard
     travel_time_s [s]: two-way travel time of the detection
     backscatter_db [dB]: level of the detection re 1 uPa, uncorrected
-    quality [1]: signal to noise ratio of the detection, dB
+    quality [dB]: signal to noise ratio of the detection
     valid [1]: 1 where the beam has a detection; other entries of that beam mean nothing if 0
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
     """
@@ -225,7 +225,7 @@ class Soundings(Message):
 
 @dataclass(eq=False)
 class Transmit(Message):
-    """Part of a message: Transmit.
+    """A head transmitted: other heads may hear it.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -244,7 +244,7 @@ class Transmit(Message):
 
 @dataclass(eq=False)
 class Tile(Message):
-    """Part of a message: Tile.
+    """A square piece of seabed. Truth.
 
     col [1]: tile index, east
     row [1]: tile index, north
@@ -267,7 +267,7 @@ class Tile(Message):
 
 @dataclass(eq=False)
 class TileRelease(Message):
-    """Part of a message: TileRelease.
+    """The pager will not refer to this tile again until it sends it anew.
 
     col [1]: tile index, east
     row [1]: tile index, north
@@ -280,7 +280,7 @@ class TileRelease(Message):
 
 @dataclass(eq=False)
 class Chart(Message):
-    """Part of a message: Chart.
+    """What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
 
     origin_latitude_deg [deg]: geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)
     origin_longitude_deg [deg]: longitude of the world's origin, WGS 84

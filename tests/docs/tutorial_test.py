@@ -26,7 +26,7 @@ def boxes(page):
 
 def shape(line):
     """A line of output with its numbers and spaces made alike."""
-    return re.sub(r"\d[\d.,]*", "0", " ".join(line.split()))
+    return re.sub(r"[-+]?\d[\d.,]*", "0", " ".join(line.split()))
 
 
 class Tutorial(unittest.TestCase):
