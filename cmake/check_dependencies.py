@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks from the #include lines that knowledge points one way (STYLE.md, DESIGN.md section 8).
+"""Checks from the #include lines that knowledge points one way (docs/architecture.md).
 
   check_dependencies.py [ROOT]       checks the tree, names every offending line, exit code 1 if there is one
   check_dependencies.py --self-test  checks the checker on a small tree with planted offences
@@ -12,7 +12,7 @@ import tempfile
 FOLDERS = ("kernels", "messages", "components", "launch", "tools", "tests", "bench", "examples")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
-# Numeric libraries that kernels may use (DESIGN.md section 8).
+# Numeric libraries that kernels may use.
 NUMERIC = re.compile(r"^(Eigen/|tbb/|embree3/|OpenMesh/|GeographicLib/|Random123/|fftw3\.h$|png\.h$|[a-z]+intrin\.h$)")
 STANDARD = re.compile(r"^[a-z0-9_]+$")  # <vector>, <cstdint>
 TEST_FRAMEWORK = re.compile(r"^catch2/")

@@ -159,7 +159,7 @@ TEST_CASE("on a flat bottom depths are unbiased from nadir to the edge of the sw
   const auto soundings = survey(shallow(), {}, 3_s);
   REQUIRE(soundings.size() == 29);
   for (const auto& s : soundings) CHECK(valid_count(s) == 256);
-  // Amplitude detection (PHYSICS section 9): some cm at nadir, growing with the footprint; means over 29 pings.
+  // Amplitude detection [Lurton2010b]: some cm at nadir, growing with the footprint; means over 29 pings.
   for (const auto& [from, to, bias_m, sd_m] :
        {std::array{0.0, 15.0, 0.01, 0.03}, {15.0, 45.0, 0.01, 0.05}, {45.0, 65.0, 0.03, 0.08}}) {
     const Spread error = depth_error(soundings, from, to);

@@ -5,7 +5,7 @@
 
 namespace ensonify {
 
-/// Exit codes of every program (DESIGN.md section 4). The first fault wins.
+/// Exit codes of every program (launch/README.md). The first fault wins.
 enum ExitCode {
   kExitOk = 0,
   kExitAssertionFailed = 1,

@@ -16,7 +16,7 @@
 namespace ensonify::pager {
 namespace {
 
-/// Numbers that files without a nodata entry use for "no value" (SEABED.md section 8).
+/// Numbers that files without a nodata entry use for "no value".
 constexpr std::array kUsualFills = {-9999.0, 9999.0, -99999.0, 99999.0, -32768.0, 32767.0, 1e6, -1e6};
 constexpr double kDeepestOcean_m = 11'500.0;
 constexpr double kHighestLand_m = 9'000.0;

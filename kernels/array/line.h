@@ -3,8 +3,8 @@
 #include <vector>
 
 /// Patterns of line arrays. They are functions of the sine of the angle from the plane across the line (one direction
-/// cosine of the physical array), because a line array's beams are cones; all angles here are that angle. PHYSICS: far
-/// field.
+/// cosine of the physical array), because a line array's beams are cones; all angles here are that angle. Far
+/// field only.
 namespace ensonify::array {
 
 /// sin(pi x) / (pi x).

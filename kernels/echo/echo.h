@@ -58,7 +58,7 @@ class Workspace {
 ///
 /// A ray of solid angle dOmega that meets the seabed at grazing angle theta lights dA = R^2 dOmega / sin(theta), so it
 /// brings back the mean-square pressure p0^2 b_T b_R sigma 10^(-alpha (R + R') / 10) dOmega / (R'^2 sin(theta)), R out
-/// and R' back (PHYSICS section 1; spreading is counted once). Its phase is uniform in [0, 2 pi), from (ping, ray), so
+/// and R' back (spreading is counted once). Its phase is uniform in [0, 2 pi), from (ping, ray), so
 /// the sum has the speckle of an incoherent seabed when some ten rays share a resolution cell. It lasts for the pulse
 /// from its arrival (R + R') / c on. The receiver's place and attitude are those at 2 R / c, which differs from the
 /// arrival by under 0.1 us at 5 m/s and 100 m.

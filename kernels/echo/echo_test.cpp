@@ -18,7 +18,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDepth = 20.0, kMu = -25.0;
 static const frames::HeadPose kLevel{};
 
-/// PHYSICS 1.1's example: SL 220 dB, 100 us, 1 x 1 deg, 0.07 dB/m, 20 m, Lambert -25 dB.
+/// A typical head: SL 220 dB, 100 us, 1 x 1 deg, 0.07 dB/m, 20 m, Lambert -25 dB.
 static Sonar example() {
   Sonar sonar;
   sonar.transmit_length_in_waves = sonar.receive_length_in_waves = array::length_in_waves_for(1.0 * kDeg);

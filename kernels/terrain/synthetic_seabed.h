@@ -28,7 +28,7 @@ struct Relief {
   double rms_m = 0.0;  // 0 is none
   double longest_wavelength_m = 40.0;
   int octaves = 5;       // each half as long as the one before
-  double hurst = 0.625;  // PHYSICS: gamma 3.25 = 2 H + 2
+  double hurst = 0.625;  // relief spectrum exponent 3.25 [APL1994] = 2 H + 2
 };
 
 struct SyntheticSeabedParameters {

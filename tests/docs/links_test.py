@@ -1,4 +1,5 @@
-"""Links inside the project's pages lead to something; README's folder map knows every folder; no page is orphaned."""
+"""Links inside the project's pages lead to something; README's folder map knows every folder; no page is orphaned; every
+source that is cited is in the list."""
 import os
 import pathlib
 import re
@@ -40,6 +41,14 @@ class Links(unittest.TestCase):
     def test_the_index_names_every_page(self):
         pages = {pathlib.PurePath(p).name for p in tracked() if re.fullmatch(r"docs/[^/]+\.(md|bib)", p)}
         self.assertEqual(pages - {"README.md"} - set(links("docs/README.md")), set())
+
+    def test_sources_are_listed(self):
+        listed = set(re.findall(r"^@\w+\{(\w+),", (SOURCE / "docs/references.bib").read_text(), re.M))
+        cited = set()
+        for file in (f for f in tracked() if f.endswith((".h", ".cpp", ".md", ".py"))):
+            cited |= set(re.findall(r"\[([A-Z][A-Za-z]+(?:19|20)\d\d[a-z]?)\b", (SOURCE / file).read_text()))
+        self.assertGreater(len(cited), 10)
+        self.assertEqual(cited - listed, set())
 
 
 if __name__ == "__main__":
