@@ -51,12 +51,12 @@ if welcome["kind"] == "refused":
 out, pose = welcome["out"][0], welcome["in"][0]
 data.connect(pose["endpoint"])
 data.subscribe(pose["topic"].encode() + b"\0")
-data.subscribe(b"!" + pose["token"].encode())
+data.subscribe(b"~" + pose["token"].encode())
 
 unproven = set(out["tokens"])
 while unproven:
     subscription = sync.recv()
-    if subscription[:2] == b"\x01!" and subscription[2:].decode() in unproven:
+    if subscription[:2] == b"\x01~" and subscription[2:].decode() in unproven:
         unproven.discard(subscription[2:].decode())
         control.send_json({"kind": "proven", "tokens": [subscription[2:].decode()]})
 

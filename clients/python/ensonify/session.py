@@ -108,7 +108,7 @@ class Session:
             self._arrived[entry["topic_id"]] = 0
             self._sub.subscribe(entry["topic"].encode() + b"\0")
         for entry in inputs:  # last, so that a token vouches for the topics before it
-            self._sub.subscribe(b"!" + entry["token"].encode())
+            self._sub.subscribe(b"~" + entry["token"].encode())
 
     def _prove(self, tokens: set) -> None:
         poller = zmq.Poller()
@@ -125,7 +125,7 @@ class Session:
             proven = []
             while self._sync in ready and self._sync.getsockopt(zmq.EVENTS) & zmq.POLLIN:
                 subscription = self._sync.recv()
-                token = subscription[2:].decode() if subscription[:2] == b"\x01!" else None
+                token = subscription[2:].decode() if subscription[:2] == b"\x01~" else None
                 if token in tokens:
                     tokens.discard(token)
                     proven.append(token)

@@ -55,7 +55,7 @@ struct Link::Receiver {
       if (connected.insert(s.endpoint).second) socket.connect(s.endpoint);
     }
     for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, s.topic + '\0');
-    for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, "!" + s.token);
+    for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, "~" + s.token);
     thread = std::thread([this] { drain(); });
   }
 
@@ -145,7 +145,7 @@ Link::Event Link::wait() {
     Event event{Event::kTokens, {}, {}};
     while (sockets_->sync.recv(message, zmq::recv_flags::dontwait)) {
       const std::string_view text = message.to_string_view();
-      if (text.starts_with("\x01!")) event.tokens.emplace_back(text.substr(2));
+      if (text.starts_with("\x01~")) event.tokens.emplace_back(text.substr(2));
     }
     if (!event.tokens.empty()) return event;
     if (items[2].revents) return {Event::kClockLost, {}, {}};
