@@ -13,7 +13,6 @@ namespace {
 
 /// A struct with a member of every kind.
 struct Sample {
-  static constexpr const char* kType = "sample/1";
   bool flag = false;
   std::int32_t small = 0;
   std::uint64_t large = 0;

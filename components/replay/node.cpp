@@ -27,6 +27,10 @@ struct Load {
   }
 };
 
+bool any_matches(const std::vector<std::string>& patterns, const std::string& topic) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& p) { return topic_matches(p, topic); });
+}
+
 std::string with_place(const std::string& place, const std::string& text) {
   return place.empty() ? text : place + ": " + text;
 }
@@ -55,8 +59,7 @@ void ReplayNode::declare_ports() {
     loads[message.channel->id].add(message);
   }
   for (const auto& [id, channel] : whole.channels()) {
-    const bool wanted = std::any_of(config_.topics.begin(), config_.topics.end(),
-                                    [&](const std::string& pattern) { return topic_matches(pattern, channel.topic); });
+    const bool wanted = any_matches(config_.topics, channel.topic);
     const std::string port = port_of(channel.topic);
     if (!wanted || port == kHealthPort) continue;
     const Load& load = loads[id];

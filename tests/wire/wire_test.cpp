@@ -43,7 +43,7 @@ class Filler {
       member.resize(2);
       for (auto& element : member) fill(element);
     } else {
-      T::fields(member, [this](const char*, const char*, const char*, auto& field) { fill(field); });
+      T::fields(member, [this](const char*, const char*, const char*, auto& field) { this->fill(field); });
     }
   }
 
