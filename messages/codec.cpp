@@ -81,8 +81,9 @@ void pack(Packer& to, const Value& value, ArrayPlace place) {
   }
 }
 
-Buffer packed(const Value& value, ArrayPlace place) {
-  auto bytes = std::make_shared<msgpack::sbuffer>();
+/// `expected` bytes are reserved at once, so that large arrays are not moved while the buffer grows.
+Buffer packed(const Value& value, ArrayPlace place, std::size_t expected = MSGPACK_SBUFFER_INIT_SIZE) {
+  auto bytes = std::make_shared<msgpack::sbuffer>(expected);
   Packer packer(*bytes);
   pack(packer, value, place);
   const auto* data = reinterpret_cast<const std::byte*>(bytes->data());
@@ -272,7 +273,10 @@ Value decode_value(const Body& body, std::size_t max_bytes) {
   return parse(body.map, &body.arrays);
 }
 
-Buffer encode_inline(const Body& body) { return packed(parse(body.map, &body.arrays), {}); }
+Buffer encode_inline(const Body& body) {
+  constexpr std::size_t kDescriptorBytes = 64;  // more than a descriptor grows by taking its array in
+  return packed(parse(body.map, &body.arrays), {}, body.size() + kDescriptorBytes * (1 + body.arrays.size()));
+}
 
 Value decode_inline(const Buffer& payload) { return parse(payload, nullptr); }
 

@@ -47,7 +47,7 @@ struct Soundings {
   Array<float> beam_angle_rad;
   Array<float> travel_time_s;
   Array<float> backscatter_db;
-  Array<float> quality;
+  Array<float> quality_db;
   Array<std::uint8_t> valid;
   Array<double> position_enu_m;
 
@@ -58,7 +58,7 @@ struct Soundings {
     visit("beam_angle_rad", "rad", "receive beam axes in the head frame, positive to starboard", self.beam_angle_rad);
     visit("travel_time_s", "s", "two-way travel time of the detection", self.travel_time_s);
     visit("backscatter_db", "dB", "level of the detection re 1 uPa, uncorrected", self.backscatter_db);
-    visit("quality", "dB", "signal to noise ratio of the detection", self.quality);
+    visit("quality_db", "dB", "signal to noise ratio of the detection", self.quality_db);
     visit("valid", "1", "1 where the beam has a detection; other entries of that beam mean nothing if 0", self.valid);
     visit("position_enu_m", "m",
           "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",

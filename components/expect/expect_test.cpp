@@ -61,7 +61,7 @@ msg::Soundings soundings(SimTime t, std::vector<std::uint8_t> valid, std::vector
   msg::Soundings s;
   s.stamp_ns = t.count();
   s.valid = msg::Array<std::uint8_t>::of(std::move(valid));
-  s.quality = msg::Array<float>::of(std::move(quality));
+  s.quality_db = msg::Array<float>::of(std::move(quality));
   return s;
 }
 
@@ -135,12 +135,12 @@ TEST_CASE("rate counts silence at the end") {
 
 TEST_CASE("bounds on fields, array elements and reductions") {
   check_passes("bounds: {topic: bow/soundings, field: valid.mean, min: 0.75, max: 0.75}", "10 values in [0.75, 0.75]");
-  check_passes("bounds: {topic: bow/soundings, field: quality.max, max: 9}", "10 values in [0, 9]");
-  check_fails("bounds: {topic: bow/soundings, field: quality.0, max: 6.5}", 7, "quality.0 = 7 (message 7)");
-  check_fails("bounds: {topic: bow/soundings, field: quality.1, min: 0}", 0, "quality.1 = nan (message 0)");
-  check_fails("bounds: {topic: bow/soundings, field: quality.5, min: 0}", 10, "quality.5 had no value in 10 messages");
-  check_passes("bounds: {topic: bow/soundings, field: quality.0, min: 3, after_s: 3}", "7 values in [3, 9]");
-  check_fails("bounds: {topic: bow/soundings, field: quality.0, min: 0, after_s: 30}", 10,
+  check_passes("bounds: {topic: bow/soundings, field: quality_db.max, max: 9}", "10 values in [0, 9]");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.0, max: 6.5}", 7, "quality_db.0 = 7 (message 7)");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.1, min: 0}", 0, "quality_db.1 = nan (message 0)");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.5, min: 0}", 10, "quality_db.5 had no value in 10 messages");
+  check_passes("bounds: {topic: bow/soundings, field: quality_db.0, min: 3, after_s: 3}", "7 values in [3, 9]");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.0, min: 0, after_s: 30}", 10,
               "there was no message on bow/soundings");
   check_passes("bounds: {topic: bow/soundings, where: {field: ping, equals: 0}, field: valid.all, max: 0}",
                "10 values in [0, 0]");

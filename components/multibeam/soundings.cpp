@@ -28,7 +28,7 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   soundings.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
   soundings.travel_time_s = msg::Array<float>({beams});
   soundings.backscatter_db = msg::Array<float>({beams});
-  soundings.quality = msg::Array<float>({beams});
+  soundings.quality_db = msg::Array<float>({beams});
   soundings.valid = msg::Array<std::uint8_t>({beams});
   soundings.position_enu_m = msg::Array<double>({beams, 3});
   heard_.clear();
@@ -78,7 +78,7 @@ void SoundingMaker::place(const Shot& shot, const frames::PoseHistory& estimate,
   soundings.travel_time_s[beam] = static_cast<float>(detection.two_way_s);
   soundings.backscatter_db[beam] =
       detection.echo_energy_db - static_cast<float>(10.0 * std::log10(config_.pulse_length_s));
-  soundings.quality[beam] = detection.snr_db;
+  soundings.quality_db[beam] = detection.snr_db;
   soundings.valid[beam] = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     soundings.position_enu_m(beam, axis) = place[static_cast<Eigen::Index>(axis)];

@@ -207,7 +207,7 @@ class Soundings(Message):
     beam_angle_rad [rad]: receive beam axes in the head frame, positive to starboard
     travel_time_s [s]: two-way travel time of the detection
     backscatter_db [dB]: level of the detection re 1 uPa, uncorrected
-    quality [dB]: signal to noise ratio of the detection
+    quality_db [dB]: signal to noise ratio of the detection
     valid [1]: 1 where the beam has a detection; other entries of that beam mean nothing if 0
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
     """
@@ -218,7 +218,7 @@ class Soundings(Message):
     beam_angle_rad: np.ndarray = array("f4")
     travel_time_s: np.ndarray = array("f4")
     backscatter_db: np.ndarray = array("f4")
-    quality: np.ndarray = array("f4")
+    quality_db: np.ndarray = array("f4")
     valid: np.ndarray = array("u1")
     position_enu_m: np.ndarray = array("f8")
 

@@ -70,11 +70,11 @@ class Bodies(unittest.TestCase):
         np.testing.assert_array_equal(wire.decode_inline(payload)["amplitude_upa"], ping().amplitude_upa)
 
     def test_empty_arrays_and_slices(self):
-        message = ensonify.Soundings(position_enu_m=np.zeros((0, 3)), quality=np.arange(8, dtype="f4")[::2])
+        message = ensonify.Soundings(position_enu_m=np.zeros((0, 3)), quality_db=np.arange(8, dtype="f4")[::2])
         head, *arrays = wire.encode_body(message.to_map())
         got = ensonify.Soundings.from_map(wire.decode_body(head, arrays))
         self.assertEqual(got.position_enu_m.shape, (0, 3))
-        np.testing.assert_array_equal(got.quality, [0, 2, 4, 6])
+        np.testing.assert_array_equal(got.quality_db, [0, 2, 4, 6])
 
     def test_every_type_survives_with_its_defaults(self):
         for name, cls in messages.TYPES.items():

@@ -33,7 +33,8 @@ std::string read_file(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 void write_file(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+  fs::remove(file);  // a truncated file would be flushed to disk when it is closed (ext4), thousands of times here
+  std::ofstream(file, std::ios::binary) << bytes;
 }
 
 msg::Ping ping(std::int64_t number, std::size_t samples) {

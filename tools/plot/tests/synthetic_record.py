@@ -38,7 +38,7 @@ def soundings_of(ping, t_ns, east_m, north_m, heading, angles, noise_m, bias_m, 
     valid = (random.random(len(angles)) > 0.01).astype("u1")
     return ensonify.Soundings(stamp_ns=t_ns, ping=ping, beam_angle_rad=angles.astype("f4"), valid=valid,
                               travel_time_s=(2 * range_m / SOUND_SPEED_MPS).astype("f4"),
-                              backscatter_db=np.full(len(angles), 100, "f4"), quality=np.full(len(angles), 20, "f4"),
+                              backscatter_db=np.full(len(angles), 100, "f4"), quality_db=np.full(len(angles), 20, "f4"),
                               position_enu_m=position), range_m
 
 
