@@ -119,7 +119,7 @@ std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPort
   if (!checked.unknown.empty() || !checked.problems.empty()) {
     return {};
   }
-  return wire(checked.declarations, wire_rules(launch)).problems;
+  return wire(checked.declarations, wire_rules(launch), process_places(launch)).problems;
 }
 
 std::vector<std::string> resolution_warnings(const CheckedPorts& checked) {

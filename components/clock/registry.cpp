@@ -6,7 +6,7 @@
 
 namespace ensonify::clock {
 
-Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)) {
+Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)), places_(process_places(launch)) {
   for (const ProcessSpec& process : launch.processes) {
     if (!process.observer) names_.push_back(process.name);  // observers look on; they are no part of the run
   }
@@ -43,7 +43,7 @@ std::vector<std::string> Registry::missing() const {
 
 const std::vector<std::string>& Registry::check() {
   for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
-  graph_ = wire(declarations_, rules_);
+  graph_ = wire(declarations_, rules_, places_);
   for (std::size_t e = 0; e < graph_.edges.size(); ++e)
     unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
   return graph_.problems;

@@ -43,6 +43,7 @@ class Registry {
 
   std::vector<std::string> names_;  // in the order of ranks
   std::vector<WireRule> rules_;
+  std::map<std::string, std::string> places_;
   std::vector<protocol::Hello> joined_;
   std::vector<bool> has_joined_;
   std::vector<Declaration> declarations_;

@@ -5,18 +5,24 @@
 namespace ensonify {
 
 namespace {
-std::string place_of(const Connection& c) {
-  return c.place.line == 0 ? c.place.file
-                           : c.place.file + ":" + std::to_string(c.place.line) + ":" + std::to_string(c.place.column);
+std::string text_of(const ConfigPlace& place) {
+  return place.line == 0 ? place.file
+                         : place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 }  // namespace
 
 std::vector<WireRule> wire_rules(const Launch& launch) {
   std::vector<WireRule> rules;
   for (const Connection& c : launch.wiring) {
-    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), place_of(c)});
+    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), text_of(c.place)});
   }
   return rules;
+}
+
+std::map<std::string, std::string> process_places(const Launch& launch) {
+  std::map<std::string, std::string> places;
+  for (const ProcessSpec& process : launch.processes) places[process.name] = text_of(process.place);
+  return places;
 }
 
 std::map<std::string, std::string> facts_of(const Launch& launch) {

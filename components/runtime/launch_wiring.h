@@ -13,6 +13,9 @@ namespace ensonify {
 /// A launch file's `wiring:` as rules with places.
 std::vector<WireRule> wire_rules(const Launch& launch);
 
+/// Where each process's stanza stands, for messages: "demo.yaml:12:3".
+std::map<std::string, std::string> process_places(const Launch& launch);
+
 /// What is fixed for the run and kept for whoever asks: "launch", "scenario", "version", "seed", "start_utc".
 std::map<std::string, std::string> facts_of(const Launch& launch);
 

@@ -37,7 +37,7 @@ class LocalRun {
       member.stepper.emplace(member.ports, [&member](SimTime now) { return member.node->step(now); });
       declarations_.push_back(declaration_of(process.component, member.ports));
     }
-    graph_ = wire(declarations_, wire_rules(launch));
+    graph_ = wire(declarations_, wire_rules(launch), process_places(launch));
     if (!graph_.problems.empty()) {
       std::string all;
       for (const std::string& problem : graph_.problems) all += (all.empty() ? "" : "\n") + problem;

@@ -17,8 +17,9 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 
 class Wirer {
  public:
-  Wirer(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules)
-      : processes_(processes), rules_(rules) {}
+  Wirer(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
+        const std::map<std::string, std::string>& places)
+      : processes_(processes), rules_(rules), places_(places) {}
 
   Graph run() {
     list_topics();
@@ -34,6 +35,12 @@ class Wirer {
   void problem(const std::string& text) { graph_.problems.push_back(text); }
   std::string input_name(std::size_t rank, std::size_t in) const {
     return processes_[rank].process + "." + processes_[rank].ins[in].port;
+  }
+
+  /// An input that no rule names, for messages.
+  std::string placed_name(std::size_t rank, std::size_t in) const {
+    const auto place = places_.find(processes_[rank].process);
+    return (place == places_.end() ? "" : place->second + ": ") + input_name(rank, in);
   }
 
   void list_topics() {
@@ -99,7 +106,7 @@ class Wirer {
         if (!already) add_edge(t, rank, in, processes_[rank].ins[in].delay);
       }
       if (!any) {
-        problem(input_name(rank, in) + ": no process publishes " + wanted + did_you_mean(wanted, topic_names_));
+        problem(placed_name(rank, in) + ": no process publishes " + wanted + did_you_mean(wanted, topic_names_));
       }
     }
   }
@@ -143,10 +150,10 @@ class Wirer {
     } else if (offers.size() > 1) {
       std::string names;
       for (const std::size_t t : offers) names += (names.empty() ? "" : ", ") + graph_.topics[t].name;
-      problem(input_name(rank, in) + ": several publishers offer " + port.type + " (" + names +
+      problem(placed_name(rank, in) + ": several publishers offer " + port.type + " (" + names +
               "); name one under wiring:");
     } else if (!port.optional) {
-      problem(input_name(rank, in) + ": no publisher offers " + port.type);
+      problem(placed_name(rank, in) + ": no publisher offers " + port.type);
     }
   }
 
@@ -188,14 +195,16 @@ class Wirer {
 
   const std::vector<Declaration>& processes_;
   const std::vector<WireRule>& rules_;
+  const std::map<std::string, std::string>& places_;
   std::vector<std::string> topic_names_;
   Graph graph_;
 };
 
 }  // namespace
 
-Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules) {
-  return Wirer(processes, rules).run();
+Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
+           const std::map<std::string, std::string>& places) {
+  return Wirer(processes, rules, places).run();
 }
 
 std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank) {

@@ -49,8 +49,10 @@ struct Graph {
 };
 
 /// Checks the whole wiring: misspelt names (with the nearest), no publisher, several publishers of an unwired input's
-/// type, type mismatch, a delay shorter than declared, a cycle without a delayed edge. Everything wrong is listed.
-Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules);
+/// type, type mismatch, a delay shorter than declared, a cycle without a delayed edge. Everything wrong is listed, with
+/// its place where one is known: a rule's own, or that of the process's stanza in `places`.
+Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
+           const std::map<std::string, std::string>& places = {});
 
 /// What a subscriber's runtime needs: its feeds, in the order of in ports and topic ids.
 std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank);

@@ -79,6 +79,8 @@ TEST_CASE("a pattern takes every topic but its owner's, and a name that nobody p
   CHECK(feeds_of(graph, processes, 2).size() == 2);
   processes[2].ins[0].topics = {"auv/poze"};
   CHECK(only_problem(processes) == "recorder.all: no process publishes auv/poze (did you mean auv/pose?)");
+  CHECK(wire(processes, {}, {{"recorder", "x.yaml:7:3"}}).problems.front() ==
+        "x.yaml:7:3: recorder.all: no process publishes auv/poze (did you mean auv/pose?)");
 }
 
 TEST_CASE("a sync queue holds two messages and a window of each topic") {
