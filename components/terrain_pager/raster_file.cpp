@@ -44,8 +44,9 @@ RasterFile::RasterFile(RasterOptions options)
   const QuietErrors quiet;
   open();
   read_reference();
+  const bool declared_depths = options_.values_are_depths;  // fill() leaves elevations
   if (options_.fill_holes) fill();
-  check_values();
+  check_values(declared_depths);
 }
 
 RasterFile::~RasterFile() = default;
@@ -183,7 +184,7 @@ void RasterFile::read(const CellWindow& w, std::span<float> elevation_m) const {
   }
 }
 
-void RasterFile::check_values() {
+void RasterFile::check_values(bool declared_depths) {
   std::size_t valid = 0, above = 0;
   lowest_m_ = std::numeric_limits<double>::max();
   highest_m_ = std::numeric_limits<double>::lowest();
@@ -201,7 +202,7 @@ void RasterFile::check_values() {
   if (valid == 0) refuse("holds no valid cell: all are nodata or NaN");
   const std::string range = "from " + number(lowest_m_) + " to " + number(highest_m_) + " m";
   for (const double fill : kUsualFills) {
-    const double seen = options_.values_are_depths ? -fill : fill;
+    const double seen = declared_depths ? -fill : fill;
     if (lowest_m_ == seen || highest_m_ == seen) {
       refuse(
           "holds " + number(fill) +
@@ -215,9 +216,8 @@ void RasterFile::check_values() {
   }
   if (2 * above > valid) {
     refuse("is mostly above the water (heights " + range + " up): " +
-           (options_.values_are_depths
-                ? "its values are elevations or land; `seabed.raster.values: elevation` reads them as such"
-                : "its values are depths or land; `seabed.raster.values: depth` reads them as depths") +
+           (declared_depths ? "its values are elevations or land; `seabed.raster.values: elevation` reads them as such"
+                            : "its values are depths or land; `seabed.raster.values: depth` reads them as depths") +
            ", land alone cannot be surveyed");
   }
 }

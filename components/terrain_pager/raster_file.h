@@ -65,7 +65,7 @@ class RasterFile {
   void open();
   void read_reference();
   void fill();
-  void check_values();
+  void check_values(bool declared_depths);
 
   RasterOptions options_;
   std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> dataset_;

@@ -162,6 +162,17 @@ TEST_CASE("depths are turned when declared, and refused when not") {
         "`seabed.raster.values: depth` reads them as depths, land alone cannot be surveyed");
   options.values_are_depths = true;
   CHECK(RasterSource(options, std::nullopt).height_m({0, 0}) == Approx(-12.5));
+
+  MadeRaster elevations;
+  elevations.height = [](double, double) { return -12.5; };
+  auto turned = options_for(elevations);
+  turned.values_are_depths = true;
+  const std::string advice =
+      "is mostly above the water (heights from 12.5 to 12.5 m up): its values are elevations or land; "
+      "`seabed.raster.values: elevation` reads them as such, land alone cannot be surveyed";
+  CHECK(refusal(turned) == advice);
+  turned.fill_holes = true;
+  CHECK(refusal(turned) == advice);
 }
 
 TEST_CASE("rasters that cannot be trusted are refused with cause and remedy") {
