@@ -1,9 +1,11 @@
 """What all benchmarks share: running programs and launches, pairing with a floor, a row of the table."""
 import json
+import os
 import pathlib
 import re
 import statistics
 import subprocess
+import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -27,6 +29,9 @@ class Bench:
         with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as out:
             command = [str(self.build / "bin" / "ensonify-run"), str(ROOT / "bench" / "launch" / f"{name}.yaml"),
                        "--out", out, *map(str, options)]
+            environment = dict(environment or os.environ)
+            # A launch file's `python3` is the Python that runs this: it has what the client needs.
+            environment["PATH"] = f"{pathlib.Path(sys.executable).parent}:{environment['PATH']}"
             done = subprocess.run(command, capture_output=True, text=True, env=environment)
             if done.returncode != 0:
                 raise RuntimeError(f"{name}: exit {done.returncode}: {done.stderr}")

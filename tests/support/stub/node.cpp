@@ -14,8 +14,10 @@ StubNode::StubNode(const Config& config, Ports& ports)
     : config_(config), ports_(ports), events_({config.rate_hz, 1}), wall_jitter_(static_cast<std::uint64_t>(getpid())) {
   for (const Config::Out& out : config.outs) {
     const auto max_bytes = static_cast<std::size_t>(out.bytes) + 1024;
-    outs_.push_back(
-        {ports.declare_out({out.port, out.type, max_bytes, {out.hz, 1}}), Periodic({out.hz, 1}), out.bytes});
+    msg::Array<std::uint8_t> filler({static_cast<std::size_t>(out.bytes)});
+    std::fill(filler.flat().begin(), filler.flat().end(), std::uint8_t{0x5A});
+    const std::size_t port = ports.declare_out({out.port, out.type, max_bytes, {out.hz, 1}});
+    outs_.push_back({port, Periodic({out.hz, 1}), filler});
   }
   for (const Config::In& in : config.ins) {
     ports.in_raw(in.port, in.type, [this](const msg::Packet& packet) { take(packet); },
@@ -43,8 +45,7 @@ SimTime StubNode::step(SimTime now) {
   misbehave(now);
   for (Output& out : outs_) {
     if (!out.due.due(now)) continue;
-    Blob blob{now.count(), received_, digest_, msg::Array<std::uint8_t>({static_cast<std::size_t>(out.bytes)})};
-    std::fill(blob.data.flat().begin(), blob.data.flat().end(), static_cast<std::uint8_t>(out.due.count()));
+    const Blob blob{now.count(), received_, digest_, out.filler};
     ports_.publish(out.index, msg::encode(blob));
   }
   if (config_.finish_s && now >= from_seconds(*config_.finish_s)) ports_.finish();

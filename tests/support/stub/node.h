@@ -23,7 +23,7 @@ struct Blob {
     visit("stamp_ns", "ns", "event that published it", self.stamp_ns);
     visit("received", "1", "messages taken so far by its publisher", self.received);
     visit("digest", "1", "FNV-1a over (t_sim, publisher, topic, seq) of every message taken, in order", self.digest);
-    visit("data", "1", "filler, the low byte of the message's number", self.data);
+    visit("data", "1", "filler, the same in every message", self.data);
   }
 };
 
@@ -39,7 +39,7 @@ class StubNode {
   struct Output {
     std::size_t index;
     Periodic due;
-    std::int64_t bytes;
+    msg::Array<std::uint8_t> filler;
   };
   void take(const msg::Packet& packet);
   void misbehave(SimTime now);
