@@ -138,7 +138,8 @@ TEST_CASE("bounds on fields, array elements and reductions") {
   check_passes("bounds: {topic: bow/soundings, field: quality_db.max, max: 9}", "10 values in [0, 9]");
   check_fails("bounds: {topic: bow/soundings, field: quality_db.0, max: 6.5}", 7, "quality_db.0 = 7 (message 7)");
   check_fails("bounds: {topic: bow/soundings, field: quality_db.1, min: 0}", 0, "quality_db.1 = nan (message 0)");
-  check_fails("bounds: {topic: bow/soundings, field: quality_db.5, min: 0}", 10, "quality_db.5 had no value in 10 messages");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.5, min: 0}", 10,
+              "quality_db.5 had no value in 10 messages");
   check_passes("bounds: {topic: bow/soundings, field: quality_db.0, min: 3, after_s: 3}", "7 values in [3, 9]");
   check_fails("bounds: {topic: bow/soundings, field: quality_db.0, min: 0, after_s: 30}", 10,
               "there was no message on bow/soundings");

@@ -125,7 +125,7 @@ void RasterSource::measure() {
                  " km from the scenario's origin; allowed are 400 km, or `origin: raster` in the scenario's site");
   }
   // A cell in the middle, from its centre to those of its neighbours east and south.
-  const double column = (file_.columns() - 1) / 2, row = (file_.rows() - 1) / 2;
+  const int column = (file_.columns() - 1) / 2, row = (file_.rows() - 1) / 2;
   double cx[3] = {file_.map_x(column), file_.map_x(column + 1), file_.map_x(column)};
   double cy[3] = {file_.map_y(row), file_.map_y(row), file_.map_y(row + 1)};
   enu_from_map_->Transform(3, cx, cy);
