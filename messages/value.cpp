@@ -60,27 +60,13 @@ T element(const RawArray& array, std::size_t i) {
   return value;
 }
 
-double element_as_double(const RawArray& array, std::size_t i) {
-  switch (array.dtype) {
-    case Dtype::u8: return element<std::uint8_t>(array, i);
-    case Dtype::i16: return element<std::int16_t>(array, i);
-    case Dtype::u16: return element<std::uint16_t>(array, i);
-    case Dtype::i32: return element<std::int32_t>(array, i);
-    case Dtype::u32: return element<std::uint32_t>(array, i);
-    case Dtype::i64: return static_cast<double>(element<std::int64_t>(array, i));
-    case Dtype::f32: return element<float>(array, i);
-    case Dtype::f64: return element<double>(array, i);
-  }
-  return 0.0;
-}
-
 void append_array(std::string& out, const RawArray& array, std::size_t max_elements) {
-  const std::size_t count = array.bytes.size / dtype_size(array.dtype);
+  const std::size_t count = array.size();
   if (count <= max_elements) {
     out += '[';
     for (std::size_t i = 0; i < count; ++i) {
       if (i > 0) out += ',';
-      append_number(out, element_as_double(array, i));
+      append_number(out, array.number(i));
     }
     out += ']';
     return;
@@ -88,7 +74,7 @@ void append_array(std::string& out, const RawArray& array, std::size_t max_eleme
   double low = INFINITY;
   double high = -INFINITY;
   for (std::size_t i = 0; i < count; ++i) {
-    const double value = element_as_double(array, i);
+    const double value = array.number(i);
     low = std::fmin(low, value);
     high = std::fmax(high, value);
   }
@@ -136,6 +122,20 @@ void append_json(std::string& out, const Value& value, std::size_t max_elements)
 }
 
 }  // namespace
+
+double RawArray::number(std::size_t i) const {
+  switch (dtype) {
+    case Dtype::u8: return element<std::uint8_t>(*this, i);
+    case Dtype::i16: return element<std::int16_t>(*this, i);
+    case Dtype::u16: return element<std::uint16_t>(*this, i);
+    case Dtype::i32: return element<std::int32_t>(*this, i);
+    case Dtype::u32: return element<std::uint32_t>(*this, i);
+    case Dtype::i64: return static_cast<double>(element<std::int64_t>(*this, i));
+    case Dtype::f32: return element<float>(*this, i);
+    case Dtype::f64: return element<double>(*this, i);
+  }
+  return 0.0;
+}
 
 const char* dtype_name(Dtype dtype) { return kDtypes[static_cast<std::size_t>(dtype)].name; }
 std::size_t dtype_size(Dtype dtype) { return kDtypes[static_cast<std::size_t>(dtype)].size; }

@@ -23,6 +23,10 @@ struct RawArray {
   Dtype dtype = Dtype::u8;
   std::vector<std::size_t> shape;
   Buffer bytes;
+
+  std::size_t size() const { return bytes.size / dtype_size(dtype); }
+  /// Element i in C order, whatever the type. i < size().
+  double number(std::size_t i) const;
 };
 
 struct MapEntry;

@@ -7,7 +7,7 @@
 #include "components/runtime/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/run.h"
-#include "components/runtime/version.h"
+#include "components/runtime/tool.h"
 
 namespace {
 
@@ -40,17 +40,9 @@ int main(int argc, char** argv) {
   CLI::App app("ensonify-conductor: the clock process of a run. `ensonify run` starts it; `ensonify clock` asks it.");
   LaunchOptions options;
   std::string run_dir;
-  app.set_version_flag("--version", kVersion);
   add_options(app, options, false);
   app.add_option("--run-dir", run_dir, "private directory of the run; removed at the end")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    app.exit(e);
-    return kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   std::signal(SIGTERM, [](int) { clock::request_stop(); });
   std::signal(SIGINT, [](int) { clock::request_stop(); });
   return exit_code_of([&] { return run_clock(options, run_dir); });

@@ -38,27 +38,6 @@ std::optional<std::size_t> index_of(const std::string& step) {
   return error == std::errc{} && end == step.data() + step.size() ? std::optional(index) : std::nullopt;
 }
 
-template <class T>
-double element(const RawArray& array, std::size_t i) {
-  T value;
-  std::memcpy(&value, array.bytes.data + i * sizeof(T), sizeof(T));
-  return static_cast<double>(value);
-}
-
-double element(const RawArray& array, std::size_t i) {
-  switch (array.dtype) {
-    case msg::Dtype::u8: return element<std::uint8_t>(array, i);
-    case msg::Dtype::i16: return element<std::int16_t>(array, i);
-    case msg::Dtype::u16: return element<std::uint16_t>(array, i);
-    case msg::Dtype::i32: return element<std::int32_t>(array, i);
-    case msg::Dtype::u32: return element<std::uint32_t>(array, i);
-    case msg::Dtype::i64: return element<std::int64_t>(array, i);
-    case msg::Dtype::f32: return element<float>(array, i);
-    case msg::Dtype::f64: return element<double>(array, i);
-  }
-  return std::nan("");
-}
-
 /// What the reductions need of the elements seen one by one.
 struct Tally {
   std::size_t size = 0, nonzero = 0, numbers = 0;
@@ -90,10 +69,10 @@ std::optional<Scalar> reduced(const Tally& tally, const std::string& reduction) 
 std::optional<Scalar> in_array(const RawArray& array, const std::string& step) {
   const std::size_t count = array.bytes.size / msg::dtype_size(array.dtype);
   if (const auto index = index_of(step)) {
-    return *index < count ? std::optional<Scalar>(element(array, *index)) : std::nullopt;
+    return *index < count ? std::optional<Scalar>(array.number(*index)) : std::nullopt;
   }
   Tally tally;
-  for (std::size_t i = 0; i < count; ++i) tally.add(element(array, i));
+  for (std::size_t i = 0; i < count; ++i) tally.add(array.number(i));
   return reduced(tally, step);
 }
 

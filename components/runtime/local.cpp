@@ -12,6 +12,7 @@
 #include "components/runtime/participant.h"
 #include "components/runtime/run.h"
 #include "components/runtime/stepper.h"
+#include "components/runtime/tool.h"
 
 namespace ensonify {
 
@@ -107,14 +108,7 @@ int local_main(int argc, char** argv, const std::map<std::string, NodeFactory>& 
   CLI::App app("ensonify-local: a whole launch in one process, for tests and debuggers; `ensonify run --in-process`.");
   LaunchOptions options;
   add_options(app, options, false);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    app.exit(e);
-    return kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return exit_code_of([&] { return run_local(read_launch(options), components); });
 }
 

@@ -10,7 +10,7 @@
 #include "components/runtime/exit_error.h"
 #include "components/runtime/participant.h"
 #include "components/runtime/protocol.h"
-#include "components/runtime/version.h"
+#include "components/runtime/tool.h"
 
 namespace ensonify {
 
@@ -30,21 +30,12 @@ std::optional<int> parse(const char* component, int argc, char** argv, Options& 
       fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
                   "talks, `ensonify describe {}` what it takes.",
                   component, component));
-  app.set_version_flag("--version", kVersion);
   add_options(app, options.launch, false);
   app.add_option("--name", options.name, "name of this process in the launch file")->required();
   app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
   app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    app.exit(e);
-    return kExitUserError;
-  }
-  return std::nullopt;
+  return parse_command_line(app, argc, argv);
 }
 
 /// The clock's address: given, or as the run directory says.

@@ -39,7 +39,7 @@ int failed(const CLI::App& app, int code, const char* why) {
 
 bool interrupted() { return interrupts != 0; }
 
-int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   app.set_version_flag("--version", kVersion);
   try {
     app.parse(argc, argv);
@@ -49,6 +49,11 @@ int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& 
     app.exit(e);
     return kExitUserError;
   }
+  return std::nullopt;
+}
+
+int tool_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   catch_interrupts();
   try {
     const int code = flushed(body());

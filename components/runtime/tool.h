@@ -1,12 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 namespace CLI {
 class App;
 }
 
 namespace ensonify {
+
+/// Reads the command line of any of our programs, with `--version`. An exit code when the program is to end here: 0
+/// after help, 2 for wrong arguments, which have been told.
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// main() of a tool: reads the command line, runs `body` and gives its exit code. What `body` throws becomes a text on
 /// standard error and the exit code that belongs to it; wrong arguments give 2, Ctrl-C gives 130.

@@ -21,7 +21,7 @@ class Rasters(SystemTest):
         self.assertEqual(result.code, 0, result.stderr)
         summary = json.loads((result.out / "summary.json").read_text())
         against_truth = summary["depth_against_truth"]
-        self.assertGreater(summary["pings"], 100)
+        self.assertGreater(summary["pings"], 50)  # 60 m and run-in; in 70 m of water two or three pings a second
         self.assertGreater(summary["accepted"], 0.7)
         self.assertGreater(summary["coverage"]["share"], 0.85)
         self.assertGreater(summary["depth_m"]["mean"], least_m)

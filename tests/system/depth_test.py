@@ -34,7 +34,7 @@ class Depth(SystemTest):
                 accepted, beams = accepted + valid.sum(), beams + valid.size
                 position = np.asarray(soundings.position_enu_m)[valid]
                 errors.append(position[:, 2] - true_height(tiles, position))
-        self.assertGreater(beams, 5000)
+        self.assertGreater(beams, 2500)  # ten pings: without a bottom the head waits its whole range
         errors = np.concatenate(errors)
         return errors[np.isfinite(errors)], accepted / beams
 

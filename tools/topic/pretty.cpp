@@ -16,27 +16,6 @@ using msg::Value;
 
 constexpr std::size_t kShown = 3;  // elements at each end of an array
 
-template <class T>
-double element(const RawArray& array, std::size_t i) {
-  T value;
-  std::memcpy(&value, array.bytes.data + i * sizeof(T), sizeof(T));
-  return static_cast<double>(value);
-}
-
-double element_of(const RawArray& array, std::size_t i) {
-  switch (array.dtype) {
-    case msg::Dtype::u8: return element<std::uint8_t>(array, i);
-    case msg::Dtype::i16: return element<std::int16_t>(array, i);
-    case msg::Dtype::u16: return element<std::uint16_t>(array, i);
-    case msg::Dtype::i32: return element<std::int32_t>(array, i);
-    case msg::Dtype::u32: return element<std::uint32_t>(array, i);
-    case msg::Dtype::i64: return element<std::int64_t>(array, i);
-    case msg::Dtype::f32: return element<float>(array, i);
-    case msg::Dtype::f64: return element<double>(array, i);
-  }
-  return 0.0;
-}
-
 std::string with_unit(std::string text, const std::string& unit) {
   return unit.empty() || unit == "1" ? text : text + " " + unit;
 }
@@ -50,7 +29,7 @@ std::string array_text(const RawArray& array, const std::string& unit) {
   double low = INFINITY;
   double high = -INFINITY;
   for (std::size_t i = 0; i < count; ++i) {
-    const double value = element_of(array, i);
+    const double value = array.number(i);
     low = std::fmin(low, value);
     high = std::fmax(high, value);
     if (i < kShown || i + kShown >= count) text += fmt::format(" {:.6g}", value);
