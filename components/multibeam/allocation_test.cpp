@@ -4,7 +4,7 @@
 #include <new>
 
 #include "components/multibeam/head.h"
-#include "components/multibeam/tile_set.h"
+#include "components/runtime/head/tile_set.h"
 
 namespace {
 

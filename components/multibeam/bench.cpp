@@ -6,7 +6,7 @@
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/soundings.h"
-#include "components/multibeam/tile_set.h"
+#include "components/runtime/head/tile_set.h"
 
 using namespace ensonify;
 

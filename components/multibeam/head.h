@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
-#include "components/multibeam/shot.h"
+#include "components/runtime/head/shot.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/echo/echo.h"
 #include "kernels/echo/noise.h"

@@ -3,11 +3,11 @@
 #include <deque>
 #include <memory>
 
-#include "components/multibeam/auto_range.h"
 #include "components/multibeam/head.h"
-#include "components/multibeam/ping_clock.h"
 #include "components/multibeam/soundings.h"
-#include "components/multibeam/tile_set.h"
+#include "components/runtime/head/auto_range.h"
+#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "components/multibeam/auto_range.h"
 #include "components/multibeam/config.h"
-#include "components/multibeam/shot.h"
+#include "components/runtime/head/auto_range.h"
+#include "components/runtime/head/shot.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/frames/pose.h"
 #include "messages/sonar.h"

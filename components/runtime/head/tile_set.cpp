@@ -1,4 +1,4 @@
-#include "components/multibeam/tile_set.h"
+#include "components/runtime/head/tile_set.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "components/multibeam/auto_range.h"
-#include "components/multibeam/ping_clock.h"
+#include "components/runtime/head/auto_range.h"
+#include "components/runtime/head/ping_clock.h"
 
 using namespace ensonify;
 
