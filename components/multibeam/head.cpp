@@ -90,8 +90,8 @@ detect::Amplitudes MultibeamHead::listen(const Shot& shot, const frames::PoseHis
 
 void MultibeamHead::trace_rays(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed) {
   fan_.fill(ray_jitter_, static_cast<std::uint64_t>(shot.ping), rays_);
-  seabed.trace(true_pose(truth, shot.transmit, config_.mounting.actual), rays_, static_cast<float>(shot.range_m),
-               hits_);
+  seabed.trace(true_pose(truth, shot.transmit, config_.mounting.actual), rays_, static_cast<float>(shot.range_m), hits_,
+               config_.sound_speed_mps);
   backscatter_.resize(hits_.size());
   rays_that_hit_ = 0;
   for (std::size_t i = 0; i < hits_.size(); ++i) {

@@ -125,7 +125,8 @@ void load(Packet& packet, std::span<const Ray> rays, const Vec3& start, const Ei
   }
 }
 
-Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, const Vec3& head_enu_m) {
+Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, const Vec3& head_enu_m,
+           float slowness_spm) {
   const Vec3 direction(packet.rays.ray.dir_x[lane], packet.rays.ray.dir_y[lane], packet.rays.ray.dir_z[lane]);
   const Vec3 normal =
       Vec3(packet.rays.hit.Ng_x[lane], packet.rays.hit.Ng_y[lane], packet.rays.hit.Ng_z[lane]).normalized();
@@ -133,7 +134,11 @@ Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, co
   Hit hit;
   hit.position_enu_m = head_enu_m + static_cast<double>(packet.rays.ray.tfar[lane]) * direction;
   hit.normal_enu = (cosine > 0.0 ? Vec3(-normal) : normal).cast<float>();
+  hit.arrival_enu = direction.cast<float>();
   hit.range_m = packet.rays.ray.tfar[lane];
+  hit.travel_time_s = hit.range_m * slowness_spm;
+  hit.path_length_m = hit.range_m;
+  hit.tube_m2 = hit.range_m * hit.range_m;
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
   hit.sediment = terrain::sediment_at(tile, hit.position_enu_m.head<2>());
   return hit;
@@ -169,8 +174,9 @@ std::size_t Scene::size() const { return impl_->tiles.size(); }
 bool Scene::contains(const terrain::TileKey& key) const { return impl_->tiles.contains(key); }
 const Vec2& Scene::origin_enu_m() const { return impl_->origin_enu_m; }
 
-void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m,
-                  std::vector<Hit>& hits) const {
+void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+                  double sound_speed_mps) const {
+  const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
   hits.resize(rays.size());
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
   const Vec3 start(head.position_enu_m.x() - impl_->origin_enu_m.x(), head.position_enu_m.y() - impl_->origin_enu_m.y(),
@@ -194,7 +200,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
       }
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
-      hits[first + lane] = met[lane] ? hit_of(packet, lane, *met[lane], head.position_enu_m) : Hit{};
+      hits[first + lane] = met[lane] ? hit_of(packet, lane, *met[lane], head.position_enu_m, slowness_spm) : Hit{};
     }
   };
   tbb::parallel_for(

@@ -12,12 +12,17 @@
 
 namespace ensonify::trace {
 
-/// Where a ray met the seabed.
+/// Where a ray met the seabed, and what happened to its bundle of sound on the way there. Times and lengths are one
+/// way.
 struct Hit {
   frames::Vec3 position_enu_m = frames::Vec3::Zero();
-  Eigen::Vector3f normal_enu = Eigen::Vector3f::UnitZ();  // of the facet, unit, towards the ray's origin
-  float range_m = 0.0F;                                   // along the ray; 0 is a miss
-  float sin_grazing = 0.0F;  // sine of the angle between the ray and the facet's plane, 0..1
+  Eigen::Vector3f normal_enu = Eigen::Vector3f::UnitZ();   // of the facet, unit, towards the ray's origin
+  Eigen::Vector3f arrival_enu = Eigen::Vector3f::UnitZ();  // direction of travel at the hit, unit
+  float range_m = 0.0F;                                    // straight distance from the head; 0 is a miss
+  float travel_time_s = 0.0F;
+  float path_length_m = 0.0F;  // along the path: range_m when it is straight
+  float tube_m2 = 0.0F;        // area of the bundle, across it, per steradian of launch: range_m^2 when straight
+  float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
   std::uint8_t sediment = 0;
 
   bool hit() const { return range_m > 0.0F; }
@@ -53,8 +58,10 @@ class Scene {
   bool contains(const terrain::TileKey& key) const;
   const frames::Vec2& origin_enu_m() const;
 
-  /// The first facet that each ray meets within max_range_m. hits is resized to rays and overwritten.
-  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits) const;
+  /// The first facet that each ray meets within max_range_m of water where rays are straight. hits is resized to rays
+  /// and overwritten. sound_speed_mps gives the travel times, nothing else.
+  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+             double sound_speed_mps = 1500.0) const;
 
  private:
   struct Impl;

@@ -30,11 +30,15 @@ TEST_CASE("a flat seabed is met at depth over cosine, at the right grazing angle
   scene.insert({0, 0}, tile_of({.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 256}, {0, 0}, flat));
   const std::vector<Ray> rays{towards({0, 0, -1}), towards({1, 0, -1}), towards({0, -1, -2}), towards({0, 0, 1})};
   std::vector<Hit> hits;
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.trace(kLevel, rays, 100.0F, hits, 1480.0);
   CHECK(hits[0].range_m == Approx(20));
+  CHECK(hits[0].travel_time_s == Approx(20 / 1480.0));
   CHECK(hits[0].sin_grazing == Approx(1));
   CHECK(hits[1].range_m == Approx(20 * std::sqrt(2.0)));
   CHECK(hits[1].sin_grazing == Approx(std::sqrt(0.5)));
+  CHECK(hits[1].path_length_m == hits[1].range_m);
+  CHECK(hits[1].tube_m2 == Approx(800));  // range squared
+  CHECK((hits[1].arrival_enu - Eigen::Vector3f(1, 0, -1).normalized()).norm() < 1e-6F);
   CHECK((hits[1].position_enu_m - Vec3(20, 0, -20)).norm() < 1e-4);
   CHECK((hits[2].position_enu_m - Vec3(0, -10, -20)).norm() < 1e-4);
   CHECK(hits[2].normal_enu.z() == Approx(1));
