@@ -35,6 +35,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"replay", "feed a record back"},
     {"compare", "say where two records differ"},
     {"describe", "a component's parameters, ports and messages"},
+    {"physics", "values of the acoustic models, as CSV or JSON"},
     {"doctor", "look for what is wrong with this machine or installation"},
     {"plot", "pictures and summary of a survey"},
     {"terrain", "import, make and show terrain"},

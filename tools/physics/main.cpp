@@ -1,0 +1,24 @@
+// ensonify physics: any kernel's values, for whoever wants to look or compare.
+#include <CLI/CLI.hpp>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/tool.h"
+#include "tools/physics/verbs.h"
+
+int main(int argc, char** argv) {
+  using namespace ensonify;
+  CLI::App app(
+      "Prints what the acoustic models give, as CSV with a header, or as JSON. Every input is an option: a number, or\n"
+      "a sweep such as 0:100:5; several sweeps make all combinations. Names carry units; levels are dB re 1 uPa^2.\n"
+      "Exit code: 0 done, 2 wrong input.",
+      "ensonify physics");
+  app.require_subcommand(1);
+  physics::Verbs verbs;
+  physics::add_sound_speed(app, verbs);
+  return tool_main(app, argc, argv, [&] {
+    for (physics::Verb& verb : verbs) {
+      if (verb.asked_for()) verb.print();
+    }
+    return static_cast<int>(kExitOk);
+  });
+}

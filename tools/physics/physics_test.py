@@ -1,0 +1,60 @@
+"""`ensonify physics` as scripts see it: published values, sweeps, JSON, wrong input.   physics_test.py PROGRAM"""
+import csv
+import io
+import json
+import subprocess
+import sys
+
+
+def physics(*words):
+    done = subprocess.run([sys.argv[1], *words], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def rows(*words):
+    code, out, error = physics(*words)
+    assert code == 0, (words, error)
+    return list(csv.DictReader(io.StringIO(out)))
+
+
+def value(column, *words):
+    found = rows(*words)
+    assert len(found) == 1, (words, found)
+    return float(found[0][column])
+
+
+def near(found, wanted, margin):
+    assert abs(found - wanted) <= margin, (found, wanted, margin)
+
+
+def refused(cause, *words):
+    code, out, error = physics(*words)
+    assert code == 2 and out == "" and cause in error, (words, code, out, error)
+
+
+# The frame: header, order of sweeps, JSON.
+speed = ["sound-speed", "--law", "mackenzie"]
+table = rows(*speed, "--temperature-degc", "2:10:4", "--depth-m", "100:0:-100")
+assert list(table[0]) == ["law", "temperature_degc", "salinity_psu", "depth_m", "latitude_deg", "pressure_bar",
+                          "in_range", "sound_speed_mps"], list(table[0])
+assert [(row["temperature_degc"], row["depth_m"]) for row in table] == [
+    ("2", "100"), ("2", "0"), ("6", "100"), ("6", "0"), ("10", "100"), ("10", "0")], table
+code, out, _ = physics(*speed, "--depth-m", "0:1000:1000", "--json")
+objects = json.loads(out)
+assert code == 0 and [row["depth_m"] for row in objects] == [0, 1000] and objects[0]["law"] == "mackenzie", out
+
+refused("--depth-m: 13000 is outside [0, 12000]", "sound-speed", "--depth-m", "13000")
+refused("--depth-m: 'deep' is neither a number nor a sweep from:to:step", "sound-speed", "--depth-m", "deep")
+refused("--law: 'wilson' is none of mackenzie, unesco, del-grosso", "sound-speed", "--law", "wilson")
+refused("the sweeps make 1.002e+06 rows; at most 1000000 are allowed",
+        "sound-speed", "--depth-m", "0:1000:1", "--salinity-psu", "0:50:0.05")
+refused("--speed", "sound-speed", "--speed", "3")
+refused("", "sound")
+assert physics("sound-speed", "--help")[0] == 0 and "--latitude-deg" in physics("sound-speed", "--help")[1]
+
+# Published values.
+near(value("sound_speed_mps", *speed, "--temperature-degc", "25", "--depth-m", "1000"), 1550.744, 5e-4)
+near(value("sound_speed_mps", "sound-speed", "--law", "unesco", "--temperature-degc", "0"), 1449.139, 5e-4)
+near(value("sound_speed_mps", "sound-speed", "--law", "del-grosso", "--temperature-degc", "0"), 1449.083, 5e-4)
+near(value("pressure_bar", "sound-speed", "--depth-m", "7321.45", "--latitude-deg", "30"), 750.0004, 5e-4)
+print("ensonify physics answers as documented")

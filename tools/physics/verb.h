@@ -1,0 +1,90 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace ensonify::physics {
+
+/// One verb of `ensonify physics`: inputs, each a number or a sweep, and what a kernel makes of them.
+///
+/// The file of a verb binds each input to a variable, whose value at that time is the default. print() goes through all
+/// combinations of the sweeps, the input declared last varying fastest, sets the variables and prints a row: the
+/// inputs, then the results. A column's name carries its unit; the option is the same name with hyphens (--depth-m of
+/// depth_m).
+class Verb {
+ public:
+  using Row = std::vector<double>;
+
+  Verb(CLI::App& parent, const std::string& name, const std::string& about);
+
+  /// A number in [low, high]. The variable must live as long as the verb; so must those of choice().
+  void number(const std::string& column, double& value, double low, double high, const std::string& about);
+
+  /// One of some names.
+  template <class Enum>
+  void choice(const std::string& column, Enum& value, const std::vector<std::pair<std::string, Enum>>& allowed,
+              const std::string& about) {
+    std::vector<Name> names;
+    std::string chosen;
+    for (const auto& [name, meant] : allowed) {
+      names.push_back({name, [&value, meant = meant] { value = meant; }});
+      if (meant == value) chosen = name;
+    }
+    add_choice(column, std::move(names), chosen, about);
+  }
+
+  /// What is computed from the variables as they are set. std::invalid_argument is the user's mistake.
+  void results(std::vector<std::string> columns, std::function<Row()> compute);
+
+  /// A flag or option of another kind goes here.
+  CLI::App& options() { return *app_; }
+
+  bool asked_for() const;
+
+  /// Prints all rows: as CSV with a header, or with --json as a list of objects. ExitError for wrong input.
+  void print();
+
+ private:
+  struct Name {
+    std::string name;
+    std::function<void()> choose;
+  };
+  struct Choice {
+    std::string column;
+    std::vector<Name> names;
+    std::string given;
+  };
+  struct Number {
+    std::string column;
+    double* value;
+    double low, high;
+    std::string given;
+    std::vector<double> sweep;
+  };
+
+  void add_choice(const std::string& column, std::vector<Name> names, const std::string& chosen,
+                  const std::string& about);
+  void read_input();
+  std::vector<std::string> columns() const;
+  void print_row(const std::vector<std::string>& columns, bool first);
+
+  CLI::App* app_;
+  bool json_ = false;
+  std::deque<Choice> choices_;  // deques: the command line is bound to their elements
+  std::deque<Number> numbers_;
+  std::vector<std::string> result_columns_;
+  std::function<Row()> compute_;
+};
+
+/// The verbs of the program; each file of a verb adds its own.
+using Verbs = std::deque<Verb>;
+
+}  // namespace ensonify::physics

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/physics/verb.h"
+
+namespace ensonify::physics {
+
+// One file per verb, named like it.
+void add_sound_speed(CLI::App& app, Verbs& verbs);
+
+}  // namespace ensonify::physics
