@@ -43,18 +43,4 @@ double directivity_index_db(double length_in_waves, double width_in_waves) {
   return 10.0 * std::log10(4.0 * kPi * length_in_waves * width_in_waves);
 }
 
-std::vector<float> equiangular_beams_rad(double half_swath_rad, int count) {
-  std::vector<float> beams;
-  for (int i = 0; i < count; ++i) beams.push_back(static_cast<float>(half_swath_rad * (2.0 * i / (count - 1) - 1.0)));
-  return beams;
-}
-
-std::vector<float> equidistant_beams_rad(double half_swath_rad, int count) {
-  std::vector<float> beams;
-  for (int i = 0; i < count; ++i) {
-    beams.push_back(static_cast<float>(std::atan(std::tan(half_swath_rad) * (2.0 * i / (count - 1) - 1.0))));
-  }
-  return beams;
-}
-
 }  // namespace ensonify::array

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <vector>
+#include "kernels/array/beam_layout.h"
 
-/// Patterns of line arrays. They are functions of the sine of the angle from the plane across the line (one direction
-/// cosine of the physical array), because a line array's beams are cones; all angles here are that angle. Far
-/// field only.
+/// Patterns of continuous uniform lines, in closed form (line_array.h has arrays of weighted elements). They are
+/// functions of the sine of the angle from the plane across the line (one direction cosine of the physical array),
+/// because a line array's beams are cones; all angles here are that angle. Far field only.
 namespace ensonify::array {
 
 /// sin(pi x) / (pi x).
@@ -31,11 +31,5 @@ double length_in_waves_for(double width_rad);
 
 /// Directivity index of a plane rectangular aperture of both lengths, dB: 10 log10(4 pi Lx Ly / lambda^2) [Lurton2010].
 double directivity_index_db(double length_in_waves, double width_in_waves);
-
-/// Beam angles from -half to +half, equally spaced in angle. count >= 2.
-std::vector<float> equiangular_beams_rad(double half_swath_rad, int count);
-
-/// Beam angles whose axes are equally spaced on a flat seabed (in the tangent). count >= 2, half_swath < pi/2.
-std::vector<float> equidistant_beams_rad(double half_swath_rad, int count);
 
 }  // namespace ensonify::array

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -14,19 +13,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// First sine beyond `from`, towards -1 (direction -1) or 1, at which the power is `level`; the end where it is not.
-double crossing(const LineArray& array, double wavelength_m, double from, double direction, double level) {
-  const auto above = [&](double sine) { return power(array, wavelength_m, sine, from) > level; };
-  const double step = direction * std::min(0.01, wavelength_m / (64.0 * array.length_m()));
+/// First sine beyond `from`, in the direction of `step`, at which the pattern is `level`; -1 or 1 where it is not.
+double crossing(const std::function<double(double)>& pattern, double from, double step, double level) {
   double inside = from, outside = from + step;
-  while (above(outside)) {
-    if (std::abs(outside) >= 1.0) return direction;
+  while (pattern(outside) > level) {
+    if (std::abs(outside) >= 1.0) return std::copysign(1.0, step);
     inside = outside;
     outside += step;
   }
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (inside + outside);
-    (above(middle) ? inside : outside) = middle;
+    (pattern(middle) > level ? inside : outside) = middle;
   }
   return std::clamp(inside, -1.0, 1.0);
 }
@@ -74,10 +71,15 @@ double power(const LineArray& array, double wavelength_m, double sine, double si
   return std::norm(amplitude(array, wavelength_m, sine, sin_steer));
 }
 
+BeamEdges half_power_edges(const std::function<double(double)>& pattern, double axis_sine, double step) {
+  const double level = 0.5 * pattern(axis_sine);
+  return {.lower_sine = crossing(pattern, axis_sine, -step, level),
+          .upper_sine = crossing(pattern, axis_sine, step, level)};
+}
+
 BeamEdges half_power_edges(const LineArray& array, double wavelength_m, double sin_steer) {
-  const double level = 0.5 * power(array, wavelength_m, sin_steer, sin_steer);
-  return {.lower_sine = crossing(array, wavelength_m, sin_steer, -1.0, level),
-          .upper_sine = crossing(array, wavelength_m, sin_steer, 1.0, level)};
+  return half_power_edges([&](double u) { return power(array, wavelength_m, u, sin_steer); }, sin_steer,
+                          std::min(0.01, wavelength_m / (64.0 * array.length_m())));
 }
 
 double half_power_width_rad(const LineArray& array, double wavelength_m, double sin_steer) {

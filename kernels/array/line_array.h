@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "kernels/array/shading.h"
@@ -39,6 +40,9 @@ struct BeamEdges {
   double upper_sine = 1.0;
 };
 BeamEdges half_power_edges(const LineArray& array, double wavelength_m, double sin_steer = 0.0);
+
+/// The same of any power pattern that does not fall to a half and rise again within `step` of sine.
+BeamEdges half_power_edges(const std::function<double(double sine)>& pattern, double axis_sine, double step);
 
 /// Angle between these edges, rad.
 double half_power_width_rad(const LineArray& array, double wavelength_m, double sin_steer = 0.0);
