@@ -12,11 +12,11 @@ namespace ensonify::refraction {
 /// The path depends on the launch depression alone, so one table serves all azimuths. It is indexed by the sine w of
 /// the depression at the fastest depth between source and level: the sines at every other depth are sqrt(a^2 + w^2) up
 /// to a factor, so that reach, time and length, times w, vary by little while w changes by a fraction of itself,
-/// however the profile looks and however near the path comes to turning. Each octave of w is cut into 32 equal
+/// however the profile looks and however near the path comes to turning. Each octave of w is cut into 16 equal
 /// intervals with one cubic each, whose values and slopes at the nodes are exact. Against exact arcs the table is right
-/// within 1e-7 of distance and time, 1e-6 of the length, and 1e-3 of the tube area (tests; docs/physics/refraction.md
-/// has the errors). It serves w from 1/64 (0.9 degrees above turning); flatter paths, those that turn and those that go
-/// up are computed leg by leg instead, exactly, at some 30 ns per layer.
+/// within 2e-7 of time and length, 2e-7 of the length in place across the path, and 0.0001 dB of the tube area (tests;
+/// docs/physics/refraction.md has the errors). It serves w from 1/64 (0.9 degrees above turning); flatter paths, those
+/// that turn and those that go up are computed leg by leg instead, exactly, at some 50 ns per layer.
 class PathTable {
  public:
   /// Builds the table; memory of an earlier build is used again. level_m is the depth down to which rays meet nothing
