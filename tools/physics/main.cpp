@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
       "ensonify physics");
   app.require_subcommand(1);
   physics::Verbs verbs;
+  physics::add_pattern(app, verbs);
   physics::add_sound_speed(app, verbs);
+  physics::add_stabilisation(app, verbs);
   return tool_main(app, argc, argv, [&] {
     for (physics::Verb& verb : verbs) {
       if (verb.asked_for()) verb.print();

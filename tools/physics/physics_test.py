@@ -57,4 +57,23 @@ near(value("sound_speed_mps", *speed, "--temperature-degc", "25", "--depth-m", "
 near(value("sound_speed_mps", "sound-speed", "--law", "unesco", "--temperature-degc", "0"), 1449.139, 5e-4)
 near(value("sound_speed_mps", "sound-speed", "--law", "del-grosso", "--temperature-degc", "0"), 1449.083, 5e-4)
 near(value("pressure_bar", "sound-speed", "--depth-m", "7321.45", "--latitude-deg", "30"), 750.0004, 5e-4)
+
+# Patterns: 128 elements half a wavelength apart are 64 wavelengths long, near-field range 20.48 m.
+widths = rows("pattern", "--angle-deg", "0")[0]
+near(float(widths["upper_edge_deg"]) - float(widths["lower_edge_deg"]), 50.76 / 64, 2e-4)
+near(value("pattern_db", "pattern"), 0.0, 1e-9)
+near(value("pattern_db", "pattern", "--range-m", "20.48"), -0.239, 1e-3)
+near(value("pattern_db", "pattern", "--range-m", "20.48", "--focus-m", "20.48"), 0.0, 1e-9)
+lobes = rows("pattern", "--shading", "dolph-chebyshev", "--side-lobe-db", "40", "--angle-deg", "2:80:0.01")
+near(max(float(row["pattern_db"]) for row in lobes), -40.0, 0.02)
+near(value("upper_edge_deg", "pattern", "--aperture", "piston"), 0.5 * 58.96 * 0.005 / 0.1, 1e-3)
+near(value("pattern_db", "pattern", "--aperture", "sector", "--angle-deg", "20"), -6.02, 0.05)
+code, _, error = physics("pattern", "--shading", "taylor", "--side-lobe-db", "60")
+assert code == 2 and "nbar 4 of a Taylor shading" in error, error
+
+# Stabilisation: the edge of a rolling head stays within its bound, and follows the roll when not stabilised.
+held = rows("stabilisation", "--sensor-error-deg", "0.1", "--time-s", "0:6:0.01")
+assert all(abs(float(row["error_deg"])) <= float(row["bound_deg"]) + 1e-9 for row in held), held
+assert max(abs(float(row["error_deg"])) for row in held) > 0.99 * float(held[0]["bound_deg"])
+near(value("error_deg", "stabilisation", "--roll-stabilised", "no", "--time-s", "1.45"), -10.0, 1e-9)
 print("ensonify physics answers as documented")
