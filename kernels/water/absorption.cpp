@@ -3,6 +3,28 @@
 #include <cmath>
 
 namespace ensonify::water {
+namespace {
+
+constexpr double kKmPerM = 1e-3;  // the papers' sums are in dB/km
+
+double ainslie_mccolm_dbpm(double frequency_hz, const SeaWater& water) {
+  const double f = frequency_hz * 1e-3;  // kHz
+  const double T = water.temperature_degc;
+  const double S = water.salinity_psu;
+  const double z = water.depth_m * 1e-3;  // km
+
+  const double f1 = 0.78 * std::sqrt(S / 35.0) * std::exp(T / 26.0);
+  const double boric_acid = 0.106 * f1 * f * f / (f * f + f1 * f1) * std::exp((water.ph - 8.0) / 0.56);
+
+  const double f2 = 42.0 * std::exp(T / 17.0);
+  const double magnesium_sulphate =
+      0.52 * (1.0 + T / 43.0) * (S / 35.0) * f2 * f * f / (f * f + f2 * f2) * std::exp(-z / 6.0);
+
+  const double pure_water = 0.00049 * f * f * std::exp(-(T / 27.0 + z / 17.0));
+  return (boric_acid + magnesium_sulphate + pure_water) * kKmPerM;
+}
+
+}  // namespace
 
 double absorption_dbpm(double frequency_hz, const SeaWater& water) {
   const double f = frequency_hz * 1e-3;  // kHz
@@ -26,7 +48,12 @@ double absorption_dbpm(double frequency_hz, const SeaWater& water) {
   const double P3 = 1.0 - 3.83e-5 * D + 4.9e-10 * D * D;
   const double pure_water = A3 * P3 * f * f;
 
-  return (boric_acid + magnesium_sulphate + pure_water) * 1e-3;  // the paper's sum is in dB/km
+  return (boric_acid + magnesium_sulphate + pure_water) * kKmPerM;
+}
+
+double absorption_dbpm(AbsorptionLaw law, double frequency_hz, const SeaWater& water) {
+  return law == AbsorptionLaw::kAinslieMcColm ? ainslie_mccolm_dbpm(frequency_hz, water)
+                                              : absorption_dbpm(frequency_hz, water);
 }
 
 }  // namespace ensonify::water

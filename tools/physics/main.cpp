@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
       "ensonify physics");
   app.require_subcommand(1);
   physics::Verbs verbs;
+  physics::add_absorption(app, verbs);
+  physics::add_level(app, verbs);
+  physics::add_noise(app, verbs);
   physics::add_pattern(app, verbs);
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);

@@ -57,6 +57,27 @@ near(value("sound_speed_mps", *speed, "--temperature-degc", "25", "--depth-m", "
 near(value("sound_speed_mps", "sound-speed", "--law", "unesco", "--temperature-degc", "0"), 1449.139, 5e-4)
 near(value("sound_speed_mps", "sound-speed", "--law", "del-grosso", "--temperature-degc", "0"), 1449.083, 5e-4)
 near(value("pressure_bar", "sound-speed", "--depth-m", "7321.45", "--latitude-deg", "30"), 750.0004, 5e-4)
+for law, wanted, margin in (("francois-garrison", 73.1, 0.05), ("ainslie-mccolm", 73.1, 7.3)):
+    near(value("absorption_db_per_km", "absorption", "--law", law, "--frequency-hz", "300e3"), wanted, margin)
+near(value("absorption_db_per_km", "absorption", "--frequency-hz", "200e3", "--temperature-degc", "0"), 40.6, 0.05)
+near(value("thermal_db", "noise", "--frequency-hz", "100e3"), 25, 1e-9)
+near(value("wind_db", "noise", "--frequency-hz", "1e3", "--wind-speed-mps", "2.5722"), 51.0, 1e-3)
+near(value("received_db", "noise", "--wind-speed-mps", "0", "--bandwidth-hz", "1e4", "--directivity-index-db", "30"),
+     44.54, 0.01)
+code, out, _ = physics("noise", "--wind-speed-mps", "0", "--json")
+assert json.loads(out)[0]["wind_db"] is None, out
+
+sidescan = [float(row["level_db"]) for row in rows(
+    "level", "sidescan", "--range-m", "50:100:50", "--altitude-m", "10", "--absorption-db-per-km", "100")]
+near(sidescan[0], 77.06, 0.01)
+near(sidescan[1], 51.95, 0.01)
+near(value("level_db", "level", "multibeam", "--source-level-db", "220", "--beam-angle-deg", "60"), 107.68, 0.1)
+near(value("level_db", "level", "target", "--range-m", "100", "--absorption-db-per-km", "0", "--bubble-loss-db", "2",
+           "--patterns-db", "-3"), 210 - 80 - 4 - 20 - 3, 1e-9)
+near(value("level_db", "level", "volume", "--range-m", "100", "--absorption-db-per-km", "0", "--solid-angle-sr", "1"),
+     210 - 40 - 70 - 11.249, 1e-3)
+refused("A subcommand is required", "level")
+refused("--beam-angle-deg: 90 is outside [-85, 85]", "level", "multibeam", "--beam-angle-deg", "45:90:5")
 
 # Patterns: 128 elements half a wavelength apart are 64 wavelengths long, near-field range 20.48 m.
 widths = rows("pattern", "--angle-deg", "0")[0]
