@@ -12,7 +12,7 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config, std::vector<float> b
     : config_(config), beam_angle_rad_(std::move(beam_angle_rad)) {
   for (const float angle : beam_angle_rad_) sin_beams_.push_back(std::sin(angle));
   settings_.pulse_length_s = config.pulse_length_s;
-  settings_.gate_db = config.detection_threshold_db;
+  settings_.gates.snr_db = config.detection_threshold_db;
   settings_.sound_speed_mps = config.known_sound_speed_mps();
   settings_.absorption_dbpm = config.absorption_dbpm;
   settings_.receive_length_in_waves = array::length_in_waves_for(config.receive_beamwidth_rad);
@@ -32,7 +32,7 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   soundings.valid = msg::Array<std::uint8_t>({beams});
   soundings.position_enu_m = msg::Array<double>({beams, 3});
   heard_.clear();
-  drop_beyond_range(shot);
+  drop_beyond_range();
   if (estimate.empty()) return soundings;
   for (std::size_t beam = 0; beam < beams; ++beam) {
     if (detections_[beam].valid) place(shot, estimate, beam, soundings);
@@ -40,23 +40,14 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   return soundings;
 }
 
-/// Listening must not have ended within the window about the detection: the centre of half an echo is no depth.
-bool SoundingMaker::heard_whole(const Shot& shot, std::size_t beam) const {
-  const double half_width = array::half_power_half_width(settings_.receive_length_in_waves);
-  const double sine = std::abs(sin_beams_[beam]);
-  const double footprint = 2.0 * half_width * sine / std::max(1.0 - sine * sine, half_width * half_width);
-  return detections_[beam].two_way_s * (1.0 + footprint) + config_.pulse_length_s <
-         seconds(config_.listening_time(shot.range_m));
-}
-
 /// Outward of a beam whose echo is cut off by the range, what a beam hears are the sidelobes of those within it.
-void SoundingMaker::drop_beyond_range(const Shot& shot) {
+void SoundingMaker::drop_beyond_range() {
   const auto drop_outward = [&](std::ptrdiff_t first, std::ptrdiff_t step) {
     bool cut_off = false;
     const auto end = static_cast<std::ptrdiff_t>(detections_.size());
     for (std::ptrdiff_t i = first; i >= 0 && i < end; i += step) {
       const auto beam = static_cast<std::size_t>(i);
-      cut_off = cut_off || (detections_[beam].valid && !heard_whole(shot, beam));
+      cut_off = cut_off || (detections_[beam].flags & detect::kCutOff) != 0;
       if (cut_off) detections_[beam].valid = false;
     }
   };

@@ -24,8 +24,7 @@ class SoundingMaker {
   const std::vector<HeardBottom>& heard() const { return heard_; }
 
  private:
-  bool heard_whole(const Shot& shot, std::size_t beam) const;
-  void drop_beyond_range(const Shot& shot);
+  void drop_beyond_range();
   void place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam, msg::Soundings& soundings);
 
   MultibeamConfig config_;

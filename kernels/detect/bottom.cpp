@@ -6,32 +6,27 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "kernels/array/line.h"
+#include "kernels/detect/beam_series.h"
+#include "kernels/detect/gravity.h"
+#include "kernels/detect/phase_ramp.h"
 
 namespace ensonify::detect {
 namespace {
 
-/// One beam's power against time.
-struct Trace {
-  std::span<const float> amplitude;
-  double start_s, period_s;
+constexpr double kSnippet = 2.5;         // half length in gravity windows, so that the pattern's skirts count
+constexpr double kLeastCoherence = 0.6;  // of a phase ramp
+constexpr double kMostSlope = 3.0;       // of a phase ramp, over or under the expected one
 
-  double power(int k) const {
-    const double a = amplitude[static_cast<std::size_t>(k)];
-    return a * a;
-  }
-  double time_s(int k) const { return start_s + k * period_s; }
-  int samples() const { return static_cast<int>(amplitude.size()); }
-  int index_from(double t_s) const {  // the first sample at or after t
-    return static_cast<int>(std::clamp(std::ceil((t_s - start_s) / period_s), 0.0, static_cast<double>(samples())));
-  }
-};
-
-double noise_power(const Trace& trace) {
+double noise_power(const BeamSeries& series) {
   std::array<float, 256> some;
-  const int stride = std::max(1, (trace.samples() + 255) / 256);
+  const int stride = std::max(1, (series.samples() + 255) / 256);
   std::size_t count = 0;
-  for (int k = 0; k < trace.samples() && count < some.size(); k += stride) {
-    some[count++] = trace.amplitude[static_cast<std::size_t>(k)];
+  for (int k = 0; k < series.samples() && count < some.size(); k += stride) {
+    some[count++] = series.amplitude_upa[static_cast<std::size_t>(k)];
   }
   if (count == 0) return 0.0;
   const auto middle = some.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -39,102 +34,217 @@ double noise_power(const Trace& trace) {
   return static_cast<double>(*middle) * *middle / std::numbers::ln2;
 }
 
+/// Samples [first, end).
+struct Interval {
+  int first = 0, end = 0;
+};
+
 struct Peak {
   double power = 0.0;   // mean over a pulse
   double time_s = 0.0;  // middle of that pulse
 };
 
-Peak strongest(const Trace& trace, const Settings& settings) {
-  const int pulse = std::max(1, static_cast<int>(std::lround(settings.pulse_length_s / trace.period_s)));
-  const int first = trace.index_from(settings.search_start_s), end = trace.index_from(settings.search_end_s);
+Peak strongest(const BeamSeries& series, Interval where) {
+  const int pulse = series.samples_per_pulse();
   Peak peak;
   double sum = 0.0;
-  for (int k = first; k < end; ++k) {
-    sum += trace.power(k);
-    if (k - first >= pulse) sum -= trace.power(k - pulse);
-    if (k - first + 1 >= pulse && sum / pulse > peak.power) {
-      peak = {sum / pulse, trace.time_s(k) - 0.5 * (pulse - 1) * trace.period_s};
+  for (int k = where.first; k < where.end; ++k) {
+    sum += series.power(k);
+    if (k - where.first >= pulse) sum -= series.power(k - pulse);
+    if (k - where.first + 1 >= pulse && sum / pulse > peak.power) {
+      peak = {sum / pulse, series.time_s(k) - 0.5 * (pulse - 1) * series.period_s};
     }
   }
   return peak;
 }
 
-/// How long the half-power footprint of a beam echoes on a level seabed, plus the pulse.
-double footprint_s(double t_s, double sin_beam, const Settings& settings) {
-  const double half =
-      0.442946 / settings.receive_length_in_waves;  // half-power half width in sine, as in kernels/array
-  const double cosine = std::sqrt(std::max(1.0 - sin_beam * sin_beam, half * half));
-  return t_s * std::abs(sin_beam) * 2.0 * half / (cosine * cosine) + settings.pulse_length_s;
-}
+/// Parts of a beam that hold no echo found so far, in order of time.
+class Unexplained {
+ public:
+  explicit Unexplained(Interval all) { parts_[0] = all; }
 
-struct Gravity {
-  double time_s = 0.0;    // centre
-  double spread_s = 0.0;  // standard deviation of the power about it
-  bool found = false;
+  Peak strongest_in(const BeamSeries& series) const {
+    Peak best;
+    for (int i = 0; i < count_; ++i) {
+      const Peak peak = strongest(series, parts_[static_cast<std::size_t>(i)]);
+      if (peak.power > best.power) best = peak;
+    }
+    return best;
+  }
+
+  void remove(Interval taken) {
+    std::array<Interval, kMostDetections + 1> left;
+    std::size_t n = 0;
+    for (int i = 0; i < count_; ++i) {
+      const Interval part = parts_[static_cast<std::size_t>(i)];
+      const Interval before{part.first, std::min(part.end, taken.first)};
+      const Interval after{std::max(part.first, taken.end), part.end};
+      if (before.first < before.end) left[n++] = before;
+      if (after.first < after.end) left[n++] = after;
+    }
+    parts_ = left;
+    count_ = static_cast<int>(n);
+  }
+
+ private:
+  std::array<Interval, kMostDetections + 1> parts_;  // each removal adds one at most
+  int count_ = 1;
 };
 
-Gravity centre_of_gravity(const Trace& trace, double middle_s, double half_window_s, double noise,
-                          const Settings& settings) {
-  const double loss_np_ps = 0.1 * settings.absorption_dbpm * std::numbers::ln10 * settings.sound_speed_mps;
-  const int end = trace.index_from(middle_s + half_window_s);
-  double weight = 0.0, inverse_square = 0.0, first_moment = 0.0, second_moment = 0.0;
-  for (int k = trace.index_from(middle_s - half_window_s); k < end; ++k) {
-    const double t = trace.time_s(k) - 0.5 * settings.pulse_length_s;
-    if (t <= 0.0) continue;
-    const double ratio = t / middle_s;
-    const double w = (trace.power(k) - noise) * ratio * ratio * std::exp(loss_np_ps * (t - middle_s));
-    weight += w;
-    inverse_square += w / (ratio * ratio);
-    first_moment += w * (t - middle_s);
-    second_moment += w * (t - middle_s) * (t - middle_s);
+/// Detects in one beam.
+class Beam {
+ public:
+  Beam(const Settings& settings, const BeamSeries& series, double sin_beam)
+      : settings_(settings),
+        series_(series),
+        seabed_(sin_beam, settings.seabed_tilt_rad, array::half_power_half_width(settings.receive_length_in_waves)),
+        noise_(noise_power(series)) {
+    const Gates& gates = settings.gates;
+    const double seconds_per_m = 2.0 / settings.sound_speed_mps;
+    first_s_ = seconds_per_m * std::max(gates.min_range_m, gates.min_depth_m / seabed_.cos_incidence());
+    last_s_ = seconds_per_m * std::min(gates.max_range_m, gates.max_depth_m / seabed_.cos_incidence());
   }
-  if (!(weight > 0.0) || !(inverse_square > 0.0)) return {};
-  const double mean = first_moment / weight;
-  return {middle_s * std::sqrt(weight / inverse_square), std::sqrt(std::max(second_moment / weight - mean * mean, 0.0)),
-          true};
-}
 
-Detection detect_in(const Trace& trace, double sin_beam, const Settings& settings) {
-  Detection detection;
-  const double noise = noise_power(trace);
-  const Peak peak = strongest(trace, settings);
-  if (!(peak.power > 0.0)) return detection;
-  detection.snr_db = static_cast<float>(10.0 * std::log10(peak.power / std::max(noise, 1e-12 * peak.power)));
-  if (detection.snr_db < settings.gate_db) return detection;
-
-  Gravity gravity{peak.time_s - 0.5 * settings.pulse_length_s, 0.0, true};
-  if (gravity.time_s <= 0.0) return detection;
-  double half_window_s = 0.0;
-  for (int pass = 0; pass < 4 && gravity.found; ++pass) {
-    half_window_s = footprint_s(gravity.time_s, sin_beam, settings);
-    gravity = centre_of_gravity(trace, gravity.time_s, half_window_s, noise, settings);
+  void detect(std::span<Detection> found) const {
+    std::fill(found.begin(), found.end(), Detection{});
+    const Interval gate{series_.index_from(first_s_), series_.index_from(last_s_ + series_.pulse_length_s)};
+    Unexplained unexplained(gate);
+    std::size_t count = 0;
+    double least_power = 0.0;
+    for (; count < found.size(); ++count) {
+      const Peak peak = unexplained.strongest_in(series_);
+      if (!(peak.power > least_power)) break;
+      Detection& detection = found[count];
+      detection = look_at(peak);
+      if (detection.flags & (kLowSnr | kNoSignal)) {
+        if (count > 0) detection = {};
+        break;
+      }
+      if (count == 0) {
+        least_power = peak.power * std::pow(10.0, -0.1 * settings_.second_within_db);
+      } else {
+        detection.flags |= kNotStrongest;
+      }
+      unexplained.remove({detection.snippet_first, detection.snippet_first + detection.snippet_count});
+    }
+    if (count == 0) tell_what_is_outside(gate, found.front());
+    for (Detection& detection : found) detection.valid = (detection.flags & kRejecting) == 0;
+    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const Detection& a, const Detection& b) { return a.two_way_s < b.two_way_s; });
   }
-  if (!gravity.found) return detection;
 
-  double energy = 0.0;  // over a wider window, so that the pattern's skirts count
-  const int end = trace.index_from(gravity.time_s + 2.5 * half_window_s);
-  for (int k = trace.index_from(gravity.time_s - 2.5 * half_window_s); k < end; ++k) energy += trace.power(k) - noise;
+ private:
+  Detection look_at(const Peak& peak) const {
+    Detection detection;
+    detection.snr_db = snr_db(peak);
+    if (detection.snr_db < settings_.gates.snr_db) {
+      detection.flags = kLowSnr;
+      return detection;
+    }
+    const double near_s = peak.time_s - 0.5 * series_.pulse_length_s;
+    if (near_s <= 0.0) return detection;
+    const double loss_np_ps = 0.1 * settings_.absorption_dbpm * std::numbers::ln10 * settings_.sound_speed_mps;
+    const Estimate amplitude = centre_of_gravity(series_, seabed_, near_s, noise_, loss_np_ps);
+    if (!amplitude.found) return detection;
+    detection.flags = 0;
+    blend(amplitude, detection);
+    take_snippet(amplitude.two_way_s, detection);
+    if (detection.two_way_s < first_s_ || detection.two_way_s > last_s_) detection.flags |= kOutOfGate;
+    return detection;
+  }
 
-  detection.valid = true;
-  detection.two_way_s = gravity.time_s;
-  detection.echo_energy_db = static_cast<float>(10.0 * std::log10(std::max(energy * trace.period_s, 1e-30)));
-  // Speckle of one pulse is one independent sample; a box of standard deviation s is s sqrt(12) long.
-  const double spread_s = std::max(gravity.spread_s, settings.pulse_length_s / std::sqrt(12.0));
-  const double independent = std::max(1.0, spread_s * std::sqrt(12.0) / settings.pulse_length_s);
-  detection.quality = static_cast<float>(-std::log10(spread_s / std::sqrt(independent) / gravity.time_s));
-  return detection;
+  float snr_db(const Peak& peak) const {
+    return static_cast<float>(10.0 * std::log10(peak.power / std::max(noise_, 1e-12 * peak.power)));
+  }
+
+  void blend(const Estimate& amplitude, Detection& detection) const {
+    PhaseRamp ramp;
+    if (!series_.first_upa.empty()) {
+      ramp = fit_phase_ramp(series_, seabed_, amplitude.two_way_s, settings_.phase_centres_in_waves);
+      const bool ramp_like =
+          ramp.coherence >= kLeastCoherence && ramp.slope <= kMostSlope && ramp.slope >= 1.0 / kMostSlope;
+      if (ramp.crossing.found && !ramp_like) {
+        detection.flags |= kPoorFit;
+        ramp.crossing.found = false;
+      }
+    }
+    const double amplitude_variance = amplitude.sd_s * amplitude.sd_s;
+    const double phase_variance = ramp.crossing.sd_s * ramp.crossing.sd_s;
+    const double weight =
+        ramp.crossing.found ? amplitude_variance / std::max(amplitude_variance + phase_variance, 1e-300) : 0.0;
+    detection.two_way_s = (1.0 - weight) * amplitude.two_way_s + weight * ramp.crossing.two_way_s;
+    detection.phase_weight = static_cast<float>(weight);
+    detection.range_sd_m = static_cast<float>((1.0 - weight) * 0.5 * settings_.sound_speed_mps * amplitude.sd_s);
+    detection.angle_sd_rad = static_cast<float>(weight * ramp.angle_sd_rad);
+    const double sd_s = std::hypot((1.0 - weight) * amplitude.sd_s, weight * ramp.crossing.sd_s);
+    detection.quality = static_cast<float>(-std::log10(std::max(sd_s / detection.two_way_s, 1e-12)));
+  }
+
+  void take_snippet(double centre_s, Detection& detection) const {
+    const double window_s = gravity_window_s(series_, seabed_, centre_s);
+    if (centre_s - window_s < series_.start_s || centre_s + window_s > series_.time_s(series_.samples() - 1)) {
+      detection.flags |= kCutOff;
+    }
+    detection.snippet_first = series_.index_from(centre_s - kSnippet * window_s);
+    detection.snippet_count = series_.index_from(centre_s + kSnippet * window_s) - detection.snippet_first;
+    double energy = 0.0;
+    for (int k = 0; k < detection.snippet_count; ++k) energy += series_.power(detection.snippet_first + k) - noise_;
+    detection.echo_energy_db = static_cast<float>(10.0 * std::log10(std::max(energy * series_.period_s, 1e-30)));
+  }
+
+  /// Nothing passed inside the gates; perhaps something does outside.
+  void tell_what_is_outside(Interval gate, Detection& detection) const {
+    Unexplained outside({0, series_.samples()});
+    outside.remove(gate);
+    const Peak peak = outside.strongest_in(series_);
+    if (peak.power > 0.0 && snr_db(peak) >= settings_.gates.snr_db) detection.flags |= kOutOfGate;
+  }
+
+  const Settings& settings_;
+  const BeamSeries& series_;
+  ExpectedSeabed seabed_;
+  double noise_;
+  double first_s_, last_s_;  // gates
+};
+
+void check(const Settings& settings, std::size_t beams, const Amplitudes& image, const HalfApertures& halves) {
+  const std::size_t size = beams * static_cast<std::size_t>(image.samples);
+  if (image.beams != static_cast<int>(beams) || image.amplitude_upa.size() != size) {
+    throw std::invalid_argument("detect_bottom: " + std::to_string(beams) + " beams, but an image of " +
+                                std::to_string(image.beams) + " x " + std::to_string(image.samples) + " with " +
+                                std::to_string(image.amplitude_upa.size()) + " amplitudes");
+  }
+  if (halves.first_upa.size() != halves.second_upa.size() ||
+      (!halves.first_upa.empty() && halves.first_upa.size() != size)) {
+    throw std::invalid_argument("detect_bottom: half apertures of " + std::to_string(halves.first_upa.size()) +
+                                " and " + std::to_string(halves.second_upa.size()) + " samples; none or " +
+                                std::to_string(size) + " are allowed");
+  }
+  if (settings.max_detections < 1 || settings.max_detections > kMostDetections) {
+    throw std::invalid_argument("detect_bottom: max_detections is " + std::to_string(settings.max_detections) +
+                                "; 1 to " + std::to_string(kMostDetections) + " are allowed");
+  }
 }
 
 }  // namespace
 
 void detect_bottom(const Settings& settings, std::span<const float> sin_beams, const Amplitudes& image,
-                   std::vector<Detection>& detections) {
-  detections.resize(sin_beams.size());
+                   const HalfApertures& halves, std::vector<Detection>& detections) {
+  check(settings, sin_beams.size(), image, halves);
   const auto samples = static_cast<std::size_t>(image.samples);
+  const auto most = static_cast<std::size_t>(settings.max_detections);
+  detections.resize(sin_beams.size() * most);
   tbb::parallel_for(std::size_t{0}, sin_beams.size(), [&](std::size_t beam) {
-    const Trace trace{image.amplitude_upa.subspan(beam * samples, samples), image.start_s, image.period_s};
-    detections[beam] = detect_in(trace, sin_beams[beam], settings);
+    const auto row = [&](auto all) { return all.empty() ? all : all.subspan(beam * samples, samples); };
+    const BeamSeries series{row(image.amplitude_upa), row(halves.first_upa),  row(halves.second_upa), image.start_s,
+                            image.period_s,           settings.pulse_length_s};
+    Beam(settings, series, sin_beams[beam]).detect(std::span(detections).subspan(beam * most, most));
   });
+}
+
+void detect_bottom(const Settings& settings, std::span<const float> sin_beams, const Amplitudes& image,
+                   std::vector<Detection>& detections) {
+  detect_bottom(settings, sin_beams, image, {}, detections);
 }
 
 double beam_area_m2(double range_m, double sin_beam, double transmit_length_in_waves, double receive_length_in_waves) {

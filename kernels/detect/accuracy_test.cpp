@@ -1,0 +1,123 @@
+#include "kernels/detect/accuracy.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+using namespace ensonify;
+using namespace ensonify::detect;
+
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+/// 20 m, 1 degree, 100 us. The gate is an operator's: a quarter of the depth either way, so that 8 dB suffice at 10 dB.
+std::vector<Accuracy> accuracy_at(double snr_db, std::vector<double> angles_deg, double tilt_rad, int pings) {
+  PlaneSurvey survey;
+  survey.snr_db = snr_db;
+  survey.tilt_rad = tilt_rad;
+  for (const double deg : angles_deg) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
+  Settings settings = settings_for(survey);
+  settings.seabed_tilt_rad = tilt_rad;
+  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 8.0 : 13.0};
+  return accuracy(survey, settings, pings);
+}
+
+/// Relative standard deviation that theory allows a zero crossing [Lurton2010b]: sigma_phi^2 = 1 / SNR over N
+/// independent pulses, and the floor of 0.05 % that speckle leaves; up to 10 degrees the centre of gravity, whose 9 mm
+/// at nadir and 13 mm at 10 degrees stand for 100 us in 20 m (simulated by others: 6-12 and 9-17 mm for 50-200 us).
+double expected_sd(double angle_rad, double snr_db) {
+  const double beta = std::abs(angle_rad), range_m = 20.0 / std::cos(beta);
+  if (beta < 10.5 * kDeg) return (9e-3 + 4e-3 * beta / (10 * kDeg)) / 20.0;
+  const double pulses = std::max(1.0, range_m * std::tan(beta) * 1.0 * kDeg / std::cos(beta) / (1500 * 100e-6 / 2));
+  const double by_noise = std::pow(10, -0.05 * snr_db) * std::sin(beta) /
+                          (2 * std::numbers::pi * 0.5 * 50.76 * std::pow(std::cos(beta), 2) * std::sqrt(pulses));
+  return std::hypot(by_noise, 5e-4);
+}
+
+const std::vector<double> kAngles{0, 3, 5, 7, 10, 12, 15, 20, 25, 30, -30, 45, 60, -60, 65, 70};
+
+}  // namespace
+
+TEST_CASE("a plane is detected without bias, as exactly as theory allows, and the detector knows how exactly") {
+  for (const double snr_db : {20.0, 10.0}) {
+    for (const Accuracy& a : accuracy_at(snr_db, kAngles, 0.0, 100)) {
+      const double angle_deg = std::abs(a.angle_rad) / kDeg;
+      INFO(snr_db << " dB, " << a.angle_rad / kDeg << " deg: found " << a.found << ", bias " << 100 * a.bias
+                  << " %, sd " << 100 * a.sd << " %, predicted " << 100 * a.predicted_sd << " %, allowed "
+                  << 150 * expected_sd(a.angle_rad, snr_db) << " %");
+      // A beam near nadir hears one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
+      // 47 % of the pings.
+      CHECK(a.found > (angle_deg > 25 ? 0.9 : 0.4));
+      // The mean of 40 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
+      CHECK(std::abs(a.bias) < (angle_deg > 60.5 ? 1.5e-3 : 5e-4));
+      CHECK(a.sd < 1.5 * expected_sd(a.angle_rad, snr_db));
+      // 95 % of the errors within 5 cm of 20 m.
+      if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
+      // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
+      // by.
+      CHECK(a.predicted_sd / a.sd > 0.7);
+      CHECK(a.predicted_sd / a.sd < (angle_deg < 15.5 ? 2.0 : 1.4));
+    }
+  }
+}
+
+TEST_CASE("phase takes over from amplitude where it becomes the better") {
+  const auto by_angle = accuracy_at(20.0, kAngles, 0.0, 60);
+  double crossed_deg = 0.0;
+  for (const Accuracy& a : by_angle) {
+    const double angle_deg = std::abs(a.angle_rad) / kDeg;
+    INFO(a.angle_rad / kDeg << " deg: sd " << 100 * a.sd << " %, amplitude alone " << 100 * a.amplitude_sd
+                            << " %, weight of phase " << a.phase_weight);
+    if (angle_deg < 5.5) CHECK(a.phase_weight < 0.5);
+    if (angle_deg > 24.5) CHECK(a.phase_weight > 0.95);
+    if (a.phase_weight < 0.5) crossed_deg = std::max(crossed_deg, angle_deg);
+    CHECK(a.sd < 1.3 * a.amplitude_sd);  // the choice never costs much; 60 errors leave 13 % of doubt in a ratio of sds
+    if (angle_deg > 19.5) CHECK(a.sd < 0.4 * a.amplitude_sd);
+  }
+  CHECK(crossed_deg >= 5.0);  // 1 degree and 100 us: between 7 and 10; longer pulses and narrower beams, later
+  CHECK(crossed_deg < 25.0);
+}
+
+TEST_CASE("a tilted plane is unbiased where the detector is told of the tilt") {
+  for (const Accuracy& a : accuracy_at(20.0, {-50, -30, 30, 45, 60, 70}, 10 * kDeg, 60)) {
+    INFO(a.angle_rad / kDeg << " deg: bias " << 100 * a.bias << " %, sd " << 100 * a.sd << " %");
+    CHECK(std::abs(a.bias) < 3e-4);
+    CHECK(a.predicted_sd / a.sd > 0.7);
+    CHECK(a.predicted_sd / a.sd < 1.6);
+  }
+}
+
+// What docs/physics/draw/detection.py draws.
+TEST_CASE("print accuracy by angle", "[.accuracy-csv]") {
+  std::puts("snr_db,angle_deg,bias,sd,predicted_sd,amplitude_sd,phase_weight,found,expected_sd");
+  std::vector<double> angles;
+  for (int deg = 0; deg <= 70; deg += deg < 20 ? 2 : 5) angles.push_back(deg);
+  for (const double snr_db : {20.0, 10.0}) {
+    for (const Accuracy& a : accuracy_at(snr_db, angles, 0.0, 300)) {
+      std::printf("%g,%g,%g,%g,%g,%g,%g,%g,%g\n", snr_db, a.angle_rad / kDeg, a.bias, a.sd, a.predicted_sd,
+                  a.amplitude_sd, a.phase_weight, a.found, expected_sd(a.angle_rad, snr_db));
+    }
+  }
+}
+TEST_CASE("print phase ramps", "[.ramp-csv]") {
+  PlaneSurvey survey;
+  for (const double deg : {15, 30, 45, 60}) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
+  PlaneEcho echo;
+  echo.ping(survey, {11, "plane"}, 0);
+  std::vector<Detection> found;
+  detect_bottom(settings_for(survey), survey.sin_beams, echo.amplitudes(survey), echo.halves(), found);
+  std::puts("angle_deg,time_s,amplitude_upa,phase_rad,detected_s,true_s");
+  const int samples = echo.amplitudes(survey).samples;
+  for (std::size_t beam = 0; beam < found.size(); ++beam) {
+    const Detection& d = found[beam];
+    for (int k = d.snippet_first; k < d.snippet_first + d.snippet_count; ++k) {
+      const std::size_t i = beam * static_cast<std::size_t>(samples) + static_cast<std::size_t>(k);
+      std::printf("%g,%.9g,%g,%g,%.9g,%.9g\n", std::asin(survey.sin_beams[beam]) / kDeg,
+                  k * survey.period_s - 0.5 * survey.pulse_length_s, echo.amplitude_upa[i],
+                  std::arg(echo.first_upa[i] * std::conj(echo.second_upa[i])), d.two_way_s,
+                  two_way_s(survey, survey.sin_beams[beam]));
+    }
+  }
+}

@@ -1,0 +1,115 @@
+#include "kernels/detect/plane_echo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/array/line.h"
+#include "kernels/random/gaussian.h"
+
+namespace ensonify::detect {
+namespace {
+
+using Complex = std::complex<double>;
+
+int samples_of(const PlaneSurvey& survey) { return static_cast<int>(survey.longest_s / survey.period_s); }
+
+struct Scatterer {
+  double two_way_s;
+  Complex first, second;
+};
+
+/// Echoes in order of time, and the noise power that goes with them.
+struct Echoes {
+  std::vector<Scatterer> scatterers;
+  double noise_power = 0.0;
+};
+
+Echoes echoes_of(const PlaneSurvey& survey, double sin_beam, const random::Stream& stream, std::uint64_t ping,
+                 std::uint64_t beam) {
+  const double reach = PlaneEcho::kReach / survey.length_in_waves;
+  const double low = std::max(sin_beam - reach, -0.9999), high = std::min(sin_beam + reach, 0.9999);
+  const double axis_s = two_way_s(survey, sin_beam);
+  const double pulses = std::abs(two_way_s(survey, high) - two_way_s(survey, low)) / survey.pulse_length_s;
+  const auto count = static_cast<std::size_t>(std::max(survey.scatterers_per_pulse * pulses, 300.0));
+
+  Echoes echoes;
+  const double half = 0.5 * survey.length_in_waves;
+  // Mean power of a scatterer: all that the beam sees add up to 1.
+  const double power = survey.length_in_waves * (high - low) / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sine = low + (high - low) * stream.uniform(ping, beam, 2 * i);
+    const auto [re, im] = stream.normal_pair(ping, beam, 2 * i + 1);
+    const double off_axis = sine - sin_beam, time = two_way_s(survey, sine);
+    const Complex seen =
+        Complex(re, im) * std::sqrt(0.5 * power) * (axis_s / time) * 0.5 * array::line_amplitude(half, off_axis);
+    const Complex turn = std::polar(1.0, std::numbers::pi * half * off_axis);
+    echoes.scatterers.push_back({time, seen * turn, seen * std::conj(turn)});
+  }
+  std::sort(echoes.scatterers.begin(), echoes.scatterers.end(),
+            [](const Scatterer& a, const Scatterer& b) { return a.two_way_s < b.two_way_s; });
+  // Mean power at the axis: what comes from there during a pulse, or all if the beam sees less than that.
+  const double incidence = std::asin(sin_beam) - survey.tilt_rad;
+  const double sines_per_s =
+      std::sqrt(1.0 - sin_beam * sin_beam) / (axis_s * std::max(std::abs(std::tan(incidence)), 1e-9));
+  const double in_pulse = survey.length_in_waves * survey.pulse_length_s * sines_per_s;
+  echoes.noise_power = std::min(in_pulse, 1.0) * std::pow(10.0, -0.1 * survey.snr_db);
+  return echoes;
+}
+
+/// Sample k is the sum of the echoes that began within a pulse before it.
+void sample(const PlaneSurvey& survey, const std::vector<Scatterer>& scatterers, std::span<std::complex<float>> first,
+            std::span<std::complex<float>> second) {
+  std::vector<Complex> sums{{}}, second_sums{{}};
+  for (const Scatterer& s : scatterers) {
+    sums.push_back(sums.back() + s.first);
+    second_sums.push_back(second_sums.back() + s.second);
+  }
+  std::size_t begun = 0, ended = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const double t = static_cast<double>(k) * survey.period_s;
+    while (begun < scatterers.size() && scatterers[begun].two_way_s <= t) ++begun;
+    while (ended < scatterers.size() && scatterers[ended].two_way_s <= t - survey.pulse_length_s) ++ended;
+    first[k] = std::complex<float>(sums[begun] - sums[ended]);
+    second[k] = std::complex<float>(second_sums[begun] - second_sums[ended]);
+  }
+}
+
+}  // namespace
+
+void PlaneEcho::ping(const PlaneSurvey& survey, const random::Stream& stream, std::uint64_t number) {
+  const auto samples = static_cast<std::size_t>(samples_of(survey));
+  const std::size_t beams = survey.sin_beams.size();
+  first_upa.assign(beams * samples, {});
+  second_upa.assign(beams * samples, {});
+  amplitude_upa.resize(beams * samples);
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    const auto first = std::span(first_upa).subspan(beam * samples, samples);
+    const auto second = std::span(second_upa).subspan(beam * samples, samples);
+    const Echoes echoes = echoes_of(survey, survey.sin_beams[beam], stream, number, beam);
+    sample(survey, echoes.scatterers, first, second);
+    const auto sd = static_cast<float>(std::sqrt(0.25 * echoes.noise_power));  // per half and component
+    random::add_gaussian(stream, number, (2 * beam + 1) << 40, sd, first);
+    random::add_gaussian(stream, number, (2 * beam + 2) << 40, sd, second);
+  }
+  for (std::size_t i = 0; i < amplitude_upa.size(); ++i) amplitude_upa[i] = std::abs(first_upa[i] + second_upa[i]);
+}
+
+Amplitudes PlaneEcho::amplitudes(const PlaneSurvey& survey) const {
+  return {static_cast<int>(survey.sin_beams.size()), samples_of(survey), 0.0, survey.period_s, amplitude_upa};
+}
+
+Settings settings_for(const PlaneSurvey& survey) {
+  Settings settings;
+  settings.pulse_length_s = survey.pulse_length_s;
+  settings.sound_speed_mps = survey.sound_speed_mps;
+  settings.receive_length_in_waves = survey.length_in_waves;
+  settings.phase_centres_in_waves = 0.5 * survey.length_in_waves;
+  return settings;
+}
+
+double two_way_s(const PlaneSurvey& survey, double sin_beam) {
+  return 2.0 * survey.depth_m / survey.sound_speed_mps / std::cos(std::asin(sin_beam) - survey.tilt_rad);
+}
+
+}  // namespace ensonify::detect
