@@ -6,13 +6,15 @@
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "messages/sonar.h"
+#include "messages/soundings.h"
 #include "messages/terrain.h"
 
 namespace ensonify::msg {
 
 /// Every message type, the only list of them. A new type is added here; a test finds one that was forgotten.
-using AllMessages = std::tuple<Pose, Guidance, MissionState, Attitude, Position, Estimate, Ping, Soundings, Transmit,
-                               Tile, TileRelease, Chart, Health>;
+using AllMessages =
+    std::tuple<Pose, Guidance, MissionState, Attitude, Position, SoundSpeed, Estimate, Ping, Soundings, Snippets,
+               SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Chart, Health>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

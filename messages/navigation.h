@@ -45,6 +45,19 @@ struct Position {
   }
 };
 
+struct SoundSpeed {
+  static constexpr const char* kType = "sound_speed/1";
+  static constexpr const char* kAbout = "What the sound speed probe at the transducers' faces reports.";
+  std::int64_t stamp_ns = 0;
+  double sound_speed_mps = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, sim time", self.stamp_ns);
+    visit("sound_speed_mps", "m/s", "measured speed of sound in the water at the probe", self.sound_speed_mps);
+  }
+};
+
 struct Estimate {
   static constexpr const char* kType = "estimate/1";
   static constexpr const char* kAbout =

@@ -12,6 +12,7 @@ TYPE = re.compile(r'kType = "([^"]+)"')
 ABOUT = re.compile(r'kAbout =\s*((?:"[^"]*"\s*)+);', re.S)
 MEMBER = re.compile(r"^  ([\w:]+(?:<[^;={]*>)?) (\w+)(?: = ([^;]+)|(\{[^;]*\}))?;", re.M)
 VISIT = re.compile(r'visit\(\s*"(\w+)",\s*"([^"]*)",\s*((?:"[^"]*"\s*)+),\s*self\.(\w+)\)', re.S)
+BESIDE = re.compile(r"(\w+)::fields\(self\.(\w+), visit\);")  # a member whose fields stand beside the struct's own
 
 SCALARS = {"std::int64_t": "int", "std::int32_t": "int", "std::uint32_t": "int", "std::uint8_t": "int", "double": "float",
            "float": "float", "bool": "bool", "std::string": "str"}
@@ -36,6 +37,7 @@ def python_field(kind, default, braces):
     if kind in SCALARS:
         scalar = SCALARS[kind]
         text = (default or ZERO[scalar]).replace("true", "True").replace("false", "False")
+        text = text.replace("kUnchanged", 'float("nan")')
         return scalar, text
     if match := re.fullmatch(r"(?:msg::)?Array<(.+)>", kind):
         return "np.ndarray", f'array("{DTYPES[match[1]]}")'
@@ -51,23 +53,38 @@ def python_field(kind, default, braces):
     raise SystemExit(f"generate_messages.py: no Python for a member of type {kind}")
 
 
-def python_class(comment, name, body):
-    """The dataclass of one C++ struct."""
+def fields_of(name, bodies):
+    """The fields of a C++ struct as (key, unit, sentence, (kind, default, braces)), spliced ones in their place."""
+    body = bodies[name]
     members = {m[2]: (m[1], m[3], m[4]) for m in MEMBER.finditer(body)}
+    found, named = [], []
+    for match in re.finditer(f"{VISIT.pattern}|{BESIDE.pattern}", body, re.S):
+        key, unit, sentence, member, struct, spliced = match.groups()
+        named.append(member or spliced)
+        if struct:
+            found += fields_of(struct, bodies)
+        else:
+            found.append((key, unit, "".join(re.findall(r'"([^"]*)"', sentence)), members.get(member)))
+    if len(re.findall(r"visit\(|::fields\(", body)) != len(named) or named != list(members):
+        raise SystemExit(f"generate_messages.py: the fields of {name} are not its members: {named} {list(members)}")
+    return found
+
+
+def python_class(comment, name, bodies):
+    """The dataclass of one C++ struct."""
+    body = bodies[name]
     message = TYPE.search(body)
     about = ABOUT.search(body)
     comment = ("".join(re.findall(r'"([^"]*)"', about[1])) if about
                else " ".join(line.strip("/ ") for line in comment.splitlines()) or f"Part of a message: {name}.")
     lines = ["@dataclass(eq=False)", f"class {name}({'Message' if message else 'Struct'}):", f'    """{comment}', ""]
-    visits = [(m[1], m[2], "".join(re.findall(r'"([^"]*)"', m[3])), m[4]) for m in VISIT.finditer(body)]
-    if len(visits) != body.count('visit("') or [v[3] for v in visits] != list(members):
-        raise SystemExit(f"generate_messages.py: the fields of {name} are not its members: {visits} {list(members)}")
+    visits = fields_of(name, bodies)
     lines += [f"    {key} [{unit}]: {sentence}" if unit else f"    {key}: {sentence}" for key, unit, sentence, _ in visits]
     lines += ['    """', ""]
     if message:
         lines += [f'    TYPE = "{message[1]}"']
-    for key, _, _, member in visits:
-        annotation, default = python_field(*members[member])
+    for key, _, _, declared in visits:
+        annotation, default = python_field(*declared)
         lines.append(f"    {key}: {annotation} = {default}")
     return "\n".join(lines) + "\n", message and message[1]
 
@@ -75,14 +92,15 @@ def python_class(comment, name, body):
 def module(folder):
     """The whole text of messages.py."""
     classes, names, table = [], [], []
-    for header in sorted(pathlib.Path(folder).glob("*.h")):
-        for match in STRUCT.finditer(header.read_text()):
-            if "fields(Self& self" in match[3]:
-                text, type_name = python_class(*match.groups())
-                classes.append(text)
-                names.append(match[2])
-                if type_name:
-                    table.append(match[2])
+    headers = "".join(header.read_text() for header in sorted(pathlib.Path(folder).glob("*.h")))
+    structs = [m.groups() for m in STRUCT.finditer(headers) if "fields(Self& self" in m[3]]
+    bodies = {name: body for _, name, body in structs}
+    for comment, name, _ in structs:
+        text, type_name = python_class(comment, name, bodies)
+        classes.append(text)
+        names.append(name)
+        if type_name:
+            table.append(name)
     listed = "__all__ = [\n    " + ",\n    ".join(f'"{name}"' for name in names) + ",\n]\n"
     types = "TYPES = {cls.TYPE: cls for cls in (\n    " + ",\n    ".join(table) + ",\n)}\n"
     return "\n\n".join([HEADER + "\n" + listed, *classes, types])

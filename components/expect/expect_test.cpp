@@ -15,7 +15,7 @@
 #include "components/runtime/record/writer.h"
 #include "components/runtime/testing.h"
 #include "messages/motion.h"
-#include "messages/sonar.h"
+#include "messages/soundings.h"
 
 using namespace ensonify;
 namespace fs = std::filesystem;

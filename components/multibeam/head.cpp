@@ -119,11 +119,11 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot) const {
   ping.amplitude_upa =
       msg::Array<float>::view({static_cast<std::size_t>(image_.beams), static_cast<std::size_t>(image_.samples)},
                               amplitude_upa_, amplitude_upa_->data());
-  ping.frequency_hz = config_.frequency_hz;
-  ping.pulse_length_s = config_.pulse_length_s;
-  ping.source_level_db = config_.source_level_db;
-  ping.range_m = shot.range_m;
-  ping.sound_speed_mps = config_.known_sound_speed_mps();
+  ping.applied.frequency_hz = config_.frequency_hz;
+  ping.applied.pulse_length_s = config_.pulse_length_s;
+  ping.applied.source_level_db = config_.source_level_db;
+  ping.applied.range_m = shot.range_m;
+  ping.applied.sound_speed_mps = config_.known_sound_speed_mps();
   return ping;
 }
 

@@ -239,10 +239,10 @@ TEST_CASE("auto range starts at the longest and settles beyond the swath's edge"
   head.give("tile", flat_tile(-20.0));
   const auto pings = head.step_until<msg::Ping>("ping", 3_s);
   REQUIRE(pings.size() > 10);
-  CHECK(pings.front().range_m == 200.0);
+  CHECK(pings.front().applied.range_m == 200.0);
   const double edge_m = 20.0 / std::cos(65.0 * MultibeamConfig::kDegree);
-  CHECK(pings.back().range_m > edge_m * 1.03);
-  CHECK(pings.back().range_m < edge_m * 1.2);
+  CHECK(pings.back().applied.range_m > edge_m * 1.03);
+  CHECK(pings.back().applied.range_m < edge_m * 1.2);
   CHECK((pings.back().stamp_ns - pings[pings.size() - 2].stamp_ns) * 1e-9 == Approx(0.1));
 }
 

@@ -7,7 +7,7 @@
 #include "components/runtime/head/shot.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/frames/pose.h"
-#include "messages/sonar.h"
+#include "messages/soundings.h"
 
 namespace ensonify {
 

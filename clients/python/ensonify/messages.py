@@ -16,10 +16,18 @@ __all__ = [
     "MissionState",
     "Attitude",
     "Position",
+    "SoundSpeed",
     "Estimate",
+    "TransmitSector",
+    "AppliedSettings",
+    "HeadTrack",
     "Ping",
-    "Soundings",
+    "BottomTrack",
     "Transmit",
+    "SonarSettings",
+    "Soundings",
+    "Snippets",
+    "SeabedImage",
     "Tile",
     "TileRelease",
     "Chart",
@@ -151,6 +159,19 @@ class Position(Message):
 
 
 @dataclass(eq=False)
+class SoundSpeed(Message):
+    """What the sound speed probe at the transducers' faces reports.
+
+    stamp_ns [ns]: time of measurement, sim time
+    sound_speed_mps [m/s]: measured speed of sound in the water at the probe
+    """
+
+    TYPE = "sound_speed/1"
+    stamp_ns: int = 0
+    sound_speed_mps: float = 0.0
+
+
+@dataclass(eq=False)
 class Estimate(Message):
     """The navigation estimate: what autopilot, agents and records use for where the vehicle is.
 
@@ -168,6 +189,90 @@ class Estimate(Message):
 
 
 @dataclass(eq=False)
+class TransmitSector(Struct):
+    """One of the transmissions that a ping consists of, where heads send several side by side or one after the other.
+
+    frequency_hz [Hz]: centre frequency
+    pulse: as of the ping
+    pulse_length_s [s]: pulse length
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
+    tilt_rad [rad]: steering from the head's athwartships plane, positive forward
+    delay_s [s]: start after the ping's time of transmission
+    focus_range_m [m]: range of the transmit focus, 0: not focused
+    """
+
+    frequency_hz: float = 0.0
+    pulse: str = "cw"
+    pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
+    source_level_db: float = 0.0
+    tilt_rad: float = 0.0
+    delay_s: float = 0.0
+    focus_range_m: float = 0.0
+
+
+@dataclass(eq=False)
+class AppliedSettings(Struct):
+    """The settings that a ping was made with. In a message they stand beside its other fields.
+
+    frequency_hz [Hz]: centre frequency in force
+    pulse: cw (rectangular), cw_tapered, fm_up or fm_down
+    pulse_length_s [s]: pulse length in force
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
+    range_m [m]: range setting in force
+    ping_rate_hz [Hz]: highest ping rate that is set
+    swath_rad [rad]: full angle that the beams are spread over
+    mode: operating mode, in the words of the head's documentation
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
+    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
+    gain_offset_db [dB]: O of that gain
+    transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
+    receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
+    roll_stabilised: beams are steered against the measured roll
+    pitch_stabilised: the transmission is steered against the measured pitch
+    yaw_stabilised: the transmission is steered against the measured yaw
+    sound_speed_mps [m/s]: sound speed at the face as the head knows it: it steers the beams
+    sectors: transmit sectors; empty: a single one with the values above, straight, at once
+    """
+
+    frequency_hz: float = 0.0
+    pulse: str = "cw"
+    pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
+    source_level_db: float = 0.0
+    range_m: float = 0.0
+    ping_rate_hz: float = 0.0
+    swath_rad: float = 0.0
+    mode: str = ""
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    gain_offset_db: float = 0.0
+    transmit_beamwidth_rad: float = 0.0
+    receive_beamwidth_rad: float = 0.0
+    roll_stabilised: bool = False
+    pitch_stabilised: bool = False
+    yaw_stabilised: bool = False
+    sound_speed_mps: float = 0.0
+    sectors: list = list_of(TransmitSector)
+
+
+@dataclass(eq=False)
+class HeadTrack(Struct):
+    """Where the head was, as the instrument knows it: the navigation estimate and the measured mounting. Never the truth. In a message it stands beside its other fields.
+
+    pose_time_s [s]: times after transmission of the poses; the first is 0: the pose at transmission
+    pose_position_enu_m [m]: estimated place of the head (time x 3): east, north, up from chart datum, by the measured mounting
+    pose_enu_from_head [1]: estimated attitude of the head (time x 4): quaternion w, x, y, z, head FRD to ENU
+    """
+
+    pose_time_s: np.ndarray = array("f8")
+    pose_position_enu_m: np.ndarray = array("f8")
+    pose_enu_from_head: np.ndarray = array("f8")
+
+
+@dataclass(eq=False)
 class Ping(Message):
     """What one transmission brought back, for any head.
 
@@ -175,13 +280,34 @@ class Ping(Message):
     ping [1]: ping number of this head, from 0
     sample_period_s [s]: time between samples
     first_sample_s [s]: time of the first sample after transmission
-    beam_angle_rad [rad]: receive beam axes in the head frame, from its down axis, positive to starboard
-    amplitude_upa [uPa]: rms pressure amplitude at the receiver (beam x sample), linear
+    beam_angle_rad [rad]: receive beam axes of this ping in the head frame, from its down axis, positive to starboard
+    amplitude_upa [uPa]: rms pressure amplitude at the receiver (beam x sample), linear, the gain taken out again
+    beam_sector [1]: index of each beam's transmit sector; empty: 0
+    amplitude_count [1]: instead of amplitude_upa: digitised amplitude (beam x sample), linear, the gain still in it
+    count_upa [uPa]: amplitude at the receiver of one count where the gain is 0 dB
+    phase_rad [rad]: phase (beam x sample) of the starboard half of the receive array over the port half, -pi..pi, about the beam axis; empty: not formed
     frequency_hz [Hz]: centre frequency in force
+    pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
-    sound_speed_mps [m/s]: sound speed at the face as the head knows it
+    ping_rate_hz [Hz]: highest ping rate that is set
+    swath_rad [rad]: full angle that the beams are spread over
+    mode: operating mode, in the words of the head's documentation
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
+    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
+    gain_offset_db [dB]: O of that gain
+    transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
+    receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
+    roll_stabilised: beams are steered against the measured roll
+    pitch_stabilised: the transmission is steered against the measured pitch
+    yaw_stabilised: the transmission is steered against the measured yaw
+    sound_speed_mps [m/s]: sound speed at the face as the head knows it: it steers the beams
+    sectors: transmit sectors; empty: a single one with the values above, straight, at once
+    pose_time_s [s]: times after transmission of the poses; the first is 0: the pose at transmission
+    pose_position_enu_m [m]: estimated place of the head (time x 3): east, north, up from chart datum, by the measured mounting
+    pose_enu_from_head [1]: estimated attitude of the head (time x 4): quaternion w, x, y, z, head FRD to ENU
     """
 
     TYPE = "ping/1"
@@ -191,36 +317,57 @@ class Ping(Message):
     first_sample_s: float = 0.0
     beam_angle_rad: np.ndarray = array("f4")
     amplitude_upa: np.ndarray = array("f4")
+    beam_sector: np.ndarray = array("u1")
+    amplitude_count: np.ndarray = array("u2")
+    count_upa: float = 0.0
+    phase_rad: np.ndarray = array("f4")
     frequency_hz: float = 0.0
+    pulse: str = "cw"
     pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0
+    ping_rate_hz: float = 0.0
+    swath_rad: float = 0.0
+    mode: str = ""
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    gain_offset_db: float = 0.0
+    transmit_beamwidth_rad: float = 0.0
+    receive_beamwidth_rad: float = 0.0
+    roll_stabilised: bool = False
+    pitch_stabilised: bool = False
+    yaw_stabilised: bool = False
     sound_speed_mps: float = 0.0
+    sectors: list = list_of(TransmitSector)
+    pose_time_s: np.ndarray = array("f8")
+    pose_position_enu_m: np.ndarray = array("f8")
+    pose_enu_from_head: np.ndarray = array("f8")
 
 
 @dataclass(eq=False)
-class Soundings(Message):
-    """What the head made of a ping: one entry per beam. Positions use the estimated pose and the measured mounting.
+class BottomTrack(Message):
+    """Where a head hears the bottom first, by its own echoes: what a slant range is corrected with. Never the truth.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
-    beam_angle_rad [rad]: receive beam axes in the head frame, positive to starboard
-    travel_time_s [s]: two-way travel time of the detection
-    backscatter_db [dB]: level of the detection re 1 uPa, uncorrected
-    quality_db [dB]: signal to noise ratio of the detection
-    valid [1]: 1 where the beam has a detection; other entries of that beam mean nothing if 0
-    position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
+    valid: whether the bottom was found; the rest means nothing if not
+    travel_time_s [s]: two-way time of the first bottom return, over all beams and smoothed
+    altitude_m [m]: half of that time at the head's sound speed
+    quality_db [dB]: step of the level at the return, over the water column's
+    sound_speed_mps [m/s]: sound speed that the head used
+    beam_travel_time_s [s]: first bottom return of each beam (sidescan: port, starboard), NaN: none
     """
 
-    TYPE = "soundings/1"
+    TYPE = "bottom_track/1"
     stamp_ns: int = 0
     ping: int = 0
-    beam_angle_rad: np.ndarray = array("f4")
-    travel_time_s: np.ndarray = array("f4")
-    backscatter_db: np.ndarray = array("f4")
-    quality_db: np.ndarray = array("f4")
-    valid: np.ndarray = array("u1")
-    position_enu_m: np.ndarray = array("f8")
+    valid: bool = False
+    travel_time_s: float = 0.0
+    altitude_m: float = 0.0
+    quality_db: float = 0.0
+    sound_speed_mps: float = 0.0
+    beam_travel_time_s: np.ndarray = array("f4")
 
 
 @dataclass(eq=False)
@@ -240,6 +387,264 @@ class Transmit(Message):
     frequency_hz: float = 0.0
     pulse_length_s: float = 0.0
     source_level_db: float = 0.0
+
+
+@dataclass(eq=False)
+class SonarSettings(Message):
+    """A command to a head: settings from its next ping on. NaN or empty text leaves a setting as it is.
+
+    stamp_ns [ns]: time of the command, sim time
+    range_m [m]: range to listen to; 0: the head chooses, where it can
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
+    pulse_length_s [s]: pulse length
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O at range R in m
+    gain_absorption_dbpm [dB/m]: A of that gain
+    gain_offset_db [dB]: O of that gain
+    swath_rad [rad]: full angle to spread the beams over
+    ping_rate_hz [Hz]: highest ping rate
+    mode: operating mode, in the words of the head's documentation
+    """
+
+    TYPE = "sonar_settings/1"
+    stamp_ns: int = 0
+    range_m: float = float("nan")
+    source_level_db: float = float("nan")
+    pulse_length_s: float = float("nan")
+    gain_spreading_db: float = float("nan")
+    gain_absorption_dbpm: float = float("nan")
+    gain_offset_db: float = float("nan")
+    swath_rad: float = float("nan")
+    ping_rate_hz: float = float("nan")
+    mode: str = ""
+
+
+@dataclass(eq=False)
+class Soundings(Message):
+    """What the head made of a ping: one entry per beam, or one per detection where `beam` is given. Positions use the estimated pose and the measured mounting.
+
+    stamp_ns [ns]: time of transmission, sim time
+    ping [1]: ping number of this head, from 0
+    sample_period_s [s]: time between the samples that detection used
+    beam [1]: index of each entry's beam, rising; empty: entry i is beam i
+    detection [1]: number of the detection within its beam, from 0, the first return first; empty: 0
+    sector [1]: index of each entry's transmit sector; empty: 0
+    beam_angle_rad [rad]: receive beam axes in the head frame, positive to starboard
+    travel_time_s [s]: two-way travel time of the detection
+    backscatter_db [dB]: level of the detection re 1 uPa, uncorrected
+    backscatter_strength_db [dB]: backscattering strength re 1 m^2 per m^2 that the head makes of the level: by its settings, on a flat seabed; empty: not computed
+    quality_db [dB]: signal to noise ratio of the detection
+    range_sd_m [m]: predicted standard deviation of the range, sonar only; empty: not predicted
+    angle_sd_rad [rad]: predicted standard deviation of the angle, sonar only; empty: not predicted
+    window_s [s]: length of the window that the detection used; empty: not told
+    kind [1]: 1 by amplitude, 2 by phase (of a blend, the one that weighs more), 0 neither; empty: 1
+    flags [1]: why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side lobe; empty: not told
+    valid [1]: 1 where the beam has a detection; other entries of that beam mean nothing if 0
+    position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
+    frequency_hz [Hz]: centre frequency in force
+    pulse: cw (rectangular), cw_tapered, fm_up or fm_down
+    pulse_length_s [s]: pulse length in force
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
+    range_m [m]: range setting in force
+    ping_rate_hz [Hz]: highest ping rate that is set
+    swath_rad [rad]: full angle that the beams are spread over
+    mode: operating mode, in the words of the head's documentation
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
+    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
+    gain_offset_db [dB]: O of that gain
+    transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
+    receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
+    roll_stabilised: beams are steered against the measured roll
+    pitch_stabilised: the transmission is steered against the measured pitch
+    yaw_stabilised: the transmission is steered against the measured yaw
+    sound_speed_mps [m/s]: sound speed at the face as the head knows it: it steers the beams
+    sectors: transmit sectors; empty: a single one with the values above, straight, at once
+    pose_time_s [s]: times after transmission of the poses; the first is 0: the pose at transmission
+    pose_position_enu_m [m]: estimated place of the head (time x 3): east, north, up from chart datum, by the measured mounting
+    pose_enu_from_head [1]: estimated attitude of the head (time x 4): quaternion w, x, y, z, head FRD to ENU
+    """
+
+    TYPE = "soundings/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    sample_period_s: float = 0.0
+    beam: np.ndarray = array("u2")
+    detection: np.ndarray = array("u1")
+    sector: np.ndarray = array("u1")
+    beam_angle_rad: np.ndarray = array("f4")
+    travel_time_s: np.ndarray = array("f4")
+    backscatter_db: np.ndarray = array("f4")
+    backscatter_strength_db: np.ndarray = array("f4")
+    quality_db: np.ndarray = array("f4")
+    range_sd_m: np.ndarray = array("f4")
+    angle_sd_rad: np.ndarray = array("f4")
+    window_s: np.ndarray = array("f4")
+    kind: np.ndarray = array("u1")
+    flags: np.ndarray = array("u1")
+    valid: np.ndarray = array("u1")
+    position_enu_m: np.ndarray = array("f8")
+    frequency_hz: float = 0.0
+    pulse: str = "cw"
+    pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
+    source_level_db: float = 0.0
+    range_m: float = 0.0
+    ping_rate_hz: float = 0.0
+    swath_rad: float = 0.0
+    mode: str = ""
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    gain_offset_db: float = 0.0
+    transmit_beamwidth_rad: float = 0.0
+    receive_beamwidth_rad: float = 0.0
+    roll_stabilised: bool = False
+    pitch_stabilised: bool = False
+    yaw_stabilised: bool = False
+    sound_speed_mps: float = 0.0
+    sectors: list = list_of(TransmitSector)
+    pose_time_s: np.ndarray = array("f8")
+    pose_position_enu_m: np.ndarray = array("f8")
+    pose_enu_from_head: np.ndarray = array("f8")
+
+
+@dataclass(eq=False)
+class Snippets(Message):
+    """The amplitudes around each detection, uncorrected: as the receiver heard them, no law taken out.
+
+    stamp_ns [ns]: time of transmission, sim time
+    ping [1]: ping number of this head, from 0
+    sample_period_s [s]: time between samples
+    beam [1]: index of each snippet's beam, rising; beams without a detection have none
+    first_sample_s [s]: time of each snippet's first sample after transmission
+    centre [1]: sample of the detection, counted from its snippet's first
+    offset [1]: where each snippet starts in amplitude_upa, and last the number of all samples
+    amplitude_upa [uPa]: rms pressure amplitudes at the receiver, linear, snippet after snippet
+    frequency_hz [Hz]: centre frequency in force
+    pulse: cw (rectangular), cw_tapered, fm_up or fm_down
+    pulse_length_s [s]: pulse length in force
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
+    range_m [m]: range setting in force
+    ping_rate_hz [Hz]: highest ping rate that is set
+    swath_rad [rad]: full angle that the beams are spread over
+    mode: operating mode, in the words of the head's documentation
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
+    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
+    gain_offset_db [dB]: O of that gain
+    transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
+    receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
+    roll_stabilised: beams are steered against the measured roll
+    pitch_stabilised: the transmission is steered against the measured pitch
+    yaw_stabilised: the transmission is steered against the measured yaw
+    sound_speed_mps [m/s]: sound speed at the face as the head knows it: it steers the beams
+    sectors: transmit sectors; empty: a single one with the values above, straight, at once
+    """
+
+    TYPE = "snippets/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    sample_period_s: float = 0.0
+    beam: np.ndarray = array("u2")
+    first_sample_s: np.ndarray = array("f4")
+    centre: np.ndarray = array("u4")
+    offset: np.ndarray = array("u4")
+    amplitude_upa: np.ndarray = array("f4")
+    frequency_hz: float = 0.0
+    pulse: str = "cw"
+    pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
+    source_level_db: float = 0.0
+    range_m: float = 0.0
+    ping_rate_hz: float = 0.0
+    swath_rad: float = 0.0
+    mode: str = ""
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    gain_offset_db: float = 0.0
+    transmit_beamwidth_rad: float = 0.0
+    receive_beamwidth_rad: float = 0.0
+    roll_stabilised: bool = False
+    pitch_stabilised: bool = False
+    yaw_stabilised: bool = False
+    sound_speed_mps: float = 0.0
+    sectors: list = list_of(TransmitSector)
+
+
+@dataclass(eq=False)
+class SeabedImage(Message):
+    """Backscattering strength along the swath, as the head makes it: snippets after the corrections stated here.
+
+    stamp_ns [ns]: time of transmission, sim time
+    ping [1]: ping number of this head, from 0
+    sample_period_s [s]: time between samples
+    beam [1]: index of each series' beam, rising; beams without a detection have none
+    first_sample_s [s]: time of each series' first sample after transmission
+    centre [1]: sample of the detection, counted from its series' first
+    offset [1]: where each series starts in strength_db, and last the number of all samples
+    strength_db [dB]: strength re 1 m^2 per m^2 after the corrections, series after series
+    spreading_db [dB]: S of the two-way loss S log10(R) + 2 A R that was made up for, R in m
+    absorption_dbpm [dB/m]: A of that loss: the operator's absorption
+    normal_incidence_range_m [m]: range of the first return, about which strengths are flattened
+    normal_incidence_strength_db [dB]: strength at normal incidence that was assumed for it
+    oblique_strength_db [dB]: strength at the crossover angle and beyond that was assumed for it
+    crossover_angle_rad [rad]: incidence up to which the first return is flattened, 0: not at all
+    lambert_removed: whether Lambert's law beyond the crossover angle was taken out too
+    frequency_hz [Hz]: centre frequency in force
+    pulse: cw (rectangular), cw_tapered, fm_up or fm_down
+    pulse_length_s [s]: pulse length in force
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
+    range_m [m]: range setting in force
+    ping_rate_hz [Hz]: highest ping rate that is set
+    swath_rad [rad]: full angle that the beams are spread over
+    mode: operating mode, in the words of the head's documentation
+    gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
+    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
+    gain_offset_db [dB]: O of that gain
+    transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
+    receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
+    roll_stabilised: beams are steered against the measured roll
+    pitch_stabilised: the transmission is steered against the measured pitch
+    yaw_stabilised: the transmission is steered against the measured yaw
+    sound_speed_mps [m/s]: sound speed at the face as the head knows it: it steers the beams
+    sectors: transmit sectors; empty: a single one with the values above, straight, at once
+    """
+
+    TYPE = "seabed_image/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    sample_period_s: float = 0.0
+    beam: np.ndarray = array("u2")
+    first_sample_s: np.ndarray = array("f4")
+    centre: np.ndarray = array("u4")
+    offset: np.ndarray = array("u4")
+    strength_db: np.ndarray = array("f4")
+    spreading_db: float = 0.0
+    absorption_dbpm: float = 0.0
+    normal_incidence_range_m: float = 0.0
+    normal_incidence_strength_db: float = 0.0
+    oblique_strength_db: float = 0.0
+    crossover_angle_rad: float = 0.0
+    lambert_removed: bool = False
+    frequency_hz: float = 0.0
+    pulse: str = "cw"
+    pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
+    source_level_db: float = 0.0
+    range_m: float = 0.0
+    ping_rate_hz: float = 0.0
+    swath_rad: float = 0.0
+    mode: str = ""
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    gain_offset_db: float = 0.0
+    transmit_beamwidth_rad: float = 0.0
+    receive_beamwidth_rad: float = 0.0
+    roll_stabilised: bool = False
+    pitch_stabilised: bool = False
+    yaw_stabilised: bool = False
+    sound_speed_mps: float = 0.0
+    sectors: list = list_of(TransmitSector)
 
 
 @dataclass(eq=False)
@@ -314,10 +719,15 @@ TYPES = {cls.TYPE: cls for cls in (
     MissionState,
     Attitude,
     Position,
+    SoundSpeed,
     Estimate,
     Ping,
-    Soundings,
+    BottomTrack,
     Transmit,
+    SonarSettings,
+    Soundings,
+    Snippets,
+    SeabedImage,
     Tile,
     TileRelease,
     Chart,
