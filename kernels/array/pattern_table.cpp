@@ -13,11 +13,9 @@ PatternTable::PatternTable(const std::function<std::complex<double>(double sine)
     throw std::invalid_argument("a pattern table with an error of " + std::to_string(error) + ": allowed 1e-6 to 0.1");
   }
   const double step = std::pow(error * 128.0 / 3.0, 0.25) / (2.0 * std::numbers::pi * reach_in_waves);
-  steps_ = static_cast<std::size_t>(std::ceil(2.0 / std::min(step, 0.5)));
-  steps_per_sine_ = 0.5 * static_cast<double>(steps_);
-  for (std::size_t i = 0; i < steps_ + 3; ++i) {
-    points_.emplace_back(pattern((static_cast<double>(i) - 1.0) / steps_per_sine_ - 1.0));
-  }
+  steps_ = static_cast<int>(std::ceil(2.0 / std::min(step, 0.5)));
+  steps_per_sine_ = 0.5 * steps_;
+  for (int i = -1; i < steps_ + 2; ++i) points_.emplace_back(pattern(i / steps_per_sine_ - 1.0));
 }
 
 PatternTable::PatternTable(const LineArray& array, double wavelength_m, double sin_steer, double error)

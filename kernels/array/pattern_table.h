@@ -28,8 +28,8 @@ class PatternTable {
   /// Complex amplitude; sines outside -1..1 count as -1 or 1.
   std::complex<float> amplitude(double sine) const {
     const double position = (std::clamp(sine, -1.0, 1.0) + 1.0) * steps_per_sine_;
-    const auto step = std::min(static_cast<std::size_t>(position), steps_ - 1);
-    const auto t = static_cast<float>(position - static_cast<double>(step));
+    const int step = std::min(static_cast<int>(position), steps_ - 1);
+    const auto t = static_cast<float>(position - step);
     const std::complex<float>* p = points_.data() + step;  // at -1, 0, 1, 2 steps from `step`
     const float before = t + 1.0F, after = t - 1.0F, beyond = t - 2.0F;
     const float w0 = t * after * beyond * (-1.0F / 6.0F), w1 = before * after * beyond * 0.5F;
@@ -47,7 +47,7 @@ class PatternTable {
   std::size_t size() const { return points_.size(); }
 
  private:
-  std::size_t steps_ = 0;
+  int steps_ = 0;
   double steps_per_sine_ = 0.0;
   std::vector<std::complex<float>> points_;  // one before -1 and one beyond 1
 };
