@@ -2,16 +2,34 @@
 import os
 import pathlib
 import socket
+import stat
 
 from ensonify.session import EXIT_BAD_INPUT, RunError
 
 ENDPOINT_FILE = "clock.endpoint"
 
 
+# A socket path has at most 107 bytes, and "/run-XXXXXX/" and the longest process name with its ending follow.
+LONGEST_RUN_ROOT = 107 - 60
+
+
 def run_root() -> pathlib.Path:
-    """Where this user's run directories are."""
-    runtime = os.environ.get("XDG_RUNTIME_DIR")
-    return pathlib.Path(runtime) / "ensonify" if runtime else pathlib.Path(f"/tmp/ensonify-{os.getuid()}")
+    """Where this user's run directories are, as the launcher chooses it: `$XDG_RUNTIME_DIR/ensonify`, or
+    `/tmp/ensonify-<uid>` when that variable is unset, or names a folder that is too long or not ours to use."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    if runtime.startswith("/") and _can_be_used(f"{runtime}/ensonify"):
+        return pathlib.Path(runtime) / "ensonify"
+    return pathlib.Path(f"/tmp/ensonify-{os.geteuid()}")
+
+
+def _can_be_used(folder: str) -> bool:
+    if len(os.fsencode(folder)) > LONGEST_RUN_ROOT:
+        return False
+    try:
+        facts = os.lstat(folder)
+    except OSError:
+        return os.access(os.path.dirname(folder), os.W_OK | os.X_OK)
+    return stat.S_ISDIR(facts.st_mode) and facts.st_uid == os.geteuid()
 
 
 def find_clock(run: str | os.PathLike | None = None) -> str:
