@@ -114,6 +114,9 @@ int run(Options& options) {
   const std::string& out = options.launch.out;
   RunReport report;
   if (options.in_process) {
+    if (!launch.exits.empty()) {
+      throw UserError(launch.file + ": expects exit codes of processes, which there are none of with --in-process");
+    }
     report = run_in_process(launch);
   } else {
     Supervisor supervisor(launch, program_folder(), options.quiet || options.json);

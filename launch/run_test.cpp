@@ -1,11 +1,11 @@
-// `ensonify run` as a user meets it: real processes (stubs of tests/support), real sockets, real signals.
+// What launch files say is done, and the tools of this folder. What a run survives, and what it says when it does not:
+// tests/system/faults_test.py.
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,13 +13,11 @@
 #include <thread>
 
 #include "launch/child.h"
-#include "launch/signals.h"
 
 namespace ensonify::launcher {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::steady_clock;
 
 std::string contents(const fs::path& file) { return tail(file.string(), 100000); }
 
@@ -41,12 +39,12 @@ class Workplace {
   std::string file(const std::string& name) const { return (path_ / name).string(); }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
 
-  /// Two stubs, a to b, with more parameters for each. The clock paces them at `rate`.
-  void two_stubs(const std::string& for_a = "", const std::string& for_b = "", const std::string& rest = "") const {
+  /// Two stubs, a to b; `rest` stands behind the processes, `for_a` among the parameters of a.
+  void two_stubs(const std::string& rest = "", const std::string& for_a = "") const {
     write("x.yaml",
           "ensonify: launch/1\nprocesses:\n"
           "  a: {run: stub, config: {out: [{port: x, type: x/1, hz: 100}], rate_hz: 100" +
-              for_a + "}}\n" + "  b: {run: stub, config: {in: [{port: x, type: x/1}]" + for_b + "}}\n" + rest);
+              for_a + "}}\n  b: {run: stub, config: {in: [{port: x, type: x/1}]}}\n" + rest);
   }
 
   /// Command lines of living processes that name this folder, and run directories: what a run must not leave.
@@ -77,21 +75,14 @@ class Workplace {
 class Program {
  public:
   Program(const Workplace& place, std::vector<std::string> words, const std::string& log = "log.txt")
-      : log_(place.file(log)), began_(steady_clock::now()), child_(command(std::move(words))) {}
-
-  pid_t pid() const { return child_.pid(); }
-  void send(int signal) const { ::kill(child_.pid(), signal); }
+      : log_(place.file(log)), child_(command(std::move(words))) {}
 
   /// Waits for its end; the exit code, or minus the signal.
   int wait() {
-    siginfo_t info{};
-    ::waitid(P_PID, static_cast<id_t>(child_.pid()), &info, WEXITED | WNOWAIT);
-    wall_s_ = std::chrono::duration<double>(steady_clock::now() - began_).count();
     int status = 0;
     ::waitpid(child_.pid(), &status, 0);
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
   }
-  double wall_s() const { return wall_s_; }
   std::string said() const { return contents(log_); }
 
  private:
@@ -103,26 +94,20 @@ class Program {
     return command;
   }
   std::string log_;
-  steady_clock::time_point began_;
   Child child_;
-  double wall_s_ = 0.0;
 };
 
 struct Result {
   int code = 0;
-  double wall_s = 0.0;
   std::string said;
 };
 
 Result run(const Workplace& place, std::vector<std::string> options = {}) {
-  std::vector<std::string> words{"ensonify-run", place.file("x.yaml")};
-  if (std::find(options.begin(), options.end(), "--out") == options.end()) {
-    words.insert(words.end(), {"--out", place.file("out")});
-  }
+  std::vector<std::string> words{"ensonify-run", place.file("x.yaml"), "--out", place.file("out")};
   words.insert(words.end(), options.begin(), options.end());
   Program program(place, std::move(words));
   const int code = program.wait();
-  return {code, program.wall_s(), program.said()};
+  return {code, program.said()};
 }
 
 /// Waits until `condition` holds; the test's time limit bounds it.
@@ -133,28 +118,11 @@ void until(Condition condition) {
   }
 }
 
-/// Waits until the clock of a run has given its first grants; then its pid.
-pid_t wait_for_go(const Workplace& place, const std::string& process = "clock") {
-  until([&] { return contents(place.file("out/log/clock.log")).find(" go ") != std::string::npos; });
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string words = contents(entry.path() / "cmdline");
-    const bool conductor = words.find("ensonify-conductor") != std::string::npos;
-    const bool named = words.find(std::string("--name") + '\0' + process + '\0') != std::string::npos;
-    if (words.find(place.file("out")) != std::string::npos && (process == "clock" ? conductor : named)) {
-      return std::stoi(entry.path().filename().string());
-    }
-  }
-  return 0;
-}
-
-const std::string kImpatient = "clock: {progress_deadline_s: 0.2}\n";
-const std::string kPaced = "clock: {progress_deadline_s: 0.2, rate: 1}\nduration_s: 60\n";
-
 }  // namespace
 
 TEST_CASE("a run to its hard end is 0, leaves its results and nothing else") {
   const Workplace place;
-  place.two_stubs("", "", "duration_s: 3\n");
+  place.two_stubs("duration_s: 3\n");
   const Result result = run(place, {"--junit", place.file("junit.xml")});
   CHECK(result.code == 0);
   CHECK(result.said.find("3.0 s of sim time") != std::string::npos);
@@ -169,145 +137,11 @@ TEST_CASE("a run to its hard end is 0, leaves its results and nothing else") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("a process that is killed or throws ends the run within a second, with 3 and its name") {
-  const Workplace place;
-  place.two_stubs(", die_s: 1", "", kImpatient);
-  Result result = run(place);
-  CHECK(result.code == 3);
-  CHECK(result.said.find("ensonify run: a was killed by signal 9 (Killed)") != std::string::npos);
-  CHECK(result.wall_s < 3.0);  // with its start and the way to the fault
-  CHECK(place.leftovers().empty());
-
-  place.two_stubs("", ", throw_s: 1", kImpatient);
-  result = run(place);
-  CHECK(result.code == 3);
-  CHECK(result.said.find("ensonify run: b") != std::string::npos);
-  CHECK(result.said.find("told to throw; t=") != std::string::npos);
-  CHECK(result.wall_s < 3.0);  // with its start and the way to the fault
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("a process that stops or spins ends the run with 4 and its name, ten deadlines later") {
-  const Workplace place;
-  const std::string misdeed = GENERATE(", stop_s: 1", ", spin_s: 1");
-  place.two_stubs("", misdeed, kImpatient);
-  const Result result = run(place);
-  CHECK(result.code == 4);
-  CHECK(result.said.find("waiting for b") != std::string::npos);
-  CHECK(result.wall_s >= 2.0);
-  CHECK(result.wall_s < 5.0);  // likewise
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("a clock that no longer answers ends the run with 4 and is named") {
-  const Workplace place;
-  place.two_stubs("", "", kPaced);
-  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
-  ::kill(wait_for_go(place), SIGSTOP);
-  CHECK(program.wait() == 4);
-  CHECK(program.said().find("ensonify run: clock has not answered for 2.0 s") != std::string::npos);
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("a clock that is killed ends the run with 3 and is named") {
-  const Workplace place;
-  place.two_stubs("", "", kPaced);
-  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
-  ::kill(wait_for_go(place), SIGKILL);
-  CHECK(program.wait() == 3);
-  CHECK(program.said().find("ensonify run: clock was killed by signal 9") != std::string::npos);
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("Ctrl-C and SIGTERM end a run in order, with 130") {
-  const Workplace place;
-  const int signal = GENERATE(SIGINT, SIGTERM);
-  place.two_stubs("", "", kPaced + "after: [[touch, " + place.file("after") + "]]\n");
-  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
-  wait_for_go(place);
-  program.send(signal);
-  CHECK(program.wait() == 130);
-  CHECK(program.said().find("stopping in order") != std::string::npos);
-  const auto report = nlohmann::json::parse(contents(place.file("out/run.json")));
-  CHECK(report["processes"][1]["state"] == "DONE");
-  CHECK_FALSE(fs::exists(place.file("after")));
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("kill -9 of the launcher leaves no process and no socket") {
-  const Workplace place;
-  place.two_stubs("", "", kPaced);
-  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
-  wait_for_go(place);
-  program.send(SIGKILL);
-  CHECK(program.wait() == -SIGKILL);
-  until([&] { return place.leftovers().empty(); });
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("two runs at once do not see each other") {
-  const Workplace place;
-  place.two_stubs("", "", "clock: {rate: 4}\nduration_s: 4\n");
-  Program one(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")}, "one.txt");
-  Program two(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out2")}, "two.txt");
-  CHECK(one.wait() == 0);
-  CHECK(two.wait() == 0);
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("a run whose socket directory is removed ends well") {
-  const Workplace place;
-  place.two_stubs("", "", "clock: {rate: 2}\nduration_s: 2\n");
-  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out")});
-  wait_for_go(place);
-  for (const auto& entry : fs::directory_iterator(place.file("ensonify"))) {
-    if (entry.is_directory()) {
-      fs::remove_all(entry.path());
-    }
-  }
-  CHECK(program.wait() == 0);
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("mistakes in files and arguments end with 2, place and cause") {
-  const Workplace place;
-  const auto mistake = [&](const std::vector<std::string>& options = {}) {
-    const Result result = run(place, options);
-    CHECK(result.code == 2);
-    CHECK(place.leftovers().empty());
-    return result.said;
-  };
-  place.two_stubs();
-  CHECK(mistake({"--set", "bb.rate_hz=3"}) ==
-        "--set bb.rate_hz: names no process, scenario section or clock; did you mean b?");
-  CHECK(mistake({"--set", "b.rate_hz=x"}).find("--set b.rate_hz: is \"x\", not a whole number") == 0);
-  CHECK(mistake({"--out", "/proc/no"}).find("/proc/no/log: cannot be made: ") == 0);
-  CHECK(mistake({"--out", "/tmp/" + std::string(300, 'x')})
-            .find("File name too long; choose another folder with --out") != std::string::npos);
-  place.two_stubs(", rate: 3", ", rats: 3");  // the mistakes of both processes are shown
-  const std::string both = mistake();
-  CHECK(both.find("processes.a.config.rate: is not a known key") != std::string::npos);
-  CHECK(both.find("processes.b.config.rats: is not a known key") != std::string::npos);
-  place.two_stubs("", "", "wiring: {b.x: a/y}\n");
-  CHECK(mistake().find("x.yaml:5:15: wiring.b.x: no process publishes a/y") != std::string::npos);
-  place.write("x.yaml", "ensonify: launch/1\nprocesses: {a: {run: sutb}}\n");
-  CHECK(mistake().find("there is no program ensonify-sutb") != std::string::npos);
-  fs::remove(place.file("x.yaml"));
-  CHECK(mistake() == place.file("x.yaml") + ": no such file");
-}
-
-TEST_CASE("an output path of several hundred characters works when every name is short enough") {
-  const Workplace place;
-  place.two_stubs("", "", "duration_s: 0.5\n");
-  const std::string deep = place.file("out/" + std::string(150, 'a') + "/" + std::string(150, 'b'));
-  CHECK(run(place, {"--out", deep}).code == 0);
-  CHECK(fs::exists(deep + "/log/a.log"));
-}
-
 TEST_CASE("a foreign program that fails ends the run with 3, one that refuses its arguments with 2") {
   const Workplace place;
   const auto with_foreign = [&](const std::string& script) {
-    place.write("x.yaml", "ensonify: launch/1\nprocesses:\n  agent: {run: [sh, -c, '" + script + "']}\n" + kPaced);
+    place.write("x.yaml", "ensonify: launch/1\nprocesses:\n  agent: {run: [sh, -c, '" + script + "']}\n" +
+                              "clock: {rate: 1}\nduration_s: 60\n");
     return run(place);
   };
   const Result failed = with_foreign("echo it broke; exit 1");
@@ -324,7 +158,7 @@ TEST_CASE("a foreign program that fails ends the run with 3, one that refuses it
 
 TEST_CASE("an observer that dies does not end the run") {
   const Workplace place;
-  place.two_stubs("", "", "duration_s: 1\n");
+  place.two_stubs("duration_s: 1\n");
   std::string text = contents(place.file("x.yaml"));
   const std::string processes = "processes:\n";
   text.insert(text.find(processes) + processes.size(), "  viewer: {run: [sh, -c, exit 9], observer: true}\n");
@@ -344,7 +178,7 @@ TEST_CASE("an observer that may come back is started again") {
 
 TEST_CASE("an external process is awaited and may be started by anybody") {
   const Workplace place;
-  place.two_stubs("", "", "duration_s: 1\n");
+  place.two_stubs("duration_s: 1\n");
   std::string text = contents(place.file("x.yaml"));
   text.insert(text.find("  b: {") + 6, "external: true, join_s: 20, ");
   place.write("x.yaml", text);
@@ -388,7 +222,6 @@ TEST_CASE("in one process a run has the same end, reports and steps") {
 TEST_CASE("steps after the run see the output folder, and the first that fails decides") {
   const Workplace place;
   place.two_stubs(
-      "", "",
       "duration_s: 0.5\nafter: [[sh, -c, 'echo done > $(out)/after'], [sh, -c, 'exit 5'], [touch, $(out)/never]]\n");
   const Result result = run(place);
   CHECK(result.code == 5);
@@ -416,9 +249,9 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   };
   place.two_stubs();
   CHECK(check() == "0 " + place.file("x.yaml") + ": 2 processes, sound");
-  place.two_stubs("", "", "wiring: {b.x: a/y}\n");
+  place.two_stubs("wiring: {b.x: a/y}\n");
   CHECK(check().find("2 " + place.file("x.yaml") + ":5:15: wiring.b.x: no process publishes a/y") == 0);
-  place.two_stubs(", rate: 1");
+  place.two_stubs("", ", rate: 1");
   CHECK(check().find("processes.a.config.rate: is not a known key") != std::string::npos);
   place.write("x.yaml", "ensonify: launch/1\nprocesses: {a: {run: [sh, -c, 'exit 0']}}\n");
   CHECK(check().find("warning: a: its ports are not known before it runs") != std::string::npos);

@@ -70,6 +70,7 @@ RunReport Supervisor::run() {
     send_all(SIGKILL);
     throw;
   }
+  judge_exits();
   progress_.finish();
   return report();
 }
@@ -212,8 +213,53 @@ void Supervisor::on_clock_ended(Member& member) {
 }
 
 void Supervisor::judge() {
-  verdict_.fault(most_telling(noticed_));
+  const Fault fault = most_telling(noticed_);
   noticed_.clear();
+  if (!ended_as_expected(fault.culprit)) {
+    verdict_.fault(fault);
+    return;
+  }
+  cut_short_ = true;
+  for (auto& member : members_) {  // also the clock's, which names the same culprit
+    if (member.fault && member.fault->culprit == fault.culprit) {
+      member.fault.reset();
+    }
+  }
+}
+
+/// Nothing while it runs, or when it was never started.
+std::optional<launcher::Ending> Supervisor::ending_of(const std::string& process) const {
+  for (const auto& member : members_) {
+    if (member.name == process && member.child) {
+      return member.child->ending();
+    }
+  }
+  return std::nullopt;
+}
+
+/// The launch file expects this process to fail, and it failed that way. A process expected to end with 0 may still not
+/// leave before the others.
+bool Supervisor::ended_as_expected(const std::string& process) const {
+  const auto ending = ending_of(process);
+  return ending && std::any_of(launch_.exits.begin(), launch_.exits.end(), [&](const ExitExpectation& exit) {
+           return exit.process == process && exit.signal == ending->signal && exit.code == ending->exit_code &&
+                  (exit.signal != 0 || exit.code != 0);
+         });
+}
+
+void Supervisor::judge_exits() {
+  for (const auto& exit : launch_.exits) {
+    const auto ending = ending_of(exit.process);
+    const bool ok = ending && ending->signal == exit.signal && ending->exit_code == exit.code;
+    exits_.push_back({exit.name, ok, sim_s_, ending ? "it ended with " + text_of(*ending) : "it was not started"});
+  }
+  if (cut_short_ && launch_.processes.back().component == "expect") {
+    exits_.push_back(
+        {"other expectations", false, sim_s_, "were not judged: the run was cut short by an expected end"});
+  }
+  if (std::any_of(exits_.begin(), exits_.end(), [](const Expectation& e) { return !e.ok; })) {
+    verdict_.assertion_failed("assertions failed");
+  }
 }
 
 void Supervisor::begin(Ending ending, WallTime now, milliseconds grace) {
@@ -348,6 +394,7 @@ RunReport Supervisor::report() const {
     report.processes.push_back(std::move(process));
   }
   report.expectations = read_expectations(places_.out + "/expect.json");
+  report.expectations.insert(report.expectations.end(), exits_.begin(), exits_.end());
   return report;
 }
 

@@ -54,6 +54,9 @@ class Supervisor {
   void on_ended(const Reaped& reaped);
   void on_clock_ended(Member& clock);
   void judge();
+  std::optional<launcher::Ending> ending_of(const std::string& process) const;
+  bool ended_as_expected(const std::string& process) const;
+  void judge_exits();
   void on_time(WallTime now);
   void ask_clock(WallTime now);
   void read_status(const std::string& text);
@@ -77,7 +80,9 @@ class Supervisor {
   std::unique_ptr<bus::Asker> asker_;
   std::string clock_endpoint_;
   Verdict verdict_;
-  std::vector<Fault> noticed_;  // faults that wait for their judgement
+  std::vector<Expectation> exits_;  // of the launch file's `exit:` entries
+  bool cut_short_ = false;          // by a death that was expected
+  std::vector<Fault> noticed_;      // faults that wait for their judgement
   WallTime judge_at_{};
   Ending ending_ = Ending::kNo;
   WallTime ending_until_{};

@@ -24,11 +24,14 @@ std::optional<Fault> Verdict::cause() const { return first_ ? first_ : failed_; 
 
 int Verdict::code() const { return cause() ? cause()->code : kExitOk; }
 
+std::string text_of(const Ending& ending) {
+  return ending.signal != 0 ? "signal " + std::to_string(ending.signal) + " (" + ::strsignal(ending.signal) + ")"
+                            : "exit code " + std::to_string(ending.exit_code);
+}
+
 std::optional<Fault> fault_of(const std::string& process, bool native, const Ending& ending) {
   if (ending.signal != 0) {
-    return Fault{
-        kExitDied, process,
-        std::string("was killed by signal ") + std::to_string(ending.signal) + " (" + ::strsignal(ending.signal) + ")"};
+    return Fault{kExitDied, process, "was killed by " + text_of(ending)};
   }
   const int code = ending.exit_code;
   if (code == kExitOk) {
@@ -39,7 +42,7 @@ std::optional<Fault> fault_of(const std::string& process, bool native, const End
   static const char* const kMeanings[] = {"",        "assertions failed", "refused its files or arguments", "died",
                                           "stalled", "lost data",         "found runs that differ"};
   const std::string meaning = told ? kMeanings[code] : "died";
-  return Fault{told ? code : int{kExitDied}, process, meaning + " (exit code " + std::to_string(code) + ")"};
+  return Fault{told ? code : int{kExitDied}, process, meaning + " (" + text_of(ending) + ")"};
 }
 
 Fault most_telling(const std::vector<Fault>& faults) {

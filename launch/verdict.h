@@ -39,6 +39,9 @@ struct Ending {
   int signal = 0;
 };
 
+/// "exit code 3", "signal 9 (Killed)".
+std::string text_of(const Ending& ending);
+
 /// What an ending means. Native programs speak our exit codes; of a foreign one 2 and 5 are taken at their word, every
 /// other failure (an uncaught exception exits with 1) is a death. `expect` alone may say 1, `assertions failed`.
 std::optional<Fault> fault_of(const std::string& process, bool native, const Ending& ending);

@@ -116,7 +116,8 @@ std::optional<Expectation> read_expectation(ConfigReader& from) {
   from.optional("name", name);
   if (found && !name.empty()) found->name = name;
   if (kinds != 1)
-    from.problem("", std::string(kinds == 0 ? "says nothing" : "says several things") + "; give one of " + words);
+    from.problem(
+        "", std::string(kinds == 0 ? "says nothing" : "says several things") + "; give one of " + words + ", exit");
   return found;
 }
 

@@ -254,7 +254,7 @@ TEST_CASE("a misspelt field is told when the wiring is known, with its place") {
 TEST_CASE("mistakes in the list are told with their places") {
   CHECK(problem("- cuont: {topic: a/b}\n") ==
         "run.yaml:2:3: expect[0]: says nothing; give one of count, rate, bounds, eventually, never, order, no_gap, "
-        "same_as\n"
+        "same_as, exit\n"
         "run.yaml:2:3: expect[0].cuont: is not a known key; did you mean count?");
   CHECK(problem("- count: {topic: a/b}\n") == "run.yaml:2:10: expect[0].count: has no limit; give min, max or both");
   CHECK(problem("- count: {topic: a/b, min: 3, max: 2}\n") == "run.yaml:2:36: expect[0].count.max: is below min");

@@ -10,25 +10,9 @@ import unittest
 
 import ensonify
 import zmq
-from support import SOURCE, SystemTest, survey
+from support import SOURCE, SystemTest, bay, survey
 
 RUNS = int(os.environ.get("ENSONIFY_DETERMINISM_RUNS", "20"))
-
-# The demo's processes on its world, for a few seconds.
-SHORT_SURVEY = f"""
-ensonify: launch/1
-scenario: {SOURCE}/scenarios/bay/scenario.yaml
-duration_s: 6
-clock: {{ rate: free }}
-processes:
-  boat:  {{ run: vehicle }}
-  nav:   {{ run: navigation }}
-  pilot: {{ run: autopilot }}
-  pager: {{ run: terrain_pager }}
-  bow:   {{ run: multibeam }}
-  recorder: {{ run: recorder, config: {{ file: run.mcap }} }}
-"""
-
 
 def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
@@ -43,7 +27,7 @@ class SurveyBytes(SystemTest):
         cls.reference = None
 
     def record(self, name, *options, prefix=()):
-        launch = self.write("short.yaml", SHORT_SURVEY)
+        launch = self.write("short.yaml", bay(seconds=6))
         done = subprocess.run([*prefix, *self.command(launch, *options, out=name)], capture_output=True, text=True,
                               env=self.environment, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 BUILD = pathlib.Path(os.environ.get("ENSONIFY_BUILD", "build/dev")).resolve()
@@ -32,15 +33,39 @@ def survey(seconds=5, size=1000, more="", **extra):
     return SURVEY.format(seconds=seconds, bytes=size, more=more, **filled)
 
 
+# The demo's processes on its world, for a few seconds.
+BAY = """
+ensonify: launch/1
+scenario: {source}/scenarios/bay/scenario.yaml
+duration_s: {seconds}
+clock: {{ rate: free }}
+processes:
+  boat:  {{ run: vehicle }}
+  nav:   {{ run: navigation }}
+  pilot: {{ run: autopilot }}
+  pager: {{ run: terrain_pager }}
+  bow:   {{ run: multibeam }}
+  recorder: {{ run: recorder, config: {{ file: run.mcap, topics: {topics} }} }}
+"""
+
+
+def bay(seconds, topics="all"):
+    """BAY as text; its record is run.mcap in the output folder."""
+    return BAY.format(source=SOURCE, seconds=seconds, topics=topics)
+
+
 class Result:
-    def __init__(self, done, out):
-        self.code, self.stdout, self.stderr, self.out = done.returncode, done.stdout, done.stderr, out
+    def __init__(self, code, stdout, stderr, out, wall_s=0.0):
+        self.code, self.stdout, self.stderr, self.out, self.wall_s = code, stdout, stderr, out, wall_s
 
     def report(self):
         return json.loads((self.out / "run.json").read_text())
 
     def clock(self):
         return json.loads((self.out / "clock.json").read_text())
+
+    def late_events(self):
+        return {p["name"]: p["late_events"] for p in self.clock()["participants"]}
 
     def log(self, process):
         return (self.out / "log" / f"{process}.log").read_text()
@@ -70,9 +95,10 @@ class SystemTest(unittest.TestCase):
         """Runs a launch file (a path, or its text) to its end."""
         if isinstance(launch, str) and "\n" in launch:
             launch = self.write(f"{out}.yaml", launch)
+        began = time.monotonic()
         done = subprocess.run(self.command(launch, *options, out=out), capture_output=True, text=True, timeout=timeout,
                               env=self.environment)
-        return Result(done, self.folder / out)
+        return Result(done.returncode, done.stdout, done.stderr, self.folder / out, time.monotonic() - began)
 
     def start_launch(self, launch, *options, out="out"):
         if isinstance(launch, str) and "\n" in launch:
@@ -83,6 +109,19 @@ class SystemTest(unittest.TestCase):
     def tool(self, *words, timeout=60):
         return subprocess.run([str(BIN / "ensonify"), *map(str, words)], capture_output=True, text=True, timeout=timeout,
                               env=self.environment)
+
+    def wait_for_go(self, out="out"):
+        """Until time runs; the test's time limit bounds it."""
+        log = self.folder / out / "log" / "clock.log"
+        while " go " not in (log.read_text() if log.exists() else ""):
+            os.sched_yield()
+
+    def wait_for_process(self, name):
+        """The pid of a process of this test, by its program."""
+        while True:
+            for pid, line in self.processes():
+                if pathlib.Path(line.split()[0]).name == name:
+                    return pid
 
     def processes(self):
         """Command lines of living processes that name this test's folder."""

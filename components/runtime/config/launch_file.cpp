@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "components/runtime/config/data_paths.h"
+#include "components/runtime/config/launch_exits.h"
 #include "components/runtime/config/launch_overrides.h"
 #include "components/runtime/config/launch_text.h"
 #include "components/runtime/config/launch_tree.h"
@@ -215,13 +216,27 @@ void append_recorder(Launch& launch) {
   launch.processes.push_back(std::move(recorder));
 }
 
-void append_expect(const ConfigNode& list, Launch& launch) {
+/// What ends with an exit code is for the launcher; everything else goes to a process `expect`.
+void read_expect(ConfigReader& from, Launch& launch) {
+  const ConfigNode* list = from.node("expect");
+  if (list == nullptr || list->is_null()) {
+    return;
+  }
+  if (!list->is_list()) {
+    from.problem("expect", "is not a list of expectations");
+    return;
+  }
+  ConfigNode others = *list;
+  others.items = read_exits(from, launch);
+  if (others.items.empty()) {
+    return;
+  }
   ProcessSpec expect;
   expect.name = "expect";
   expect.component = "expect";
-  expect.place = list.place;
-  expect.config.root = ConfigNode::map(list.place);
-  expect.config.root.set("expect", list);
+  expect.place = list->place;
+  expect.config.root = ConfigNode::map(list->place);
+  expect.config.root.set("expect", std::move(others));
   launch.processes.push_back(std::move(expect));
 }
 
@@ -330,13 +345,7 @@ Launch read_launch(const LaunchOptions& options) {
   if (!options.record.empty()) {
     append_recorder(launch);
   }
-  if (const ConfigNode* expect = from.node("expect"); expect != nullptr && !expect->is_null()) {
-    if (!expect->is_list()) {
-      from.problem("expect", "is not a list of expectations");
-    } else if (!expect->items.empty()) {
-      append_expect(*expect, launch);
-    }
-  }
+  read_expect(from, launch);
   launch.launch_text = canonical_text(launch);
   put_out_folder(launch);
   from.finish();

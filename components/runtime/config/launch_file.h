@@ -74,6 +74,15 @@ struct ClockSettings {
   double connect_timeout_s = 30.0;
 };
 
+/// `exit: {process: agent, code: 3}` or `{process: agent, signal: KILL}` under `expect:`: how a process must end.
+/// Judged by the launcher, who alone sees it.
+struct ExitExpectation {
+  std::string name;  // what it says, unless the user named it
+  std::string process;
+  int code = 0;    // when signal is 0
+  int signal = 0;  // number
+};
+
 /// A launch file with its includes, arguments and overrides resolved.
 struct Launch {
   std::string file;
@@ -83,6 +92,7 @@ struct Launch {
   std::vector<ProcessSpec> processes;  // publishers rank in this order
   std::vector<Connection> wiring;
   ClockSettings clock;
+  std::vector<ExitExpectation> exits;
   std::vector<std::vector<std::string>> after;  // commands to run when all went well
   std::optional<SimTime> duration;              // hard end, sim time
   /// Facts of the run as YAML without places, absolute paths, output folder or anything that does not change results

@@ -149,6 +149,23 @@ TEST_CASE("--set and set: change processes, scenario sections and the clock, the
       "--set water.phh: is not a known key; did you mean ph?");
 }
 
+TEST_CASE("of the expectations exit codes are the launcher's, the others a process's") {
+  const Folder folder;
+  folder.add("x.yaml", std::string(kLaunch) +
+                           "expect:\n- exit: {process: agent, code: 3}\n- {count: bow/ping}\n"
+                           "- {name: shot, exit: {process: bow, signal: SIGKILL}}\n");
+  const Launch launch = folder.read();
+  REQUIRE(launch.exits.size() == 2);
+  CHECK(launch.exits[0].name == "agent ends with exit code 3");
+  CHECK((launch.exits[0].code == 3 && launch.exits[0].signal == 0));
+  CHECK(launch.exits[1].name == "shot");
+  CHECK((launch.exits[1].code == 0 && launch.exits[1].signal == 9));
+  CHECK(to_json(launch.processes.back().config.root) == R"({"expect":[{"count":"bow/ping"}]})");
+
+  folder.add("x.yaml", std::string(kLaunch) + "expect: [{exit: {process: agent, code: 0}}]\n");
+  CHECK(folder.read().processes.back().name == "agent");  // nothing is left for a process of its own
+}
+
 TEST_CASE("--record adds a recorder, expectations add the process that checks them") {
   const Folder folder;
   folder.add("x.yaml", std::string(kLaunch) + "expect: [{count: bow/ping, at_least: 3}]\n");
