@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "kernels/array/line.h"
+#include "kernels/random/stream.h"
 
 using namespace ensonify::array;
 using Window = Shading::Window;
@@ -138,4 +139,30 @@ TEST_CASE("the phase between halves is 2 pi baseline (u - u0) / lambda") {
     }
   }
   CHECK_THROWS_WITH(split_aperture(uniform(8, 0.5), 1.0), "a part of 8.000000 of 8 elements: at least 1, and not all");
+}
+
+TEST_CASE("any array has a finite pattern of at most 1, mirrored by mirrored steering, and a beam around its axis") {
+  const ensonify::random::Stream draw{11, "arrays"};
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const auto between = [&](std::uint64_t k, double low, double high) {
+      return low + (high - low) * draw.uniform(i, k);
+    };
+    const Window windows[] = {Window::kUniform, Window::kHann, Window::kHamming, Window::kDolphChebyshev};
+    const Shading shading{.window = windows[i % 4], .side_lobe_db = between(0, 13, 100)};
+    const double wavelength_m = between(1, 0.001, 0.05), spacing_m = between(2, 0.05, 2.0) * wavelength_m;
+    const LineArray line{.spacing_m = spacing_m,
+                         .weights = shading_weights(shading, 1 + static_cast<int>(between(3, 0, 300))),
+                         .element_length_m = between(4, 0.0, 1.0) * spacing_m};
+    const double u = between(5, -1, 1), u0 = between(6, -1, 1);
+    INFO("array " << i << ", " << line.elements() << " elements");
+    const double value = power(line, wavelength_m, u, u0);
+    CHECK(value >= 0.0);
+    CHECK(value <= 1.0 + 1e-9);
+    CHECK(power(line, wavelength_m, -u, -u0) == Approx(value).margin(1e-12));
+    const BeamEdges edges = half_power_edges(line, wavelength_m, u0);
+    CHECK(edges.lower_sine >= -1.0);
+    CHECK(edges.lower_sine < u0);
+    CHECK(edges.upper_sine > u0);
+    CHECK(edges.upper_sine <= 1.0);
+  }
 }

@@ -20,8 +20,8 @@ inline constexpr double kFarAway_m = std::numeric_limits<double>::infinity();
 std::complex<double> near_field_amplitude(const LineArray& array, double wavelength_m, double sine, double sin_steer,
                                           double range_m, double focus_m = kFarAway_m);
 
-/// Half-power edges there; the pattern of an unfocused beam is flat or hollow in the middle below about L^2 / (4
-/// lambda), where edges are those of the outermost part that connects to the axis.
+/// Half-power edges there. Below about L^2 / (7 lambda) an unfocused beam may be weaker on its axis than beside it; the
+/// edges are then where the part around the axis falls to half of the axis.
 BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,
                                       double focus_m = kFarAway_m);
 

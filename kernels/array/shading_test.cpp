@@ -73,6 +73,20 @@ TEST_CASE("every Dolph-Chebyshev side lobe has the level asked for, with few ele
   }
 }
 
+TEST_CASE("Taylor side lobes are at the level asked for or up to 0.7 dB below") {
+  for (const double level : {20.0, 30.0, 40.0, 60.0, 80.0}) {
+    const double A = std::acosh(std::pow(10.0, level / 20.0)) / std::numbers::pi;
+    for (const int more : {0, 3}) {
+      const int nbar = static_cast<int>(std::lround(2.0 * A * A + 0.5)) + more;
+      const LineArray line = line_of({.window = Window::kTaylor, .side_lobe_db = level, .nbar = nbar}, 256);
+      INFO(level << " dB, nbar " << nbar);
+      const double highest = highest_side_lobe_db(line);
+      CHECK(highest <= -level + 0.02);  // samples of a continuous line
+      CHECK(highest >= -level - 0.7);
+    }
+  }
+}
+
 TEST_CASE("weights agree with SciPy's") {
   // SciPy 1.10: chebwin(7, 40); taylor(9, nbar=4, sll=30, norm=False) and taylor(8, 5, 35), over their largest value.
   const double chebyshev[] = {0.15941069, 0.47936432, 0.83973877, 1.0, 0.83973877, 0.47936432, 0.15941069};
