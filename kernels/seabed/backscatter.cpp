@@ -57,6 +57,10 @@ void check(const SedimentParameters& sediment, double frequency_hz, double sound
 
 }  // namespace
 
+bool in_range(const SedimentParameters& sediment, double frequency_hz) {
+  return in_range(sediment) && frequency_hz >= 10e3 && frequency_hz <= 100e3;
+}
+
 SedimentBackscatter::SedimentBackscatter(const SedimentParameters& sediment, double frequency_hz,
                                          double sound_speed_mps)
     : sediment_(sediment) {

@@ -16,6 +16,9 @@ struct BackscatterParts {
   double total = 0.0;            // roughness + volume
 };
 
+/// Whether the report states an accuracy: parameters in range and 10..100 kHz.
+bool in_range(const SedimentParameters& sediment, double frequency_hz);
+
 /// Backscatter of the seabed after [APL1994] section IV.C at one frequency.
 ///
 /// Frequencies 10..100 kHz and parameters in_range(); accuracy there about 3 dB (well-known sand and silt above 5

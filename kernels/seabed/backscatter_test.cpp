@@ -180,6 +180,15 @@ TEST_CASE("with the cap rough rock is a diffuse reflector below 60 degrees, and 
   CHECK(law_of(CappedSediment{clay}, 300e3, 1500)(0.5) == law_of(clay, 300e3, 1500)(0.5));
 }
 
+TEST_CASE("in range is what the report vouches for") {
+  auto sand = sediment_of("medium sand").value();
+  CHECK(in_range(sand, 100e3));
+  CHECK_FALSE(in_range(sand, 101e3));
+  CHECK_FALSE(in_range(sand, 9e3));
+  sand.density_ratio = 3.1;
+  CHECK_FALSE(in_range(sand, 50e3));
+}
+
 TEST_CASE("parameters that the formulae cannot take are refused, with what is allowed") {
   auto sediment = sediment_of("clay").value();
   sediment.loss = 0.0;

@@ -15,11 +15,14 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   physics::Verbs verbs;
   physics::add_absorption(app, verbs);
+  physics::add_backscatter(app, verbs);
   physics::add_level(app, verbs);
+  physics::add_material(app, verbs);
   physics::add_noise(app, verbs);
   physics::add_pattern(app, verbs);
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);
+  physics::add_surface(app, verbs);
   return tool_main(app, argc, argv, [&] {
     for (physics::Verb& verb : verbs) {
       if (verb.asked_for()) verb.print();

@@ -97,4 +97,23 @@ held = rows("stabilisation", "--sensor-error-deg", "0.1", "--time-s", "0:6:0.01"
 assert all(abs(float(row["error_deg"])) <= float(row["bound_deg"]) + 1e-9 for row in held), held
 assert max(abs(float(row["error_deg"])) for row in held) > 0.99 * float(held[0]["bound_deg"])
 near(value("error_deg", "stabilisation", "--roll-stabilised", "no", "--time-s", "1.45"), -10.0, 1e-9)
+
+sand = ["backscatter", "--sediment", "medium-sand", "--sound-speed-mps", "1528"]
+for degrees, at_100_khz in ((10, -29.8), (20, -24.2), (40, -21.7), (60, -19.5), (80, -12.2), (90, -9.7)):  # TR 9407, table 3
+    row = rows(*sand, "--frequency-hz", "100e3", "--grazing-deg", str(degrees))[0]
+    near(float(row["total_db"]), at_100_khz, 0.1)
+    near(float(row["table_db"]), float(row["total_db"]), 0.1)
+mud = ["backscatter", "--sediment", "grain-size", "--grain-size-phi", "6"]
+near(value("total_db", *mud, "--grazing-deg", "45"), -28.3, 0.1)
+near(value("w2_cm4", *mud), 0.0005175, 1e-7)
+near(value("rho", "backscatter", "--sediment", "parameters", "--density-ratio", "2"), 2, 0)
+assert rows(*sand, "--frequency-hz", "200e3")[0]["in_range"] == "0"
+code, out, _ = physics(*sand, "--grazing-deg", "30", "--json")
+assert code == 0 and json.loads(out)[0]["kirchhoff_db"] is None, out  # no Kirchhoff part below 40 degrees
+refused("--grain-size-phi: 10 is outside [-1, 9]", "backscatter", "--grain-size-phi", "10")
+
+near(value("sphere_target_strength_db", "material", "--sphere-radius-m", "2"), 0, 1e-9)
+near(value("reflection", "material", "--material", "metal"), 0.935, 1e-3)
+near(value("total_db", "surface", "--wind-speed-mps", "8", "--frequency-hz", "70e3", "--grazing-deg", "30"), -24.5, 0.1)
+near(value("rms_height_m", "surface", "--wind-speed-mps", "10"), 2.13 / 4, 2e-3)
 print("ensonify physics answers as documented")
