@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "messages/clock.h"
 #include "messages/health.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -14,7 +15,7 @@ namespace ensonify::msg {
 /// Every message type, the only list of them. A new type is added here; a test finds one that was forgotten.
 using AllMessages =
     std::tuple<Pose, Guidance, MissionState, Attitude, Position, SoundSpeed, Estimate, Ping, Soundings, Snippets,
-               SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Chart, Health>;
+               SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Chart, Health, ClockHealth>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

@@ -71,7 +71,9 @@ struct Soundings {
         "why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side "
         "lobe; empty: not told",
         self.flags);
-    visit("valid", "1", "1 where the beam has a detection; other entries of that beam mean nothing if 0", self.valid);
+    visit("valid", "1",
+          "1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured",
+          self.valid);
     visit("position_enu_m", "m",
           "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",
           self.position_enu_m);

@@ -15,6 +15,8 @@ using std::chrono::steady_clock;
 
 std::atomic<bool> stop_requested{false};
 
+constexpr std::chrono::seconds kHealthEvery{1};  // wall time; Router::wait returns often enough, also while paused
+
 WallTime after(WallTime t, double s) {
   return t + std::chrono::duration_cast<WallTime::duration>(std::chrono::duration<double>(s));
 }
@@ -125,7 +127,7 @@ void Clock::on_proven(const std::string& from, const std::string& text) {
 
 void Clock::start() {
   phase_ = Phase::kRunning;
-  run_began_ = last_progress_ = steady_clock::now();
+  run_began_ = last_progress_ = health_told_ = steady_clock::now();
   log::line("clock", SimTime{0}, "go",
             fmt::format("processes={} edges={} connect_s={:.4f}", registry_.size(), registry_.graph().edges.size(),
                         std::chrono::duration<double>(run_began_ - phase_began_).count()));
@@ -199,6 +201,7 @@ void Clock::on_time(WallTime now) {
     case Phase::kRunning:
       hand_out();
       if (phase_ == Phase::kRunning) watch_progress(now);
+      if (phase_ == Phase::kRunning && now - health_told_ >= kHealthEvery) tell_health(now);
       return;
     case Phase::kEnding:
       if (std::all_of(said_bye_.begin(), said_bye_.end(), [](bool bye) { return bye; }) || now >= *next_alarm()) {

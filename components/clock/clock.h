@@ -10,6 +10,7 @@
 #include "components/clock/registry.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/lockstep/conductor.h"
+#include "messages/clock.h"
 
 namespace ensonify::clock {
 
@@ -38,6 +39,7 @@ class Clock {
   void start();
   void hand_out();
   void watch_progress(WallTime now);
+  void tell_health(WallTime now);
   void fail(int code, const std::string& culprit, const std::string& message);
   void end(int code);
   void tell_all(const std::string& text);
@@ -47,6 +49,7 @@ class Clock {
   Summary summary() const;
   std::string status_json() const;
   std::string registry_json() const;
+  msg::ClockHealth health(WallTime now) const;
   void write_report() const;
 
   const Launch& launch_;
@@ -60,6 +63,9 @@ class Clock {
   WallTime run_began_{};
   WallTime run_ended_{};
   WallTime last_progress_{};
+  WallTime health_told_{};
+  SimTime health_told_at_{0};  // sim time reached then
+  std::uint64_t health_count_ = 0;
   int stall_stage_ = 0;
   std::vector<Account> accounts_;
   std::vector<std::vector<std::uint32_t>> inputs_;  // topic ids that each participant reads

@@ -25,6 +25,9 @@ char process_state(std::int64_t pid) {
   return name_end == std::string::npos || name_end + 2 >= text.size() ? '?' : text[name_end + 2];
 }
 
+constexpr const char* kHealthTopic = "clock/health";
+constexpr std::size_t kHealthBytes = 1 << 16;
+
 double elapsed_s(WallTime from, WallTime to) { return std::chrono::duration<double>(to - from).count(); }
 
 json to_json(const Summary& s) {
@@ -147,11 +150,61 @@ std::string Clock::registry_json() const {
                       {"published", t < published_.size() ? published_[t] : 0},
                       {"subscribers", subscribers}});
   }
+  if (!graph.topics.empty()) {  // the clock's own, behind everybody's
+    topics.push_back({{"topic", kHealthTopic},
+                      {"topic_id", graph.topics.size()},
+                      {"type", msg::ClockHealth::kType},
+                      {"publisher", "clock"},
+                      {"component", "clock"},
+                      {"max_bytes", kHealthBytes},
+                      {"rate", {1, 1}},
+                      {"live", router_.live_endpoint()},
+                      {"sync", ""},
+                      {"published", health_count_},
+                      {"subscribers", json::array()}});
+  }
   json processes = json::array();
   for (const Declaration& d : registry_.declarations()) {
     processes.push_back({{"name", d.process}, {"component", d.component}});
   }
   return json{{"kind", "registry"}, {"topics", topics}, {"processes", processes}}.dump();
+}
+
+msg::ClockHealth Clock::health(WallTime now) const {
+  const Summary s = summary();
+  msg::ClockHealth health;
+  health.stamp_ns = s.reached.count();  // while anything runs there is a next event
+  health.state = s.state;
+  health.wall_s = s.wall_s;
+  health.rate = s.rate.value_or(0.0);
+  health.rate_factor = seconds(s.reached - health_told_at_) / elapsed_s(health_told_, now);
+  health.lateness_s = seconds(pacer_.lateness(s.reached, now));
+  health.slips = static_cast<std::int64_t>(s.slips);
+  health.slip_s = seconds(s.slipped);
+  for (const Account& account : accounts_) {
+    health.participants.push_back({account.name, static_cast<std::int64_t>(account.grants),
+                                   static_cast<double>(account.cost_ns) * 1e-9,
+                                   static_cast<std::int64_t>(account.late_events), seconds(account.worst_lateness)});
+  }
+  return health;
+}
+
+/// Told to viewers only. Its topic has no edge: it is in no WELCOME, so no participant can read or record it.
+void Clock::tell_health(WallTime now) {
+  const msg::ClockHealth report = health(now);
+  msg::Packet packet;
+  packet.topic = kHealthTopic;
+  packet.body = msg::encode(report);
+  packet.envelope.epoch = protocol::Welcome{}.epoch;
+  packet.envelope.publisher = static_cast<std::uint32_t>(registry_.size());
+  packet.envelope.topic_id = static_cast<std::uint32_t>(registry_.graph().topics.size());
+  packet.envelope.frame_count = static_cast<std::uint32_t>(msg::kFirstArrayFrame);
+  packet.envelope.type_hash = msg::type_hash(msg::ClockHealth::kType);
+  packet.envelope.seq = health_count_++;
+  packet.envelope.t_sim_ns = report.stamp_ns;
+  router_.publish_live(packet);
+  health_told_ = now;
+  health_told_at_ = SimTime{report.stamp_ns};
 }
 
 void Clock::on_request(const std::string& from, const std::string& kind, const std::string& text) {

@@ -281,6 +281,8 @@ TEST_CASE("beams beyond the range give no sounding, not the sidelobes of those w
       if (angle_deg < 56.0) CHECK(s.valid[beam] == 1);
       if (angle_deg > 60.0) CHECK(s.valid[beam] == 0);
       if (s.valid[beam] == 1) CHECK(-s.position_enu_m(beam, 2) == Approx(20.0).margin(0.4));
+      CHECK(std::isnan(s.travel_time_s[beam]) == (s.valid[beam] == 0));  // nobody takes it for a measurement
+      CHECK(std::isnan(s.position_enu_m(beam, 2)) == (s.valid[beam] == 0));
     }
   }
 }

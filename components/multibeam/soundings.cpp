@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/multibeam/geometry.h"
 #include "kernels/array/line.h"
@@ -18,6 +19,18 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config, std::vector<float> b
   settings_.receive_length_in_waves = array::length_in_waves_for(config.receive_beamwidth_rad);
 }
 
+namespace {
+
+/// Entries of a beam without a sounding are NaN, so that no sum, bound or picture takes it for a measurement.
+template <class T>
+msg::Array<T> nothing(std::vector<std::size_t> shape) {
+  msg::Array<T> array(std::move(shape));
+  std::ranges::fill(array.flat(), std::numeric_limits<T>::quiet_NaN());
+  return array;
+}
+
+}  // namespace
+
 msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& image,
                                    const frames::PoseHistory& estimate) {
   detect::detect_bottom(settings_, sin_beams_, image, detections_);
@@ -26,11 +39,11 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const detect::Amplitudes& i
   soundings.stamp_ns = shot.transmit.count();
   soundings.ping = shot.ping;
   soundings.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
-  soundings.travel_time_s = msg::Array<float>({beams});
-  soundings.backscatter_db = msg::Array<float>({beams});
-  soundings.quality_db = msg::Array<float>({beams});
+  soundings.travel_time_s = nothing<float>({beams});
+  soundings.backscatter_db = nothing<float>({beams});
+  soundings.quality_db = nothing<float>({beams});
   soundings.valid = msg::Array<std::uint8_t>({beams});
-  soundings.position_enu_m = msg::Array<double>({beams, 3});
+  soundings.position_enu_m = nothing<double>({beams, 3});
   heard_.clear();
   drop_beyond_range();
   if (estimate.empty()) return soundings;

@@ -59,6 +59,27 @@ class Topic(unittest.TestCase):
         self.assertEqual((code, text), (1, ""))
         self.assertIn("0 of 1 messages came within 0.2 s", error)
 
+    def test_the_clock_tells_how_the_run_keeps_its_pace(self):
+        (entry,) = [topic for topic in self.run_.json("topic", "list") if topic["topic"] == "clock/health"]
+        self.assertEqual((entry["type"], entry["publisher"], entry["subscribers"]), ("clock_health/1", "clock", []))
+        code, text, _ = self.run_.tool("topic", "echo", "clock/health", "-n", "2", "--json")
+        self.assertEqual(code, 0)
+        messages = [json.loads(line) for line in text.splitlines()]
+        first, second = (message["content"] for message in messages)
+        self.assertEqual(messages[1]["seq"], messages[0]["seq"] + 1)
+        self.assertEqual(messages[1]["t_sim_ns"], second["stamp_ns"])
+        apart_s = second["wall_s"] - first["wall_s"]
+        self.assertGreater(apart_s, 0.9)  # the period is one second of wall time
+        self.assertEqual((second["state"], second["rate"], second["slips"]), ("running", 1, 0))
+        advance_s = 1e-9 * (second["stamp_ns"] - first["stamp_ns"])
+        self.assertAlmostEqual(second["rate_factor"], advance_s / apart_s, delta=0.01)  # taken some microseconds apart
+        self.assertEqual([p["name"] for p in second["participants"]], ["auv", "pilot", "bow", "viewer"])
+        for participant in second["participants"]:
+            self.assertGreater(participant["grants"], 0)
+            self.assertGreater(participant["cost_s"], 0)
+        code, text, _ = self.run_.tool("topic", "echo", "clock/health", "-n", "1")
+        self.assertRegex(text, "rate_factor")
+
     def test_hz_and_bw_tell_the_rates_of_sim_time_exactly(self):
         (rate,) = self.run_.json("topic", "hz", "auv/pose", "--count", "40")
         self.assertAlmostEqual(rate["sim_hz"], 100.0, delta=1e-6)

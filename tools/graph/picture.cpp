@@ -34,6 +34,7 @@ Picture picture_of(const RunRegistry& registry) {
   Picture picture;
   for (const auto& [name, component] : registry.processes) picture.processes.push_back({name, component});
   for (const TopicEntry& topic : registry.topics) {
+    if (index_of(picture, topic.publisher) == picture.processes.size()) continue;  // the clock: no edge leads there
     for (const auto& [process, port, delay] : topic.subscribers) {
       picture.edges.push_back({picture.topics.size(), index_of(picture, process), port, delay});
     }

@@ -68,7 +68,12 @@ int main(int argc, char** argv) {
   using namespace ensonify::topic_tool;
   CLI::App app(
       "Looks at the topics of a live run. What is asked for here can never slow the run: a slow reader loses\n"
-      "messages instead, and is told how many.\n"
+      "messages instead, and is told how many. Nothing is kept for a late one either: it sees what is published from\n"
+      "then on; what was said before, such as a chart, only a record holds. Facts fixed for the run (launch, "
+      "scenario,\n"
+      "...) can be had at any time from `ensonify clock get`. The topic clock/health tells about once a second of "
+      "wall\n"
+      "time how the run keeps its pace.\n"
       "Exit code: 0 done, 1 fewer messages came than were asked for, 2 no such run, topic or field.",
       "ensonify topic");
   Options options;

@@ -20,7 +20,7 @@ std::string with_unit(std::string text, const std::string& unit) {
   return unit.empty() || unit == "1" ? text : text + " " + unit;
 }
 
-/// "f4 [2, 400]: 0.1 0.2 0.3 ... 7.9 8 8.1 uPa (0.1 to 8.1)"
+/// "f4 [2, 400]: 0.1 0.2 0.3 ... 7.9 8 8.1 uPa (0.1 to 8.1)"; the range is that of what is not NaN.
 std::string array_text(const RawArray& array, const std::string& unit) {
   const std::size_t count = array.bytes.size / msg::dtype_size(array.dtype);
   std::string text = fmt::format("{} [{}]", msg::dtype_name(array.dtype), fmt::join(array.shape, ", "));
@@ -36,7 +36,7 @@ std::string array_text(const RawArray& array, const std::string& unit) {
     else if (i == kShown) text += " ...";
   }
   text = with_unit(text, unit);
-  return count > 2 * kShown ? text + fmt::format(" ({:.6g} to {:.6g})", low, high) : text;
+  return count > 2 * kShown && low <= high ? text + fmt::format(" ({:.6g} to {:.6g})", low, high) : text;
 }
 
 bool is_struct(const Value& value) { return value.as<Value::Map>() != nullptr; }

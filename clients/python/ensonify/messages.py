@@ -9,6 +9,8 @@ import numpy as np
 from ensonify.typed import Message, Struct, array, fixed, list_of
 
 __all__ = [
+    "Pace",
+    "ClockHealth",
     "Counter",
     "Health",
     "Pose",
@@ -32,6 +34,51 @@ __all__ = [
     "TileRelease",
     "Chart",
 ]
+
+
+@dataclass(eq=False)
+class Pace(Struct):
+    """What one participant has cost the run in wall time.
+
+    name: name of the process in the launch file
+    grants [1]: grants given to it
+    cost_s [s]: wall time inside its events
+    late_events [1]: grants that it finished last, the run being late
+    worst_lateness_s [s]: largest lateness charged to it, sim time
+    """
+
+    name: str = ""
+    grants: int = 0
+    cost_s: float = 0.0
+    late_events: int = 0
+    worst_lateness_s: float = 0.0
+
+
+@dataclass(eq=False)
+class ClockHealth(Message):
+    """How a run keeps its pace, about once a second of wall time. Wall-clock facts: on the live plane only, never recorded.
+
+    stamp_ns [ns]: sim time that all participants have reached
+    state: running or paused
+    wall_s [s]: wall time since sim time started
+    rate [1]: sim seconds per wall second asked for; 0: as fast as possible
+    rate_factor [1]: sim seconds per wall second achieved since the report before
+    lateness_s [s]: how far the run stands behind paced time, sim time
+    slips [1]: how often lost time was given up (slip_after_s)
+    slip_s [s]: sim time given up in all
+    participants: by rank
+    """
+
+    TYPE = "clock_health/1"
+    stamp_ns: int = 0
+    state: str = "running"
+    wall_s: float = 0.0
+    rate: float = 0.0
+    rate_factor: float = 0.0
+    lateness_s: float = 0.0
+    slips: int = 0
+    slip_s: float = 0.0
+    participants: list = list_of(Pace)
 
 
 @dataclass(eq=False)
@@ -438,7 +485,7 @@ class Soundings(Message):
     window_s [s]: length of the window that the detection used; empty: not told
     kind [1]: 1 by amplitude, 2 by phase (of a blend, the one that weighs more), 0 neither; empty: 1
     flags [1]: why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side lobe; empty: not told
-    valid [1]: 1 where the beam has a detection; other entries of that beam mean nothing if 0
+    valid [1]: 1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
@@ -713,6 +760,7 @@ class Chart(Message):
 
 
 TYPES = {cls.TYPE: cls for cls in (
+    ClockHealth,
     Health,
     Pose,
     Guidance,

@@ -108,12 +108,9 @@ Link::Link(const std::string& name, const std::string& clock_endpoint, const Add
   sockets_->sync.set(zmq::sockopt::sndhwm, queue);
   sockets_->sync.set(zmq::sockopt::xpub_nodrop, true);
   sockets_->sync.set(zmq::sockopt::sndbuf, kKernelBuffer);
-  constexpr int kLiveQueue = 4;
-  sockets_->live.set(zmq::sockopt::sndhwm, kLiveQueue);
   sockets_->sync.set(zmq::sockopt::linger, kLingerMs);
-  sockets_->live.set(zmq::sockopt::linger, 0);
   sockets_->sync_endpoint = bind(sockets_->sync, address, name + ".sync");
-  sockets_->live_endpoint = bind(sockets_->live, address, name + ".live");
+  sockets_->live_endpoint = bind_live(sockets_->live, address, name);
 }
 
 Link::~Link() {
@@ -176,10 +173,7 @@ std::vector<msg::Packet> Link::take() {
 void Link::publish(const msg::Packet& packet) {
   std::vector<zmq::message_t> frames = to_frames(packet);
   send_frames(sockets_->sync, frames);
-  zmq::message_t subscription;
-  while (sockets_->live.recv(subscription, zmq::recv_flags::dontwait)) {  // lets ZeroMQ take note of new viewers
-  }
-  send_frames(sockets_->live, frames);
+  send_live(sockets_->live, frames);
 }
 
 }  // namespace ensonify::bus

@@ -5,6 +5,7 @@
 
 #include <zmq.hpp>
 
+#include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
 
 namespace ensonify::bus {
@@ -36,8 +37,10 @@ bool receive(zmq::socket_t& socket, Router::Message& message, zmq::recv_flags fl
 struct Router::Sockets {
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::router};
+  zmq::socket_t live{context, zmq::socket_type::xpub};
   int alarm = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);  // zmq_poll alone knows milliseconds only
   std::string endpoint;
+  std::string live_endpoint;
 };
 
 Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
@@ -49,6 +52,7 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::sndhwm, 0);
   socket.set(zmq::sockopt::rcvhwm, 0);
   sockets_->endpoint = bind(socket, address, "clock");
+  sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
 }
 
 Router::~Router() { close(sockets_->alarm); }
@@ -83,6 +87,13 @@ bool Router::send(const std::string& to, std::string_view text) {
   } catch (const zmq::error_t&) {  // EHOSTUNREACH: the peer is gone; the launcher tells why
     return false;
   }
+}
+
+const std::string& Router::live_endpoint() const { return sockets_->live_endpoint; }
+
+void Router::publish_live(const msg::Packet& packet) {
+  std::vector<zmq::message_t> frames = to_frames(packet);
+  send_live(sockets_->live, frames);
 }
 
 struct Asker::Sockets {

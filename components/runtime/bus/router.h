@@ -12,10 +12,11 @@ namespace ensonify::bus {
 
 using WallTime = std::chrono::steady_clock::time_point;
 
-/// The clock's end of the control plane: a ROUTER with mandatory routing and no handover.
+/// The clock's sockets: its end of the control plane, a ROUTER with mandatory routing and no handover, and a live plane
+/// for what viewers may want to know of it. It has no sync plane: nothing that it says reaches a participant as data.
 class Router {
  public:
-  /// Binds `<run_dir>/clock` or a loopback port.
+  /// Binds `<run_dir>/clock` and `<run_dir>/clock.live`, or loopback ports.
   explicit Router(const Address& address);
   ~Router();
 
@@ -29,6 +30,10 @@ class Router {
   std::optional<Message> wait(std::optional<WallTime> until);
   /// False if that peer is gone.
   bool send(const std::string& to, std::string_view text);
+
+  const std::string& live_endpoint() const;
+  /// To whoever watches; never waits.
+  void publish_live(const msg::Packet& packet);
 
  private:
   struct Sockets;

@@ -1,5 +1,6 @@
 #include "components/runtime/bus/sockets.h"
 
+#include "components/runtime/bus/frames.h"
 #include "components/runtime/exit_error.h"
 
 namespace ensonify::bus {
@@ -20,6 +21,20 @@ std::string bind(zmq::socket_t& socket, const Address& address, const std::strin
     throw UserError((address.tcp ? tcp : path) + ": cannot bind: " + e.what());
   }
   return socket.get(zmq::sockopt::last_endpoint);
+}
+
+std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process) {
+  constexpr int kLiveQueue = 4;
+  socket.set(zmq::sockopt::sndhwm, kLiveQueue);
+  socket.set(zmq::sockopt::linger, 0);
+  return bind(socket, address, process + ".live");
+}
+
+void send_live(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) {
+  zmq::message_t subscription;
+  while (socket.recv(subscription, zmq::recv_flags::dontwait)) {  // lets ZeroMQ take note of new viewers
+  }
+  send_frames(socket, frames);
 }
 
 void connect_control(zmq::socket_t& dealer, const std::string& endpoint) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 #include <zmq.hpp>
 
 #include "components/runtime/bus/link.h"
@@ -14,6 +15,12 @@ inline constexpr int kKernelBuffer = 1 << 20;  // fewer switches between process
 /// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, not on the loopback
 /// interface, or a socket path is longer than the system's 107 bytes.
 std::string bind(zmq::socket_t& socket, const Address& address, const std::string& name);
+
+/// Makes an XPUB the live plane of a process: a tiny queue, nothing is waited for. Binds it and returns its endpoint.
+std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process);
+
+/// Sends to the viewers that keep up; never waits.
+void send_live(zmq::socket_t& socket, std::vector<zmq::message_t>& frames);
 
 /// Options and connect of a DEALER to the clock.
 void connect_control(zmq::socket_t& dealer, const std::string& endpoint);
