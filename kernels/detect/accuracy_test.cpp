@@ -57,7 +57,8 @@ TEST_CASE("a plane is detected without bias, as exactly as theory allows, and th
       if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
       // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
       // by.
-      CHECK(a.predicted_sd / a.sd > 0.7);
+      // At 10 dB a faded echo now and then errs by more than its own scatter tells.
+      CHECK(a.predicted_sd / a.sd > (snr_db > 15.0 ? 0.7 : 0.6));
       CHECK(a.predicted_sd / a.sd < (angle_deg < 15.5 ? 2.0 : 1.4));
     }
   }
