@@ -44,8 +44,8 @@ double material_backscatter(const Material& material, double grazing_rad);
 /// @throws std::invalid_argument unless the area is positive.
 double lambert_of_target_strength(double target_strength_db, double surface_area_m2);
 
-/// Target strength of a rigid sphere in the high-frequency limit, 20 log10(a / 2), in dB re 1 m^2. Within about 1 dB
-/// from ka = 10 on, where k = 2 pi f / c.
+/// Target strength of a rigid sphere in the high-frequency limit, 20 log10(a / 2), in dB re 1 m^2. Within 0.7 dB of the
+/// exact series from ka = 10 on, k = 2 pi f / c.
 /// @throws std::invalid_argument unless the radius is positive.
 double sphere_target_strength_db(double radius_m);
 

@@ -1,7 +1,9 @@
 #include "kernels/seabed/material.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "kernels/seabed/gsab.h"
@@ -44,6 +46,26 @@ TEST_CASE("a rigid sphere of facets has the target strength of the closed form")
   }
   CHECK(sphere_target_strength_db(2.0) == 0.0);
   CHECK_THROWS_WITH(sphere_target_strength_db(0.0), "radius 0.000000 m: allowed is above 0");
+}
+
+TEST_CASE("the closed form of a rigid sphere is within 0.7 dB of the exact series from ka = 10 on") {
+  // Echo of a plane wave, relative to a / 2: |2 / ka Sum (2n + 1) (-1)^n j_n' / h_n'|.
+  const auto slope = [](auto bessel, unsigned n, double x) {
+    return n == 0 ? -bessel(1, x) : bessel(n - 1, x) - (n + 1) / x * bessel(n, x);
+  };
+  const auto j = [](unsigned n, double x) { return std::sph_bessel(n, x); };
+  const auto y = [](unsigned n, double x) { return std::sph_neumann(n, x); };
+  double greatest_db = 0.0;
+  for (double ka = 10.0; ka < 60.0; ka += 0.3) {
+    std::complex<double> sum = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(ka) + 20; ++n) {
+      const std::complex<double> share = slope(j, n, ka) / std::complex(slope(j, n, ka), slope(y, n, ka));
+      sum += (2.0 * n + 1.0) * (n % 2 == 0 ? 1.0 : -1.0) * share;
+    }
+    greatest_db = std::max(greatest_db, std::abs(20 * std::log10(std::abs(2.0 / ka * sum))));
+  }
+  CHECK(greatest_db < 0.7);
+  CHECK(greatest_db > 0.1);  // the creeping wave is in the series
 }
 
 TEST_CASE("a material returns the energy that its impedance reflects, neither more nor less") {
