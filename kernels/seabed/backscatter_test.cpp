@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "kernels/seabed/law.h"
@@ -187,6 +188,28 @@ TEST_CASE("in range is what the report vouches for") {
   CHECK_FALSE(in_range(sand, 9e3));
   sand.density_ratio = 3.1;
   CHECK_FALSE(in_range(sand, 50e3));
+}
+
+TEST_CASE("any seabed inside the report's limits, and well outside, gives finite strengths") {
+  std::mt19937 draw(7);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(draw()) / static_cast<double>(std::mt19937::max()));
+  };
+  for (int i = 0; i < 400; ++i) {
+    const SedimentParameters sediment{.density_ratio = between(0.5, 5.0),
+                                      .sound_speed_ratio = between(0.5, 4.0),
+                                      .loss = std::pow(10.0, between(-6.0, 0.0)),
+                                      .volume_parameter = between(0.0, 1.0),
+                                      .spectral_exponent = between(2.05, 3.95),
+                                      .spectral_strength_cm4 = std::pow(10.0, between(-8.0, 1.0))};
+    const SedimentBackscatter law(sediment, std::pow(10.0, between(3.0, 6.3)), between(1400, 1600));
+    for (const double degrees : {0.0, 0.5, 5.0, 39.99, 40.0, 66.0, 89.0, 90.0}) {
+      const double sigma = law(degrees * kDegree);
+      INFO("seabed " << i << " at " << degrees << " degrees");
+      REQUIRE(std::isfinite(sigma));
+      REQUIRE(sigma > 0.0);
+    }
+  }
 }
 
 TEST_CASE("parameters that the formulae cannot take are refused, with what is allowed") {

@@ -17,6 +17,7 @@ struct Gsab {
 /// Backscattering cross section per unit area (a ratio, not dB):
 /// A exp(-phi^2 / 2 B^2) + C cos^D phi + E exp(-phi^2 / 2 F^2), phi the incidence angle.
 /// Grazing angle from the local plane of the seabed, clamped to 0..pi/2.
+/// @throws std::invalid_argument for a width that is not above 0.
 double gsab_backscatter(const Gsab& curve, double grazing_rad);
 
 }  // namespace ensonify::seabed

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/seabed/facets.h"
+
 namespace ensonify::seabed {
 namespace {
 
@@ -19,6 +21,10 @@ constexpr std::array<NamedMaterial, 4> kTable{{
     {"concrete", {8.0, 0.2, 0.3}},
     {"wood", {2.9, 0.2, 0.3}},
 }};
+
+void require(bool good, const char* what, double value, const char* allowed) {
+  if (!good) throw std::invalid_argument(std::string(what) + " " + std::to_string(value) + ": allowed is " + allowed);
+}
 
 }  // namespace
 
@@ -36,29 +42,23 @@ double normal_reflection(const Material& material) {
 }
 
 double material_backscatter(const Material& material, double grazing_rad) {
-  const double theta = std::clamp(grazing_rad, 0.0, std::numbers::pi / 2.0);
+  require(material.impedance_mrayl > 0.0, "impedance in Mrayl", material.impedance_mrayl, "above 0");
+  require(material.rms_slope > 0.0, "rms slope", material.rms_slope, "above 0");
+  require(material.diffuse >= 0.0 && material.diffuse <= 1.0, "diffuse share", material.diffuse, "0 to 1");
+  const double sine = std::sin(std::clamp(grazing_rad, 0.0, std::numbers::pi / 2.0));
   const double reflected = std::pow(normal_reflection(material), 2);
-  const double sin_squared = std::pow(std::sin(theta), 2);
-  const double slope_squared = std::pow(material.rms_slope, 2);
-  const double tan_squared = sin_squared > 0.0 ? (1.0 - sin_squared) / sin_squared : 1e30;  // of incidence
-  const double secant_squared = 1.0 + tan_squared;
-  const double facets = secant_squared * secant_squared * std::exp(-tan_squared / slope_squared) /
-                        (4.0 * std::numbers::pi * slope_squared);
-  const double lambert = sin_squared / std::numbers::pi;
+  const double facets = facet_backscatter(sine, std::pow(material.rms_slope, 2));
+  const double lambert = sine * sine / std::numbers::pi;
   return reflected * ((1.0 - material.diffuse) * facets + material.diffuse * lambert);
 }
 
 double lambert_of_target_strength(double target_strength_db, double surface_area_m2) {
-  if (!(surface_area_m2 > 0.0)) {
-    throw std::invalid_argument("surface area " + std::to_string(surface_area_m2) + " m2: allowed is above 0");
-  }
+  require(surface_area_m2 > 0.0, "surface area in m2", surface_area_m2, "above 0");
   return 6.0 * std::pow(10.0, 0.1 * target_strength_db) / surface_area_m2;
 }
 
 double sphere_target_strength_db(double radius_m) {
-  if (!(radius_m > 0.0)) {
-    throw std::invalid_argument("radius " + std::to_string(radius_m) + " m: allowed is above 0");
-  }
+  require(radius_m > 0.0, "radius in m", radius_m, "above 0");
   return 20.0 * std::log10(radius_m / 2.0);
 }
 

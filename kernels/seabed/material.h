@@ -35,6 +35,7 @@ double normal_reflection(const Material& material);
 /// theta grazing angle from the facet, clamped to 0..pi/2, g = pi/2 - theta, s rms slope. The first term is the
 /// high-frequency Kirchhoff limit for Gaussian slopes, the second Lambert's law. No more energy leaves than arrives.
 /// Integrated over a large sphere the facets alone give its target strength, sphere_target_strength_db().
+/// @throws std::invalid_argument for an impedance or slope that is not above 0, or a share outside 0..1.
 double material_backscatter(const Material& material, double grazing_rad);
 
 /// Lambert strength mu (a ratio; sigma = mu sin^2 grazing) of a convex body's skin, so that its target strength

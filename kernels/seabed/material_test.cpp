@@ -45,7 +45,7 @@ TEST_CASE("a rigid sphere of facets has the target strength of the closed form")
           Approx(sphere_target_strength_db(radius_m)).margin(0.05));
   }
   CHECK(sphere_target_strength_db(2.0) == 0.0);
-  CHECK_THROWS_WITH(sphere_target_strength_db(0.0), "radius 0.000000 m: allowed is above 0");
+  CHECK_THROWS_WITH(sphere_target_strength_db(0.0), "radius in m 0.000000: allowed is above 0");
 }
 
 TEST_CASE("the closed form of a rigid sphere is within 0.7 dB of the exact series from ka = 10 on") {
@@ -108,4 +108,12 @@ TEST_CASE("GSAB: its parts, alone and together") {
   CHECK(gsab_backscatter({.diffuse = 0.01}, kPi / 6) == Approx(0.0025));  // Lambert at 30 degrees grazing
   CHECK(gsab_backscatter({.specular = 1.0, .specular_width_rad = 0.2}, kPi / 2 - 0.2) == Approx(std::exp(-0.5)));
   CHECK(gsab_backscatter(curve, 7.0) == gsab_backscatter(curve, kPi / 2));
+}
+
+TEST_CASE("materials and curves that have no value are refused") {
+  CHECK_THROWS_WITH(material_backscatter({46.0, 0.0, 0.1}, 1.0), "rms slope 0.000000: allowed is above 0");
+  CHECK_THROWS_WITH(material_backscatter({46.0, 0.1, 1.5}, 1.0), "diffuse share 1.500000: allowed is 0 to 1");
+  CHECK_THROWS_WITH(material_backscatter({0.0, 0.1, 0.5}, 1.0), "impedance in Mrayl 0.000000: allowed is above 0");
+  CHECK_THROWS(gsab_backscatter({.specular_width_rad = 0.0}, 1.0));
+  CHECK(material_backscatter(material_of("rigid").value(), 0.0) == 0.0);
 }

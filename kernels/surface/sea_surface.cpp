@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/seabed/facets.h"
+
 namespace ensonify::surface {
 namespace {
 
@@ -25,12 +27,6 @@ double bubble_cross_section(double sine, double f, double U) {
   // 1 - exp(-4 beta) without cancellation in calm water, where beta is small.
   return beta_v / (4.0 * pi) * (radiation / damping) * (8.0 * beta * std::exp(-2.0 * beta) - std::expm1(-4.0 * beta)) /
          (2.0 * beta);
-}
-
-/// tan_squared: of the incidence angle.
-double facet_cross_section(double tan_squared, double slope_squared) {
-  const double secant_squared = 1.0 + tan_squared;
-  return secant_squared * secant_squared * std::exp(-tan_squared / slope_squared) / (4.0 * pi * slope_squared);
 }
 
 /// Grazing angle where the facets' lobe is 15 dB below its peak.
@@ -68,7 +64,7 @@ SurfaceBackscatter sea_surface_backscatter(double grazing_rad, double frequency_
 
   SurfaceBackscatter part;
   part.bubbles = bubble_cross_section(sine, f, U);
-  part.facets = facet_cross_section((1.0 - sine * sine) / (sine * sine), slope_squared);
+  part.facets = seabed::facet_backscatter(sine, slope_squared);
   part.ripples = 1.3e-5 * U * U * std::pow(std::tan(std::min(theta, 85.0 * kDegree)), 4);
   const double degrees_below = (facets_end(slope_squared) - theta) / kDegree;
   const double facets_share = 1.0 / (1.0 + std::exp(0.524 * degrees_below));
