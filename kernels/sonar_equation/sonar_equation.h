@@ -47,8 +47,8 @@ double sidescan_area_m2(double range_m, double altitude_m, double along_track_wi
 
 /// Area, in m^2, that a beam of a Mills cross hears on a level seabed: transmit width along track; across track the
 /// smaller of the beam's footprint R width / cos^2(angle), where the steered array has widened by 1 / cos, and the
-/// pulse's c tau/2 / sin(angle). Equivalent widths at broadside. An upper bound: by 1.1 dB where both are equal, by
-/// less than 0.1 dB beyond 35 degrees (for 1 degree and 100 us at 20 m).
+/// pulse's c tau/2 / sin(angle). Equivalent widths at broadside. An upper bound: by 1.2 dB where both are equal, by
+/// less than 0.15 dB beyond 35 degrees (for 1 degree and 100 us at 20 m).
 double multibeam_area_m2(double range_m, double beam_angle_rad, double transmit_width_rad, double receive_width_rad,
                          double sound_speed_mps, double pulse_length_s);
 

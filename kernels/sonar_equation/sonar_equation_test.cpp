@@ -44,7 +44,7 @@ TEST_CASE("a multibeam hears what the area integral gives, or a little more wher
   CHECK(multibeam_level_db(60) == Approx(107.68).margin(0.1));
   for (const auto& [beam_deg, level_db] : {std::pair{0.0, 131.86}, {30.0, 124.20}}) {
     CHECK(multibeam_level_db(beam_deg) >= level_db);
-    CHECK(multibeam_level_db(beam_deg) <= level_db + 1.1);
+    CHECK(multibeam_level_db(beam_deg) <= level_db + 0.25);  // the bound of 1.2 dB belongs to 10 degrees
   }
   CHECK(multibeam_level_db(-45) == multibeam_level_db(45));
 }

@@ -10,8 +10,9 @@ double thermal_noise_level_db(double frequency_hz);
 /// Level of the noise that wind makes at the sea surface, dB re 1 uPa^2/Hz; no noise (-inf dB) without wind.
 ///
 /// Knudsen's spectra [Knudsen1948] by the rule of fives [Wenz1962]: 51 dB at 1 kHz in 5 knots, 5 dB more for each
-/// doubling of the wind, 5 dB less per octave. Measured for 500 Hz..50 kHz and 2.5..40 knots (1.3..21 m/s); above 50
-/// kHz it is an extrapolation, and too high in strong wind, whose bubbles swallow their own noise.
+/// doubling of the wind, 5 dB less per octave; for 2.5..40 knots (1.3..21 m/s). Knudsen's data end at 25 kHz, and above
+/// 50 kHz the law is an extrapolation. In more than about 15 m/s it is too high, for bubbles swallow the noise
+/// [FarmerLemon1984].
 double wind_noise_level_db(double frequency_hz, double wind_speed_mps);
 
 /// Thermal and wind noise together.

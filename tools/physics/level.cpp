@@ -90,7 +90,7 @@ void add_multibeam(CLI::App& level, Verbs& verbs) {
   const auto in = std::make_shared<Inputs>();
   Verb& verb =
       add(level, verbs, "multibeam",
-          "a Mills cross over a level Lambert seabed; an upper bound, by 1.1 dB where beam and pulse cut alike", *in);
+          "a Mills cross over a level Lambert seabed; an upper bound, by 1.2 dB where beam and pulse cut alike", *in);
   verb.number("altitude_m", in->altitude_m, 0.1, 20000, "height above the seabed");
   verb.number("beam_angle_deg", in->beam_angle_deg, -85, 85, "beam angle from nadir");
   add_water(verb, *in);

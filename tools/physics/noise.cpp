@@ -21,8 +21,7 @@ void add_noise(CLI::App& app, Verbs& verbs) {
                          "spectral levels of ambient noise, dB re 1 uPa^2/Hz, and what a receiver makes of it, "
                          "dB re 1 uPa^2");
   const auto in = std::make_shared<Inputs>();
-  verb.number("frequency_hz", in->frequency_hz, 100, 2e6,
-              "frequency; wind noise is measured to 50 kHz, extrapolated above");
+  verb.number("frequency_hz", in->frequency_hz, 100, 2e6, "frequency; wind noise is an extrapolation above 50 kHz");
   verb.number("wind_speed_mps", in->wind_speed_mps, 0, 60, "wind");
   verb.number("bandwidth_hz", in->receiver.bandwidth_hz, 1, 1e6, "band of the receiver");
   verb.number("directivity_index_db", in->receiver.directivity_index_db, 0, 80,
