@@ -14,6 +14,14 @@ if(NOT TARGET geographiclib)
   target_link_libraries(geographiclib INTERFACE ${GEOGRAPHICLIB_LIBRARY})
 endif()
 
+if(NOT TARGET fftwf)  # FFTW in single precision
+  find_path(FFTW_INCLUDE fftw3.h REQUIRED)
+  find_library(FFTWF_LIBRARY fftw3f REQUIRED)
+  add_library(fftwf INTERFACE IMPORTED)
+  target_include_directories(fftwf SYSTEM INTERFACE ${FFTW_INCLUDE})
+  target_link_libraries(fftwf INTERFACE ${FFTWF_LIBRARY})
+endif()
+
 if(NOT TARGET msgpack_cxx)  # headers only
   find_path(MSGPACK_INCLUDE msgpack.hpp REQUIRED)
   add_library(msgpack_cxx INTERFACE IMPORTED)

@@ -6,8 +6,10 @@
 #include "components/multibeam/config.h"
 #include "components/runtime/head/shot.h"
 #include "kernels/detect/bottom.h"
-#include "kernels/echo/echo.h"
-#include "kernels/echo/noise.h"
+#include "kernels/echo/arrival.h"
+#include "kernels/echo/line_receiver.h"
+#include "kernels/echo/pulse.h"
+#include "kernels/echo/scatterer.h"
 #include "kernels/frames/pose.h"
 #include "kernels/random/stream.h"
 #include "kernels/trace/fan.h"
@@ -23,7 +25,8 @@ class MultibeamHead {
   explicit MultibeamHead(const MultibeamConfig& config);
 
   /// The beam-time image of a ping: rays from the true pose at transmission, echoes at the true poses at reception,
-  /// noise. A function of the shot, the poses during it and the tiles. Valid until the next call.
+  /// noise at the array's elements. A function of the shot, the poses during it and the tiles. Valid until the next
+  /// call.
   detect::Amplitudes listen(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
@@ -44,20 +47,24 @@ class MultibeamHead {
   void track_receiver(const Shot& shot, const frames::PoseHistory& truth);
 
   MultibeamConfig config_;
-  echo::Sonar sonar_;
-  trace::Fan fan_;
-  random::Stream ray_jitter_, ray_phase_, noise_;
+  echo::SampledPulse pulse_;
+  random::Stream noise_;
   std::vector<float> beam_angle_rad_;
   std::vector<float> sin_beams_true_;
   double beam_noise_db_;
+  std::vector<trace::Ray> rays_;      // in the head's frame, the same for every ping: an unmoved head hears the same
+  std::vector<float> source_upa2m2_;  // by ray
 
   // Memory of the ping path, sized by the first ping of a range.
-  std::vector<trace::Ray> rays_;
   std::vector<trace::Hit> hits_;
   std::vector<float> backscatter_;
-  std::vector<frames::HeadPose> receiver_;
-  echo::Workspace workspace_;
-  echo::Image image_;
+  std::vector<frames::HeadPose> poses_;
+  echo::Scatterers scatterers_;
+  echo::Receivers receivers_;
+  std::vector<echo::Arrival> arrivals_;
+  echo::LineReceiver receiver_;
+  std::vector<std::vector<float>> weights_;
+  std::vector<echo::Image> images_;                    // one
   std::shared_ptr<std::vector<float>> amplitude_upa_;  // a new one while messages still hold the last
   int rays_that_hit_ = 0;
 };
