@@ -207,6 +207,13 @@ class Beam {
   double first_s_, last_s_;  // gates
 };
 
+void require_positive(const char* name, double value) {
+  if (!(value > 0.0) || std::isinf(value)) {
+    throw std::invalid_argument(std::string("detect_bottom: ") + name + " is " + std::to_string(value) +
+                                "; finite numbers above 0 are allowed");
+  }
+}
+
 void check(const Settings& settings, std::size_t beams, const Amplitudes& image, const HalfApertures& halves) {
   const std::size_t size = beams * static_cast<std::size_t>(image.samples);
   if (image.beams != static_cast<int>(beams) || image.amplitude_upa.size() != size) {
@@ -220,6 +227,11 @@ void check(const Settings& settings, std::size_t beams, const Amplitudes& image,
                                 " and " + std::to_string(halves.second_upa.size()) + " samples; none or " +
                                 std::to_string(size) + " are allowed");
   }
+  require_positive("pulse_length_s", settings.pulse_length_s);
+  require_positive("sound_speed_mps", settings.sound_speed_mps);
+  require_positive("receive_length_in_waves", settings.receive_length_in_waves);
+  require_positive("phase_centres_in_waves", settings.phase_centres_in_waves);
+  require_positive("period_s", image.period_s);
   if (settings.max_detections < 1 || settings.max_detections > kMostDetections) {
     throw std::invalid_argument("detect_bottom: max_detections is " + std::to_string(settings.max_detections) +
                                 "; 1 to " + std::to_string(kMostDetections) + " are allowed");

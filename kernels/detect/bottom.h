@@ -95,7 +95,7 @@ struct Detection {
 ///
 /// Phase: on a plane, the phase between the halves is linear in the sine from which it sends an echo at that time, so
 /// a line fitted against that sine has none of the curvature bias of a line fitted against time. Offset and slope are
-/// fitted to the interferogram turned back by the model, in six passes; the slope is pulled towards that of the
+/// fitted to the interferogram turned back by the model, in at most six passes; the slope is pulled towards that of the
 /// expected seabed as by a prior of 50 %. Samples weigh with the interferogram's magnitude, over 1.5 half-power
 /// footprints.
 ///
@@ -108,7 +108,7 @@ struct Detection {
 /// Further detections: the strongest returns outside the snippets found so far that pass the gate and second_within_db.
 ///
 /// sin_beams: one per beam, sine from the plane across the array. std::invalid_argument if images and beams differ in
-/// size, or max_detections is outside 1..kMostDetections.
+/// size, max_detections is outside 1..kMostDetections, or a length, period or speed is not above 0.
 void detect_bottom(const Settings& settings, std::span<const float> sin_beams, const Amplitudes& image,
                    const HalfApertures& halves, std::vector<Detection>& detections);
 

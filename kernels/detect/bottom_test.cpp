@@ -228,4 +228,55 @@ TEST_CASE("images that do not fit the beams are refused") {
                     "detect_bottom: half apertures of 19 and 19 samples; none or 20 are allowed");
   CHECK_THROWS_WITH(detect_bottom({.max_detections = 9}, beams, {2, 10, 0.0, 50e-6, amplitude}, found),
                     "detect_bottom: max_detections is 9; 1 to 8 are allowed");
+  CHECK_THROWS_WITH(detect_bottom({.pulse_length_s = 0.0}, beams, {2, 10, 0.0, 50e-6, amplitude}, found),
+                    "detect_bottom: pulse_length_s is 0.000000; finite numbers above 0 are allowed");
+  CHECK_THROWS_WITH(detect_bottom({}, beams, {2, 10, 0.0, 0.0, amplitude}, found),
+                    "detect_bottom: period_s is 0.000000; finite numbers above 0 are allowed");
+}
+
+TEST_CASE("whatever is heard, what is said of it is finite") {
+  const random::Stream stream{8, "any"};
+  const std::vector<float> beams{-1.0F, -0.99F, -0.3F, 0.0F, 0.02F, 0.7F, 1.0F};
+  const int samples = 300;
+  std::vector<std::complex<float>> first(beams.size() * samples), second(first.size());
+  std::vector<float> amplitude(first.size());
+  std::vector<Detection> found;
+  int valid = 0;
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    std::fill(first.begin(), first.end(), std::complex<float>{});
+    std::fill(second.begin(), second.end(), std::complex<float>{});
+    const auto level = static_cast<float>(std::pow(10.0, 20.0 * stream.uniform(n, 1) - 10.0));
+    random::add_gaussian(stream, n, 0, level, first);
+    random::add_gaussian(stream, n, 1u << 20, level, second);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (stream.uniform(n, 2, i) < 0.01) first[i] *= 1e3F;  // a spike in one half
+      if (stream.uniform(n, 3) < 0.3 && i % 7 < 5) first[i] = second[i] = {};
+      amplitude[i] = std::abs(first[i] + second[i]);
+    }
+    Settings settings;
+    settings.pulse_length_s = std::pow(10.0, -5.0 + 3.0 * stream.uniform(n, 4));
+    settings.receive_length_in_waves = std::pow(10.0, 3.0 * stream.uniform(n, 5) - 1.0);
+    settings.phase_centres_in_waves = settings.receive_length_in_waves * stream.uniform(n, 6);
+    settings.seabed_tilt_rad = 3.0 * (stream.uniform(n, 7) - 0.5);
+    settings.absorption_dbpm = 0.4 * stream.uniform(n, 8);
+    settings.gates.snr_db = 20.0 * stream.uniform(n, 9);
+    settings.max_detections = 1 + static_cast<int>(n % kMostDetections);
+    const double start_s = 0.1 * stream.uniform(n, 10);
+    detect_bottom(settings, beams, {static_cast<int>(beams.size()), samples, start_s, 25e-6, amplitude},
+                  {first, second}, found);
+    for (const Detection& d : found) {
+      valid += d.valid;
+      REQUIRE(std::isfinite(d.two_way_s));
+      REQUIRE(std::isfinite(d.range_sd_m));
+      REQUIRE(std::isfinite(d.angle_sd_rad));
+      REQUIRE(std::isfinite(d.phase_weight));
+      REQUIRE(std::isfinite(d.snr_db));
+      REQUIRE(std::isfinite(d.echo_energy_db));
+      REQUIRE(std::isfinite(d.quality));
+      REQUIRE(d.snippet_first >= 0);
+      REQUIRE(d.snippet_count >= 0);
+      REQUIRE(d.snippet_first + d.snippet_count <= samples);
+    }
+  }
+  CHECK(valid > 100);
 }

@@ -5,7 +5,9 @@
 namespace ensonify::detect {
 namespace {
 
-constexpr double kWindow = 1.5;                     // footprints
+constexpr double kWindow = 1.5;  // footprints
+constexpr int kMostPasses = 6;
+constexpr double kConverged = 1e-6;                 // relative; a hundredth of the best standard deviation
 constexpr double kSlopePriorSd = 0.5;               // of the slope over the expected one
 constexpr double kFlattest = 0.2, kSteepest = 5.0;  // slopes over the expected one
 constexpr double kLeastModelCoherence = 0.3;        // below it there is no phase to speak of
@@ -51,11 +53,14 @@ void for_each_sample(const BeamSeries& series, const ExpectedSeabed& seabed, dou
 struct Line {
   double weight = 0.0, mean_x = 0.0, scatter_x = 0.0;  // scatter_x: with the prior's share
   double offset = 0.0, slope = 0.0;                    // rad, rad per sine
+  double coherence = 0.0;                              // of the interferogram turned back
 };
 
 Line fit(const BeamSeries& series, const ExpectedSeabed& seabed, double radians_per_sine, const Model& model) {
+  std::complex<double> sum;
   double w = 0.0, wx = 0.0, wy = 0.0, wxx = 0.0, wxy = 0.0, wyy = 0.0;
   for_each_sample(series, seabed, radians_per_sine, model, [&](const Sample& s) {
+    sum += s.turned;
     w += s.weight;
     wx += s.weight * s.off_axis;
     wy += s.weight * s.residual_rad;
@@ -64,16 +69,16 @@ Line fit(const BeamSeries& series, const ExpectedSeabed& seabed, double radians_
     wyy += s.weight * s.residual_rad * s.residual_rad;
   });
   if (!(w > 0.0)) return {};
-  const double mean_x = wx / w, mean_y = wy / w;
+  const double mean_x = wx / w, mean_y = wy / w, coherence = std::abs(sum) / w;
   const double pulses = 1.0 + kWindow * seabed.footprint_s(model.axis_s) / series.pulse_length_s;
   const double prior_sd = kSlopePriorSd * radians_per_sine;
   const double variance_y = std::max(wyy / w - mean_y * mean_y, 0.0);
   const double prior = variance_y / (prior_sd * prior_sd) * w / pulses;
   const double scatter_x = std::max(wxx - w * mean_x * mean_x, 0.0) + prior;
-  if (!(scatter_x > 0.0)) return {w, mean_x, 0.0, mean_y, 0.0};
+  if (!(scatter_x > 0.0)) return {w, mean_x, 0.0, mean_y, 0.0, coherence};
   // The prior is about the expected slope, 1, not about the model's.
   const double slope = (wxy - w * mean_x * mean_y + prior * (1.0 - model.slope) * radians_per_sine) / scatter_x;
-  return {w, mean_x, scatter_x, mean_y - slope * mean_x, slope};
+  return {w, mean_x, scatter_x, mean_y - slope * mean_x, slope, coherence};
 }
 
 /// Variance that the decorrelation within a pulse gives the phase at the axis, before anything is heard: the pulse's
@@ -120,20 +125,18 @@ PhaseRamp fit_phase_ramp(const BeamSeries& series, const ExpectedSeabed& seabed,
   if (std::abs(seabed.sin_incidence()) < 2.0 * seabed.half_width()) return ramp;
   const double radians_per_sine = 2.0 * std::numbers::pi * phase_centres_in_waves;
   Model model{near_s};
-  for (int pass = 0; pass < 6; ++pass) {
-    const Line line = fit(series, seabed, radians_per_sine, model);
-    if (!(line.weight > 0.0)) return ramp;
+  Line line = fit(series, seabed, radians_per_sine, model);
+  for (int pass = 0; pass < kMostPasses && line.weight > 0.0; ++pass) {
     model.slope = std::clamp(model.slope + line.slope / radians_per_sine, kFlattest, kSteepest);
     const double crossing =
         std::clamp(-line.offset / (radians_per_sine * model.slope), -seabed.half_width(), seabed.half_width());
+    const double before_s = model.axis_s;
     model.axis_s = seabed.time_at(seabed.sin_beam() + crossing, model.axis_s);
+    line = fit(series, seabed, radians_per_sine, model);
+    if (std::abs(model.axis_s - before_s) < kConverged * before_s) break;
   }
-
-  const Line line = fit(series, seabed, radians_per_sine, model);
   if (!(line.weight > 0.0)) return ramp;
-  std::complex<double> sum;
-  for_each_sample(series, seabed, radians_per_sine, model, [&](const Sample& s) { sum += s.turned; });
-  ramp.coherence = std::abs(sum) / line.weight;
+  ramp.coherence = line.coherence;
   ramp.slope = model.slope;
   const double sine_sd =
       std::sqrt(offset_variance_rad2(series, seabed, radians_per_sine, model, line)) / (radians_per_sine * model.slope);
