@@ -16,14 +16,15 @@ inline double asinh_over(double u) {
   return u2 < 1e-4 ? 1.0 - u2 * (1.0 / 6 - u2 * (3.0 / 40)) : std::asinh(u) / u;
 }
 inline double sinh_over(double u) { return std::abs(u) < 1e-3 ? 1.0 + u * u / 6 : std::sinh(u) / u; }
-inline double sin_over(double e) { return std::abs(e) < 1e-3 ? 1.0 - e * e / 6 : std::sin(e) / e; }
 
 /// Length of a circular arc over its chord.
 inline double arc_m(double curvature_pm, double chord_m) { return chord_m * asin_over(0.5 * curvature_pm * chord_m); }
 
 /// Travel time between two points of a medium with a linear gradient of speed: (2/g) arsinh(g L / (2 sqrt(c1 c2))).
 inline double arc_s(double gradient_per_s, double chord_m, double speed_1_mps, double speed_2_mps) {
-  const double slowness = 1.0 / std::sqrt(speed_1_mps * speed_2_mps);
+  const double mean = 1.0 / (speed_1_mps + speed_2_mps), part = mean * (speed_2_mps - speed_1_mps), e = part * part;
+  const double slowness =  // 1 / sqrt(c1 c2) = 1 / (mean speed sqrt(1 - e))
+      e < 1e-5 ? 2.0 * mean * (1.0 + e * (0.5 + 0.375 * e)) : 1.0 / std::sqrt(speed_1_mps * speed_2_mps);
   return chord_m * slowness * asinh_over(0.5 * gradient_per_s * chord_m * slowness);
 }
 

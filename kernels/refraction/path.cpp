@@ -25,18 +25,17 @@ Path::Path(const SoundSpeedProfile& profile, double depth_m, double sine, double
   at_.sine = sine;
   at_.cosine = cosine;
   at_.width_slowness = 1.0 / at_.speed_mps;
-  invariant_ = cosine / at_.speed_mps;
-  source_speed_mps_ = at_.speed_mps;
+  source_slowness_ = at_.width_slowness;
+  invariant_ = cosine * source_slowness_;
   settle();
 }
 
 double Path::tube_m2() const {
-  const double area = at_.reach_m2ps / source_speed_mps_ * std::abs(at_.width_m);
+  const double area = at_.reach_m2ps * source_slowness_ * std::abs(at_.width_m);
   return std::max(area, kTubeFloor * at_.length_m * at_.length_m);
 }
 
-/// Chooses the layer at a knot by the direction.
-void Path::settle() {
+void Path::settle_at_knot() {
   const auto leave = [&](std::size_t next) {
     // The width's slope jumps with the gradient: from the derivative of Snell's law at the knot.
     const double jump = profile_->layer_gradient_per_s(next) - profile_->layer_gradient_per_s(at_.layer);
@@ -65,13 +64,15 @@ void Path::settle() {
 
 /// A leg with a given direction at its end; its length and place are still open.
 Leg Path::towards(double sine, double cosine) const {
+  // The sum of two unit vectors that differ by d has length sqrt(4 - d^2).
+  const double d_sine = at_.sine - sine, d_cosine = at_.cosine - cosine, d2 = d_sine * d_sine + d_cosine * d_cosine;
+  const double mean_scale = d2 < 1e-5 ? 0.5 + d2 * (1.0 / 16 + d2 * (3.0 / 256)) : 1.0 / std::sqrt(4.0 - d2);
   Leg leg;
-  const double up = at_.sine + sine, along = at_.cosine + cosine;
-  const double scale = 1.0 / std::sqrt(up * up + along * along);
-  leg.chord_sine = scale * up;
-  leg.chord_cosine = scale * along;
-  leg.end.sine = sine;
-  leg.end.cosine = cosine;
+  leg.chord_sine = mean_scale * (at_.sine + sine);
+  leg.chord_cosine = mean_scale * (at_.cosine + cosine);
+  leg.mean_scale = mean_scale;
+  leg.end_sine = sine;
+  leg.end_cosine = cosine;
   leg.turns = at_.sine * sine < 0.0;
   return leg;
 }
@@ -82,8 +83,8 @@ Leg Path::leg_within(double top_m, double bottom_m) const {
   const bool down = heads_down();
   Leg endless;
   endless.chord_m = kEndless;
-  endless.chord_sine = endless.end.sine = at_.sine;
-  endless.chord_cosine = endless.end.cosine = at_.cosine;
+  endless.chord_sine = endless.end_sine = at_.sine;
+  endless.chord_cosine = endless.end_cosine = at_.cosine;
   if (at_.sine == 0.0 && gradient_ == 0.0) return endless;
 
   double depth = down ? bottom : top;
@@ -104,20 +105,22 @@ Leg Path::leg_within(double top_m, double bottom_m) const {
   const double speed = profile_->speed_in_layer_mps(at_.layer, depth);
   Leg leg = towards(sine, invariant_ * speed);
   leg.turns = turns;
-  leg.end.depth_m = depth;
-  leg.end.speed_mps = speed;
+  leg.end_depth_m = depth;
+  leg.end_speed_mps = speed;
   leg.chord_m = turns ? (at_.sine - sine) / (curvature_pm() * leg.chord_cosine)
                       : (depth == at_.depth_m ? 0.0 : (depth - at_.depth_m) / leg.chord_sine);
   return leg;
 }
 
 Leg Path::leg_of_length(double length_m) const {
-  const double turn = curvature_pm() * length_m;
-  const double c = std::cos(turn), s = std::sin(turn);
+  const double turn = curvature_pm() * length_m, t2 = turn * turn;
+  const bool small = t2 < 1e-5;  // most legs: a few terms give all digits
+  const double c = small ? 1.0 - t2 * (0.5 - t2 / 24) : std::cos(turn);
+  const double s = small ? turn * (1.0 - t2 * (1.0 / 6 - t2 / 120)) : std::sin(turn);
   Leg leg = towards(at_.sine * c - at_.cosine * s, at_.cosine * c + at_.sine * s);
-  leg.chord_m = length_m * sin_over(0.5 * turn);
-  leg.end.depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
-  leg.end.speed_mps = at_.speed_mps + gradient_ * leg.chord_m * leg.chord_sine;
+  leg.chord_m = length_m * (small ? 1.0 - t2 / 24 : std::sin(0.5 * turn) / (0.5 * turn));
+  leg.end_depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
+  leg.end_speed_mps = at_.speed_mps + gradient_ * leg.chord_m * leg.chord_sine;
   return leg;
 }
 
@@ -126,8 +129,8 @@ Leg Path::leg_of_horizontal(double horizontal_m) const {
   const double squared = at_.cosine * at_.cosine + (at_.sine - sine) * (at_.sine + sine);
   Leg leg = towards(sine, std::sqrt(std::max(squared, 0.0)));
   leg.chord_m = horizontal_m / leg.chord_cosine;
-  leg.end.depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
-  leg.end.speed_mps = at_.speed_mps + gradient_ * leg.chord_m * leg.chord_sine;
+  leg.end_depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
+  leg.end_speed_mps = at_.speed_mps + gradient_ * leg.chord_m * leg.chord_sine;
   return leg;
 }
 
@@ -136,28 +139,27 @@ Leg Path::leg_of_time(double time_s) const {
   const double turn = gradient_ * time_s;
   const double t = std::tanh(turn), shrink = 1.0 / (std::cosh(turn) * (1.0 - at_.sine * t));
   Leg leg = towards((at_.sine - t) / (1.0 - at_.sine * t), at_.cosine * shrink);
-  leg.end.speed_mps = at_.speed_mps * shrink;
-  leg.chord_m = std::sqrt(at_.speed_mps * leg.end.speed_mps) * time_s * sinh_over(0.5 * turn);
-  leg.end.depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
+  leg.end_speed_mps = at_.speed_mps * shrink;
+  leg.chord_m = std::sqrt(at_.speed_mps * leg.end_speed_mps) * time_s * sinh_over(0.5 * turn);
+  leg.end_depth_m = at_.depth_m + leg.chord_m * leg.chord_sine;
   return leg;
 }
 
 double Path::length_of(const Leg& leg) const { return arc_m(curvature_pm(), leg.chord_m); }
 
-double Path::time_of(const Leg& leg) const { return arc_s(gradient_, leg.chord_m, at_.speed_mps, leg.end.speed_mps); }
+double Path::time_of(const Leg& leg) const { return arc_s(gradient_, leg.chord_m, at_.speed_mps, leg.end_speed_mps); }
 
 void Path::take(const Leg& leg) {
   at_.time_s += time_of(leg);
   at_.length_m += length_of(leg);
-  // horizontal / invariant, with horizontal = chord * cosine and Snell's law in numerator and denominator
-  const double sines = at_.sine + leg.end.sine, cosines = at_.cosine + leg.end.cosine;
-  const double reach = leg.chord_m * (at_.speed_mps + leg.end.speed_mps) / std::sqrt(sines * sines + cosines * cosines);
+  // horizontal / invariant: chord cosine / invariant, with cosines = invariant * speed
+  const double reach = leg.chord_m * leg.mean_scale * (at_.speed_mps + leg.end_speed_mps);
   at_.reach_m2ps += reach;
   at_.width_m += at_.width_slowness * reach;
-  at_.depth_m = leg.end.depth_m;
-  at_.speed_mps = leg.end.speed_mps;
-  at_.sine = leg.end.sine;
-  at_.cosine = leg.end.cosine;
+  at_.depth_m = leg.end_depth_m;
+  at_.speed_mps = leg.end_speed_mps;
+  at_.sine = leg.end_sine;
+  at_.cosine = leg.end_cosine;
   settle();
 }
 

@@ -33,7 +33,11 @@ struct Leg {
   double chord_m = 0.0;     // straight distance between its ends; infinite if the path never ends there
   double chord_sine = 0.0;  // depression of the chord, which is the mean of those at the ends
   double chord_cosine = 1.0;
-  PathPoint end;       // depth, speed and direction only; Path::take adds the rest
+  double mean_scale = 0.5;  // 1 over the length of the sum of the unit directions at its ends
+  double end_depth_m = 0.0;
+  double end_speed_mps = 0.0;
+  double end_sine = 0.0;
+  double end_cosine = 1.0;
   bool turns = false;  // passes through the horizontal
   bool endless() const { return std::isinf(chord_m); }
 };
@@ -46,8 +50,8 @@ class Path {
   Path(const SoundSpeedProfile& profile, double depth_m, double sine, double cosine);
 
   /// A path whose way so far is known. `invariant` is cos(depression) / speed, the same all along it (Snell).
-  Path(const SoundSpeedProfile& profile, double invariant_spm, double source_speed_mps, const PathPoint& point)
-      : profile_(&profile), invariant_(invariant_spm), source_speed_mps_(source_speed_mps), at_(point) {
+  Path(const SoundSpeedProfile& profile, double invariant_spm, double source_slowness_spm, const PathPoint& point)
+      : profile_(&profile), invariant_(invariant_spm), source_slowness_(source_slowness_spm), at_(point) {
     settle();
   }
 
@@ -85,11 +89,19 @@ class Path {
 
  private:
   Leg towards(double sine, double cosine) const;
-  void settle();
+  /// Chooses the layer, at a knot by the direction.
+  void settle() {
+    if (at_.depth_m > profile_->layer_top_m(at_.layer) && at_.depth_m < profile_->layer_bottom_m(at_.layer)) {
+      gradient_ = profile_->layer_gradient_per_s(at_.layer);
+    } else {
+      settle_at_knot();
+    }
+  }
+  void settle_at_knot();
 
   const SoundSpeedProfile* profile_;
   double invariant_;
-  double source_speed_mps_;
+  double source_slowness_;
   double gradient_ = 0.0;
   PathPoint at_;
 };

@@ -112,7 +112,7 @@ Path PathTable::path(double sine, double cosine) const {
   const double u = (w - in.low) * in.per_width;
 
   PathPoint point = at_level_;
-  const double p = cosine / source_speed_mps_, p2 = p * p;
+  const double source_slowness = 1.0 / source_speed_mps_, p = cosine * source_slowness, p2 = p * p;
   const double cosine2_fastest = p2 * fastest_mps_ * fastest_mps_;
   point.sine = std::sqrt(w2 + cosine2_fastest * rise_to_level_);
   point.cosine = p * point.speed_mps;
@@ -123,9 +123,9 @@ Path PathTable::path(double sine, double cosine) const {
   const double reach_per_w = per_w * (in.per_width * in.reach.slope(u) - point.reach_m2ps);
   const double spread = point.reach_m2ps - cosine2_fastest * per_w * reach_per_w;
   const double gradient = profile_.layer_gradient_per_s(point.layer);
-  point.width_m = spread * point.sine * sine / source_speed_mps_;
-  point.width_slowness = (sine / source_speed_mps_ - point.width_m * p2 * gradient) / point.sine;
-  return Path(profile_, p, source_speed_mps_, point);
+  point.width_m = spread * point.sine * sine * source_slowness;
+  point.width_slowness = (sine * source_slowness - point.width_m * p2 * gradient) / point.sine;
+  return Path(profile_, p, source_slowness, point);
 }
 
 std::optional<PathEnd> PathTable::at(double depression_rad, double depth_m) const {

@@ -37,12 +37,12 @@ TEST_CASE("legs by depth, length, time and horizontal distance are the same arc"
     CHECK(path.length_of(leg) == Approx(30).epsilon(1e-13));
     for (const Leg& other : {path.leg_of_time(time), path.leg_of_horizontal(across)}) {
       CHECK(other.chord_m == Approx(leg.chord_m).epsilon(1e-10));
-      CHECK(other.end.depth_m == Approx(leg.end.depth_m).epsilon(1e-11));
-      CHECK(other.end.sine == Approx(leg.end.sine).margin(1e-12));
-      CHECK(other.end.speed_mps == Approx(leg.end.speed_mps).epsilon(1e-12));
+      CHECK(other.end_depth_m == Approx(leg.end_depth_m).epsilon(1e-11));
+      CHECK(other.end_sine == Approx(leg.end_sine).margin(1e-12));
+      CHECK(other.end_speed_mps == Approx(leg.end_speed_mps).epsilon(1e-12));
     }
     if (degrees != -8 && degrees != 0 && degrees != 3) {
-      const Leg to_depth = degrees < 0 ? path.leg_within(leg.end.depth_m) : path.leg_within(0, leg.end.depth_m);
+      const Leg to_depth = degrees < 0 ? path.leg_within(leg.end_depth_m) : path.leg_within(0, leg.end_depth_m);
       CHECK(to_depth.chord_m == Approx(leg.chord_m).epsilon(1e-10));
     }
   }

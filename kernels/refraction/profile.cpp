@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -61,20 +60,6 @@ std::size_t SoundSpeedProfile::layer_at(double depth_m) const {
   const auto below = std::upper_bound(knots_.begin(), knots_.end(), depth_m,
                                       [](double depth, const Knot& knot) { return depth < knot.depth_m; });
   return static_cast<std::size_t>(below - knots_.begin());
-}
-
-double SoundSpeedProfile::layer_top_m(std::size_t layer) const {
-  return layer == 0 ? -std::numeric_limits<double>::infinity() : knots_[layer - 1].depth_m;
-}
-
-double SoundSpeedProfile::layer_bottom_m(std::size_t layer) const {
-  return layer == knots_.size() ? std::numeric_limits<double>::infinity() : knots_[layer].depth_m;
-}
-
-double SoundSpeedProfile::speed_in_layer_mps(std::size_t layer, double depth_m) const {
-  const Knot& knot = knots_[layer == 0 ? 0 : layer - 1];
-  if (layer < knots_.size() && depth_m == knots_[layer].depth_m) return knots_[layer].speed_mps;  // both sides agree
-  return knot.speed_mps + gradient_per_s_[layer] * (depth_m - knot.depth_m);
 }
 
 double SoundSpeedProfile::speed_mps(double depth_m) const { return speed_in_layer_mps(layer_at(depth_m), depth_m); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -47,10 +48,18 @@ class SoundSpeedProfile {
   std::size_t layer_at(double depth_m) const;
   double layer_gradient_per_s(std::size_t layer) const { return gradient_per_s_[layer]; }
   /// Edges of a layer; the outer ones reach to infinity.
-  double layer_top_m(std::size_t layer) const;
-  double layer_bottom_m(std::size_t layer) const;
+  double layer_top_m(std::size_t layer) const {
+    return layer == 0 ? -std::numeric_limits<double>::infinity() : knots_[layer - 1].depth_m;
+  }
+  double layer_bottom_m(std::size_t layer) const {
+    return layer == knots_.size() ? std::numeric_limits<double>::infinity() : knots_[layer].depth_m;
+  }
   /// Speed at a depth within the layer or on its edges.
-  double speed_in_layer_mps(std::size_t layer, double depth_m) const;
+  double speed_in_layer_mps(std::size_t layer, double depth_m) const {
+    if (layer < knots_.size() && depth_m == knots_[layer].depth_m) return knots_[layer].speed_mps;  // both sides agree
+    const Knot& knot = knots_[layer == 0 ? 0 : layer - 1];
+    return knot.speed_mps + gradient_per_s_[layer] * (depth_m - knot.depth_m);
+  }
 
   bool operator==(const SoundSpeedProfile& other) const { return knots_ == other.knots_; }
 

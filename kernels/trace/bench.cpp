@@ -3,11 +3,14 @@
 #include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <vector>
 
+#include "kernels/refraction/thermocline.h"
 #include "kernels/trace/scene.h"
 
 using namespace ensonify;
@@ -133,6 +136,62 @@ void trace_fan(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
+/// A head under the surface of a stratified sea: 80 m of water, relief below 5 m.
+const frames::HeadPose kHigh{{3.0, 4.0, -1.0}, frames::enu_from_ned()};
+constexpr float kFar = 400.0F;
+
+double deep_seabed(double x, double y) { return -78.0 + 2.0 * std::sin(0.05 * x) * std::sin(0.06 * y); }
+
+trace::Scene deep_scene() {
+  trace::Scene value({0, 0});
+  value.insert({0, 0}, terrain::sample_tile({.origin_enu_m = {-512, -512}, .spacing_m = 1.0}, {0, 0}, deep_seabed));
+  return value;
+}
+
+/// Bent rays must end where exact arcs do, or their time means nothing.
+void check_bent(const std::vector<trace::Ray>& rays, const std::vector<trace::Hit>& hits,
+                const refraction::PathTable& paths) {
+  for (std::size_t i = 0; i < rays.size(); i += 37) {
+    const frames::Vec3 d = rays[i].direction_head.cast<double>(), off = hits[i].position_enu_m - kHigh.position_enu_m;
+    const auto exact =
+        refraction::path_at_horizontal(paths.profile(), paths.source_depth_m(),
+                                       std::atan2(d.z(), std::hypot(d.x(), d.y())), std::hypot(off.x(), off.y()));
+    const double miss = (exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad);
+    if (!hits[i].hit() || std::abs(miss) > 1e-3 || std::abs(hits[i].travel_time_s / exact.travel_time_s - 1) > 1e-5) {
+      std::fprintf(stderr, "bent ray %zu misses its path by %g m\n", i, miss);
+      std::exit(1);
+    }
+  }
+}
+
+/// Bent over straight rays to the same seabed, in turns; the table is built for every ping.
+void bent_over_straight(benchmark::State& state) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto rays = fan(static_cast<int>(state.range(0)));
+  const auto seabed_scene = deep_scene();
+  const auto water = refraction::summer_thermocline();
+  refraction::PathTable paths;
+  std::vector<trace::Hit> bent, straight;
+  std::vector<double> ratios;
+  const auto ticks_of = [](const auto& work) {
+    const std::clock_t start = std::clock();  // of the processor: fair on a busy machine
+    work();
+    return static_cast<double>(std::clock() - start);
+  };
+  for (auto _ : state) {
+    const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
+    ratios.push_back(ticks_of([&] {
+                       seabed_scene.tabulate(water, kHigh, 1.0, kFar, paths);
+                       seabed_scene.trace(kHigh, rays, kFar, bent, paths);
+                     }) /
+                     floor);
+  }
+  check_bent(rays, bent, paths);
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  state.counters["bent/straight"] = ratios[ratios.size() / 2];
+  state.SetItemsProcessed(state.iterations() * 2 * static_cast<std::int64_t>(rays.size()));
+}
+
 void fill_fan(benchmark::State& state) {
   const trace::Fan shape({.across = 1024});
   std::vector<trace::Ray> rays;
@@ -148,6 +207,7 @@ void insert_tile(benchmark::State& state) {
 
 BENCHMARK(embree_alone)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_fan)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(bent_over_straight)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(fill_fan)->Unit(benchmark::kMillisecond);
 BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond);
 

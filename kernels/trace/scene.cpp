@@ -1,13 +1,15 @@
 #include "kernels/trace/scene.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "kernels/trace/packet.h"
 
 namespace ensonify::trace {
 namespace {
@@ -15,18 +17,7 @@ namespace {
 using frames::Vec2;
 using frames::Vec3;
 
-constexpr std::size_t kPacket = 16;       // rays that Embree traces together
-constexpr std::size_t kChunk = 32;        // packets per task: fixed, so the number of threads changes nothing
 constexpr std::int32_t kBlockCells = 64;  // cells per side of a grid primitive
-
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, SceneRelease>;
 
 /// One instruction set everywhere that results must match, and one thread so that a tree is always built the same way.
 Device new_device() {
@@ -91,45 +82,27 @@ EmbreeScene scene_of(const Device& device, const terrain::Tile& tile, const Vec2
   return scene;
 }
 
-struct Entry {
-  terrain::Tile tile;
-  EmbreeScene scene;
-};
-
-/// Rays of one packet, in Embree's frame. Lanes beyond `count` are off.
-struct Packet {
-  alignas(64) RTCRayHit16 rays;
-  alignas(64) int on[kPacket];
-};
-
-void load(Packet& packet, std::span<const Ray> rays, const Vec3& start, const Eigen::Matrix3d& enu_from_head,
-          float max_range_m) {
-  for (std::size_t lane = 0; lane < kPacket; ++lane) {
-    packet.on[lane] = lane < rays.size() ? -1 : 0;
-    const Vec3 direction =
-        lane < rays.size() ? Vec3(enu_from_head * rays[lane].direction_head.cast<double>()) : Vec3::UnitZ();
-    packet.rays.ray.org_x[lane] = static_cast<float>(start.x());
-    packet.rays.ray.org_y[lane] = static_cast<float>(start.y());
-    packet.rays.ray.org_z[lane] = static_cast<float>(start.z());
-    packet.rays.ray.dir_x[lane] = static_cast<float>(direction.x());
-    packet.rays.ray.dir_y[lane] = static_cast<float>(direction.y());
-    packet.rays.ray.dir_z[lane] = static_cast<float>(direction.z());
-    packet.rays.ray.tnear[lane] = 0.0F;
-    packet.rays.ray.tfar[lane] = max_range_m;
-    packet.rays.ray.time[lane] = 0.0F;
-    packet.rays.ray.mask[lane] = ~0U;
-    packet.rays.ray.id[lane] = 0;
-    packet.rays.ray.flags[lane] = 0;
-    packet.rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    packet.rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+Heights heights_of(const terrain::Tile& tile) {
+  Heights heights{.lowest_m = std::numeric_limits<double>::infinity(),
+                  .highest_m = -std::numeric_limits<double>::infinity()};
+  for (const float post : tile.height_m) {
+    if (!std::isfinite(post)) continue;
+    heights.lowest_m = std::min(heights.lowest_m, static_cast<double>(post));
+    heights.highest_m = std::max(heights.highest_m, static_cast<double>(post));
   }
+  return heights;
+}
+
+bool within(const terrain::Tile& tile, const Vec2& place, double radius_m) {
+  const Vec2 corner = tile.origin_enu_m + tile.spacing_m * Vec2(tile.columns - 1, tile.rows - 1);
+  const Vec2 nearest = place.cwiseMax(tile.origin_enu_m).cwiseMin(corner);
+  return (nearest - place).norm() <= radius_m;
 }
 
 Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, const Vec3& head_enu_m,
            float slowness_spm) {
   const Vec3 direction(packet.rays.ray.dir_x[lane], packet.rays.ray.dir_y[lane], packet.rays.ray.dir_z[lane]);
-  const Vec3 normal =
-      Vec3(packet.rays.hit.Ng_x[lane], packet.rays.hit.Ng_y[lane], packet.rays.hit.Ng_z[lane]).normalized();
+  const Vec3 normal = packet.normal(lane);
   const double cosine = normal.dot(direction);
   Hit hit;
   hit.position_enu_m = head_enu_m + static_cast<double>(packet.rays.ray.tfar[lane]) * direction;
@@ -146,20 +119,17 @@ Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, co
 
 }  // namespace
 
-struct Scene::Impl {
-  Device device = new_device();
-  Vec2 origin_enu_m;
-  std::map<terrain::TileKey, Entry> tiles;
-};
-
-Scene::Scene(const Vec2& origin_enu_m) : impl_(std::make_unique<Impl>()) { impl_->origin_enu_m = origin_enu_m; }
+Scene::Scene(const Vec2& origin_enu_m) : impl_(std::make_unique<Impl>()) {
+  impl_->device = new_device();
+  impl_->origin_enu_m = origin_enu_m;
+}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 void Scene::insert(const terrain::TileKey& key, const terrain::Tile& tile) {
   if (const auto fault = terrain::fault_of(tile)) throw std::invalid_argument(*fault);
-  impl_->tiles.insert_or_assign(key, Entry{tile, scene_of(impl_->device, tile, impl_->origin_enu_m)});
+  impl_->tiles.insert_or_assign(key, Entry{tile, scene_of(impl_->device, tile, impl_->origin_enu_m), heights_of(tile)});
 }
 
 bool Scene::remove(const terrain::TileKey& key) { return impl_->tiles.erase(key) > 0; }
@@ -174,6 +144,17 @@ std::size_t Scene::size() const { return impl_->tiles.size(); }
 bool Scene::contains(const terrain::TileKey& key) const { return impl_->tiles.contains(key); }
 const Vec2& Scene::origin_enu_m() const { return impl_->origin_enu_m; }
 
+std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radius_m) const {
+  std::optional<Heights> all;
+  for (const auto& [key, entry] : impl_->tiles) {
+    if (!within(entry.tile, place_enu_m, radius_m) || !(entry.heights.lowest_m <= entry.heights.highest_m)) continue;
+    if (!all) all = entry.heights;
+    all->lowest_m = std::min(all->lowest_m, entry.heights.lowest_m);
+    all->highest_m = std::max(all->highest_m, entry.heights.highest_m);
+  }
+  return all;
+}
+
 void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
                   double sound_speed_mps) const {
   const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
@@ -186,21 +167,14 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
     const std::size_t first = index * kPacket;
     const std::size_t count = std::min(kPacket, rays.size() - first);
     Packet packet;
-    load(packet, rays.subspan(first, count), start, enu_from_head, max_range_m);
-    const terrain::Tile* met[kPacket] = {};
-    for (const auto& [key, entry] : impl_->tiles) {  // in key order: of two tiles met at one range the first wins
-      float before[kPacket];
-      std::copy_n(packet.rays.ray.tfar, kPacket, before);
-      RTCIntersectContext
-          context;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
-      rtcInitIntersectContext(&context);
-      rtcIntersect16(packet.on, entry.scene.get(), &context, &packet.rays);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        if (packet.rays.ray.tfar[lane] < before[lane]) met[lane] = &entry.tile;
-      }
-    }
     for (std::size_t lane = 0; lane < count; ++lane) {
-      hits[first + lane] = met[lane] ? hit_of(packet, lane, *met[lane], head.position_enu_m, slowness_spm) : Hit{};
+      packet.set(lane, start, enu_from_head * rays[first + lane].direction_head.cast<double>(), max_range_m);
+    }
+    for (std::size_t lane = count; lane < kPacket; ++lane) packet.switch_off(lane);
+    packet.intersect(impl_->tiles);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      hits[first + lane] =
+          packet.met[lane] ? hit_of(packet, lane, *packet.met[lane], head.position_enu_m, slowness_spm) : Hit{};
     }
   };
   tbb::parallel_for(

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kernels/frames/pose.h"
+#include "kernels/refraction/path_table.h"
 #include "kernels/terrain/tile.h"
 #include "kernels/trace/fan.h"
 
@@ -26,6 +28,12 @@ struct Hit {
   std::uint8_t sediment = 0;
 
   bool hit() const { return range_m > 0.0F; }
+};
+
+/// ENU z of what lies lowest and highest.
+struct Heights {
+  double lowest_m = 0.0;
+  double highest_m = 0.0;
 };
 
 /// Seabed tiles to trace rays against.
@@ -62,6 +70,22 @@ class Scene {
   /// and overwritten. sound_speed_mps gives the travel times, nothing else.
   void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
              double sound_speed_mps = 1500.0) const;
+
+  /// The first facet that each ray meets on its bent path, at most max_range_m long. A path takes one look-up in the
+  /// table down to the highest geometry within reach, and goes on from there leg by leg; a leg is met as chords that
+  /// stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end.
+  /// paths is what `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path
+  /// is followed leg by leg from the head, right but slow.
+  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+             const refraction::PathTable& paths) const;
+
+  /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the
+  /// water surface tells where in the profile it is.
+  void tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
+                float max_range_m, refraction::PathTable& paths) const;
+
+  /// Over the tiles within a horizontal distance of a place; empty when there are none.
+  std::optional<Heights> heights_near(const frames::Vec2& place_enu_m, double radius_m) const;
 
  private:
   struct Impl;
