@@ -1,9 +1,11 @@
 """What all benchmarks share: running programs and launches, pairing with a floor, a row of the table."""
+import contextlib
 import json
 import os
 import pathlib
 import re
 import statistics
+import struct
 import subprocess
 import sys
 import tempfile
@@ -41,6 +43,21 @@ class Bench:
             for notes in pathlib.Path(out).glob("python_step.json"):
                 report["python_step"] = json.loads(notes.read_text())
             return report
+
+
+@contextlib.contextmanager
+def awake_cores():
+    """Keeps idle cores from sleeping while inside, as latency tests do (Linux PM QoS); yields whether that is allowed."""
+    try:
+        device = os.open("/dev/cpu_dma_latency", os.O_WRONLY)
+    except OSError:
+        yield False
+        return
+    try:
+        os.write(device, struct.pack("i", 0))  # in force until it is closed
+        yield True
+    finally:
+        os.close(device)
 
 
 def interleaved(repeat, ours, floor):
