@@ -1,11 +1,10 @@
 #include "components/multibeam/config.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "components/runtime/config/config_reader.h"
-#include "kernels/water/absorption.h"
-#include "kernels/water/noise.h"
-#include "kernels/water/sound_speed.h"
+#include "components/runtime/head/environment.h"
 
 namespace ensonify {
 namespace {
@@ -67,14 +66,13 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
     from.problem(
         "", "the scenario mounts no head named " + process + " on a vehicle; add vehicles.NAME.mountings." + process);
   }
-  const Water& water = scenario.water;
+  const Environment environment(scenario, c.frequency_hz);
   const double depth_m = scenario.mission.depth_m;
-  c.sound_speed_mps =
-      water.sound_speed_mps.value_or(water::sound_speed_mps(water.temperature_degc, water.salinity_psu, depth_m));
-  c.absorption_dbpm = water.absorption_dbpm.value_or(
-      water::absorption_dbpm(c.frequency_hz, {water.temperature_degc, water.salinity_psu, depth_m, water.ph}));
-  c.noise_level_db = water.noise_level_db.value_or(water::thermal_noise_level_db(c.frequency_hz));
-  c.lambert_mu_db = scenario.seabed.lambert_mu_db;
+  c.sound_speed_mps = environment.profile().speed_mps(depth_m);
+  c.absorption_dbpm = environment.absorption_dbpm(depth_m, depth_m);
+  c.noise_level_db = environment.noise_level_db();
+  // Lambert's law with the strength that class 0 has at 45 degrees, where sin^2 is 1/2.
+  c.lambert_mu_db = 10.0 * std::log10(2.0 * environment.backscatter().at_angle(0, 0.25F * std::numbers::pi_v<float>));
   check(from, c);
   return c;
 }

@@ -6,13 +6,12 @@
 #include <stdexcept>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/scenario_sections.h"
 
 namespace ensonify {
 namespace {
 
 using navigation::Vec2;
-
-constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
 
 Vec2 vec2(const std::array<double, 2>& v) { return {v[0], v[1]}; }
 
@@ -30,102 +29,6 @@ Site read_site(ConfigReader from) {
   from.required("latitude_deg", site.origin.latitude_deg, -89.9, 89.9);
   from.required("longitude_deg", site.origin.longitude_deg, -180, 180);
   return site;
-}
-
-Water read_water(ConfigReader from) {
-  Water water;
-  from.optional("temperature_degc", water.temperature_degc, -2, 40);
-  from.optional("salinity_psu", water.salinity_psu, 0, 45);
-  from.optional("ph", water.ph, 6, 9);
-  from.optional("sound_speed_mps", water.sound_speed_mps, 1300, 1700);
-  from.optional("absorption_db_per_km", water.absorption_dbpm, 0, 2000, FileUnit{1e-3});
-  from.optional("noise_level_db", water.noise_level_db, -100, 200);
-  return water;
-}
-
-terrain::Ridge read_ridge(ConfigReader from) {
-  terrain::Ridge ridge;
-  std::array<double, 2> start{}, end{};
-  from.required("from_m", start, -kFarAway_m, kFarAway_m);
-  from.required("to_m", end, -kFarAway_m, kFarAway_m);
-  from.required("height_m", ridge.height_m, 0, 1000);
-  from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
-  ridge.start_enu_m = vec2(start);
-  ridge.end_enu_m = vec2(end);
-  return ridge;
-}
-
-terrain::Boulders read_boulders(ConfigReader from) {
-  terrain::Boulders boulders;
-  from.required("per_hectare", boulders.per_hectare, 0, 10000);
-  from.optional("smallest_radius_m", boulders.smallest_radius_m, 0.05, 20);
-  from.optional("largest_radius_m", boulders.largest_radius_m, 0.05, 20);
-  from.optional("height_per_radius", boulders.height_per_radius, 0, 2);
-  if (boulders.largest_radius_m < boulders.smallest_radius_m) {
-    from.problem("largest_radius_m", "is below smallest_radius_m");
-  }
-  return boulders;
-}
-
-terrain::Relief read_relief(ConfigReader from) {
-  terrain::Relief relief;
-  from.required("rms_m", relief.rms_m, 0, 100);
-  from.optional("longest_wavelength_m", relief.longest_wavelength_m, 0.1, kFarAway_m);
-  from.optional("octaves", relief.octaves, 1, 16);
-  from.optional("hurst", relief.hurst, 0.01, 1);
-  return relief;
-}
-
-void read_synthetic(ConfigReader from, Seabed& seabed) {
-  terrain::SyntheticSeabedParameters& values = seabed.synthetic;
-  std::array<double, 2> reference{};
-  from.optional("size_m", seabed.synthetic_size_m, 10, kFarAway_m);
-  from.optional("reference_m", reference, -kFarAway_m, kFarAway_m);
-  from.optional("depth_m", values.reference_depth_m, 0, 11000);
-  from.optional("slope_deg", values.slope_rad, 0, 60, kDegrees);
-  from.optional("downhill_heading_deg", values.downhill_heading_rad, -360, 360, kDegrees);
-  values.reference_enu_m = vec2(reference);
-  if (const auto ridge = from.optional_section("ridge")) {
-    values.ridge = read_ridge(*ridge);
-  }
-  if (const auto boulders = from.optional_section("boulders")) {
-    values.boulders = read_boulders(*boulders);
-  }
-  if (const auto relief = from.optional_section("relief")) {
-    values.relief = read_relief(*relief);
-  }
-}
-
-RasterSeabed read_raster(ConfigReader from) {
-  RasterSeabed raster;
-  from.required_path("path", raster.path);
-  from.required_choice("values", raster.values,
-                       {{"elevation", RasterSeabed::Values::kElevation}, {"depth", RasterSeabed::Values::kDepth}});
-  from.optional_choice("holes", raster.holes,
-                       {{"refuse", RasterSeabed::Holes::kRefuse},
-                        {"keep", RasterSeabed::Holes::kKeep},
-                        {"fill", RasterSeabed::Holes::kFill}});
-  return raster;
-}
-
-Seabed read_seabed(ConfigReader from) {
-  Seabed seabed;
-  from.required_choice("kind", seabed.kind,
-                       {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}});
-  from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
-  from.optional("lambert_mu_db", seabed.lambert_mu_db, -60, -4.97);  // a perfect diffuser has -4.97 dB
-  const bool synthetic = seabed.kind == Seabed::Kind::kSynthetic;
-  if (from.has(synthetic ? "raster" : "synthetic")) {
-    from.problem(synthetic ? "raster" : "synthetic", "is not used by this kind of seabed");
-  }
-  if (synthetic) {
-    if (auto section = from.optional_section("synthetic")) {
-      read_synthetic(*section, seabed);
-    }
-  } else {
-    seabed.raster = read_raster(from.section("raster"));
-  }
-  return seabed;
 }
 
 frames::Mounting read_mounting(ConfigReader from, frames::Mounting mounting = {}) {

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "components/runtime/config/config_node.h"
+#include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/config/scenario_water.h"
 #include "kernels/frames/local_projection.h"
 #include "kernels/frames/pose.h"
 #include "kernels/motion/kinematics.h"
 #include "kernels/navigation/runline.h"
-#include "kernels/terrain/synthetic_seabed.h"
 
 namespace ensonify {
 
@@ -25,35 +26,6 @@ struct Site {
   /// `origin: raster` in the file: the centre of the imported raster, known only after somebody has opened it.
   bool origin_from_raster = false;
   frames::Geodetic origin;
-};
-
-/// The water, the same everywhere in this version.
-struct Water {
-  double temperature_degc = 10.0;
-  double salinity_psu = 35.0;
-  double ph = 8.0;
-  std::optional<double> sound_speed_mps;  // not given: computed from temperature, salinity and depth
-  std::optional<double> absorption_dbpm;  // dB/m; not given: computed for each head's frequency
-  std::optional<double> noise_level_db;   // re 1 uPa^2/Hz, omnidirectional; not given: thermal noise
-};
-
-struct RasterSeabed {
-  enum class Values { kElevation, kDepth };  // up or down positive; never guessed
-  enum class Holes { kRefuse, kKeep, kFill };
-  std::string path;  // as found on disk
-  Values values = Values::kElevation;
-  Holes holes = Holes::kRefuse;
-};
-
-struct Seabed {
-  enum class Kind { kSynthetic, kRaster };
-  Kind kind = Kind::kSynthetic;
-  double post_spacing_m = 0.5;
-  double lambert_mu_db = -25.0;  // backscatter strength at normal incidence of Lambert's law
-  /// Synthetic: a seabed generated from these values alone. Its seed is the scenario's.
-  terrain::SyntheticSeabedParameters synthetic;
-  std::array<double, 2> synthetic_size_m{600.0, 600.0};  // extent east and north, centred on the origin
-  RasterSeabed raster;
 };
 
 /// A head on its vehicle: where it truly is, and where its makers of records believe it to be.

@@ -53,7 +53,7 @@ TEST_CASE("a scenario is read whole, in SI units") {
   CHECK(bay.start_unix_ns == 1748779200000000000);
   CHECK(bay.seed == 7);
   CHECK(bay.water.absorption_dbpm == Approx(0.06));
-  CHECK_FALSE(bay.water.sound_speed_mps.has_value());
+  CHECK_FALSE(bay.water.profile.given());
   CHECK(bay.seabed.synthetic.slope_rad == Approx(2 * 3.14159265358979 / 180));
   CHECK(bay.seabed.synthetic.ridge.start_enu_m == frames::Vec2(10, 20));
   CHECK(bay.seabed.synthetic.boulders.per_hectare == 9);

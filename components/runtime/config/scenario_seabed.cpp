@@ -1,0 +1,195 @@
+#include "components/runtime/config/scenario_seabed.h"
+
+#include <cmath>
+#include <optional>
+
+#include "components/runtime/config/scalars.h"
+#include "components/runtime/config/scenario_sections.h"
+
+namespace ensonify {
+namespace {
+
+frames::Vec2 vec2(const std::array<double, 2>& v) { return {v[0], v[1]}; }
+
+double ratio_of(double db) { return std::pow(10.0, 0.1 * db); }
+
+terrain::Ridge read_ridge(ConfigReader from) {
+  terrain::Ridge ridge;
+  std::array<double, 2> start{}, end{};
+  from.required("from_m", start, -kFarAway_m, kFarAway_m);
+  from.required("to_m", end, -kFarAway_m, kFarAway_m);
+  from.required("height_m", ridge.height_m, 0, 1000);
+  from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
+  ridge.start_enu_m = vec2(start);
+  ridge.end_enu_m = vec2(end);
+  return ridge;
+}
+
+terrain::Boulders read_boulders(ConfigReader from) {
+  terrain::Boulders boulders;
+  from.required("per_hectare", boulders.per_hectare, 0, 10000);
+  from.optional("smallest_radius_m", boulders.smallest_radius_m, 0.05, 20);
+  from.optional("largest_radius_m", boulders.largest_radius_m, 0.05, 20);
+  from.optional("height_per_radius", boulders.height_per_radius, 0, 2);
+  if (boulders.largest_radius_m < boulders.smallest_radius_m) {
+    from.problem("largest_radius_m", "is below smallest_radius_m");
+  }
+  return boulders;
+}
+
+terrain::Relief read_relief(ConfigReader from) {
+  terrain::Relief relief;
+  from.required("rms_m", relief.rms_m, 0, 100);
+  from.optional("longest_wavelength_m", relief.longest_wavelength_m, 0.1, kFarAway_m);
+  from.optional("octaves", relief.octaves, 1, 16);
+  from.optional("hurst", relief.hurst, 0.01, 1);
+  return relief;
+}
+
+void read_synthetic(ConfigReader from, Seabed& seabed) {
+  terrain::SyntheticSeabedParameters& values = seabed.synthetic;
+  std::array<double, 2> reference{};
+  from.optional("size_m", seabed.synthetic_size_m, 10, kFarAway_m);
+  from.optional("reference_m", reference, -kFarAway_m, kFarAway_m);
+  from.optional("depth_m", values.reference_depth_m, 0, 11000);
+  from.optional("slope_deg", values.slope_rad, 0, 60, kDegrees);
+  from.optional("downhill_heading_deg", values.downhill_heading_rad, -360, 360, kDegrees);
+  values.reference_enu_m = vec2(reference);
+  if (const auto ridge = from.optional_section("ridge")) {
+    values.ridge = read_ridge(*ridge);
+  }
+  if (const auto boulders = from.optional_section("boulders")) {
+    values.boulders = read_boulders(*boulders);
+  }
+  if (const auto relief = from.optional_section("relief")) {
+    values.relief = read_relief(*relief);
+  }
+}
+
+RasterSeabed read_raster(ConfigReader from) {
+  RasterSeabed raster;
+  from.required_path("path", raster.path);
+  from.required_choice("values", raster.values,
+                       {{"elevation", RasterSeabed::Values::kElevation}, {"depth", RasterSeabed::Values::kDepth}});
+  from.optional_choice("holes", raster.holes,
+                       {{"refuse", RasterSeabed::Holes::kRefuse},
+                        {"keep", RasterSeabed::Holes::kKeep},
+                        {"fill", RasterSeabed::Holes::kFill}});
+  return raster;
+}
+
+/// A name of TR 9407's table 2.
+std::optional<seabed::SedimentParameters> read_name(ConfigReader& from, const std::string& key) {
+  std::string name;
+  from.required(key, name);
+  if (const auto found = seabed::sediment_of(name)) return found;
+  std::string known;
+  for (const auto& sediment : seabed::named_sediments()) {
+    known += (known.empty() ? "" : ", ") + std::string(sediment.name);
+  }
+  from.problem(key, "is \"" + name + "\", not one of " + known);
+  return std::nullopt;
+}
+
+/// The six parameters, within the limits that TR 9407 states.
+seabed::SedimentParameters read_parameters(ConfigReader& from) {
+  seabed::SedimentParameters sediment;
+  from.required("density_ratio", sediment.density_ratio, 1, 3);
+  from.required("sound_speed_ratio", sediment.sound_speed_ratio, 0.8, 3);
+  from.required("loss", sediment.loss, 1e-6, 0.1);
+  from.required("volume_parameter", sediment.volume_parameter, 0, 1);
+  from.optional("spectral_exponent", sediment.spectral_exponent, 2.4, 3.9);
+  from.required("spectral_strength_cm4", sediment.spectral_strength_cm4, 1e-9, 1);
+  return sediment;
+}
+
+seabed::Gsab read_gsab(ConfigReader from) {
+  double specular_db = 0.0, diffuse_db = 0.0;
+  std::optional<double> transition_db;
+  seabed::Gsab curve;
+  from.required("specular_db", specular_db, -100, 20);
+  from.required("specular_width_deg", curve.specular_width_rad, 0.1, 90, kDegrees);
+  from.required("diffuse_db", diffuse_db, -100, 0);
+  from.optional("diffuse_exponent", curve.diffuse_exponent, 0, 20);
+  from.optional("transition_db", transition_db, -100, 20);
+  from.optional("transition_width_deg", curve.transition_width_rad, 0.1, 90, kDegrees);
+  curve.specular = ratio_of(specular_db);
+  curve.diffuse = ratio_of(diffuse_db);
+  if (transition_db) curve.transition = ratio_of(*transition_db);
+  return curve;
+}
+
+/// A map that states the seabed in one of five ways.
+std::optional<seabed::Scatterer> read_scatterer(ConfigReader from) {
+  static constexpr std::array kWays = {"name", "grain_size_phi", "density_ratio", "lambert_mu_db", "gsab"};
+  std::string way;
+  for (const char* key : kWays) {
+    if (!from.has(key)) continue;
+    if (!way.empty()) from.problem(key, "stands beside " + way + "; give one or the other");
+    way = key;
+  }
+  if (way.empty()) {
+    from.problem("", "needs one of name, grain_size_phi, density_ratio (with the other five), lambert_mu_db, gsab");
+    return std::nullopt;
+  }
+  if (way == "lambert_mu_db") {
+    seabed::Lambert lambert;
+    from.required("lambert_mu_db", lambert.mu_db, -60, -4.97);  // a perfect diffuser has -4.97 dB
+    return lambert;
+  }
+  if (way == "gsab") return read_gsab(from.section("gsab"));
+  std::optional<seabed::SedimentParameters> sediment;
+  bool capped = false;
+  if (way == "name") sediment = read_name(from, "name");
+  if (way == "density_ratio") sediment = read_parameters(from);
+  if (way == "grain_size_phi") {
+    double grain_size_phi = 1.5;
+    from.required("grain_size_phi", grain_size_phi, -1, 9);
+    sediment = seabed::sediment_of_grain_size(grain_size_phi);
+  }
+  from.optional("capped", capped);
+  if (!sediment) return std::nullopt;
+  if (capped) return seabed::CappedSediment{*sediment};
+  return *sediment;
+}
+
+/// Class number to a name, or to a map (read_scatterer).
+void read_sediments(ConfigReader from, Seabed& seabed) {
+  for (const auto& entry : from.node().entries) {
+    const auto number = parse_natural(entry.key);
+    std::optional<seabed::Scatterer> scatterer;
+    if (entry.value.is_scalar()) scatterer = read_name(from, entry.key);
+    else scatterer = read_scatterer(from.section(entry.key));
+    if (!number || *number > 255) {
+      from.problem(entry.key, "is not a class of the seabed, a whole number in [0, 255]");
+    } else if (scatterer) {
+      seabed.sediments[static_cast<std::uint8_t>(*number)] = *scatterer;
+    }
+  }
+}
+
+}  // namespace
+
+Seabed read_seabed(ConfigReader from) {
+  Seabed seabed;
+  from.required_choice("kind", seabed.kind,
+                       {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}});
+  from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
+  if (const auto sediments = from.optional_section("sediments")) {
+    read_sediments(*sediments, seabed);
+  }
+  const bool synthetic = seabed.kind == Seabed::Kind::kSynthetic;
+  if (from.has(synthetic ? "raster" : "synthetic")) {
+    from.problem(synthetic ? "raster" : "synthetic", "is not used by this kind of seabed");
+  }
+  if (synthetic) {
+    if (auto section = from.optional_section("synthetic")) {
+      read_synthetic(*section, seabed);
+    }
+  } else {
+    seabed.raster = read_raster(from.section("raster"));
+  }
+  return seabed;
+}
+
+}  // namespace ensonify

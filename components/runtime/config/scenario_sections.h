@@ -1,0 +1,15 @@
+#pragma once
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/config/scenario_water.h"
+
+namespace ensonify {
+
+inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
+
+/// The sections of a scenario file that have a source file of their own.
+Water read_water(ConfigReader from);
+Seabed read_seabed(ConfigReader from);
+
+}  // namespace ensonify

@@ -1,0 +1,99 @@
+#include "components/runtime/head/environment.h"
+
+#include "kernels/surface/sea_surface.h"
+#include "kernels/water/noise.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kSpeedTolerance_mps = 0.01;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+
+/// For the laws that want pressure. Where the origin comes with a raster, its latitude is not known here; the speed of
+/// sound at 1000 m then errs by 0.05 m/s at most.
+double latitude_rad(const Site& site) {
+  return site.origin_from_raster ? water::kMeanLatitude_rad : site.origin.latitude_deg * kRadiansPerDegree;
+}
+
+refraction::SoundSpeedProfile profile_of(const WaterProfile& profile, const Scenario& scenario) {
+  const Water& water = scenario.water;
+  const double latitude = latitude_rad(scenario.site);
+  if (profile.sound_speed_mps) return refraction::SoundSpeedProfile::uniform(*profile.sound_speed_mps);
+  if (profile.samples.empty()) {
+    return refraction::SoundSpeedProfile::uniform(water::sound_speed_mps(
+        water.sound_speed_law, water.temperature_degc, water.salinity_psu, scenario.mission.depth_m, latitude));
+  }
+  std::vector<refraction::Knot> knots;
+  for (const WaterSample& sample : profile.samples) {
+    const double speed_mps =
+        sample.sound_speed_mps
+            ? *sample.sound_speed_mps
+            : water::sound_speed_mps(water.sound_speed_law, sample.temperature_degc.value_or(water.temperature_degc),
+                                     sample.salinity_psu.value_or(water.salinity_psu), sample.depth_m, latitude);
+    knots.push_back({sample.depth_m, speed_mps});
+  }
+  return refraction::SoundSpeedProfile(std::move(knots)).thinned(kSpeedTolerance_mps);
+}
+
+/// The water that absorbs. Beyond its samples it goes on unchanged; the laws know depth.
+water::Column column_of(const Water& water) {
+  std::vector<water::SeaWater> samples;
+  for (const WaterSample& sample : water.profile.samples) {
+    samples.push_back({sample.temperature_degc.value_or(water.temperature_degc),
+                       sample.salinity_psu.value_or(water.salinity_psu), sample.depth_m, water.ph});
+  }
+  if (samples.empty()) samples.push_back({water.temperature_degc, water.salinity_psu, 0.0, water.ph});
+  return water::Column(std::move(samples));
+}
+
+double noise_level_db_of(const Water& water, double frequency_hz) {
+  return water.noise_level_db.value_or(water::ambient_noise_level_db(frequency_hz, water.wind_speed_mps));
+}
+
+seabed::ClassTables tables_of(const Seabed& seabed, double frequency_hz, double sound_speed_mps) {
+  const seabed::Law base = seabed::law_of(seabed.sediments.at(0), frequency_hz, sound_speed_mps);
+  std::vector<seabed::Law> laws(seabed.sediments.rbegin()->first + 1U, base);
+  for (const auto& [number, scatterer] : seabed.sediments) {
+    laws[number] = seabed::law_of(scatterer, frequency_hz, sound_speed_mps);
+  }
+  return seabed::ClassTables(laws);
+}
+
+seabed::BackscatterTable surface_table_of(double frequency_hz, double wind_speed_mps) {
+  return seabed::BackscatterTable([=](double grazing_rad) {
+    return surface::sea_surface_backscatter(grazing_rad, frequency_hz, wind_speed_mps).total;
+  });
+}
+
+}  // namespace
+
+refraction::SoundSpeedProfile true_profile(const Scenario& scenario) {
+  return profile_of(scenario.water.profile, scenario);
+}
+
+refraction::SoundSpeedProfile applied_profile(const Scenario& scenario) {
+  const Water& water = scenario.water;
+  return profile_of(water.applied.given() ? water.applied : water.profile, scenario);
+}
+
+Environment::Environment(const Scenario& scenario, double frequency_hz)
+    : frequency_hz_(frequency_hz),
+      profile_(true_profile(scenario)),
+      applied_(ensonify::applied_profile(scenario)),
+      column_(column_of(scenario.water)),
+      absorption_law_(scenario.water.absorption_law),
+      absorption_dbpm_(scenario.water.absorption_dbpm),
+      noise_level_db_(noise_level_db_of(scenario.water, frequency_hz)),
+      backscatter_(tables_of(scenario.seabed, frequency_hz, profile_.knots().back().speed_mps)),
+      wind_speed_mps_(scenario.water.wind_speed_mps),
+      surface_backscatter_(surface_table_of(frequency_hz, wind_speed_mps_)),
+      rms_wave_height_m_(surface::rms_wave_height_m(wind_speed_mps_)),
+      scattering_layers_(scenario.water.scattering_layers),
+      bubble_loss_db_(scenario.water.bubble_loss_db) {}
+
+double Environment::absorption_dbpm(double from_depth_m, double to_depth_m) const {
+  if (absorption_dbpm_) return *absorption_dbpm_;
+  return column_.mean_absorption_dbpm(absorption_law_, frequency_hz_, from_depth_m, to_depth_m);
+}
+
+}  // namespace ensonify
