@@ -2,6 +2,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/config/own_vehicle.h"
+#include "components/runtime/head/environment.h"
 
 namespace ensonify {
 
@@ -18,12 +19,19 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   from.optional("sigma_horizontal_m", sigma.horizontal_m, 0, 100);
   from.optional("sigma_vertical_m", sigma.vertical_m, 0, 100);
   from.optional("sigma_velocity_mps", sigma.velocity_mps, 0, 5);
+  SoundSpeedProbe& probe = config.probe;
+  from.optional("sound_speed_position_m", probe.position_body_m, -500, 500);
+  from.optional("sound_speed_rate_hz", probe.rate_hz, 1, 100);
+  from.optional("sound_speed_bias_mps", probe.bias_mps, -50, 50);
+  from.optional("sigma_sound_speed_mps", probe.sigma_mps, 0, 10);
+  from.optional("sound_speed_latency_s", probe.latency_s, 0, 10);
 
   own_vehicle(from, scenario, process);  // the pose is wired; the name is checked for the user's sake
   config.seed = scenario.seed;
   config.process = process;
   config.mean_height_m = -scenario.mission.depth_m;
   if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
+  config.water = true_profile(scenario);
   return config;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "components/runtime/config/scenario.h"
+#include "kernels/refraction/profile.h"
 
 namespace ensonify {
 
@@ -25,23 +27,36 @@ struct NavigationErrors {
   bool operator==(const NavigationErrors&) const = default;
 };
 
+/// The sound speed probe, meant to sit beside the transducers' faces.
+struct SoundSpeedProbe {
+  std::array<double, 3> position_body_m{};  // forward, starboard, down from the body's origin
+  int rate_hz = 1;
+  double bias_mps = 0.0;    // measured minus true, the same all through a run
+  double sigma_mps = 0.02;  // white noise
+  double latency_s = 0.0;   // from the measurement to its report
+
+  bool operator==(const SoundSpeedProbe&) const = default;
+};
+
 struct NavigationConfig {
   int attitude_rate_hz = 100;  // attitude and estimate
   int position_rate_hz = 5;
   double position_gain = 0.2;  // how much of a fix's difference from the estimate is taken over, 0..1
   NavigationErrors sigma;
+  SoundSpeedProbe probe;
 
   // From the scenario.
   std::uint64_t seed = 1;
   std::string process;
   double mean_height_m = 0.0;              // ENU z from which heave counts
   std::optional<frames::Geodetic> origin;  // not given: the chart tells it
+  refraction::SoundSpeedProfile water = refraction::SoundSpeedProfile::uniform(1500.0);  // the true one
 
   static NavigationConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const NavigationConfig& other) const {
     return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&
-           position_gain == other.position_gain && sigma == other.sigma;
+           position_gain == other.position_gain && sigma == other.sigma && probe == other.probe;
   }
 };
 

@@ -133,6 +133,38 @@ TEST_CASE("the estimate is quieter than the fixes by what the filter's theory sa
   CHECK(east.sigma() == Approx(config.sigma.horizontal_m * std::sqrt(0.2 / 1.8)).epsilon(0.2));
 }
 
+TEST_CASE("the probe tells the sound speed at its own depth, with its bias, its noise and its latency") {
+  NavigationConfig config = config_of(0);
+  config.water = refraction::SoundSpeedProfile({{0.0, 1500.0}, {10.0, 1520.0}});  // 2 m/s per m
+  config.probe.position_body_m = {0.0, 0.0, 1.0};
+  config.probe.rate_hz = 2;
+  config.probe.sigma_mps = 0.0;
+  config.probe.bias_mps = 0.7;
+  config.probe.latency_s = 0.25;
+  NodeUnderTest<NavigationNode> navigation(config);
+  give_truth(navigation, 100);
+  const auto speeds = navigation.step_until<msg::SoundSpeed>("sound_speed", 1.3_s);
+  REQUIRE(speeds.size() == 3);  // of 0, 0.5 and 1 s; that of 1 s came at 1.25 s
+  CHECK(speeds[2].stamp_ns == 1'000'000'000);
+  // 1 m below the body, which is rolled by 5 degrees.
+  const double depth_m = -truth_at(1_s).position_enu_m[2] + std::cos(5 * kPi / 180);
+  CHECK(speeds[2].sound_speed_mps == Approx(1500.0 + 2.0 * depth_m + 0.7).epsilon(1e-12));
+  CHECK(navigation.step_until<msg::SoundSpeed>("sound_speed", 1.74_s).empty());
+  CHECK(navigation.step_until<msg::SoundSpeed>("sound_speed", 1.75_s).size() == 1);
+
+  config.probe = SoundSpeedProbe{};
+  config.probe.rate_hz = 10;
+  config.water = refraction::SoundSpeedProfile::uniform(1490.0);
+  NodeUnderTest<NavigationNode> noisy(config);
+  give_truth(noisy, 100);
+  Moments error;
+  for (const auto& s : noisy.step_until<msg::SoundSpeed>("sound_speed", 100_s)) error.add(s.sound_speed_mps - 1490.0);
+  // 1001 samples: the mean strays by sigma / 32, sigma by 2.2 %; four times that is allowed.
+  CHECK(error.n == 1001);
+  CHECK(error.mean() == Approx(0).margin(config.probe.sigma_mps / 8));
+  CHECK(error.sigma() == Approx(config.probe.sigma_mps).epsilon(0.09));
+}
+
 TEST_CASE("an origin left to the raster comes with the chart; nothing is measured before") {
   NavigationConfig config = config_of(0);
   config.origin.reset();

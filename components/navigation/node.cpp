@@ -16,8 +16,11 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       filter_(config.position_gain),
       attitude_due_(Rate{config.attitude_rate_hz, 1}),
       position_due_(Rate{config.position_rate_hz, 1}),
+      sound_speed_due_(Rate{config.probe.rate_hz, 1}),
+      sound_speed_latency_(from_seconds(config.probe.latency_s)),
       attitudes_(ports.out<msg::Attitude>("attitude", {.rate = Rate{config.attitude_rate_hz, 1}})),
       positions_(ports.out<msg::Position>("position", {.rate = Rate{config.position_rate_hz, 1}})),
+      sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = Rate{config.probe.rate_hz, 1}})),
       estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{config.attitude_rate_hz, 1}})) {
   if (config.origin) world_.emplace(*config.origin);
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { truth_ = pose; });
@@ -36,7 +39,20 @@ SimTime NavigationNode::step(SimTime now) {
     if (position) measure_position(fix);
     if (attitude) estimate(sensors_.attitude(*truth_, sample));
   }
-  return std::min(attitude_due_.next(), position_due_.next());
+  const std::int64_t dip = sound_speed_due_.count();
+  if (sound_speed_due_.due(now) && truth_) {
+    sound_speeds_under_way_.emplace_back(now + sound_speed_latency_, sensors_.sound_speed(*truth_, dip));
+  }
+  report_sound_speed(now);
+  const SimTime next = std::min({attitude_due_.next(), position_due_.next(), sound_speed_due_.next()});
+  return sound_speeds_under_way_.empty() ? next : std::min(next, sound_speeds_under_way_.front().first);
+}
+
+void NavigationNode::report_sound_speed(SimTime now) {
+  while (!sound_speeds_under_way_.empty() && sound_speeds_under_way_.front().first <= now) {
+    sound_speeds_.send(sound_speeds_under_way_.front().second);
+    sound_speeds_under_way_.pop_front();
+  }
 }
 
 void NavigationNode::measure_position(std::int64_t n) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include "components/navigation/dead_reckoning.h"
 #include "components/navigation/sensors.h"
@@ -19,15 +21,19 @@ class NavigationNode {
 
  private:
   void measure_position(std::int64_t n);
+  void report_sound_speed(SimTime now);
   void estimate(const msg::Attitude& attitude);
 
   NavigationSensors sensors_;
   DeadReckoning filter_;
-  Periodic attitude_due_, position_due_;
+  Periodic attitude_due_, position_due_, sound_speed_due_;
+  SimTime sound_speed_latency_;
+  std::deque<std::pair<SimTime, msg::SoundSpeed>> sound_speeds_under_way_;
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;
   Ports::Out<msg::Attitude> attitudes_;
   Ports::Out<msg::Position> positions_;
+  Ports::Out<msg::SoundSpeed> sound_speeds_;
   Ports::Out<msg::Estimate> estimates_;
 };
 

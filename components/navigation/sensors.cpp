@@ -14,9 +14,12 @@ double noise(const random::Stream& stream, std::int64_t n, std::uint64_t axis) {
 NavigationSensors::NavigationSensors(const NavigationConfig& config)
     : sigma_(config.sigma),
       mean_height_m_(config.mean_height_m),
+      probe_(config.probe),
+      water_(config.water),
       attitude_noise_(config.seed, config.process + "/attitude"),
       position_noise_(config.seed, config.process + "/position"),
-      velocity_noise_(config.seed, config.process + "/velocity") {}
+      velocity_noise_(config.seed, config.process + "/velocity"),
+      sound_speed_noise_(config.seed, config.process + "/sound_speed") {}
 
 msg::Attitude NavigationSensors::attitude(const msg::Pose& truth, std::int64_t n) const {
   const frames::Attitude angles = frames::attitude_of(frames::quaternion_of(truth.enu_from_body));
@@ -52,6 +55,18 @@ frames::Vec3 NavigationSensors::velocity_enu_mps(const msg::Pose& truth, std::in
     measured[static_cast<Eigen::Index>(axis)] =
         truth.velocity_enu_mps[axis] + sigma_.velocity_mps * noise(velocity_noise_, n, axis);
   }
+  return measured;
+}
+
+msg::SoundSpeed NavigationSensors::sound_speed(const msg::Pose& truth, std::int64_t n) const {
+  msg::SoundSpeed measured;
+  measured.stamp_ns = truth.stamp_ns;
+  const auto& [forward_m, starboard_m, down_m] = probe_.position_body_m;
+  const frames::Vec3 offset_enu_m =
+      frames::quaternion_of(truth.enu_from_body) * frames::Vec3(forward_m, starboard_m, down_m);
+  const double depth_m = -(truth.position_enu_m[2] + offset_enu_m.z());
+  measured.sound_speed_mps =
+      water_.speed_mps(depth_m) + probe_.bias_mps + probe_.sigma_mps * noise(sound_speed_noise_, n, 0);
   return measured;
 }
 

@@ -9,8 +9,9 @@
 
 namespace ensonify {
 
-/// Attitude, position and velocity sensors at the body's origin: truth plus white Gaussian noise, without bias or
-/// latency. Sample n of a sensor is a pure function of (seed, process, n) and the truth.
+/// Attitude, position and velocity sensors at the body's origin: truth plus white Gaussian noise, without bias; and a
+/// sound speed probe. Latency is the node's business. Sample n of a sensor is a pure function of (seed, process, n) and
+/// the truth.
 class NavigationSensors {
  public:
   explicit NavigationSensors(const NavigationConfig& config);
@@ -19,11 +20,15 @@ class NavigationSensors {
   /// Latitude and longitude are those of the noisy place.
   msg::Position position(const msg::Pose& truth, std::int64_t n, const frames::LocalProjection& world) const;
   frames::Vec3 velocity_enu_mps(const msg::Pose& truth, std::int64_t n) const;
+  /// Of the water at the probe's depth; above chart datum that of the topmost water.
+  msg::SoundSpeed sound_speed(const msg::Pose& truth, std::int64_t n) const;
 
  private:
   NavigationErrors sigma_;
   double mean_height_m_;
-  random::Stream attitude_noise_, position_noise_, velocity_noise_;
+  SoundSpeedProbe probe_;
+  refraction::SoundSpeedProfile water_;
+  random::Stream attitude_noise_, position_noise_, velocity_noise_, sound_speed_noise_;
 };
 
 }  // namespace ensonify
