@@ -3,32 +3,12 @@
 
     docs/physics/draw/arrays.py build/dev/bin/ensonify-physics
 """
-import csv
-import io
-import pathlib
-import subprocess
-import sys
-
-import matplotlib
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-PICTURES = pathlib.Path(__file__).resolve().parent.parent / "pictures"
+from values import physics, save
+
 WAVES = 64.0  # the verb's default line: 128 elements of half a wavelength
-
-
-def physics(*words):
-    """The columns that one call prints, as arrays of numbers."""
-    done = subprocess.run([sys.argv[1], *map(str, words)], capture_output=True, text=True, check=True)
-    rows = list(csv.DictReader(io.StringIO(done.stdout)))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]
-            if name not in ("aperture", "shading", "roll_stabilised")}
-
-
-def save(figure, name):
-    figure.savefig(PICTURES / f"arrays_{name}.png", dpi=90)
-    plt.close(figure)
 
 
 def panels(rows, height, **more):
@@ -52,7 +32,7 @@ def draw_shading():
         axis.legend(loc="upper right", fontsize=8)
     axes[-1].set_xlabel("sin(angle) × L/λ")
     figure.suptitle("Patterns of 128 shaded elements, 64 λ long")
-    save(figure, "shading")
+    save(figure, "arrays_shading")
 
 
 def draw_steering():
@@ -74,7 +54,7 @@ def draw_steering():
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
     figure.suptitle("Half-power width of a steered line, 64 λ long")
-    save(figure, "steering")
+    save(figure, "arrays_steering")
 
 
 def fresnel_loss_db(v):
@@ -101,7 +81,7 @@ def draw_near_field():
         each.grid(alpha=0.3, which="both")
         each.legend(fontsize=8)
     figure.suptitle("A uniform line in its near field")
-    save(figure, "near_field")
+    save(figure, "arrays_near_field")
 
 
 def draw_sectors():
@@ -119,7 +99,7 @@ def draw_sectors():
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8, loc="lower center")
     figure.suptitle("Three transmit sectors, roll-off 0.2 in sine (36 elements)")
-    save(figure, "sectors")
+    save(figure, "arrays_sectors")
 
 
 def draw_stabilisation():
@@ -139,12 +119,9 @@ def draw_stabilisation():
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8, loc="upper right")
     figure.suptitle("Roll ±10° in 6 s, sensor error 0.05°, latency 20 ms")
-    save(figure, "stabilisation")
+    save(figure, "arrays_stabilisation")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    PICTURES.mkdir(exist_ok=True)
     for draw in (draw_shading, draw_steering, draw_near_field, draw_sectors, draw_stabilisation):
         draw()

@@ -3,18 +3,14 @@
 
     docs/physics/draw/detection.py build/dev/tests/detect_test
 """
-import csv
-import io
-import pathlib
 import subprocess
 import sys
 
-import matplotlib
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-PICTURES = pathlib.Path(__file__).resolve().parent.parent / "pictures"
+from values import columns, save
+
 LENGTH = 50.76  # waves: 1 degree
 DEPTH_M, SPEED_MPS, PULSE_S = 20.0, 1500.0, 100e-6
 
@@ -23,13 +19,7 @@ def table(tag):
     """The columns that a hidden test prints."""
     done = subprocess.run([sys.argv[1], f"[.{tag}]"], capture_output=True, text=True, check=True)
     lines = [line for line in done.stdout.splitlines() if "," in line and not line.startswith("Filters")]
-    rows = list(csv.DictReader(io.StringIO("\n".join(lines))))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
-
-
-def save(figure, name):
-    figure.savefig(PICTURES / f"{name}.png", dpi=90)
-    plt.close(figure)
+    return columns("\n".join(lines))
 
 
 def draw_accuracy():

@@ -4,35 +4,15 @@ numbers that they are checked by.
 
     docs/physics/draw/scattering.py build/dev/bin/ensonify-physics
 """
-import csv
-import io
-import pathlib
-import subprocess
-import sys
-
-import matplotlib
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-PICTURES = pathlib.Path(__file__).resolve().parent.parent / "pictures"
+from values import physics, save
+
 SEDIMENTS = ["rough-rock", "rock", "cobble", "sandy-gravel", "very-coarse-sand", "coarse-sand", "medium-sand",
              "fine-sand", "very-fine-sand", "coarse-silt", "medium-silt", "fine-silt", "silty-clay", "clay"]
 COLOURS = plt.get_cmap("turbo_r")(np.linspace(0.04, 0.96, len(SEDIMENTS)))
 EVERY_DEGREE = ["--grazing-deg", "0.5:90:0.25"]
-
-
-def physics(*words):
-    """The columns that one call prints, as arrays of numbers; names are left out."""
-    done = subprocess.run([sys.argv[1], *map(str, words)], capture_output=True, text=True, check=True)
-    rows = list(csv.DictReader(io.StringIO(done.stdout)))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]
-            if name not in ("sediment", "material")}
-
-
-def save(figure, name):
-    figure.savefig(PICTURES / f"{name}.png", dpi=90)
-    plt.close(figure)
 
 
 def panels(columns, width, height, **more):

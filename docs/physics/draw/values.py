@@ -1,4 +1,5 @@
-"""What the drawing scripts share: values from `ensonify physics`, panels, small files."""
+"""What the drawing scripts share: the columns that a program prints, and small files. Importing it chooses a backend
+that needs no window."""
 import csv
 import io
 import pathlib
@@ -14,25 +15,29 @@ from PIL import Image
 PICTURES = pathlib.Path(__file__).resolve().parent.parent / "pictures"
 
 
-def physics(*words):
-    """The numeric columns that one call prints, as arrays. The program is the script's first argument."""
-    done = subprocess.run([sys.argv[1], *map(str, words)], capture_output=True, text=True, check=True)
-    rows = list(csv.DictReader(io.StringIO(done.stdout)))
-    columns = {}
+def columns(text):
+    """The numeric columns of CSV with a header, as arrays."""
+    rows = list(csv.DictReader(io.StringIO(text)))
+    found = {}
     for name in rows[0]:
         try:
-            columns[name] = np.array([float(row[name]) for row in rows])
+            found[name] = np.array([float(row[name]) for row in rows])
         except ValueError:
-            continue  # a choice
-    return columns
+            continue  # names, such as that of a law
+    return found
+
+
+def physics(*words):
+    """The columns of one call of `ensonify physics`, which is the script's first argument."""
+    if len(sys.argv) != 2:
+        sys.exit(f"{sys.argv[0]}: give the program, such as build/dev/bin/ensonify-physics")
+    done = subprocess.run([sys.argv[1], *map(str, words)], capture_output=True, text=True, check=True)
+    return columns(done.stdout)
 
 
 def save(figure, name):
-    for axis in figure.axes:
-        axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
     drawn = io.BytesIO()
-    figure.savefig(drawn, dpi=80, metadata={"Software": None})
+    figure.savefig(drawn, dpi=90)
     plt.close(figure)
     # 64 colours are plenty, and a third of the bytes.
     Image.open(drawn).convert("RGB").quantize(64).save(PICTURES / f"{name}.png", optimize=True)

@@ -9,6 +9,13 @@ import numpy as np
 from values import physics, save
 
 
+def finish(figure, name):
+    for axis in figure.axes:
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    save(figure, name)
+
+
 def depth_of(pressure_dbar):
     """[Saunders1981] at 45 degrees."""
     return (1 - 5.92e-3 - 5.25e-3 * 0.5) * pressure_dbar - 2.21e-6 * pressure_dbar**2
@@ -42,7 +49,7 @@ def draw_sound_speed():
                        label=f"{law}, ± its standard error")
     gibbs.axhline(0, color="k", lw=0.8)
     gibbs.set(xlabel="pressure, dbar", ylabel="law - TEOS-10, m/s", title="Three laws against the Gibbs function")
-    save(figure, "sound_speed")
+    finish(figure, "sound_speed")
 
 
 def draw_absorption():
@@ -63,7 +70,7 @@ def draw_absorption():
     level.set(ylabel="absorption, dB/km", title="Absorption at the surface, 35 psu, pH 8")
     ratio.axhspan(-10, 10, color="0.9", label="10 % of Ainslie and McColm")
     ratio.set(xlabel="frequency, kHz", ylabel="Ainslie-McColm over\nFrancois-Garrison, %")
-    save(figure, "absorption")
+    finish(figure, "absorption")
 
 
 def draw_noise():
@@ -85,7 +92,7 @@ def draw_noise():
     axis.plot([], [], "k--", lw=0.7, label="both")
     axis.plot([], [], "k-", lw=0.6, label="crossings, read off such curves")
     axis.set(xlabel="frequency, kHz", ylabel="dB re 1 µPa²/Hz", ylim=(5, 75), title="Ambient noise")
-    save(figure, "noise")
+    finish(figure, "noise")
 
 
 def one_way(sine, length_in_waves):
@@ -116,7 +123,7 @@ def draw_volume():
         axis.semilogx(ranges, integral, f"C{colour}o", ms=4)
     axis.plot([], [], "ko", ms=4, label=f"integral over the shell; at most {worst:.3f} dB apart")
     axis.set(xlabel="range, m", ylabel="dB re 1 µPa²", title="Volume reverberation: SL 210 dB, 100 µs, 2° x 2°, 70 dB/km")
-    save(figure, "volume")
+    finish(figure, "volume")
 
 
 def seabed_integral_db(altitude, ranges, pattern, source_level, db_per_m):
@@ -160,7 +167,7 @@ def draw_sonar_equation():
     multi.plot(angles, form - integral, "o-", ms=4, label="1° x 1°, 20 m above the seabed")
     multi.axhline(0, color="k", lw=0.8)
     multi.set(xlabel="beam angle, deg", ylabel="closed form - area integral, dB", ylim=(-0.2, 1.4), title="Multibeam")
-    save(figure, "sonar_equation")
+    finish(figure, "sonar_equation")
 
 
 if __name__ == "__main__":
