@@ -117,7 +117,7 @@ TEST_CASE("print phase ramps", "[.ramp-csv]") {
       const std::size_t i = beam * static_cast<std::size_t>(samples) + static_cast<std::size_t>(k);
       std::printf("%g,%.9g,%g,%g,%.9g,%.9g\n", std::asin(survey.sin_beams[beam]) / kDeg,
                   k * survey.period_s - 0.5 * survey.pulse_length_s, echo.amplitude_upa[i],
-                  std::arg(echo.first_upa[i] * std::conj(echo.second_upa[i])), d.two_way_s,
+                  std::arg(echo.positive_upa[i] * std::conj(echo.negative_upa[i])), d.two_way_s,
                   two_way_s(survey, survey.sin_beams[beam]));
     }
   }

@@ -11,7 +11,7 @@ namespace ensonify::detect {
 /// One beam against time. The halves are empty where there is amplitude alone.
 struct BeamSeries {
   std::span<const float> amplitude_upa;
-  std::span<const std::complex<float>> first_upa, second_upa;
+  std::span<const std::complex<float>> positive_upa, negative_upa;
   double start_s, period_s, pulse_length_s;
 
   int samples() const { return static_cast<int>(amplitude_upa.size()); }
@@ -28,7 +28,7 @@ struct BeamSeries {
   }
   std::complex<double> interferogram(int k) const {
     const auto i = static_cast<std::size_t>(k);
-    return std::complex<double>(first_upa[i]) * std::conj(std::complex<double>(second_upa[i]));
+    return std::complex<double>(positive_upa[i]) * std::conj(std::complex<double>(negative_upa[i]));
   }
 };
 

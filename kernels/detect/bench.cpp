@@ -53,8 +53,8 @@ void one_pass(benchmark::State& state) {
     float sum = 0.0F;
     for (const float a : ping.echo.amplitude_upa) sum += a * a;
     if (state.range(0) != 0) {
-      for (std::size_t i = 0; i < ping.echo.first_upa.size(); ++i) {
-        sum += std::real(ping.echo.first_upa[i]) * std::real(ping.echo.second_upa[i]);
+      for (std::size_t i = 0; i < ping.echo.positive_upa.size(); ++i) {
+        sum += std::real(ping.echo.positive_upa[i]) * std::real(ping.echo.negative_upa[i]);
       }
     }
     benchmark::DoNotOptimize(sum);

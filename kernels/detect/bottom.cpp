@@ -159,7 +159,7 @@ class Beam {
 
   void blend(const Estimate& amplitude, Detection& detection) const {
     PhaseRamp ramp;
-    if (!series_.first_upa.empty()) {
+    if (!series_.positive_upa.empty()) {
       ramp = fit_phase_ramp(series_, seabed_, amplitude.two_way_s, settings_.phase_centres_in_waves);
       const bool ramp_like =
           ramp.coherence >= kLeastCoherence && ramp.slope <= kMostSlope && ramp.slope >= 1.0 / kMostSlope;
@@ -221,10 +221,10 @@ void check(const Settings& settings, std::size_t beams, const Amplitudes& image,
                                 std::to_string(image.beams) + " x " + std::to_string(image.samples) + " with " +
                                 std::to_string(image.amplitude_upa.size()) + " amplitudes");
   }
-  if (halves.first_upa.size() != halves.second_upa.size() ||
-      (!halves.first_upa.empty() && halves.first_upa.size() != size)) {
-    throw std::invalid_argument("detect_bottom: half apertures of " + std::to_string(halves.first_upa.size()) +
-                                " and " + std::to_string(halves.second_upa.size()) + " samples; none or " +
+  if (halves.positive_upa.size() != halves.negative_upa.size() ||
+      (!halves.positive_upa.empty() && halves.positive_upa.size() != size)) {
+    throw std::invalid_argument("detect_bottom: half apertures of " + std::to_string(halves.positive_upa.size()) +
+                                " and " + std::to_string(halves.negative_upa.size()) + " samples; none or " +
                                 std::to_string(size) + " are allowed");
   }
   require_positive("pulse_length_s", settings.pulse_length_s);
@@ -248,7 +248,7 @@ void detect_bottom(const Settings& settings, std::span<const float> sin_beams, c
   detections.resize(sin_beams.size() * most);
   tbb::parallel_for(std::size_t{0}, sin_beams.size(), [&](std::size_t beam) {
     const auto row = [&](auto all) { return all.empty() ? all : all.subspan(beam * samples, samples); };
-    const BeamSeries series{row(image.amplitude_upa), row(halves.first_upa),  row(halves.second_upa), image.start_s,
+    const BeamSeries series{row(image.amplitude_upa), row(halves.positive_upa), row(halves.negative_upa), image.start_s,
                             image.period_s,           settings.pulse_length_s};
     Beam(settings, series, sin_beams[beam]).detect(std::span(detections).subspan(beam * most, most));
   });

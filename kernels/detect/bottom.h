@@ -25,7 +25,7 @@ struct Settings {
   double sound_speed_mps = 1500.0;  // of the water, as the instrument believes
   double absorption_dbpm = 0.0;     // likewise
   double receive_length_in_waves = 50.0;
-  double phase_centres_in_waves = 25.0;  // between the halves; half the length for halves that share no element
+  double phase_centres_in_waves = 25.0;  // from half to half; half the length if they share no element
   double seabed_tilt_rad = 0.0;          // of the expected seabed's normal from the array's, towards positive sines
   int max_detections = 1;                // per beam, 1..kMostDetections
   double second_within_db = 10.0;        // a further detection may be this much weaker than the beam's strongest
@@ -43,11 +43,11 @@ struct Amplitudes {
 };
 
 /// The same beams as the two halves of the aperture heard them, complex envelopes, each steered to the beam's axis, in
-/// the layout of Amplitudes. The phase of first * conj(second) grows with the sine of arrival: `first` is the half on
-/// the side of positive sines. Empty: amplitude alone decides.
+/// the layout of Amplitudes (array::split_aperture). The phase of the half on the side of positive sines over the other
+/// grows with the sine of arrival. Empty: amplitude alone decides.
 struct HalfApertures {
-  std::span<const std::complex<float>> first_upa;
-  std::span<const std::complex<float>> second_upa;
+  std::span<const std::complex<float>> positive_upa;
+  std::span<const std::complex<float>> negative_upa;
 };
 
 /// What is to be said of a detection: a set of bits.

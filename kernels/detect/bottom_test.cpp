@@ -160,7 +160,7 @@ TEST_CASE("halves without a common phase leave the decision to the amplitude") {
   other.ping(plane, {4, "another plane"}, 0);
   std::vector<Detection> mixed, alone;
   const auto settings = settings_for(plane);
-  detect_bottom(settings, plane.sin_beams, echo.amplitudes(plane), {echo.first_upa, other.second_upa}, mixed);
+  detect_bottom(settings, plane.sin_beams, echo.amplitudes(plane), {echo.positive_upa, other.negative_upa}, mixed);
   detect_bottom(settings, plane.sin_beams, echo.amplitudes(plane), alone);
   for (const std::size_t beam : {0, 1, 2, 12, 13, 14}) {  // 50 to 70 degrees, where a ramp is long
     CHECK((mixed[beam].flags & kPoorFit) != 0);
@@ -238,20 +238,20 @@ TEST_CASE("whatever is heard, what is said of it is finite") {
   const random::Stream stream{8, "any"};
   const std::vector<float> beams{-1.0F, -0.99F, -0.3F, 0.0F, 0.02F, 0.7F, 1.0F};
   const int samples = 300;
-  std::vector<std::complex<float>> first(beams.size() * samples), second(first.size());
-  std::vector<float> amplitude(first.size());
+  std::vector<std::complex<float>> positive(beams.size() * samples), negative(positive.size());
+  std::vector<float> amplitude(positive.size());
   std::vector<Detection> found;
   int valid = 0;
   for (std::uint64_t n = 0; n < 300; ++n) {
-    std::fill(first.begin(), first.end(), std::complex<float>{});
-    std::fill(second.begin(), second.end(), std::complex<float>{});
+    std::fill(positive.begin(), positive.end(), std::complex<float>{});
+    std::fill(negative.begin(), negative.end(), std::complex<float>{});
     const auto level = static_cast<float>(std::pow(10.0, 20.0 * stream.uniform(n, 1) - 10.0));
-    random::add_gaussian(stream, n, 0, level, first);
-    random::add_gaussian(stream, n, 1u << 20, level, second);
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      if (stream.uniform(n, 2, i) < 0.01) first[i] *= 1e3F;  // a spike in one half
-      if (stream.uniform(n, 3) < 0.3 && i % 7 < 5) first[i] = second[i] = {};
-      amplitude[i] = std::abs(first[i] + second[i]);
+    random::add_gaussian(stream, n, 0, level, positive);
+    random::add_gaussian(stream, n, 1u << 20, level, negative);
+    for (std::size_t i = 0; i < positive.size(); ++i) {
+      if (stream.uniform(n, 2, i) < 0.01) positive[i] *= 1e3F;  // a spike in one half
+      if (stream.uniform(n, 3) < 0.3 && i % 7 < 5) positive[i] = negative[i] = {};
+      amplitude[i] = std::abs(positive[i] + negative[i]);
     }
     Settings settings;
     settings.pulse_length_s = std::pow(10.0, -5.0 + 3.0 * stream.uniform(n, 4));
@@ -263,7 +263,7 @@ TEST_CASE("whatever is heard, what is said of it is finite") {
     settings.max_detections = 1 + static_cast<int>(n % kMostDetections);
     const double start_s = 0.1 * stream.uniform(n, 10);
     detect_bottom(settings, beams, {static_cast<int>(beams.size()), samples, start_s, 25e-6, amplitude},
-                  {first, second}, found);
+                  {positive, negative}, found);
     for (const Detection& d : found) {
       valid += d.valid;
       REQUIRE(std::isfinite(d.two_way_s));

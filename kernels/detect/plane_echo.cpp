@@ -16,7 +16,7 @@ int samples_of(const PlaneSurvey& survey) { return static_cast<int>(survey.longe
 
 struct Scatterer {
   double two_way_s;
-  Complex first, second;
+  Complex positive, negative;
 };
 
 /// Echoes in order of time, and the noise power that goes with them.
@@ -58,20 +58,20 @@ Echoes echoes_of(const PlaneSurvey& survey, double sin_beam, const random::Strea
 }
 
 /// Sample k is the sum of the echoes that began within a pulse before it.
-void sample(const PlaneSurvey& survey, const std::vector<Scatterer>& scatterers, std::span<std::complex<float>> first,
-            std::span<std::complex<float>> second) {
-  std::vector<Complex> sums{{}}, second_sums{{}};
+void sample(const PlaneSurvey& survey, const std::vector<Scatterer>& scatterers,
+            std::span<std::complex<float>> positive, std::span<std::complex<float>> negative) {
+  std::vector<Complex> positive_sums{{}}, negative_sums{{}};
   for (const Scatterer& s : scatterers) {
-    sums.push_back(sums.back() + s.first);
-    second_sums.push_back(second_sums.back() + s.second);
+    positive_sums.push_back(positive_sums.back() + s.positive);
+    negative_sums.push_back(negative_sums.back() + s.negative);
   }
   std::size_t begun = 0, ended = 0;
-  for (std::size_t k = 0; k < first.size(); ++k) {
+  for (std::size_t k = 0; k < positive.size(); ++k) {
     const double t = static_cast<double>(k) * survey.period_s;
     while (begun < scatterers.size() && scatterers[begun].two_way_s <= t) ++begun;
     while (ended < scatterers.size() && scatterers[ended].two_way_s <= t - survey.pulse_length_s) ++ended;
-    first[k] = std::complex<float>(sums[begun] - sums[ended]);
-    second[k] = std::complex<float>(second_sums[begun] - second_sums[ended]);
+    positive[k] = std::complex<float>(positive_sums[begun] - positive_sums[ended]);
+    negative[k] = std::complex<float>(negative_sums[begun] - negative_sums[ended]);
   }
 }
 
@@ -80,19 +80,19 @@ void sample(const PlaneSurvey& survey, const std::vector<Scatterer>& scatterers,
 void PlaneEcho::ping(const PlaneSurvey& survey, const random::Stream& stream, std::uint64_t number) {
   const auto samples = static_cast<std::size_t>(samples_of(survey));
   const std::size_t beams = survey.sin_beams.size();
-  first_upa.assign(beams * samples, {});
-  second_upa.assign(beams * samples, {});
+  positive_upa.assign(beams * samples, {});
+  negative_upa.assign(beams * samples, {});
   amplitude_upa.resize(beams * samples);
   for (std::size_t beam = 0; beam < beams; ++beam) {
-    const auto first = std::span(first_upa).subspan(beam * samples, samples);
-    const auto second = std::span(second_upa).subspan(beam * samples, samples);
+    const auto positive = std::span(positive_upa).subspan(beam * samples, samples);
+    const auto negative = std::span(negative_upa).subspan(beam * samples, samples);
     const Echoes echoes = echoes_of(survey, survey.sin_beams[beam], stream, number, beam);
-    sample(survey, echoes.scatterers, first, second);
+    sample(survey, echoes.scatterers, positive, negative);
     const auto sd = static_cast<float>(std::sqrt(0.25 * echoes.noise_power));  // per half and component
-    random::add_gaussian(stream, number, (2 * beam + 1) << 40, sd, first);
-    random::add_gaussian(stream, number, (2 * beam + 2) << 40, sd, second);
+    random::add_gaussian(stream, number, (2 * beam + 1) << 40, sd, positive);
+    random::add_gaussian(stream, number, (2 * beam + 2) << 40, sd, negative);
   }
-  for (std::size_t i = 0; i < amplitude_upa.size(); ++i) amplitude_upa[i] = std::abs(first_upa[i] + second_upa[i]);
+  for (std::size_t i = 0; i < amplitude_upa.size(); ++i) amplitude_upa[i] = std::abs(positive_upa[i] + negative_upa[i]);
 }
 
 Amplitudes PlaneEcho::amplitudes(const PlaneSurvey& survey) const {

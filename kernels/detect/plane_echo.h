@@ -29,11 +29,11 @@ struct PlaneSurvey {
 struct PlaneEcho {
   static constexpr double kReach = 3.0;  // lambda / L
   std::vector<float> amplitude_upa;
-  std::vector<std::complex<float>> first_upa, second_upa;
+  std::vector<std::complex<float>> positive_upa, negative_upa;
 
   void ping(const PlaneSurvey& survey, const random::Stream& stream, std::uint64_t number);
   Amplitudes amplitudes(const PlaneSurvey& survey) const;
-  HalfApertures halves() const { return {first_upa, second_upa}; }
+  HalfApertures halves() const { return {positive_upa, negative_upa}; }
 };
 
 /// What a detector of this survey's instrument is told.
