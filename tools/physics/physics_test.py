@@ -116,4 +116,15 @@ near(value("sphere_target_strength_db", "material", "--sphere-radius-m", "2"), 0
 near(value("reflection", "material", "--material", "metal"), 0.935, 1e-3)
 near(value("total_db", "surface", "--wind-speed-mps", "8", "--frequency-hz", "70e3", "--grazing-deg", "30"), -24.5, 0.1)
 near(value("rms_height_m", "surface", "--wind-speed-mps", "10"), 2.13 / 4, 2e-3)
+
+# Bent paths: straight in uniform water, a closed form in a gradient, a path that never arrives, a file that is none.
+uniform = ["ray", "--water", "linear", "--gradient-per-s", "0", "--target-depth-m", "50"]
+near(value("path_length_m", *uniform), 100, 1e-6)
+near(value("tube_m2", *uniform), 1e4, 1e-3)
+near(value("turning_depth_m", "ray", "--water", "linear", "--gradient-per-s", "0.1", "--depression-deg", "10",
+           "--target-depth-m", "0"), 15000 * (1 / 0.984807753 - 1), 1e-3)
+near(value("horizontal_m", "ray", "--until", "point", "--distance-m", "150"), 150, 1e-5)
+assert rows("ray", "--depression-deg", "-30")[0]["horizontal_m"] == "nan"  # it goes up for good
+assert physics("ray", "--profile", "/none")[0] == 2, "a profile that is not there"
+
 print("ensonify physics answers as documented")
