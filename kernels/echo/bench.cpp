@@ -68,9 +68,8 @@ struct Ping {
   void trace() { scene.trace(kHead, rays, kMaxRange_m, hits); }
   void scatter() {
     backscatter.resize(hits.size());
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      backscatter[i] = static_cast<float>(seabed::lambert_backscatter(-25, hits[i].sin_grazing));
-    }
+    const auto normal = static_cast<float>(seabed::lambert_backscatter(-25, 1.0));
+    for (std::size_t i = 0; i < hits.size(); ++i) backscatter[i] = normal * hits[i].sin_grazing * hits[i].sin_grazing;
     found = scatterers.find({kHead, rays, hits, source, backscatter});
   }
   void arrive() {

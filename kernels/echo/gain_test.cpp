@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "kernels/echo/noise.h"
@@ -111,4 +112,31 @@ TEST_CASE("counts are the nearest multiple of their step") {
   std::vector<std::uint16_t> counts;
   amplitude_counts(std::vector<float>{0.0F, 0.24F, 0.26F, 3.0F, 1e9F}, 0.5, 12, counts);
   CHECK(counts == std::vector<std::uint16_t>{0, 0, 1, 6, 4095});
+}
+
+TEST_CASE("gain for the picture", "[.echo-gain-csv]") {
+  // Echo and noise before and after gain of the right and a wrong absorption, 12 bits.
+  const Sampling sampling{10e-3, 1e-4, 1900};
+  std::puts("range_m,echo_db,right_gain_db,wrong_gain_db,right_db,wrong_db,steps_gain_db");
+  std::vector<float> right, wrong, steps;
+  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.07, .offset_db = -60}, sampling, right);
+  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.05, .offset_db = -60}, sampling, wrong);
+  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.07, .offset_db = -60, .max_db = 12, .step_db = 2}, sampling, steps);
+  Image image;
+  image.resize(1, 1900);
+  add_noise(45, 1, {1, "noise"}, image);
+  for (int k = 0; k < 1900; ++k) {
+    const double R = 750 * (10e-3 + 1e-4 * k);
+    image.row(0)[k] += float(std::pow(10, 0.05 * (180 - 30 * std::log10(R) - 0.14 * R)));
+  }
+  Image with_right = image, with_wrong = image;
+  apply_gain(right, with_right);
+  apply_gain(wrong, with_wrong);
+  digitise({12, 1e6}, with_right);
+  digitise({12, 1e6}, with_wrong);
+  const auto db = [](std::complex<float> p) { return 10 * std::log10(std::norm(p) + 1e-9); };
+  for (int k = 0; k < 1900; k += 4) {
+    std::printf("%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n", 750 * (10e-3 + 1e-4 * k), db(image.row(0)[k]), right[k],
+                wrong[k], db(with_right.row(0)[k]), db(with_wrong.row(0)[k]), steps[k]);
+  }
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "kernels/array/line.h"
@@ -55,13 +56,11 @@ struct Flat {
   }
 };
 
-TEST_CASE("the mean level of a sidescan on a Lambert seabed is that of the closed form") {
-  // SL 210 dB, 100 us, one line of 0.5 deg both ways, 0.1 dB/m, 10 m above a -25 dB seabed. About 70 rays share a
-  // pulse; the mean over +-0.7 m of slant range removes what is left of their scatter.
-  const double waves = array::length_in_waves_for(0.5 * kDeg);
+/// SL 210 dB, 100 us, one line of 0.5 deg both ways, 0.1 dB/m, 10 m above a -25 dB seabed, starboard.
+static Image sidescan_mean_square(double waves) {
   const auto arrivals = Flat{210, waves, 0.1, 10, 1.5, 24, 8192}.arrivals();
   std::vector<float> gain;
-  for (const Arrival& arrival : arrivals) {  // power, starboard only
+  for (const Arrival& arrival : arrivals) {  // power
     const bool starboard = arrival.direction_head.y() > 0;
     gain.push_back(starboard ? float(array::line_power(waves, arrival.direction_head.x())) : 0.0F);
   }
@@ -70,14 +69,24 @@ TEST_CASE("the mean level of a sidescan on a Lambert seabed is that of the close
   ApertureReceiver receiver;
   Image image;
   receiver.form(arrivals, channels, pulse, {0, 50e-6, 2800}, image);
+  return image;
+}
+
+/// About 70 rays share a pulse; the mean over +-0.7 m of slant range removes what is left of their scatter.
+static double sidescan_level_db(const Image& image, double range_m) {
+  // The echo at time t is that of slant ranges c (t - tau) / 2 .. c t / 2: their middle is the range.
+  const int k = int(std::lround((2 * range_m / kSpeed + 50e-6) / 50e-6));
+  double sum_db = 0.0;
+  for (int i = -19; i <= 19; ++i) sum_db += 10 * std::log10(image.row(0)[k + i].real()) / 39;
+  return sum_db;
+}
+
+TEST_CASE("the mean level of a sidescan on a Lambert seabed is that of the closed form") {
+  const Image image = sidescan_mean_square(array::length_in_waves_for(0.5 * kDeg));
   const std::pair<double, double> anchors[] = {{20, 103.50}, {50, 77.06}, {100, 51.95}};
   for (const auto& [range_m, level_db] : anchors) {
-    // The echo at time t is that of slant ranges c (t - tau) / 2 .. c t / 2: their middle is the range.
-    const int k = int(std::lround((2 * range_m / kSpeed + 50e-6) / 50e-6));
-    double sum_db = 0.0;
-    for (int i = -19; i <= 19; ++i) sum_db += 10 * std::log10(image.row(0)[k + i].real()) / 39;
     INFO("slant range " << range_m);
-    CHECK(sum_db == Approx(level_db).margin(0.15));
+    CHECK(sidescan_level_db(image, range_m) == Approx(level_db).margin(0.15));
   }
 }
 
@@ -116,4 +125,15 @@ TEST_CASE("the level depends neither on the number of rays nor on the sample rat
   const double level = peak_db(few, 45 * kDeg, 25e-6);
   CHECK(peak_db(many, 45 * kDeg, 25e-6) == Approx(level).margin(0.2));
   CHECK(peak_db(few, 45 * kDeg, 12.5e-6) == Approx(level).margin(0.2));
+}
+
+TEST_CASE("levels for the picture", "[.echo-levels-csv]") {
+  const auto many = below_a_multibeam(24, 16384);
+  std::puts("head,axis,level_db");
+  for (int deg = 0; deg <= 66; deg += 3) std::printf("0,%d,%.4f\n", deg, peak_db(many, deg * kDeg, 25e-6));
+  const double waves = array::length_in_waves_for(0.5 * kDeg);
+  const Image image = sidescan_mean_square(waves);
+  for (double range_m = 10.5; range_m < 101; range_m *= 1.04) {
+    std::printf("1,%.3f,%.4f\n", range_m, sidescan_level_db(image, range_m));
+  }
 }

@@ -8,13 +8,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/surface/sea_surface.h"
+
 namespace ensonify::echo {
 namespace {
 
 using frames::Vec3;
 
 constexpr std::size_t kPerTask = 1024;
-constexpr double kPi = std::numbers::pi;
 
 Vec3 mirrored(const Vec3& point, double level_m) { return {point.x(), point.y(), 2.0 * level_m - point.z()}; }
 
@@ -98,9 +99,10 @@ struct Paths {
 }  // namespace
 
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing) {
-  const double k = 2.0 * kPi * frequency_hz / surface.sound_speed_mps;
-  const double rayleigh = k * surface.rms_height_m * sin_grazing;
-  return -std::exp(-2.0 * rayleigh * rayleigh) * std::pow(10.0, -0.05 * surface.bounce_loss_db);
+  const double wavenumber_radpm = 2.0 * std::numbers::pi * frequency_hz / surface.sound_speed_mps;
+  const double grazing_rad = std::asin(std::clamp(sin_grazing, 0.0, 1.0));
+  return surface::coherent_reflection(wavenumber_radpm, surface.rms_height_m, grazing_rad) *
+         std::pow(10.0, -0.05 * surface.bounce_loss_db);
 }
 
 void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,

@@ -34,8 +34,8 @@ struct MultipathHead {
   double bottom_mirror_loss_db = 15.0;  // of a specular bounce off the seabed
 };
 
-/// Coherent amplitude of one reflection by the surface, with sign: a pressure-release surface turns the phase
-/// [Brekhovskikh1991]; waves of this height leave exp(-2 (k sigma sin(grazing))^2).
+/// Coherent amplitude of one reflection by the surface, with sign: what waves leave (kernels/surface) and bubbles let
+/// through.
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
 
 /// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.

@@ -27,8 +27,6 @@ std::uint64_t spread(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15ULL; 
 /// A flat seabed at a round depth must not lie on the border of two layers of cells.
 const Vec3 kShift(0.3819660113, 0.6180339887, 0.2360679775);
 
-Vec3 cell_coordinates(const Vec3& position_enu_m, double cell_m) { return position_enu_m / cell_m + kShift; }
-
 /// A complex Gaussian of mean square 1 from 64 random bits (Box and Muller [BoxMuller1958]).
 std::complex<float> gaussian(std::uint32_t radius, std::uint32_t turn) {
   const float u = (static_cast<float>(radius >> 8) + 0.5F) * 0x1p-24F;
@@ -39,12 +37,13 @@ std::complex<float> gaussian(std::uint32_t radius, std::uint32_t turn) {
 
 }  // namespace
 
-Scatterers::Scatterers(double cell_m, const random::Stream& stream) : cell_m_(cell_m), stream_(stream) {
+Scatterers::Scatterers(double cell_m, const random::Stream& stream)
+    : cell_m_(cell_m), per_cell_(1.0 / cell_m), stream_(stream) {
   if (!(cell_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
 }
 
 std::uint64_t Scatterers::cell_at(const Vec3& position_enu_m) const {
-  const Vec3 cell = cell_coordinates(position_enu_m, cell_m_);
+  const Vec3 cell = position_enu_m * per_cell_ + kShift;
   const auto index = [](double x) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x))) & kMask;
   };
@@ -85,7 +84,7 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, const Lit& lit
   const trace::Hit& hit = transmission.hits[lit.ray];
   const auto bits = stream_.bits(lit.cell);
   const Vec3 inside(0x1p-16 * (bits[2] & 0xffff), 0x1p-16 * (bits[2] >> 16), 0x1p-16 * (bits[3] & 0xffff));
-  const Vec3 cell = cell_coordinates(hit.position_enu_m, cell_m_).array().floor();
+  const Vec3 cell = (hit.position_enu_m * per_cell_ + kShift).array().floor();
   const Vec3 somewhere = cell_m_ * (cell + inside - kShift);
   const Vec3 normal = hit.normal_enu.cast<double>();
   const double straight_m = hit.range_m;

@@ -71,7 +71,7 @@ class Scatterers {
   std::size_t merge(std::span<Lit> lit, std::span<std::int32_t> table) const;
   Scatterer scatterer(const Transmission& transmission, const Lit& lit) const;
 
-  double cell_m_;
+  double cell_m_, per_cell_;
   random::Stream stream_;
   std::vector<Lit> lit_;
   Partition<Lit> by_cell_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "kernels/array/line.h"
@@ -211,4 +212,24 @@ TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
   scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter});
   CHECK(allocations() - before == 0);
   CHECK_THROWS_AS(Scatterers(0.0, {1, "seabed"}), std::invalid_argument);
+}
+
+TEST_CASE("coherence and speckle for the picture", "[.echo-speckle-csv]") {
+  const double L = kLines * kWave;
+  const Vec3 start(0.3, -0.2, 0.0);
+  std::puts("kind,x,y");
+  for (int i = 0; i <= 14; ++i) {
+    std::printf("0,%.4f,%.5f\n", i * 0.05, coherence(start, start + Vec3(0, 0.05 * i * L, 0), 40));
+  }
+  std::vector<double> powers;
+  double sum = 0.0;
+  for (int seed = 0; seed < 300; ++seed) {
+    const auto echo = strip().echo({0, 0, 0}, 5000 + seed);
+    for (std::size_t k = 0; k < echo.size(); k += 2) powers.push_back(std::norm(echo[k])), sum += powers.back();
+  }
+  std::sort(powers.begin(), powers.end());
+  const double n = double(powers.size());
+  for (std::size_t i = 0; i < powers.size(); i += 9) {
+    std::printf("1,%.5f,%.5f\n", std::sqrt(powers[i] / (sum / n)), (double(i) + 0.5) / n);
+  }
 }

@@ -49,7 +49,7 @@ struct VolumeLayers {
 
 /// Mean-square reverberation of every sample and channel (sample by channel; resized), uPa^2:
 ///
-///   RL = SL - 20 log R - 2 alpha R + Sv + 10 log(Psi c tau / 2)   [Urick1983, ch. 8],
+///   RL = SL - 20 log R - 2 alpha R + Sv + 10 log(Psi c tau / 2)   (kernels/sonar_equation),
 ///
 /// with Sv at the depth of each direction, R = c t / 2 less half a pulse, and tau the pulse's equivalent length; 0
 /// before the whole pulse has left. The head's pose is that of transmission. What lies beyond the seabed is left out by
