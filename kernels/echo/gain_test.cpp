@@ -124,7 +124,7 @@ TEST_CASE("gain for the picture", "[.echo-gain-csv]") {
   tvg_db({.spreading_db = 30, .absorption_dbpm = 0.07, .offset_db = -60, .max_db = 12, .step_db = 2}, sampling, steps);
   Image image;
   image.resize(1, 1900);
-  add_noise(45, 1, {1, "noise"}, image);
+  add_noise(95, 1, {1, "noise"}, image);
   for (int k = 0; k < 1900; ++k) {
     const double R = 750 * (10e-3 + 1e-4 * k);
     image.row(0)[k] += float(std::pow(10, 0.05 * (180 - 30 * std::log10(R) - 0.14 * R)));
@@ -132,8 +132,8 @@ TEST_CASE("gain for the picture", "[.echo-gain-csv]") {
   Image with_right = image, with_wrong = image;
   apply_gain(right, with_right);
   apply_gain(wrong, with_wrong);
-  digitise({12, 1e6}, with_right);
-  digitise({12, 1e6}, with_wrong);
+  digitise({12, 1e7}, with_right);
+  digitise({12, 1e7}, with_wrong);
   const auto db = [](std::complex<float> p) { return 10 * std::log10(std::norm(p) + 1e-9); };
   for (int k = 0; k < 1900; k += 4) {
     std::printf("%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n", 750 * (10e-3 + 1e-4 * k), db(image.row(0)[k]), right[k],

@@ -133,7 +133,7 @@ TEST_CASE("levels for the picture", "[.echo-levels-csv]") {
   for (int deg = 0; deg <= 66; deg += 3) std::printf("0,%d,%.4f\n", deg, peak_db(many, deg * kDeg, 25e-6));
   const double waves = array::length_in_waves_for(0.5 * kDeg);
   const Image image = sidescan_mean_square(waves);
-  for (double range_m = 10.5; range_m < 101; range_m *= 1.04) {
+  for (double range_m = 13; range_m < 101; range_m *= 1.04) {
     std::printf("1,%.3f,%.4f\n", range_m, sidescan_level_db(image, range_m));
   }
 }

@@ -1,6 +1,5 @@
 // How fast one fan of rays meets a tile of seabed, against Embree alone with the same rays and geometry (the floor).
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "kernels/refraction/thermocline.h"
+#include "kernels/trace/embree_alone.h"
 #include "kernels/trace/scene.h"
 
 using namespace ensonify;
@@ -40,78 +40,14 @@ trace::Scene scene() {
   return value;
 }
 
-/// Embree alone: one grid over the whole tile.
-struct Raw {
-  RTCDevice device = rtcNewDevice("isa=avx2,threads=1");
-  RTCScene scene = rtcNewScene(device);
-
-  Raw() {
-    RTCGeometry grid = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
-    auto* v = static_cast<float*>(
-        rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, tile().height_m.size()));
-    for (int row = 0; row < tile().rows; ++row) {
-      for (int column = 0; column < tile().columns; ++column) {
-        const auto post = tile().position_enu_m(column, row);
-        for (int axis = 0; axis < 3; ++axis) *v++ = static_cast<float>(post[axis]);
-      }
-    }
-    auto* g = static_cast<RTCGrid*>(
-        rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
-    *g = {0, static_cast<unsigned>(tile().columns), static_cast<unsigned short>(tile().columns),
-          static_cast<unsigned short>(tile().rows)};
-    rtcCommitGeometry(grid);
-    rtcAttachGeometry(scene, grid);
-    rtcReleaseGeometry(grid);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(scene);
-  }
-  ~Raw() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-  }
-
-  std::vector<RTCRayHit16> packets_of(const std::vector<trace::Ray>& rays) const {
-    std::vector<RTCRayHit16> packets(rays.size() / 16);
-    const Eigen::Matrix3d turn = kHead.enu_from_head.toRotationMatrix();
-    for (std::size_t i = 0; i < packets.size() * 16; ++i) {
-      auto& packet = packets[i / 16];
-      const std::size_t lane = i % 16;
-      const frames::Vec3 d = turn * rays[i].direction_head.cast<double>();
-      packet.ray.org_x[lane] = static_cast<float>(kHead.position_enu_m.x());
-      packet.ray.org_y[lane] = static_cast<float>(kHead.position_enu_m.y());
-      packet.ray.org_z[lane] = static_cast<float>(kHead.position_enu_m.z());
-      packet.ray.dir_x[lane] = static_cast<float>(d.x());
-      packet.ray.dir_y[lane] = static_cast<float>(d.y());
-      packet.ray.dir_z[lane] = static_cast<float>(d.z());
-      packet.ray.tnear[lane] = packet.ray.time[lane] = 0.0F;
-      packet.ray.mask[lane] = ~0U;
-    }
-    return packets;
-  }
-
-  void trace(std::vector<RTCRayHit16>& packets) const {
-    alignas(64) int on[16];
-    for (int& lane : on) lane = -1;
-    for (auto& packet : packets) {
-      for (int lane = 0; lane < 16; ++lane) {
-        packet.ray.tfar[lane] = kMaxRange;
-        packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-      }
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      rtcIntersect16(on, scene, &context, &packet);
-    }
-  }
-};
-
 /// Both must find the same ranges, or the times mean nothing.
 void check() {
   const auto rays = fan(1024);
   std::vector<trace::Hit> hits;
   scene().trace(kHead, rays, kMaxRange, hits);
-  const Raw raw;
-  auto packets = raw.packets_of(rays);
-  raw.trace(packets);
+  const trace::EmbreeAlone alone(tile());
+  auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
+  alone.trace(packets, kMaxRange);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].hit() || std::abs(hits[i].range_m - packets[i / 16].ray.tfar[i % 16]) > 1e-3F) {
       std::fprintf(stderr, "ray %zu: %g m, Embree alone %g m\n", i, hits[i].range_m, packets[i / 16].ray.tfar[i % 16]);
@@ -121,9 +57,9 @@ void check() {
 }
 
 void embree_alone(benchmark::State& state) {
-  const Raw raw;
-  auto packets = raw.packets_of(fan(static_cast<int>(state.range(0))));
-  for (auto _ : state) raw.trace(packets);
+  const trace::EmbreeAlone alone(tile());
+  auto packets = trace::EmbreeAlone::packets_of(kHead, fan(static_cast<int>(state.range(0))));
+  for (auto _ : state) alone.trace(packets, kMaxRange);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packets.size()) * 16);
 }
 
