@@ -13,6 +13,13 @@ class PingClock {
   /// The next transmission.
   SimTime next() const { return next_; }
 
+  /// Another beat, counted from next() on.
+  void set_rate(Rate rate) {
+    if (rate == rate_) return;
+    rate_ = rate;
+    restart(next_);
+  }
+
   /// The head has transmitted at next() and listens for this long.
   void transmitted(SimTime listening) {
     const SimTime free = next_ + listening + dead_time_;

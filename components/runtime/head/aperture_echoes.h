@@ -1,0 +1,100 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "components/runtime/head/effects.h"
+#include "components/runtime/head/environment.h"
+#include "components/runtime/head/shot.h"
+#include "components/runtime/head/water_paths.h"
+#include "kernels/echo/aperture.h"
+#include "kernels/echo/arrival.h"
+#include "kernels/echo/pulse.h"
+#include "kernels/echo/scatterer.h"
+#include "kernels/echo/volume.h"
+#include "kernels/random/stream.h"
+
+namespace ensonify {
+
+/// Amplitude that a transducer gives a direction (unit vector, head frame), 1 on its axis; the same sent and heard.
+using AperturePattern = std::function<float(const Eigen::Vector3f& direction_head)>;
+
+/// Transducers of one frequency that send at once and of which each listens for itself: both sides of a sidescan, the
+/// one face of an echosounder.
+struct Apertures {
+  double frequency_hz = 0.0;
+  std::vector<AperturePattern> patterns;
+  double directivity_index_db = 0.0;                            // of each, against noise from all directions
+  double electronic_noise_db = -200.0;                          // as sound in the water, dB re 1 uPa^2/Hz
+  double narrowest_rad = 0.01;                                  // half-power width of the narrowest lobe
+  Eigen::Vector3f narrow_axis_head = Eigen::Vector3f::UnitX();  // along which it is narrow
+  double nearest_m = 10.0;      // range down to which patches of seabed must be finer than the lobe
+  double resolution_m = 0.075;  // in range
+  std::uint64_t seed = 1;
+  std::string process;  // names the streams of random numbers, with the frequency
+};
+
+/// What is set for one ping.
+struct Emission {
+  Shot shot;
+  double source_level_db = 0.0;
+  double listening_s = 0.0;        // after transmission
+  double sample_period_s = 50e-6;  // of the complex envelope
+};
+
+/// The echoes of one transmission as each aperture hears them, by the true motion and the true water: seabed, surface,
+/// water column and noise. A function of the emission, the poses, the rays and the tiles.
+class ApertureEchoes {
+ public:
+  ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects);
+
+  /// Where the head truly is from transmission on; frames::HeadPose per kTrackPeriod. Comes before the others.
+  void move(std::span<const frames::HeadPose> poses);
+  const frames::HeadPose& transmit_pose() const { return poses_.front(); }
+
+  /// The first seabed that each ray meets from the pose of transmission, within a slant range.
+  void trace(const trace::Scene& seabed, std::span<const trace::Ray> rays, double range_m,
+             std::vector<trace::Hit>& hits);
+
+  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `rays` and `hits` are those of trace().
+  echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const trace::Ray> rays,
+                      std::span<const trace::Hit> hits);
+
+  /// How many rays of the last ping met the seabed.
+  int rays_that_hit() const { return rays_that_hit_; }
+
+ private:
+  double transmitted_power(const Eigen::Vector3f& direction_head) const;
+  void light(const Emission& emission, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+  void arrive(const Emission& emission, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+  void hear(const echo::SampledPulse& pulse, const echo::Sampling& sampling);
+  void add_volume(const Emission& emission, const echo::Pulse& pulse, const echo::SampledPulse& sampled,
+                  const echo::Sampling& sampling);
+  void add_noise(const Emission& emission, const echo::Pulse& pulse);
+
+  Apertures apertures_;
+  Environment environment_;
+  Effects effects_;
+  random::Stream noise_, volume_;
+  WaterPaths paths_;
+  echo::Scatterers scatterers_;
+  echo::Receivers receivers_;
+  echo::ApertureReceiver receiver_;
+  echo::RowReverberation reverberation_;
+  std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
+
+  // Memory of the ping path.
+  std::vector<frames::HeadPose> poses_;
+  std::vector<float> source_upa2m2_, backscatter_;
+  std::vector<echo::Arrival> arrivals_;
+  std::vector<std::vector<float>> gains_;
+  std::vector<float> volume_upa2_;
+  echo::Image image_;
+  double seabed_depth_m_ = 0.0;  // mean over the hits
+  double absorption_dbpm_ = 0.0;
+  int rays_that_hit_ = 0;
+};
+
+}  // namespace ensonify

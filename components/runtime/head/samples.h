@@ -1,0 +1,33 @@
+#pragma once
+
+#include "components/runtime/head/effects.h"
+#include "components/runtime/head/settings.h"
+#include "kernels/echo/gain.h"
+#include "kernels/echo/image.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// What turns amplitudes into counts, behind the gain.
+struct Converter {
+  int bits = 0;  // 1..16; 0: none
+  double full_scale_upa = 1e9;
+
+  bool operator==(const Converter&) const = default;
+};
+
+/// Reads the section `converter:`; left out, there is none.
+void read_converter(ConfigReader& from, Converter& converter);
+
+/// The gain that an operator set, as kernels/echo wants it.
+echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps);
+
+/// Writes what the receiver records of an envelope: counts behind the gain, or, without a converter, amplitudes, from
+/// which the gain is taken out again. first sample, period and amplitudes of `ping` are overwritten; the envelope has
+/// the gain in it afterwards.
+void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
+                   echo::Image& envelope, msg::Ping& ping);
+
+}  // namespace ensonify

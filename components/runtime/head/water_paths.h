@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/frames/pose.h"
+#include "kernels/refraction/path_table.h"
+#include "kernels/trace/scene.h"
+
+namespace ensonify {
+
+/// Rays through the water of a run: bent by its profile, or straight where the speed of sound is one everywhere or
+/// refraction is switched off. The surface is at z = 0.
+class WaterPaths {
+ public:
+  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction)
+      : profile_(profile), bent_(refraction && profile.knots().size() > 1) {}
+
+  /// The speed of sound at the head, m/s.
+  double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
+
+  /// trace::Scene::trace through this water.
+  void trace(const trace::Scene& seabed, const frames::HeadPose& head, std::span<const trace::Ray> rays,
+             double max_range_m, std::vector<trace::Hit>& hits) {
+    const auto range_m = static_cast<float>(max_range_m);
+    if (!bent_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
+    seabed.tabulate(profile_, head, depth_m(head), range_m, table_);
+    seabed.trace(head, rays, range_m, hits, table_);
+  }
+
+ private:
+  static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
+
+  refraction::SoundSpeedProfile profile_;
+  bool bent_;
+  refraction::PathTable table_;
+};
+
+}  // namespace ensonify
