@@ -19,13 +19,14 @@ void note_allocation(void* memory) {
 }
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Not inlined: g++ 12 would see free() meet a new that it takes for the library's.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(size);
   if (!memory) throw std::bad_alloc();
   note_allocation(memory);
   return memory;
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   if (memory) in_use -= ::malloc_usable_size(memory);
   std::free(memory);
 }
