@@ -1,18 +1,19 @@
 """The command `ensonify plot`."""
 import argparse
-import glob
 import json
 import os
 import sys
-import time
 
 import numpy as np
 
 import ensonify
-from ensonify_plot import files, grid, pictures, ping
+from ensonify_plot import files, grid, pictures
+from ensonify_plot.heard import choose_ping, heads_with_soundings, process_of, soundings_of
+from ensonify_plot.ping import ping_picture
+from ensonify_plot.results import Writer, folder_of, open_record
 from ensonify_plot.summary import depth_statistics, run_facts
 from ensonify_plot.survey import Survey, UserError, read_survey
-
+from ensonify_plot.verbs import RECORD_HELP, add_verbs, multibeam_topic
 
 
 def main(arguments=None) -> int:
@@ -30,80 +31,48 @@ def main(arguments=None) -> int:
 def parse(arguments) -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(prog="ensonify plot", description="Pictures, grids and numbers from a record.")
-    verbs = parser.add_subparsers(required=True, metavar="survey|ping")
-
-    def verb(name, act, text):
-        command = verbs.add_parser(name, help=text, description=text)
-        command.set_defaults(act=act)
-        command.add_argument("record", nargs="?", metavar="RECORD", help="an MCAP file, or a folder with one; default: $ENSONIFY_OUT")
-        command.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
-        return command
-
-    survey = verb("survey", plot_survey, "Gridded bathymetry (GeoTIFF), soundings (CSV), pictures (PNG), summary.json.")
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
+    text = "Gridded bathymetry (GeoTIFF), soundings (CSV), pictures (PNG), summary.json."
+    survey = verbs.add_parser("survey", help=text, description=text)
+    survey.set_defaults(act=plot_survey)
+    survey.add_argument("record", nargs="?", metavar="RECORD", help=RECORD_HELP)
+    survey.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
     survey.add_argument("--cell", type=float, metavar="M", help="cell size in m; default: the finest of 0.1, 0.2, 0.5, ... m at "
                         f"which {grid.WELL_FILLED:.0%} of the cells hold {grid.MIN_COUNT} soundings".replace("%", "%%"))
     survey.add_argument("--json", action="store_true", help="print summary.json's content instead of text")
-    one = verb("ping", plot_ping, "One ping as a beam-time image (PNG).")
-    one.add_argument("--ping", type=int, metavar="N", help="ping number; default: the one in the middle of the record")
-    one.add_argument("--topic", help="the head's ping topic; default: the first recorded")
+    add_verbs(verbs)
     return parser.parse_args(arguments)
-
-
-def open_record(options) -> ensonify.Record:
-    """The record that the user means; results go beside it unless --out says otherwise."""
-    file = options.record or os.environ.get("ENSONIFY_OUT", ".")
-    if os.path.isdir(file):
-        found = sorted(glob.glob(os.path.join(glob.escape(file), "*.mcap")))
-        if len(found) != 1:
-            raise UserError(f"{file}: {'holds no record (*.mcap)' if not found else 'holds several records, name one'}")
-        file = found[0]
-    record = ensonify.Record(file)
-    options.out = options.out or os.path.dirname(os.path.abspath(file))
-    os.makedirs(options.out, exist_ok=True)
-    return record
-
-
-class Writer:
-    """Writes results into the output folder and says so."""
-
-    def __init__(self, folder: str, quiet: bool):
-        self.folder, self.quiet = folder, quiet
-        self.began = time.monotonic()
-        self.files: list = []
-
-    def path(self, name: str) -> str:
-        """Where a result goes; notes it. An old file of that name goes first, so that a failure leaves none."""
-        path = os.path.join(self.folder, name)
-        if os.path.exists(path):
-            os.unlink(path)
-        self.files.append(name)
-        if not self.quiet:
-            print(f"ensonify plot: {time.monotonic() - self.began:5.1f} s  {path}", flush=True)
-        return path
-
-    def picture(self, name: str, figure) -> None:
-        """A PNG."""
-        figure.savefig(self.path(name), pil_kwargs={"compress_level": 3})
 
 
 def plot_survey(options) -> int:
     """`ensonify plot survey`."""
-    record = open_record(options)
-    out = Writer(options.out, options.json)
+    record = open_record(options.record)
+    out = Writer(options.out or folder_of(record), options.json)
     survey = read_survey(record)
     if len(survey.soundings) == 0:
         raise UserError(f"{record.file}: none of the {survey.beam_count:,} beams of {survey.ping_count:,} pings has an accepted "
                         "sounding")
     summary = draw_survey(survey, chosen_cell(survey, options.cell), out)
-    if record.topics_of(ensonify.Ping):
-        out.picture("ping.png", ping.ping_picture(*ping.find_ping(record, None, None)))
-    summary = {"record": os.path.basename(record.file), "whole_record": record.whole, **summary, **run_facts(options.out),
+    draw_a_ping(record, out)
+    summary = {"record": os.path.basename(record.file), "whole_record": record.whole, **summary, **run_facts(out.folder),
                "files": [*out.files, "summary.json"]}
     with open(out.path("summary.json"), "w", encoding="utf-8") as stream:
         json.dump(summary, stream, indent=2)
         stream.write("\n")
     print(json.dumps(summary) if options.json else in_words(summary))
     return 0
+
+
+def draw_a_ping(record: ensonify.Record, out: Writer) -> None:
+    """The ping in the middle of the record, if pings were recorded. One that gives no picture is no reason to give up a survey."""
+    if not any(process_of(topic) in heads_with_soundings(record) for topic in record.topics_of(ensonify.Ping)):
+        return
+    try:
+        heard = choose_ping(record, multibeam_topic(record, None, or_first=True))
+    except UserError as error:
+        print(f"ensonify plot: no ping.png: {error}", file=sys.stderr)
+        return
+    out.picture("ping.png", ping_picture(heard, soundings_of(record, heard)))
 
 
 def chosen_cell(survey: Survey, given: float | None) -> float:
@@ -185,15 +154,6 @@ def in_words(summary: dict) -> str:
         lines.append(f"{summary['sim_s']:.1f} s in {summary['wall_s']:.1f} s: {summary['real_time_factor']:.1f} times real time, "
                      f"{summary['late_events']} late events")
     return "\n".join(lines)
-
-
-def plot_ping(options) -> int:
-    """`ensonify plot ping`."""
-    record = open_record(options)
-    out = Writer(options.out, False)
-    topic, found, soundings = ping.find_ping(record, options.topic, options.ping)
-    out.picture(f"ping_{found.ping}.png", ping.ping_picture(topic, found, soundings))
-    return 0
 
 
 if __name__ == "__main__":

@@ -1,97 +1,149 @@
-"""One ping: what every beam heard over time, and the same seen as a section through the water."""
+"""One multibeam ping: as a fan through the water, and as what every beam heard over range."""
+from dataclasses import dataclass
+
 import numpy as np
 
 import ensonify
-from ensonify_plot.pictures import colour_bar, new_figure
-from ensonify_plot.survey import UserError
+from ensonify_plot import geometry
+from ensonify_plot.heard import Heard
+from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
+from ensonify_plot.pictures import new_figure
+
+ECHOES = "inferno"  # dark to bright, evenly, also for the colour-blind and on paper
+FINDS = "#6fe3ff"  # detections on top of it
+EMPTY = "#2a2a2a"  # where no beam looked
+PERCENTILES = (20, 99.9)
+CELLS = 900  # pixels across a picture
 
 
-def find_ping(record: ensonify.Record, topic: str | None, number: int | None) -> tuple:
-    """(topic, ping, soundings of the same ping or None). Without a number the one in the middle of the record."""
-    topics = record.topics_of(ensonify.Ping)
-    if not topics:
-        raise UserError(f"{record.file}: holds no pings (no topic of type ping/1 was recorded)")
-    if topic is not None and topic not in topics:
-        raise UserError(f"{record.file}: {topic} is no recorded ping topic; there are {', '.join(topics)}")
-    topic = topic or topics[0]
-    numbers = [message.content.ping for message in record.messages(topic)]
-    if not numbers:
-        raise UserError(f"{record.file}: {topic} was recorded, but holds no ping")
-    if number is None:
-        number = numbers[len(numbers) // 2]
-    if number not in numbers:
-        near = min(numbers, key=lambda n: abs(n - number))
-        raise UserError(f"{record.file}: ping {number} of {topic} was not recorded; the nearest is {near}, "
-                        f"and there are {len(numbers)} from {numbers[0]} to {numbers[-1]}")
-    ping = next(m.content for m in record.messages(topic) if m.content.ping == number)
-    head = topic.rsplit("/", 1)[0]
-    for other in record.topics_of(ensonify.Soundings):
-        if other.rsplit("/", 1)[0] == head:
-            return topic, ping, next((m.content for m in record.messages(other) if m.content.ping == number), None)
-    return topic, ping, None
+@dataclass(frozen=True)
+class Show:
+    """What the user asks of the colours."""
+
+    gain: object = "none"  # see level.gain_for
+    limits_db: tuple | None = None
 
 
-def ping_picture(topic: str, ping: ensonify.Ping, soundings: ensonify.Soundings | None):
-    """Beam-time image in dB re 1 uPa with its detections, beside a section across the track."""
-    level_db = 20 * np.log10(np.maximum(ping.amplitude_upa, 1e-3))
-    low, high = np.percentile(level_db, 20), level_db.max()
-    low, high = max(low, high - 90), max(high, low + 1)
-    figure = new_figure(13, 5.8)
-    left, right = figure.subplots(1, 2, width_ratios=(1, 1.35))
-    mappable = _draw_beam_time(left, ping, level_db, low, high, soundings)
-    _draw_section(right, ping, level_db, low, high, deepest_m(ping, soundings))
-    colour_bar(figure, mappable, right, "received level, rms (dB re 1 µPa)")
-    figure.suptitle(f"{topic}: ping {ping.ping} at t = {ping.stamp_ns * 1e-9:.3f} s; {ping.frequency_hz / 1e3:g} kHz, pulse "
-                    f"{ping.pulse_length_s * 1e3:g} ms, source level {ping.source_level_db:g} dB re 1 µPa at 1 m, sound speed "
-                    f"{ping.sound_speed_mps:g} m/s", fontsize=10)
+def levels(heard: Heard, gain: Gain) -> np.ndarray:
+    """Beam x sample, dB."""
+    return level_db(heard.power_upa2) + gain.db(heard.range_m)
+
+
+def bar(figure, mappable, axes, gain: Gain, limits: Limits) -> None:
+    """The colour scale, below the axes (one or several): quantity, reference, and where its ends come from."""
+    below = figure.colorbar(mappable, ax=axes, location="bottom", shrink=0.7, aspect=50, pad=0.02, extend="both")
+    below.set_label(f"{gain.label()}; colours: {limits.origin}", fontsize=9)
+    below.ax.tick_params(labelsize=8)
+
+
+def headline(figure, what: str, heard: Heard) -> None:
+    """Two lines over a picture: what, which ping of which head when; with which settings."""
+    figure.suptitle(f"{what}: {heard.name()}\n{heard.facts()}", fontsize=9.5, x=0.02, ha="left")
+
+
+def fan_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show):
+    """A section across the track with the same scale both ways."""
+    gain = gain_for(show.gain, heard.ping, Gain())
+    fan = fan_image(heard, gain, deepest_m(heard, soundings))
+    limits = limits_of(fan.level_db, show.limits_db, PERCENTILES)
+    west, east, bottom, top = fan.extent_m
+    figure = new_figure(9.5, float(np.clip(1.5 + 9.0 * (bottom - top) / (east - west), 3.0, 10.0)))
+    axes = figure.subplots()
+    bar(figure, draw_fan(axes, fan, limits), axes, gain, limits)
+    headline(figure, "Fan", heard)
     return figure
 
 
-def _draw_beam_time(axes, ping, level_db, low, high, soundings):
-    beams, samples = level_db.shape
-    first_ms, last_ms = (1e3 * (ping.first_sample_s + n * ping.sample_period_s) for n in (0, samples))
-    mappable = axes.imshow(level_db.T, extent=(-0.5, beams - 0.5, last_ms, first_ms), aspect="auto", cmap="inferno",
-                           vmin=low, vmax=high, interpolation="nearest")
-    if soundings is not None:
-        found = soundings.valid == 1
-        axes.plot(np.flatnonzero(found), 1e3 * soundings.travel_time_s[found], ".", color="#6fe3ff", markersize=1.6,
-                  label=f"detections ({np.count_nonzero(found)} of {beams} beams)")
-        axes.legend(loc="upper center", fontsize=7, markerscale=5)
-    axes.set(xlabel=f"beam (0 = {np.degrees(ping.beam_angle_rad[0]):.0f}°, "
-                    f"{beams - 1} = {np.degrees(ping.beam_angle_rad[-1]):+.0f}°, positive to starboard)",
-             ylabel="time after transmission (ms)")
-    half_speed = ping.sound_speed_mps / 2e3
-    ranges = axes.secondary_yaxis("right", functions=(lambda ms: ms * half_speed, lambda m: m / half_speed))
-    ranges.set_ylabel("slant range (m)")
-    axes.set_title("Every beam over time", fontsize=10, loc="left")
+@dataclass
+class Fan:
+    """A section as an image with its place: west, east, bottom, top in metres."""
+
+    level_db: np.ndarray
+    extent_m: tuple
+    upright: bool  # turned by the measured attitude; else about the head's own down axis
+
+
+def fan_image(heard: Heard, gain: Gain, bottom_m: float) -> Fan:
+    """Every pixel gets the mean power of the nearest beam about its range."""
+    vertical = heard.vertical_rad()
+    angle = heard.angle_rad - (vertical or 0.0)
+    left, right, top, bottom = geometry.polar_bounds_m(angle, max(heard.first_range_m, 0.0), heard.end_m)
+    bottom = min(bottom, bottom_m)
+    reach = max(abs(x) for x in (left, right))
+    if bottom < heard.end_m:  # nothing is drawn below: nor is what lies out of the fan at that depth
+        reach = min(reach, bottom * max(np.tan(np.minimum(np.abs(geometry.beam_edges_rad(angle)), 1.4))))
+    left, right = max(left, -reach), min(right, reach)
+    cell_m = max((right - left) / CELLS, heard.step_m / 2)
+    power = heard.power_upa2 * np.power(10.0, gain.db(heard.range_m) / 10)
+    power, first_m, step_m = geometry.thinned(power, heard.first_range_m, heard.step_m, cell_m)
+    across = np.arange(left, right, cell_m) + cell_m / 2
+    down = np.arange(min(top, 0.0), bottom, cell_m) + cell_m / 2
+    image = geometry.polar_image(power, angle, first_m, step_m, across[None, :], down[:, None])
+    extent = (left, left + len(across) * cell_m, min(top, 0.0) + len(down) * cell_m, min(top, 0.0))
+    return Fan(level_db(image), extent, vertical is not None)
+
+
+def deepest_m(heard: Heard, soundings: ensonify.Soundings | None) -> float:
+    """Depth below the head down to which a section is worth drawing: somewhat beyond the deepest sounding."""
+    found = soundings is not None and (soundings.valid == 1) & np.isfinite(soundings.travel_time_s)
+    if not np.any(found):
+        return heard.end_m
+    angle = soundings.beam_angle_rad[found] - (heard.vertical_rad() or 0.0)
+    seen_m = soundings.travel_time_s[found] * np.cos(angle) * heard.ping.sound_speed_mps / 2
+    return min(heard.end_m, 1.25 * float(seen_m.max()))
+
+
+def draw_fan(axes, fan: Fan, limits: Limits):
+    """Returns what a colour bar needs."""
+    axes.set_facecolor(EMPTY)
+    mappable = axes.imshow(fan.level_db, extent=fan.extent_m, cmap=ECHOES, vmin=limits.low_db, vmax=limits.high_db,
+                           interpolation="nearest")
+    down = "upright by the measured attitude" if fan.upright else "along the head's down axis"
+    axes.set(xlabel="across track, positive to starboard (m)", ylabel="below the head (m)")
+    axes.tick_params(labelsize=8)
+    axes.set_title(f"{down}; straight rays at the head's sound speed", fontsize=8, loc="right")
     return mappable
 
 
-def deepest_m(ping: ensonify.Ping, soundings: ensonify.Soundings | None) -> float:
-    """Depth below the head down to which a section is worth drawing."""
-    whole_m = (ping.first_sample_s + ping.amplitude_upa.shape[1] * ping.sample_period_s) * ping.sound_speed_mps / 2
-    found = soundings is not None and soundings.valid == 1
-    if not np.any(found):
-        return whole_m
-    seen_m = (soundings.travel_time_s * np.cos(soundings.beam_angle_rad))[found] * ping.sound_speed_mps / 2
-    return min(whole_m, 1.4 * float(seen_m.max()))
+def draw_beams(axes, heard: Heard, gain: Gain, limits: Limits, soundings: ensonify.Soundings | None):
+    """Beam number against slant range, with detections; returns what a colour bar needs."""
+    beams = len(heard.power_upa2)
+    power = heard.power_upa2 * np.power(10.0, gain.db(heard.range_m) / 10)
+    power, first_m, step_m = geometry.thinned(power, heard.first_range_m, heard.step_m, heard.end_m / CELLS)
+    far_m = first_m + (power.shape[1] - 0.5) * step_m
+    mappable = axes.imshow(level_db(power).T, extent=(-0.5, beams - 0.5, far_m, first_m - step_m / 2), aspect="auto",
+                           cmap=ECHOES, vmin=limits.low_db, vmax=limits.high_db, interpolation="nearest")
+    half_speed = heard.ping.sound_speed_mps / 2e3
+    if soundings is not None:
+        draw_detections(axes, soundings, beams, half_speed * 1e3)
+    axes.set_facecolor(EMPTY)
+    first_deg, last_deg = np.degrees(heard.angle_rad[[0, -1]])
+    axes.set(xlabel=f"beam (0: {first_deg:+.0f}°, {beams - 1}: {last_deg:+.0f}° from the head's down axis, positive to starboard)",
+             ylabel="slant range (m)")
+    time = axes.secondary_yaxis("right", functions=(lambda m: m / half_speed, lambda ms: ms * half_speed))
+    time.set_ylabel("time after transmission (ms)")
+    for each in (axes, time):
+        each.tick_params(labelsize=8)
+    return mappable
 
 
-def _draw_section(axes, ping, level_db, low, high, bottom_m):
-    beams, samples = level_db.shape
-    time_s = ping.first_sample_s + np.arange(samples + 1) * ping.sample_period_s
-    step = max(1, samples // 1200)  # no finer than the picture's pixels
-    trimmed = level_db[:, :samples // step * step].reshape(beams, -1, step).max(axis=2)
-    range_m = time_s[: trimmed.shape[1] * step + 1 : step] * ping.sound_speed_mps / 2
-    angle = np.asarray(ping.beam_angle_rad, float)
-    middle = (angle[1:] + angle[:-1]) / 2
-    edges = np.concatenate([[2 * angle[0] - middle[0]], middle, [2 * angle[-1] - middle[-1]]]) if beams > 1 else angle[0] + \
-        np.array([-0.01, 0.01])
-    across, down = np.outer(np.sin(edges), range_m), np.outer(np.cos(edges), range_m)
-    axes.pcolormesh(across, down, trimmed, cmap="inferno", vmin=low, vmax=high, shading="flat", rasterized=True)
-    axes.set(xlabel="across, positive to starboard (m)", ylabel="below the head along its down axis (m)")
-    axes.set_aspect("equal")
-    axes.set_xlim(across.min(), across.max())
-    axes.set_ylim(max(bottom_m, 1e-3), min(down.min(), 0))
-    axes.set_facecolor("#222222")
-    axes.set_title("Section across the track (straight rays)", fontsize=10, loc="left")
+def draw_detections(axes, soundings, beams: int, half_speed_mps: float) -> None:
+    """A dot at every valid detection."""
+    found = (soundings.valid == 1) & np.isfinite(soundings.travel_time_s)
+    beam = soundings.beam if soundings.beam.size else np.arange(len(soundings.valid))
+    axes.plot(beam[found], half_speed_mps * soundings.travel_time_s[found], ".", color=FINDS, markersize=1.6,
+              label=f"detections ({np.unique(beam[found]).size} of {beams} beams)")
+    axes.legend(loc="upper center", fontsize=7, markerscale=5)
+
+
+def ping_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show = Show()):
+    """Beam-range image with its detections, beside the fan."""
+    gain = gain_for(show.gain, heard.ping, Gain())
+    limits = limits_of(levels(heard, gain), show.limits_db, PERCENTILES)
+    figure = new_figure(13, 5.8)
+    left, right = figure.subplots(1, 2, width_ratios=(1, 1.6))
+    draw_beams(left, heard, gain, limits, soundings)
+    mappable = draw_fan(right, fan_image(heard, gain, deepest_m(heard, soundings)), limits)
+    bar(figure, mappable, [left, right], gain, limits)
+    headline(figure, "Beams and fan", heard)
+    return figure

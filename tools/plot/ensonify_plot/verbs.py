@@ -1,0 +1,233 @@
+"""The command lines of pictures of pings: what can be asked, and which picture answers."""
+import argparse
+import math
+
+import ensonify
+from ensonify_plot import angular_response, water_column, waterfall
+from ensonify_plot.forward_looking import forward_looking_picture
+from ensonify_plot.heard import Span, choose_ping, choose_topic, heads_with_soundings, pings_in, process_of, soundings_of
+from ensonify_plot.level import Gain
+from ensonify_plot.ping import Show, fan_picture, ping_picture
+from ensonify_plot.results import open_record, save_picture
+
+GAIN_HELP = ("added to the received level for display: S,A for S log10 R + 2 A R (S in dB, A in dB/km, R slant range in m, held "
+             "below 1 m); none; head: the head's own law without its offset; or auto: head, or ")
+RECORD_HELP = "an MCAP file, or a folder with one; default: $ENSONIFY_OUT"
+
+
+def add_verbs(verbs) -> None:
+    """The verbs that make one picture each."""
+    ping = _verb(verbs, "ping", plot_ping,
+                 "One multibeam ping: beam against slant range with its detections, beside the fan.")
+    _one_ping(ping)
+    _colours(ping, "none")
+    fan = _verb(verbs, "fan", plot_fan,
+                "One multibeam ping as a section: across track against depth (m), same scale both ways, in dB re 1 uPa. Upright by "
+                "the measured attitude if the ping tells it.")
+    _one_ping(fan)
+    _colours(fan, "none")
+    fls = _verb(verbs, "fls", plot_fls,
+                "One forward-looking ping: polar (m ahead against m to starboard) and rectangular (azimuth in degrees against slant "
+                "range in m).")
+    _one_ping(fls)
+    _colours(fls, "auto")
+    _add_waterfall(verbs)
+    _add_water_column(verbs)
+    _add_angular_response(verbs)
+
+
+def _add_waterfall(verbs) -> None:
+    fall = _verb(verbs, "waterfall", plot_waterfall,
+                 "A sidescan waterfall: port and starboard against time (s), in slant range (m) or, with --ground, over ground (m) by "
+                 "the instrument's own bottom track and a level bottom.")
+    _span(fall, "all")
+    _colours(fall, "auto")
+    fall.add_argument("--ground", action="store_true",
+                      help="ground range sqrt(R^2 - H^2), H in m from the head's bottom_track/1; pings without a bottom are left "
+                      "empty; default: slant range")
+
+
+def _add_water_column(verbs) -> None:
+    column = _verb(verbs, "water-column", plot_water_column,
+                   "With --ping N or --t S one ping: beam against slant range (m), detections on top; else one beam, straight down, "
+                   "over time (s).")
+    _span(column, "all, one beam over time")
+    _colours(column, "none")
+    column.add_argument("--angle", type=_number(-90, 90), default=0.0, metavar="DEG",
+                        help="of the beam that is drawn over time, in degrees from straight down, positive to starboard; "
+                        "default: 0")
+
+
+def _add_angular_response(verbs) -> None:
+    curve = _verb(verbs, "angular-response", plot_angular_response,
+                  "Backscatter (dB) against grazing angle (degrees) from soundings: means of linear power with their spread. The "
+                  "picture says what was corrected.")
+    _span(curve, "all", "soundings")
+    curve.add_argument("--class", dest="class_deg", type=_number(0.1, 30), default=1.0, metavar="DEG",
+                       help="width of a class of angles, 0.1 to 30 degrees; default: 1")
+    curve.add_argument("--absorption", type=_number(0, 2000), metavar="DB_PER_KM",
+                       help="compute strengths from levels with this absorption, 0 to 2000 dB/km; default: the head's strengths, or "
+                       "where it has none its operator's absorption")
+
+
+def _verb(verbs, name: str, act, text: str) -> argparse.ArgumentParser:
+    command = verbs.add_parser(name, help=text, description=text)
+    command.set_defaults(act=act)
+    command.add_argument("record", nargs="?", metavar="RECORD", help=RECORD_HELP)
+    command.add_argument("--out", metavar="FILE.png",
+                         help="the picture, or a folder for it; default: beside the record, named after the verb and the ping")
+    return command
+
+
+def _one_ping(command) -> None:
+    command.add_argument("--topic", help="the head's ping topic; default: the only one that fits")
+    which = command.add_mutually_exclusive_group()
+    which.add_argument("--ping", type=int, metavar="N", help="ping number; default: the one in the middle of the record")
+    which.add_argument("--t", type=_number(), metavar="S", help="the first ping at or after this sim time, in s")
+
+
+def _span(command, default: str, what: str = "pings") -> None:
+    command.add_argument("--topic", help=f"the head's topic of {what}; default: the only one that fits")
+    which = command.add_mutually_exclusive_group()
+    which.add_argument("--ping", type=_span_of(int), default=Span(), metavar="N|A:B",
+                       help=f"a ping number, or the first and last of a span (A: and :B leave an end open); default: {default}")
+    which.add_argument("--t", type=_span_of(float), default=Span(), metavar="S|A:B", help="the same by sim time in s")
+
+
+def _colours(command, gain: str) -> None:
+    otherwise = {"none": "none", "auto": "30,0"}[gain]
+    command.add_argument("--gain", type=_gain, default=gain, metavar="S,A",
+                         help=f"{GAIN_HELP}{otherwise} if it has none; default: {gain}")
+    command.add_argument("--db", nargs=2, type=_number(), metavar=("LOW", "HIGH"),
+                         help="levels of the darkest and the brightest colour, in dB; default: percentiles, named in the picture")
+
+
+def _number(least: float = -math.inf, most: float = math.inf):
+    def number(text: str) -> float:
+        value = float(text)
+        if not (math.isfinite(value) and least <= value <= most):
+            within = "" if math.isinf(least) else f" in [{least:g}, {most:g}]"
+            raise argparse.ArgumentTypeError(f"{text}: allowed: a number{within}")
+        return value
+
+    return number
+
+
+def _span_of(kind):
+    def span(text: str) -> Span:
+        try:
+            ends = [kind(part) if part else None for part in text.split(":")]
+        except ValueError:
+            ends = []
+        if len(ends) == 1 and ends[0] is not None:
+            return Span(ends[0], ends[0])
+        if len(ends) != 2 or (None not in ends and ends[0] > ends[1]):
+            raise argparse.ArgumentTypeError(f"{text}: allowed: a number, or A:B with A <= B, either of which may be left out")
+        return Span(*ends)
+
+    return span
+
+
+def _gain(text: str):
+    if text in ("none", "head", "auto"):
+        return text
+    try:
+        spreading_db, absorption_db_per_km = (float(part) for part in text.split(","))
+    except ValueError:
+        spreading_db = absorption_db_per_km = math.nan
+    if not (0 <= spreading_db <= 100 and 0 <= absorption_db_per_km <= 2000):
+        raise argparse.ArgumentTypeError(f"{text}: allowed: none, head, auto, or S,A with S in [0, 100] dB and A in [0, 2000] "
+                                         "dB/km")
+    return Gain(spreading_db, absorption_db_per_km / 1e3)
+
+
+def _show(options) -> Show:
+    limits = tuple(options.db) if options.db else None
+    if limits and not limits[0] < limits[1]:
+        raise ensonify.RunError(f"--db {limits[0]:g} {limits[1]:g}: LOW must be below HIGH", 2)
+    return Show(options.gain, limits)
+
+
+def multibeam_topic(record: ensonify.Record, asked: str | None, or_first: bool = False) -> str:
+    """The ping topic of the head that sounds, or, where no soundings were recorded, the one with many beams."""
+    sounding = heads_with_soundings(record)
+
+    def fits(topic, ping):
+        return ping.beam_angle_rad.size > 2 and (not sounding or process_of(topic) in sounding)
+
+    return choose_topic(record, asked, fits, "pings of a multibeam", or_first)
+
+
+def downward_topic(record: ensonify.Record, asked: str | None) -> str:
+    """The ping topic of the head that sounds, a single beam included, or where no soundings were recorded that of no sidescan."""
+    sounding = heads_with_soundings(record)
+
+    def fits(topic, ping):
+        return process_of(topic) in sounding if sounding else not waterfall.is_sidescan(topic, ping)
+
+    return choose_topic(record, asked, fits, "pings of a head that looks down")
+
+
+def plot_ping(options) -> int:
+    """`ensonify plot ping`."""
+    record = open_record(options.record)
+    heard = choose_ping(record, multibeam_topic(record, options.topic, or_first=True), options.ping, options.t)
+    figure = ping_picture(heard, soundings_of(record, heard), _show(options))
+    save_picture(record, options.out, f"ping_{heard.ping.ping}.png", figure)
+    return 0
+
+
+def plot_fan(options) -> int:
+    """`ensonify plot fan`."""
+    record = open_record(options.record)
+    heard = choose_ping(record, multibeam_topic(record, options.topic), options.ping, options.t)
+    figure = fan_picture(heard, soundings_of(record, heard), _show(options))
+    save_picture(record, options.out, f"fan_{heard.ping.ping}.png", figure)
+    return 0
+
+
+def plot_fls(options) -> int:
+    """`ensonify plot fls`."""
+    record = open_record(options.record)
+    sounding = heads_with_soundings(record)
+
+    def fits(topic, ping):
+        return ping.beam_angle_rad.size > 2 and process_of(topic) not in sounding
+
+    heard = choose_ping(record, choose_topic(record, options.topic, fits, "forward-looking pings"), options.ping, options.t)
+    save_picture(record, options.out, f"fls_{heard.ping.ping}.png", forward_looking_picture(heard, _show(options)))
+    return 0
+
+
+def plot_waterfall(options) -> int:
+    """`ensonify plot waterfall`."""
+    record = open_record(options.record)
+    pings, tracks = waterfall.read(record, options.topic, options.ping, options.t, options.ground)
+    figure = waterfall.waterfall_picture(pings, tracks, options.ground, _show(options))
+    save_picture(record, options.out, "waterfall_ground.png" if options.ground else "waterfall.png", figure)
+    return 0
+
+
+def plot_water_column(options) -> int:
+    """`ensonify plot water-column`."""
+    record = open_record(options.record)
+    if options.ping.single or options.t.single:
+        topic = multibeam_topic(record, options.topic)
+        heard = choose_ping(record, topic, options.ping.first, options.t.first)
+        figure = water_column.beam_picture(heard, soundings_of(record, heard), _show(options))
+        save_picture(record, options.out, f"water_column_{heard.ping.ping}.png", figure)
+        return 0
+    pings = list(pings_in(record, downward_topic(record, options.topic), options.ping, options.t))
+    figure = water_column.stack_picture(record, pings, options.angle, _show(options))
+    save_picture(record, options.out, "water_column.png", figure)
+    return 0
+
+
+def plot_angular_response(options) -> int:
+    """`ensonify plot angular-response`."""
+    record = open_record(options.record)
+    absorption_dbpm = None if options.absorption is None else options.absorption / 1e3
+    response = angular_response.read(record, options.topic, options.ping, options.t, absorption_dbpm)
+    figure = angular_response.angular_response_picture(response, options.class_deg)
+    save_picture(record, options.out, "angular_response.png", figure)
+    return 0

@@ -1,0 +1,83 @@
+"""The water column: one ping, beam against range, or one beam, straight down unless asked otherwise, over many pings."""
+import numpy as np
+
+import ensonify
+from ensonify_plot import geometry
+from ensonify_plot.heard import Heard, must_sound, one_of_process
+from ensonify_plot.level import Gain, gain_for, level_db, limits_of
+from ensonify_plot.ping import ECHOES, EMPTY, FINDS, PERCENTILES, Show, bar, draw_beams, headline, levels
+from ensonify_plot.pictures import new_figure
+from ensonify_plot.stack import Track, second_axis, span_headline, stacked
+
+CELLS = 500  # in range
+
+
+def beam_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show):
+    """One ping, beam against slant range, its detections on top."""
+    gain = gain_for(show.gain, heard.ping, Gain())
+    limits = limits_of(levels(heard, gain), show.limits_db, PERCENTILES)
+    figure = new_figure(9.5, 6.5)
+    axes = figure.subplots()
+    bar(figure, draw_beams(axes, heard, gain, limits, soundings), axes, gain, limits)
+    headline(figure, "Water column", heard)
+    return figure
+
+
+def beam_towards(heard: Heard, from_vertical_rad: float) -> int:
+    """Index of the beam nearest to an angle from the vertical, or from the head's down axis if the ping tells no attitude."""
+    return int(np.argmin(np.abs(heard.angle_rad - (heard.vertical_rad() or 0.0) - from_vertical_rad)))
+
+
+def lines_of(pings: list, beams: list, gain: Gain, cell_m: float, cells: int) -> np.ndarray:
+    """Ping x range cell: mean power of the chosen beam of each ping."""
+    return np.array([geometry.ground_line(heard.power_upa2[beam] * np.power(10.0, gain.db(heard.range_m) / 10),
+                                          heard.first_range_m, heard.step_m, 0.0, cell_m, cells)
+                     for heard, beam in zip(pings, beams)])
+
+
+def detections_of(record: ensonify.Record, pings: list, beams: list) -> tuple:
+    """(time of transmission, slant range) of what was detected in the chosen beam of each ping."""
+    topic = one_of_process(record, pings[0].topic, ensonify.Soundings)
+    chosen = {heard.ping.ping: (heard, beam) for heard, beam in zip(pings, beams)}
+    found = []
+    for message in record.messages(topic) if topic else ():
+        s = message.content
+        if s.ping not in chosen:
+            continue
+        heard, beam = chosen[s.ping]
+        entries = (s.beam if s.beam.size else np.arange(len(s.valid))) == beam
+        for time_s in s.travel_time_s[entries & (s.valid == 1)]:
+            found.append((heard.t_s, float(time_s) * heard.ping.sound_speed_mps / 2))
+    return tuple(np.array(found).reshape(-1, 2).T)
+
+
+def stack_picture(record: ensonify.Record, pings: list, from_vertical_deg: float, show: Show):
+    """Range downwards, time to the right."""
+    gain = gain_for(show.gain, pings[0].ping, Gain())
+    beams = [beam_towards(heard, np.radians(from_vertical_deg)) for heard in pings]
+    loudest = np.array([heard.power_upa2[beam].max() for heard, beam in zip(pings, beams)])
+    must_sound(f"{record.file}: {pings[0].topic}, beam {beams[0]}", loudest)
+    t_s, range_m = detections_of(record, pings, beams)
+    reach_m = max(heard.end_m for heard in pings)
+    if len(range_m):
+        reach_m = min(reach_m, 1.5 * range_m.max())  # what lies deeper is noise, or the bottom once more
+    stack = stacked([heard.t_s for heard in pings], lines_of(pings, beams, gain, reach_m / CELLS, CELLS))
+    image = level_db(stack.rows)
+    limits = limits_of(image, show.limits_db, PERCENTILES)
+    figure = new_figure(11.5, 6.0)
+    axes = figure.subplots()
+    mappable = axes.imshow(image.T, extent=(stack.begin_s, stack.end_s, reach_m, 0.0), aspect="auto", cmap=ECHOES,
+                           vmin=limits.low_db, vmax=limits.high_db, interpolation="nearest")
+    axes.set_facecolor(EMPTY)
+    if len(t_s):
+        axes.plot(t_s, range_m, ".", color=FINDS, markersize=2, label=f"detections of this beam ({len(t_s)})")
+        axes.legend(loc="upper right", fontsize=7, markerscale=4)
+    axes.set(xlabel="time of transmission (s)", ylabel="slant range from the head (m)")
+    axes.tick_params(labelsize=8)
+    second_axis(axes, "top", Track.of(pings))
+    bar(figure, mappable, axes, gain, limits)
+    what = "straight down" if from_vertical_deg == 0 else f"at {from_vertical_deg:+g}° from straight down"
+    by = "by the measured attitude" if pings[0].vertical_rad() is not None else "by the head's down axis"
+    averaged = [f"{stack.averaged} pings averaged per column"] if stack.averaged > 1 else []
+    span_headline(figure, f"Water column {what} ({by})", pings[0], pings[-1], averaged)
+    return figure
