@@ -106,7 +106,7 @@ def choose_topic(record: ensonify.Record, asked: str | None, fits: Callable[[str
         first.update((topic, message.content) for message in _head(record.messages(topic)))
     if not first:
         raise UserError(f"{record.file}: holds no pings (no message of type ping/1 was recorded)")
-    there = ", ".join(f"{topic} ({ping.beam_angle_rad.size} beams)" for topic, ping in first.items())
+    there = ", ".join(f"{topic} (beams: {ping.beam_angle_rad.size})" for topic, ping in first.items())
     if asked is not None:
         if asked not in first:
             raise UserError(f"{record.file}: {asked} is no recorded ping topic; there are {there}")
@@ -130,7 +130,7 @@ def heads_with_soundings(record: ensonify.Record) -> set:
 
 def one_of_process(record: ensonify.Record, topic: str, message_type: type) -> str | None:
     """The topic of a type that belongs to a ping topic: of the same process and, where that has several, with the same ending
-    (`fish/bottom_track_low` for `fish/ping_low`)."""
+    (`fish/bottom_low` for `fish/ping_low`)."""
     of_process = [other for other in record.topics_of(message_type) if process_of(other) == process_of(topic)]
     ending = topic.rsplit("/", 1)[1].removeprefix("ping")
     same = [other for other in of_process if len(of_process) == 1 or (ending and other.endswith(ending))]

@@ -8,8 +8,10 @@ from ensonify_plot.level import Gain, gain_for, level_db, limits_of
 from ensonify_plot.ping import ECHOES, EMPTY, FINDS, PERCENTILES, Show, bar, draw_beams, headline, levels
 from ensonify_plot.pictures import new_figure
 from ensonify_plot.stack import Track, second_axis, span_headline, stacked
+from ensonify_plot.survey import UserError
 
 CELLS = 500  # in range
+FARTHEST_RAD = np.radians(15.0)  # a head may roll or be mounted aslant; farther off its beam is not what was asked for
 
 
 def beam_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show):
@@ -24,8 +26,15 @@ def beam_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show)
 
 
 def beam_towards(heard: Heard, from_vertical_rad: float) -> int:
-    """Index of the beam nearest to an angle from the vertical, or from the head's down axis if the ping tells no attitude."""
-    return int(np.argmin(np.abs(heard.angle_rad - (heard.vertical_rad() or 0.0) - from_vertical_rad)))
+    """Index of the beam nearest to an angle from the vertical, or from the head's down axis if the ping tells no attitude. Raises
+    UserError if none looks there."""
+    angle = heard.angle_rad - (heard.vertical_rad() or 0.0)
+    beam = int(np.argmin(np.abs(angle - from_vertical_rad)))
+    if abs(angle[beam] - from_vertical_rad) > FARTHEST_RAD:
+        first_deg, last_deg = np.degrees([angle.min(), angle.max()])
+        raise UserError(f"ping {heard.ping.ping} of {heard.topic} has no beam near {np.degrees(from_vertical_rad):+g}° from straight "
+                        f"down; its beams run from {first_deg:+.0f}° to {last_deg:+.0f}°")
+    return beam
 
 
 def lines_of(pings: list, beams: list, gain: Gain, cell_m: float, cells: int) -> np.ndarray:

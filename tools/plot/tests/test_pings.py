@@ -287,14 +287,14 @@ class Commands(unittest.TestCase):
 
     def test_the_users_mistakes_name_their_cause(self):
         for arguments, why in {
-            ("fan", self.heads, "--topic", "stern/ping"): "stern/ping is no recorded ping topic; there are bow/ping (128 beams), eye/ping (512 beams)",
+            ("fan", self.heads, "--topic", "stern/ping"): "stern/ping is no recorded ping topic; there are bow/ping (beams: 128), eye/ping (beams: 512)",
             ("fan", self.heads, "--ping", "7"): "ping 7 of bow/ping was not recorded; the nearest is 4, and there are 4 from 0 to 4",
             ("fan", self.heads, "--t", "9"): "no ping of bow/ping at or after t = 9 s; there are 4, from 0 (t = 0.000 s) to 4 (t = 0.400 s)",
             ("fan", self.heads, "--ping", "4"): "ping 4 of bow/ping: all amplitudes are zero, there is nothing to draw",
             ("fan", self.heads, "--out", "x.jpg"): "--out x.jpg: allowed are a file that ends in .png, or a folder",
             ("fan", self.heads, "--ping", "1", "--db", "5", "4"): "--db 5 4: LOW must be below HIGH",
             ("fan", self.heads, "--gain", "30"): "30: allowed: none, head, auto, or S,A with S in [0, 100] dB and A in [0, 2000] dB/km",
-            ("fan", self.fish): "no topic is known to hold pings of a multibeam; name one with --topic: fish/ping (2 beams)",
+            ("fan", self.fish): "no topic is known to hold pings of a multibeam; name one with --topic: fish/ping (beams: 2)",
             ("waterfall", self.heads): "no topic is known to hold sidescan pings",
             ("waterfall", self.heads, "--topic", "bow/ping"): "has 128 beams; a waterfall needs one to port (beam_angle_rad below 0) and one to starboard",
             ("waterfall", self.fish, "--t", "5:"): "no ping of fish/ping lies in what was asked for; there are 12, from 0 (t = 0.000 s) to 11 (t = 1.100 s)",
@@ -303,6 +303,8 @@ class Commands(unittest.TestCase):
             ("waterfall", self.lost, "--ground"): "fish/bottom_track tells no bottom for these pings; without",
             ("water-column", self.heads, "--ping", "4"): "all amplitudes are zero",
             ("water-column", self.heads, "--angle", "100"): "100: allowed: a number in [-90, 90]",
+            ("water-column", self.heads, "--angle", "85", "--ping", ":2"):
+                "ping 0 of bow/ping has no beam near +85° from straight down; its beams run from -64° to +63°",
             ("angular-response", self.fish): "holds no soundings",
             ("angular-response", self.heads, "--t", "7:"): "no soundings of bow/soundings lie in what was asked for; there are pings 0 (t = 0.000 s)",
             ("angular-response", self.heads, "--class", "0.1", "--ping", "0"): "no class of 0.1° holds 10 soundings",
@@ -329,6 +331,16 @@ class Commands(unittest.TestCase):
         self.assertIn("name one with --topic: fish/ping_low, fish/ping_high", errors)
         with tempfile.TemporaryDirectory() as out:
             self.assertEqual(run("waterfall", record, "--topic", "fish/ping_high", "--out", out)[0], 0)
+
+    def test_each_channel_has_its_own_bottom(self):
+        messages = []
+        for band, altitude_m in (("low", 12.0), ("high", 9.0)):
+            for topic, message in made.sidescan(pings=2, samples=300, altitude_m=altitude_m):
+                messages.append((f"{topic.replace('bottom_track', 'bottom')}_{band}", message))
+        record = ensonify.Record(self.record("channels", messages))
+        for band, altitude_m in (("low", 12.0), ("high", 9.0)):
+            _, tracks = waterfall.read(record, f"fish/ping_{band}", ALL, ALL, True)
+            self.assertEqual(tracks[0].altitude_m, altitude_m)
 
     def test_one_dead_side_is_named(self):
         def half(message):
