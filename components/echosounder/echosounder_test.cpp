@@ -1,0 +1,136 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "components/echosounder/node.h"
+#include "components/runtime/config/default_yaml.h"
+#include "components/runtime/head/test_seabed.h"
+#include "components/runtime/testing.h"
+#include "kernels/array/aperture.h"
+#include "kernels/array/line.h"
+#include "kernels/seabed/lambert.h"
+
+using namespace ensonify;
+
+namespace {
+
+using Sounder = NodeUnderTest<EchosounderNode>;
+
+/// In water of 1500 m/s and 0.05 dB/m over a Lambert seabed of -25 dB.
+EchosounderConfig over_lambert() {
+  EchosounderConfig config;
+  config.world.water.profile.sound_speed_mps = 1500.0;
+  config.world.water.absorption_dbpm = 0.05;
+  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  config.range_m = 40.0;
+  return config;
+}
+
+/// Bottom tracks and pings of half a second at rest, 2 m below the surface, `roll_rad` to starboard.
+struct Survey {
+  std::vector<msg::BottomTrack> bottom;
+  std::vector<msg::Ping> pings;
+  std::string health = "none";
+
+  explicit Survey(const EchosounderConfig& config, const msg::Tile& tile, double roll_rad = 0.0) {
+    Sounder sounder(config);
+    for (SimTime t{0}; t <= 1500_ms; t += 20_ms) {
+      msg::Pose pose;
+      pose.stamp_ns = t.count();
+      pose.position_enu_m = {0, 0, -2};
+      pose.enu_from_body = frames::wxyz_of(frames::enu_from_body({0, 0, roll_rad}));
+      sounder.give("pose", pose);
+      msg::Estimate estimate;
+      estimate.stamp_ns = t.count();
+      estimate.position_enu_m = pose.position_enu_m;
+      estimate.enu_from_body = pose.enu_from_body;
+      sounder.give("estimate", estimate);
+    }
+    sounder.give("tile", tile);
+    bottom = sounder.step_until<msg::BottomTrack>("bottom", 450_ms);
+    pings = sounder.step_until<msg::Ping>("ping", 450_ms);
+    const auto told = sounder.step_until<msg::Health>("health", 1500_ms);
+    if (!told.empty()) health = told.back().state + ": " + told.back().message;
+  }
+};
+
+msg::Tile flat() {
+  return tile_of(128, 1.0, [](double, double) { return -22.0; });
+}
+
+Scenario with_head(const std::string& name) {
+  Scenario scenario;
+  Vehicle boat;
+  boat.name = "boat";
+  boat.mountings[name] = {};
+  scenario.vehicles = {boat};
+  return scenario;
+}
+
+}  // namespace
+
+TEST_CASE("echosounder/default.yaml lists every parameter with its default") {
+  CHECK(default_yaml_fault<EchosounderConfig>("echosounder", with_head("echosounder")) == "");
+}
+
+TEST_CASE("the depth below the piston is found to a sample, also when the boat rolls within the beam") {
+  const EchosounderConfig config = over_lambert();
+  const double sample_m = 750.0 * config.sample_period_s();
+  for (const double roll_deg : {0.0, 3.0}) {
+    const Survey survey(config, flat(), roll_deg * EchosounderConfig::kDegree);
+    REQUIRE(survey.bottom.size() == 4);
+    REQUIRE(survey.pings.size() == 4);
+    CHECK(survey.health == "ok: ");
+    for (const auto& bottom : survey.bottom) {
+      INFO("rolled by " << roll_deg << " degrees");
+      CHECK(bottom.valid);
+      CHECK(bottom.altitude_m == Approx(20.0).margin(1.1 * sample_m));  // the first echo comes from straight below
+    }
+    CHECK(survey.pings[0].beam_angle_rad.size() == 1);
+    CHECK(survey.pings[0].track.pose_position_enu_m(0, 2) == -2.0);
+  }
+}
+
+TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces") {
+  // Sum of p^2 dt = SL tau R^-4 sigma |b|^2 dA over the beam, on a flat seabed dA = H^2 dOmega / cos^3 of the angle
+  // from the vertical. The rays' strata leave some 0.1 dB.
+  for (const auto face : {EchosounderConfig::Face::kCircular, EchosounderConfig::Face::kSquare}) {
+    EchosounderConfig config = over_lambert();
+    config.face = face;
+    config.effects.speckle = config.effects.noise = config.effects.multipath = false;
+    const Survey survey(config, flat());
+    double energy = 0.0;
+    for (const float a : survey.pings.at(0).amplitude_upa.flat()) energy += double(a) * a * config.sample_period_s();
+
+    const double waves = array::length_in_waves_for(config.beamwidth_rad);
+    const double diameter = waves * 58.96 / 50.76;
+    double expected = 0.0;
+    constexpr double kStep = 0.002;
+    for (double u = -0.4; u <= 0.4; u += kStep) {
+      for (double v = -0.4; v <= 0.4; v += kStep) {
+        const double cosine = std::sqrt(1.0 - u * u - v * v), range = 20.0 / cosine;
+        const double b = face == EchosounderConfig::Face::kCircular
+                             ? std::pow(array::piston_amplitude(diameter, std::hypot(u, v)), 2)
+                             : array::line_power(waves, u) * array::line_power(waves, v);
+        const double area = range * range / cosine * (kStep * kStep / cosine);
+        expected += b * b * seabed::lambert_backscatter(-25.0, cosine) * area * std::pow(range, -4) *
+                    std::pow(10.0, -0.2 * 0.05 * range);
+      }
+    }
+    expected *= std::pow(10.0, 21.5) * config.pulse_length_s;
+    CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+  }
+}
+
+TEST_CASE("a range below the altitude, and an echo below the noise, are said in health") {
+  EchosounderConfig config = over_lambert();
+  config.range_m = 15.0;
+  CHECK(
+      Survey(config, flat()).health ==
+      "degraded: no seabed within the range of 15 m: the range is below the altitude, or the terrain has a hole here");
+  config = over_lambert();
+  config.source_level_db = -100.0;
+  const Survey faint(config, flat());
+  CHECK(faint.health == "degraded: no echo stands out of the water column: no depth");
+  CHECK_FALSE(faint.bottom.at(0).valid);
+}

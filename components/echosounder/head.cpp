@@ -1,0 +1,110 @@
+#include "components/echosounder/head.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "components/runtime/head/head_motion.h"
+#include "kernels/array/aperture.h"
+#include "kernels/array/line.h"
+#include "kernels/array/pattern_table.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kReach = 3.0;    // sines in which rays are sent, in lambda / D: three side lobes
+constexpr int kRaysAcross = 120;  // and as many along
+constexpr double kWidest_rad = 1.5;
+
+bool circular(const EchosounderConfig& c) { return c.face == EchosounderConfig::Face::kCircular; }
+
+/// Diameter or side over wavelength. A piston's half-power width is 58.96 / 50.76 times that of a line as long.
+double size_in_waves(const EchosounderConfig& c) {
+  return array::length_in_waves_for(c.beamwidth_rad) * (circular(c) ? 58.96 / 50.76 : 1.0);
+}
+
+AperturePattern pattern_of(const EchosounderConfig& c) {
+  if (!c.effects.directivity) return [](const Eigen::Vector3f&) { return 1.0F; };
+  const double size = size_in_waves(c);
+  const bool round = circular(c);
+  const auto table = std::make_shared<array::PatternTable>(
+      [=](double sine) { return round ? array::piston_amplitude(size, sine) : array::line_amplitude(size, sine); },
+      0.5 * size);
+  const auto first_null = static_cast<float>(c.effects.side_lobes ? 2.0 : (round ? 1.2197 : 1.0) / size);
+  const auto along = [=](float sine) {
+    return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
+  };
+  if (round) return [=](const Eigen::Vector3f& d) { return along(d.head<2>().norm()); };
+  return [=](const Eigen::Vector3f& d) { return along(d.x()) * along(d.y()); };
+}
+
+Apertures apertures_of(const EchosounderConfig& config) {
+  Apertures a;
+  a.frequency_hz = config.frequency_hz;
+  a.patterns = {pattern_of(config)};
+  a.directivity_index_db = array::directivity_index_db(size_in_waves(config), size_in_waves(config));
+  if (circular(config)) a.directivity_index_db += 10.0 * std::log10(0.25 * std::acos(-1.0));  // the lesser area
+  a.electronic_noise_db = config.electronic_noise_db;
+  a.narrowest_rad = config.beamwidth_rad;
+  a.nearest_m = 1.0;
+  a.resolution_m = 0.5 * config.sound_speed_mps * config.pulse_length_s;
+  a.seed = config.world.seed;
+  a.process = config.process;
+  return a;
+}
+
+trace::FanShape fan_of(const EchosounderConfig& config) {
+  trace::FanShape shape;
+  shape.transmit_length_in_waves = size_in_waves(config);
+  shape.along_reach = kReach;
+  shape.half_swath_rad = std::min(kWidest_rad, std::asin(std::min(1.0, kReach / size_in_waves(config))));
+  shape.along = shape.across = kRaysAcross;
+  shape.grazing_share = 0.0;
+  return shape;
+}
+
+detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
+  detect::FirstBottomSettings settings;
+  settings.threshold_db = config.bottom_threshold_db;
+  // Straight down, an echo lasts little longer than the pulse.
+  settings.persistence_m = std::max(0.1, 0.5 * config.sound_speed_mps * config.pulse_length_s);
+  return settings;
+}
+
+}  // namespace
+
+EchosounderHead::EchosounderHead(const EchosounderConfig& config)
+    : config_(config),
+      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects),
+      bottom_(bottom_of(config)) {
+  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, rays_);
+}
+
+EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSettings& settings,
+                                               const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
+  Emission emission;
+  emission.shot = shot;
+  emission.source_level_db = settings.source_level_db;
+  emission.listening_s = config_.listening_s(settings);
+  emission.sample_period_s = config_.sample_period_s();
+  head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
+  echoes_.move(poses_);
+  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), rays_, hits_);
+
+  Heard heard;
+  const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
+  heard.bottom = bottom_.find(image, sampling, config_.sound_speed_mps);
+  heard.bottom.stamp_ns = heard.ping.stamp_ns = shot.transmit.count();
+  heard.bottom.ping = heard.ping.ping = shot.ping;
+  heard.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
+  fill(heard.ping.applied, settings);
+  heard.ping.applied.frequency_hz = config_.frequency_hz;
+  heard.ping.applied.transmit_beamwidth_rad = heard.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
+  heard.ping.applied.sound_speed_mps = config_.sound_speed_mps;
+  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
+  write_samples(tvg_of(settings, config_.sound_speed_mps), converter, sampling, image, heard.ping);
+  return heard;
+}
+
+}  // namespace ensonify

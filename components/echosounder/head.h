@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "components/echosounder/config.h"
+#include "components/runtime/head/aperture_echoes.h"
+#include "components/runtime/head/bottom_finder.h"
+#include "kernels/trace/fan.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// What the piston hears of a ping, and where the instrument finds the bottom in it. The acoustics use the true motion,
+/// mounting and water; the bottom only what was heard.
+class EchosounderHead {
+ public:
+  explicit EchosounderHead(const EchosounderConfig& config);
+
+  struct Heard {
+    msg::Ping ping;  // without a track
+    msg::BottomTrack bottom;
+  };
+  /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
+  Heard listen(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& vehicle,
+               const trace::Scene& seabed);
+
+  /// How many rays of the last ping met the seabed within its range.
+  int rays_that_hit() const { return echoes_.rays_that_hit(); }
+
+ private:
+  EchosounderConfig config_;
+  ApertureEchoes echoes_;
+  BottomFinder bottom_;
+  std::vector<trace::Ray> rays_;  // in the head's frame, the same for every ping: an unmoved head hears the same
+  std::vector<frames::HeadPose> poses_;
+  std::vector<trace::Hit> hits_;
+};
+
+}  // namespace ensonify

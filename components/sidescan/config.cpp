@@ -1,0 +1,126 @@
+#include "components/sidescan/config.h"
+
+#include <cmath>
+#include <set>
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/head_motion.h"
+
+namespace ensonify {
+namespace {
+
+constexpr FileUnit kDecibelsPerKilometre{1e-3};
+constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
+constexpr double kLongestPulse_s = 20e-3;
+constexpr double kWeakest_db = 40.0;        // below the highest source level, that can be set
+constexpr double kMostSamples = 100'000.0;  // per side
+
+void check(const ConfigReader& from, const SidescanChannel& c) {
+  if (c.chirp && c.bandwidth_hz * c.pulse_length_s < kLeastSweep) {
+    from.problem("bandwidth_hz", "times pulse_length_s is " + std::to_string(c.bandwidth_hz * c.pulse_length_s) +
+                                     ": a chirp needs at least 4");
+  }
+  if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
+}
+
+}  // namespace
+
+SidescanChannel SidescanChannel::read(ConfigReader& from) {
+  SidescanChannel c;
+  from.required("name", c.name);
+  from.required("frequency_hz", c.frequency_hz, 50e3, 1e6);
+  bool two_way = false;
+  from.optional("horizontal_beamwidth_deg", c.horizontal_beamwidth_rad, 0.05, 10, kDegrees);
+  from.optional_choice("horizontal_beamwidth_is", two_way, {{"one_way", false}, {"two_way", true}});
+  from.optional("vertical_beamwidth_deg", c.vertical_beamwidth_rad, 5, 150, kDegrees);
+  from.optional("depression_deg", c.depression_rad, 0, 90, kDegrees);
+  from.optional("back_loss_db", c.back_loss_db, 0, 100);
+  from.optional("source_level_db", c.source_level_db, -300, 250);
+  from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
+  from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
+  from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
+  from.optional("range_m", c.range_m, 1, 1000);
+  from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
+  // Two-way, the half-power width of a uniform line is 36.55 of the 50.76 lambda / L degrees.
+  if (two_way) c.horizontal_beamwidth_rad *= 50.76 / 36.55;
+  check(from, c);
+  return c;
+}
+
+echo::Pulse SidescanChannel::pulse(double length_s) const {
+  return chirp ? echo::compressed_chirp(length_s, bandwidth_hz, echo::Window::kHamming)
+               : echo::rectangular_pulse(length_s);
+}
+
+SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+  SidescanConfig c;
+  if (from.has("channels")) c.channels.clear();
+  std::set<std::string> names;
+  for (ConfigReader& channel : from.list("channels")) {
+    c.channels.push_back(SidescanChannel::read(channel));
+    if (!names.insert(c.channels.back().name).second) channel.problem("name", "is taken by another channel");
+  }
+  if (c.channels.empty()) from.problem("channels", "needs at least one channel");
+  from.optional("ping_rate_hz", c.ping_rate_hz, 0.01, 100);
+  from.optional("dead_time_s", c.dead_time_s, 0, 1);
+  from.optional("processing_latency_s", c.processing_latency_s, 0, 10);
+  from.optional("sound_speed_mps", c.sound_speed_mps, 1300, 1700);
+  from.optional("gain_spreading_db", c.gain_spreading_db, 0, 80);
+  from.optional("gain_absorption_db_per_km", c.gain_absorption_dbpm, 0, 2000, kDecibelsPerKilometre);
+  from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
+  read_converter(from, c.converter);
+  from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
+  from.optional("quality", c.quality, 0.1, 10);
+  read_effects(from, c.effects);
+  for (const SidescanChannel& channel : c.channels) {
+    const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
+    if (samples > kMostSamples) {
+      from.problem("channels", "channel " + channel.name + " makes " + std::to_string(std::llround(samples)) +
+                                   " samples a side; at most 100000 are allowed: shorten range_m");
+    }
+  }
+  c.world = scenario;
+  c.process = process;
+  c.mounting = read_mounting(from, scenario, process);
+  return c;
+}
+
+bool SidescanConfig::operator==(const SidescanConfig& o) const {
+  return channels == o.channels && ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
+         processing_latency_s == o.processing_latency_s && sound_speed_mps == o.sound_speed_mps &&
+         gain_spreading_db == o.gain_spreading_db && gain_absorption_dbpm == o.gain_absorption_dbpm &&
+         gain_offset_db == o.gain_offset_db && converter == o.converter &&
+         bottom_threshold_db == o.bottom_threshold_db && quality == o.quality && effects == o.effects;
+}
+
+Rate SidescanConfig::rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
+
+HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {
+  HeadSettings start;
+  start.range_m = channel.range_m;
+  start.source_level_db = channel.source_level_db;
+  start.pulse_length_s = channel.pulse_length_s;
+  start.gain_spreading_db = effects.tvg ? gain_spreading_db : 0.0;
+  start.gain_absorption_dbpm = effects.tvg ? gain_absorption_dbpm : 0.0;
+  start.gain_offset_db = gain_offset_db;
+  start.ping_rate_hz = ping_rate_hz;
+  return start;
+}
+
+SettingLimits SidescanConfig::limits_of(const SidescanChannel& channel) const {
+  SettingLimits limits;
+  limits.range_m = {1.0, channel.range_m};
+  limits.source_level_db = {channel.source_level_db - kWeakest_db, channel.source_level_db};
+  // Samples come as often as the shortest pulse needs; a chirp's length changes neither resolution nor samples.
+  limits.pulse_length_s = {channel.chirp ? kLeastSweep / channel.bandwidth_hz : channel.pulse_length_s,
+                           kLongestPulse_s};
+  if (effects.tvg) {
+    limits.gain_spreading_db = {0.0, 80.0};
+    limits.gain_absorption_dbpm = {0.0, 2.0};
+  }
+  limits.gain_offset_db = {-200.0, 200.0};
+  limits.ping_rate_hz = {0.01, ping_rate_hz};
+  return limits;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,146 @@
+#include "components/sidescan/head.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "components/runtime/head/head_motion.h"
+#include "kernels/array/aperture.h"
+#include "kernels/array/line.h"
+#include "kernels/array/pattern_table.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kFarthest_rad = 1.75;  // of rays from the head's down axis: a little above the horizon
+constexpr double kRowsPerResolution = 1.5;
+constexpr int kFewestRows = 512;
+
+double lines_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.horizontal_beamwidth_rad); }
+double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
+
+/// One dimension of a face, against the direction cosine along it.
+std::function<float(float)> line_pattern(double length_in_waves, bool side_lobes) {
+  const auto table = std::make_shared<array::PatternTable>(
+      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
+  const auto first_null = static_cast<float>(side_lobes ? 2.0 : 1.0 / length_in_waves);
+  return [=](float sine) {
+    return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
+  };
+}
+
+Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel) {
+  Apertures a;
+  a.frequency_hz = channel.frequency_hz;
+  a.patterns = side_patterns(channel, config.effects);
+  a.directivity_index_db = array::directivity_index_db(lines_in_waves(channel), face_in_waves(channel));
+  a.electronic_noise_db = channel.electronic_noise_db;
+  a.narrowest_rad = channel.horizontal_beamwidth_rad;
+  a.resolution_m = channel.resolution_m(config.sound_speed_mps);
+  a.seed = config.world.seed;
+  a.process = config.process;
+  return a;
+}
+
+trace::SideFanShape fan_of(const SidescanConfig& config, const SidescanChannel& channel) {
+  trace::SideFanShape shape;
+  shape.transmit_length_in_waves = lines_in_waves(channel);
+  shape.from_rad = -kFarthest_rad;
+  shape.to_rad = kFarthest_rad;
+  const double cells = 2.0 * channel.range_m / channel.resolution_m(config.sound_speed_mps);
+  shape.across = std::max(kFewestRows, static_cast<int>(config.quality * kRowsPerResolution * cells));
+  return shape;
+}
+
+detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
+  detect::FirstBottomSettings settings;
+  settings.threshold_db = config.bottom_threshold_db;
+  return settings;
+}
+
+}  // namespace
+
+std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const Effects& effects) {
+  const auto along = line_pattern(lines_in_waves(channel), effects.side_lobes);
+  const auto across = line_pattern(face_in_waves(channel), true);
+  const array::Face face{0.0, channel.back_loss_db};
+  const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
+  const auto sine = static_cast<float>(std::sin(channel.depression_rad));
+  std::vector<AperturePattern> sides;
+  for (const float side : {-1.0F, 1.0F}) {
+    const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
+    if (!effects.directivity) {  // each side hears its own half of the water
+      sides.push_back([=](const Eigen::Vector3f& d) { return side * d.y() > 0.0F ? along(d.x()) : 0.0F; });
+      continue;
+    }
+    sides.push_back([=](const Eigen::Vector3f& d) {
+      const double weight = array::face_amplitude(face, static_cast<double>(normal.dot(d)));
+      return along(d.x()) * across(up_the_face.dot(d)) * static_cast<float>(weight);
+    });
+  }
+  return sides;
+}
+
+SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)
+    : config_(config),
+      channel_(channel),
+      echoes_(apertures_of(config, channel), Environment(config.world, channel.frequency_hz), config.effects),
+      fan_(fan_of(config, channel)),
+      jitter_(config.world.seed, config.process + "/" + channel.name + "/rays"),
+      bottom_(bottom_of(config)),
+      pulse_length_s_(channel.pulse_length_s),
+      pulse_(channel.pulse(channel.pulse_length_s)) {}
+
+SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& settings,
+                                         const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
+  if (pulse_length_s_ != settings.pulse_length_s) {
+    pulse_length_s_ = settings.pulse_length_s;
+    pulse_ = channel_.pulse(pulse_length_s_);
+  }
+  Emission emission;
+  emission.shot = shot;
+  emission.source_level_db = settings.source_level_db;
+  emission.listening_s = config_.listening_s(settings.range_m, settings.pulse_length_s);
+  emission.sample_period_s = channel_.sample_period_s();
+
+  head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
+  echoes_.move(poses_);
+  echoes_.trace(seabed, fan_.look(), settings.range_m, hits_);
+  met_range_m_.clear();
+  for (const trace::Hit& hit : hits_) met_range_m_.push_back(hit.range_m);
+  fan_.fill(met_range_m_, jitter_, 0, rays_);  // the same in every ping: an unmoved head hears the same
+  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  echo::Image& image = echoes_.listen(emission, pulse_, rays_, hits_);
+
+  const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
+  Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, config_.sound_speed_mps)};
+  heard.bottom.stamp_ns = shot.transmit.count();
+  heard.bottom.ping = shot.ping;
+  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
+  write_samples(tvg_of(settings, config_.sound_speed_mps), converter, sampling, image, heard.ping);
+  return heard;
+}
+
+msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& settings) const {
+  msg::Ping ping;
+  ping.stamp_ns = shot.transmit.count();
+  ping.ping = shot.ping;
+  const auto broadside = static_cast<float>(0.5 * std::numbers::pi - channel_.depression_rad);
+  ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
+  fill(ping.applied, settings);
+  ping.applied.frequency_hz = channel_.frequency_hz;
+  ping.applied.pulse = channel_.chirp ? "fm_up" : "cw";
+  ping.applied.bandwidth_hz = channel_.bandwidth_hz;
+  ping.applied.transmit_beamwidth_rad = channel_.horizontal_beamwidth_rad;
+  ping.applied.receive_beamwidth_rad = channel_.vertical_beamwidth_rad;
+  ping.applied.sound_speed_mps = config_.sound_speed_mps;
+  return ping;
+}
+
+std::size_t SidescanHead::max_ping_bytes() const {
+  const double longest_s = config_.listening_s(channel_.range_m, config_.limits_of(channel_).pulse_length_s->most);
+  return 2 * sizeof(float) * static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0) + 65536;
+}
+
+}  // namespace ensonify

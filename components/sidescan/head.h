@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "components/runtime/head/aperture_echoes.h"
+#include "components/runtime/head/bottom_finder.h"
+#include "components/sidescan/config.h"
+#include "kernels/random/stream.h"
+#include "kernels/trace/fan.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// The patterns of a channel, port then starboard: a uniform line along x, another across the face, the face's back.
+std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const Effects& effects);
+
+/// One channel of a sidescan: what both sides hear of a ping, and where the instrument finds the bottom in it. The
+/// acoustics use the true motion, mounting and water; the track of the bottom only what was heard.
+class SidescanHead {
+ public:
+  SidescanHead(const SidescanConfig& config, const SidescanChannel& channel);
+
+  struct Heard {
+    msg::Ping ping;  // without a track
+    msg::BottomTrack bottom;
+  };
+  /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
+  Heard listen(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& vehicle,
+               const trace::Scene& seabed);
+
+  /// How many rays of the last ping met the seabed within its range.
+  int rays_that_hit() const { return echoes_.rays_that_hit(); }
+  std::size_t max_ping_bytes() const;
+
+ private:
+  msg::Ping ping_message(const Shot& shot, const HeadSettings& settings) const;
+
+  SidescanConfig config_;
+  SidescanChannel channel_;
+  ApertureEchoes echoes_;
+  trace::SideFan fan_;
+  random::Stream jitter_;
+  BottomFinder bottom_;
+  double pulse_length_s_;
+  echo::Pulse pulse_;
+
+  // Memory of the ping path.
+  std::vector<frames::HeadPose> poses_;
+  std::vector<trace::Hit> hits_;
+  std::vector<float> met_range_m_;
+  std::vector<trace::Ray> rays_;
+};
+
+}  // namespace ensonify
