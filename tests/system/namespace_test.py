@@ -93,7 +93,7 @@ class OtherNamespace(SystemTest):
             asker.send_json({"kind": "registry"})
             topics = asker.recv_json()["topics"]
         context.destroy(0)
-        return {topic["topic"]: topic["sync"] for topic in topics}
+        return {topic["topic"]: topic["sync"] for topic in topics if topic["sync"]}  # the clock's own has a live plane only
 
     def test_the_record_is_the_same_as_with_the_head_on_this_side(self):
         launch = self.write("tcp.yaml", LAUNCH)
