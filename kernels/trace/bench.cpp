@@ -11,6 +11,8 @@
 
 #include "kernels/refraction/thermocline.h"
 #include "kernels/trace/embree_alone.h"
+#include "kernels/trace/fan.h"
+#include "kernels/trace/ray_distribution.h"
 #include "kernels/trace/scene.h"
 
 using namespace ensonify;
@@ -72,6 +74,45 @@ void trace_fan(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
+/// Of the processor: fair on a busy machine.
+template <class Work>
+double ticks_of(const Work& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start);
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Probes, distribution and trace over Embree alone with the same rays made beforehand, in turns: 1 is as fast.
+void distributed_over_embree(benchmark::State& state) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto seabed_scene = scene();
+  const trace::EmbreeAlone alone(tile());
+  trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2),
+                                      {static_cast<trace::Quality>(state.range(0)), 0.075}, {1, "rays"});
+  std::vector<trace::Ray> rays;
+  std::vector<trace::Hit> seen, hits;
+  std::vector<double> ratios;
+  const auto whole = [&] {
+    seabed_scene.trace(kHead, distribution.probes(), kMaxRange, seen);
+    distribution.fill(kHead, seen, kMaxRange, rays);
+    seabed_scene.trace(kHead, rays, kMaxRange, hits);
+  };
+  whole();
+  auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
+  for (auto _ : state) {
+    const double floor = ticks_of([&] { alone.trace(packets, kMaxRange); });
+    ratios.push_back(floor / ticks_of(whole));
+  }
+  state.counters["rays"] = static_cast<double>(rays.size());
+  state.counters["of_embree"] = median(ratios);
+}
+
 /// A head under the surface of a stratified sea: 80 m of water, relief below 5 m.
 const frames::HeadPose kHigh{{3.0, 4.0, -1.0}, frames::enu_from_ned()};
 constexpr float kFar = 400.0F;
@@ -109,11 +150,6 @@ void bent_over_straight(benchmark::State& state) {
   refraction::PathTable paths;
   std::vector<trace::Hit> bent, straight;
   std::vector<double> ratios;
-  const auto ticks_of = [](const auto& work) {
-    const std::clock_t start = std::clock();  // of the processor: fair on a busy machine
-    work();
-    return static_cast<double>(std::clock() - start);
-  };
   for (auto _ : state) {
     const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
     ratios.push_back(ticks_of([&] {
@@ -123,8 +159,7 @@ void bent_over_straight(benchmark::State& state) {
                      floor);
   }
   check_bent(rays, bent, paths);
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-  state.counters["bent/straight"] = ratios[ratios.size() / 2];
+  state.counters["bent/straight"] = median(ratios);
   state.SetItemsProcessed(state.iterations() * 2 * static_cast<std::int64_t>(rays.size()));
 }
 
@@ -143,6 +178,7 @@ void insert_tile(benchmark::State& state) {
 
 BENCHMARK(embree_alone)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_fan)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(distributed_over_embree)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(bent_over_straight)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(fill_fan)->Unit(benchmark::kMillisecond);
 BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond);

@@ -102,6 +102,7 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, Lane& lane, const Vec3&
   hit.path_length_m = static_cast<float>(end.length_m);
   hit.tube_m2 = static_cast<float>(lane.path.tube_m2());
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
+  hit.facet_m = static_cast<float>(packet.met[lane_index]->spacing_m);
   hit.sediment = terrain::sediment_at(*packet.met[lane_index], hit.position_enu_m.head<2>());
   return hit;
 }

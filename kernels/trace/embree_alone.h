@@ -7,7 +7,7 @@
 
 #include "kernels/frames/pose.h"
 #include "kernels/terrain/tile.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray.h"
 
 namespace ensonify::trace {
 

@@ -6,15 +6,9 @@
 
 #include "kernels/frames/attitude.h"
 #include "kernels/random/stream.h"
+#include "kernels/trace/ray.h"
 
 namespace ensonify::trace {
-
-/// A bundle of sound around one direction: the direction is unit length; the solid angles of a fan's rays sum to the
-/// fan's.
-struct Ray {
-  Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // head frame, FRD
-  float solid_angle_sr = 0.0F;
-};
 
 /// What a Mills cross transmits into: narrow along-track, wide across-track.
 struct FanShape {

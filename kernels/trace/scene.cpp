@@ -113,6 +113,7 @@ Hit hit_of(const Packet& packet, std::size_t lane, const terrain::Tile& tile, co
   hit.path_length_m = hit.range_m;
   hit.tube_m2 = hit.range_m * hit.range_m;
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
+  hit.facet_m = static_cast<float>(tile.spacing_m);
   hit.sediment = terrain::sediment_at(tile, hit.position_enu_m.head<2>());
   return hit;
 }

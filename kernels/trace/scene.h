@@ -10,7 +10,7 @@
 #include "kernels/frames/pose.h"
 #include "kernels/refraction/path_table.h"
 #include "kernels/terrain/tile.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray.h"
 
 namespace ensonify::trace {
 
@@ -25,6 +25,7 @@ struct Hit {
   float path_length_m = 0.0F;  // along the path: range_m when it is straight
   float tube_m2 = 0.0F;        // area of the bundle, across it, per steradian of launch: range_m^2 when straight
   float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
+  float facet_m = 0.0F;        // spacing of the posts there: a facet is half a square of it
   std::uint8_t sediment = 0;
 
   bool hit() const { return range_m > 0.0F; }

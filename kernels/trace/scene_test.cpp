@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "kernels/trace/fan.h"
+
 using namespace ensonify::trace;
 using namespace ensonify::terrain;
 using ensonify::frames::HeadPose;

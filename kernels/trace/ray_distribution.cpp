@@ -1,0 +1,262 @@
+#include "kernels/trace/ray_distribution.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace ensonify::trace {
+namespace {
+
+using frames::Vec3;
+
+constexpr std::size_t kProbeCells = 1024;  // at least, over the whole volume
+constexpr int kFewestMainCells = 2;        // of a span
+constexpr std::size_t kCellsPerTask = 16;  // fixed, so the number of threads changes nothing
+constexpr double kWidest = 0.5;            // of a cell, in either coordinate: fill_cell() needs it below 0.6 rad
+
+struct Density {
+  double per_resolution_cell, per_facet;
+};
+Density density_of(Quality quality) {
+  switch (quality) {
+    case Quality::kPreview: return {3.0, 2.5};
+    case Quality::kNormal: return {12.0, 10.0};
+    case Quality::kReference: return {48.0, 40.0};
+  }
+  throw std::invalid_argument("not a quality of rays");
+}
+
+void check(const Span& span, double lowest, double highest, const char* fault) {
+  const bool rises = lowest <= span.low && span.low <= span.main_low && span.main_low < span.main_high &&
+                     span.main_high <= span.high && span.high <= highest;
+  if (!(rises && span.beam > 0.0)) throw std::invalid_argument(fault);
+}
+
+/// Equal cells in the main lobe; beyond, from a quarter of the lobe on, each twice as wide as the one before.
+std::vector<double> edges_of(const Span& span, double widest_main) {
+  const double main = span.main_high - span.main_low;
+  const int main_cells = std::max(kFewestMainCells, static_cast<int>(std::ceil(main / std::min(widest_main, kWidest))));
+  std::vector<double> edges;
+  double width = std::min(0.25 * main, kWidest);
+  for (double at = span.main_low; at > span.low; width = std::min(2.0 * width, kWidest)) {
+    edges.insert(edges.begin(), at = std::max(at - width, span.low));
+  }
+  for (int i = 0; i < main_cells; ++i) edges.push_back(span.main_low + i * main / main_cells);
+  edges.push_back(span.main_high);
+  width = std::min(0.25 * main, kWidest);
+  for (double at = span.main_high; at < span.high; width = std::min(2.0 * width, kWidest)) {
+    edges.push_back(at = std::min(at + width, span.high));
+  }
+  return edges;
+}
+
+/// Full density in the main lobe; beyond, 1 / distance^2 from its middle, as side lobes fall, at the far edge.
+double importance(const Span& span, double low, double high) {
+  const double middle = 0.5 * (span.main_low + span.main_high), half = 0.5 * (span.main_high - span.main_low);
+  const double far = std::max(std::abs(low - middle), std::abs(high - middle));
+  return std::min(1.0, (half / far) * (half / far) * (1.0 + 1e-9));  // rounding of the main lobe's own edge
+}
+
+Eigen::Vector3f direction_of(TransmitVolume::Axis axis, float along, float side, float zero) {
+  return axis == TransmitVolume::Axis::kForward ? Eigen::Vector3f(along, side, zero)
+                                                : Eigen::Vector3f(zero, side, along);
+}
+
+}  // namespace
+
+TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receive_length_in_waves,
+                                  double half_swath_rad, double reach) {
+  constexpr double kWidth = 0.886;  // -3 dB width of a uniform line, in lambda / L [Lurton2010]
+  const double null = std::min(1.0, 1.0 / transmit_length_in_waves);
+  const double end = std::min(1.0, std::max(reach, 1.0) / transmit_length_in_waves);
+  return {TransmitVolume::Axis::kForward,
+          {-end, end, -null, null, kWidth / transmit_length_in_waves},
+          {-half_swath_rad, half_swath_rad, -half_swath_rad, half_swath_rad, kWidth / receive_length_in_waves}};
+}
+
+RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings& settings,
+                                 const random::Stream& stream)
+    : volume_(volume), settings_(settings), stream_(stream) {
+  check(volume.sine, -1.0, 1.0, "the sines of a transmit volume must rise within -1..1, and its beams be wider than 0");
+  check(volume.angle_rad, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi,
+        "the angles of a transmit volume must rise, and its beams be wider than 0");
+  if (volume.angle_rad.high - volume.angle_rad.low > 2.0 * std::numbers::pi + 1e-9) {
+    throw std::invalid_argument("the angles of a transmit volume must span at most a full circle");
+  }
+  if (!(settings.range_resolution_m > 0.0)) throw std::invalid_argument("the range resolution must be above 0 m");
+  density_of(settings.quality);
+
+  const double sine_width = volume.sine.main_high - volume.sine.main_low;
+  const double angle_width = volume.angle_rad.main_high - volume.angle_rad.main_low;
+  for (double step = std::max(sine_width, angle_width); cells_.size() < kProbeCells; step *= 0.98) {
+    sine_edges_ = edges_of(volume.sine, step);
+    angle_edges_rad_ = edges_of(volume.angle_rad, step);
+    cells_.resize((sine_edges_.size() - 1) * (angle_edges_rad_.size() - 1));
+  }
+  if (settings.most_rays < 4 * cells_.size()) {
+    throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells_.size()));
+  }
+  needs_.resize(cells_.size());
+  for (const double u : sine_edges_) {
+    for (const double phi : angle_edges_rad_) {
+      const double beside = std::sqrt(std::max(0.0, 1.0 - u * u));
+      probes_.push_back({direction_of(volume.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
+                                      static_cast<float>(beside * std::cos(phi))),
+                         0.0F});
+    }
+  }
+}
+
+/// What the corners of a cell see: places from the head, and ranges along the path.
+struct RayDistribution::Corners {
+  std::array<Vec3, 4> place_m;  // (low u, low phi), (high u, low phi), (low u, high phi), (high u, high phi)
+  std::array<double, 4> range_m;
+  double facet_m;
+};
+
+bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const {
+  const std::array<std::size_t, 4> at{corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)};
+  const Hit* farthest = nullptr;
+  corners.facet_m = std::numeric_limits<double>::infinity();
+  for (const std::size_t k : at) {
+    const Hit& hit = probes.hits[k];
+    if (!hit.hit()) continue;
+    if (!farthest || hit.path_length_m > farthest->path_length_m) farthest = &hit;
+    corners.facet_m = std::min(corners.facet_m, static_cast<double>(hit.facet_m));
+  }
+  if (!farthest) return false;
+  const Vec3 normal = farthest->normal_enu.cast<double>();
+  const double off_m = normal.dot(farthest->position_enu_m - probes.head.position_enu_m);
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Hit& hit = probes.hits[at[c]];
+    if (hit.hit()) {
+      corners.place_m[c] = hit.position_enu_m - probes.head.position_enu_m;
+      corners.range_m[c] = hit.path_length_m;
+    } else {
+      const Vec3 direction = probes.head.enu_from_head * probes_[at[c]].direction_head.cast<double>();
+      const double to_plane_m = off_m / normal.dot(direction);
+      corners.range_m[c] = to_plane_m > 0.0 ? std::min(to_plane_m, probes.max_range_m) : probes.max_range_m;
+      corners.place_m[c] = corners.range_m[c] * direction;
+    }
+  }
+  return true;
+}
+
+RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const Look& probes) const {
+  Corners seen;
+  if (!look(i, j, probes, seen)) return {1.0, 1.0};
+  const double du = sine_edges_[i + 1] - sine_edges_[i], dphi = angle_edges_rad_[j + 1] - angle_edges_rad_[j];
+  const Density density = density_of(settings_.quality);
+
+  // In units of what is resolved: beams, and ranges within a beam.
+  const auto& r = seen.range_m;
+  const double along_u = std::max(std::abs(r[1] - r[0]), std::abs(r[3] - r[2])) / settings_.range_resolution_m;
+  const double along_phi = std::max(std::abs(r[2] - r[0]), std::abs(r[3] - r[1])) / settings_.range_resolution_m;
+  const double beams_u = du / volume_.sine.beam, beams_phi = dphi / volume_.angle_rad.beam;
+  const double ranges_in_beam = along_u / beams_u + along_phi / beams_phi;
+  const Need resolution{density.per_resolution_cell * beams_u * beams_phi * std::max(1.0, ranges_in_beam),
+                        (beams_u + along_u) / (beams_phi + along_phi)};
+
+  // In units of facets: two triangles to a square of the posts' spacing.
+  const auto& p = seen.place_m;
+  const double area_m2 = 0.5 * (p[3] - p[0]).cross(p[2] - p[1]).norm();
+  const double wide_u_m = (p[1] - p[0]).norm() + (p[3] - p[2]).norm();
+  const double wide_phi_m = (p[2] - p[0]).norm() + (p[3] - p[1]).norm();
+  const Need facets{2.0 * density.per_facet * area_m2 / (seen.facet_m * seen.facet_m), wide_u_m / wide_phi_m};
+
+  Need both = facets.rays > resolution.rays ? facets : resolution;
+  both.rays *= importance(volume_.sine, sine_edges_[i], sine_edges_[i + 1]) *
+               importance(volume_.angle_rad, angle_edges_rad_[j], angle_edges_rad_[j + 1]);
+  both.rays = std::min(both.rays, static_cast<double>(settings_.most_rays));
+  return both;
+}
+
+/// Cuts the cells into strata, for this share of what they need; the number of rays.
+std::size_t RayDistribution::cut(double share) {
+  std::size_t rays = 0;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const double wanted = std::max(1.0, share * needs_[k].rays);
+    const double along_u = std::clamp(std::ceil(std::sqrt(wanted * needs_[k].sine_to_angle)), 1.0, std::ceil(wanted));
+    cells_[k] = {static_cast<std::uint32_t>(along_u), static_cast<std::uint32_t>(std::ceil(wanted / along_u)), rays};
+    rays += std::size_t{cells_[k].along_sine} * cells_[k].along_angle;
+  }
+  return rays;
+}
+
+void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, float max_range_m,
+                           std::vector<Ray>& rays) {
+  if (probe_hits.size() != probes_.size()) throw std::invalid_argument("there must be one hit per probe");
+  const Look probes{head, probe_hits, max_range_m};
+  const std::size_t columns = angle_edges_rad_.size() - 1;
+  const auto for_cells = [&](const auto& work) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, cells_.size(), kCellsPerTask),
+        [&](const auto& range) {
+          for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
+        },
+        tbb::simple_partitioner());
+  };
+  for_cells([&](std::size_t k) { needs_[k] = need(k / columns, k % columns, probes); });
+  share_ = 1.0;
+  std::size_t count = cut(share_);
+  while (count > settings_.most_rays) {  // strata are whole: the last per cent may take another turn
+    share_ *= 0.999 * static_cast<double>(settings_.most_rays) / static_cast<double>(count);
+    count = cut(share_);
+  }
+  rays.resize(count);
+  for_cells([&](std::size_t k) { fill_cell(k, std::span(rays).subspan(cells_[k].first)); });
+}
+
+void RayDistribution::fill_cell(std::size_t index, std::span<Ray> rays) const {
+  const Cell& cell = cells_[index];
+  const std::size_t columns = angle_edges_rad_.size() - 1, i = index / columns, j = index % columns;
+  const double half_u = 0.5 * (sine_edges_[i + 1] - sine_edges_[i]), middle_u = sine_edges_[i] + half_u;
+  const double half_rad = 0.5 * (angle_edges_rad_[j + 1] - angle_edges_rad_[j]),
+               middle_rad = angle_edges_rad_[j] + half_rad;
+  const double du = 2.0 * half_u / cell.along_sine, dphi = 2.0 * half_rad / cell.along_angle;
+  const auto sine = static_cast<float>(std::sin(middle_rad)), cosine = static_cast<float>(std::cos(middle_rad));
+  const auto u0 = static_cast<float>(middle_u), u_step = static_cast<float>(du), u_first = static_cast<float>(-half_u);
+  const auto e_step = static_cast<float>(dphi), e_first = static_cast<float>(-half_rad);
+  const auto solid_angle = static_cast<float>(du * dphi);
+  const std::size_t count = std::size_t{cell.along_sine} * cell.along_angle;
+
+  constexpr std::size_t kRun = random::Stream::Run::kSize;
+  random::Stream::Run bits;
+  std::array<float, kRun> a{}, c{};  // stratum along u and phi
+  std::array<float, kRun> along, side, zero;
+  std::uint32_t next_a = 0, next_c = 0;
+  const auto uniform = [](std::uint32_t word) { return 0x1p-24F * static_cast<float>(static_cast<int>(word >> 8)); };
+  for (std::size_t first = 0; first < count; first += kRun) {
+    const std::size_t lanes = std::min(kRun, count - first);
+    stream_.run(index, first, bits);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      a[k] = static_cast<float>(static_cast<int>(next_a));
+      c[k] = static_cast<float>(static_cast<int>(next_c));
+      if (++next_a == cell.along_sine) next_a = 0, ++next_c;
+    }
+    for (std::size_t k = 0; k < kRun; ++k) {
+      const float u = u0 + (u_first + u_step * (a[k] + uniform(bits.word[0][k])));
+      const float e = e_first + e_step * (c[k] + uniform(bits.word[1][k]));
+      const float e2 = e * e;  // |e| < 0.3 rad: the series end below 1e-7
+      const float sin_e = e * (1.0F - e2 * (1.0F / 6.0F - e2 * (1.0F / 120.0F)));
+      const float cos_e = 1.0F - e2 * (0.5F - e2 * (1.0F / 24.0F - e2 * (1.0F / 720.0F)));
+      const float inside = 1.0F - u * u;
+      const float beside = std::sqrt(inside > 0.0F ? inside : 0.0F);
+      along[k] = u;
+      side[k] = beside * (sine * cos_e + cosine * sin_e);
+      zero[k] = beside * (cosine * cos_e - sine * sin_e);
+    }
+    for (std::size_t k = 0; k < lanes; ++k) {
+      rays[first + k] = {direction_of(volume_.axis, along[k], side[k], zero[k]), solid_angle};
+    }
+  }
+}
+
+}  // namespace ensonify::trace
