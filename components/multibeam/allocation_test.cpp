@@ -4,6 +4,7 @@
 #include <new>
 
 #include "components/multibeam/head.h"
+#include "components/multibeam/test_head.h"
 #include "components/runtime/head/tile_set.h"
 
 namespace {
@@ -35,12 +36,14 @@ TEST_CASE("after the first ping, listening allocates nothing") {
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {});
 
-  MultibeamHead head(MultibeamConfig{});
+  const MultibeamConfig config = head_in_plain_water();
+  const Steering steering = steer(config, 1500.0);
+  MultibeamHead head(config);
   const int before_anything = allocations;
-  head.listen({0, SimTime{0}, 60.0}, truth, tiles.scene());
+  head.listen({0, SimTime{0}, 60.0}, steering, truth, tiles.scene());
   CHECK(allocations > before_anything);  // the count works
-  head.listen({1, SimTime{0}, 60.0}, truth, tiles.scene());
+  head.listen({1, SimTime{0}, 60.0}, steering, truth, tiles.scene());
   const int before = allocations;
-  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, truth, tiles.scene());
+  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, steering, truth, tiles.scene());
   CHECK(allocations - before == 0);
 }

@@ -6,6 +6,7 @@
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/soundings.h"
+#include "components/multibeam/test_head.h"
 #include "components/runtime/head/tile_set.h"
 
 using namespace ensonify;
@@ -35,31 +36,33 @@ frames::PoseHistory at_rest() {
 }
 
 void one_ping(benchmark::State& state) {
-  const MultibeamConfig config;
+  const MultibeamConfig config = head_in_plain_water();
+  const Steering steering = steer(config, 1500.0);
   MultibeamHead head(config);
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   Shot shot{0, SimTime{0}, 75.0};
-  head.listen(shot, truth, tiles.scene());
+  head.listen(shot, steering, truth, tiles.scene());
   if (head.rays_that_hit() < 15000) throw std::runtime_error("the rays miss the seabed");
   for (auto _ : state) {
     ++shot.ping;
-    benchmark::DoNotOptimize(head.listen(shot, truth, tiles.scene()).amplitude_upa.data());
+    benchmark::DoNotOptimize(head.listen(shot, steering, truth, tiles.scene()).amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void detections(benchmark::State& state) {
-  const MultibeamConfig config;
+  const MultibeamConfig config = head_in_plain_water();
+  const Steering steering = steer(config, 1500.0);
   MultibeamHead head(config);
-  SoundingMaker maker(config, head.beam_angle_rad());
+  SoundingMaker maker(config);
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   const Shot shot{0, SimTime{0}, 75.0};
-  const auto image = head.listen(shot, truth, tiles.scene());
-  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, image, truth).valid.data());
+  const auto image = head.listen(shot, steering, truth, tiles.scene());
+  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, steering, image, truth).valid.data());
   if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

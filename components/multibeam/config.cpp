@@ -1,7 +1,6 @@
 #include "components/multibeam/config.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/environment.h"
@@ -34,7 +33,6 @@ void read_ping(ConfigReader& from, MultibeamConfig& c) {
   from.optional("sample_rate_hz", c.sample_rate_hz, 1e3, 1e6);
   from.optional("rays_per_ping", c.rays_per_ping, kFewestRays, 10'000'000);
   from.optional("detection_threshold_db", c.detection_threshold_db, 0, 60);
-  from.optional("sound_speed_error_mps", c.sound_speed_error_mps, -50, 50);
   from.optional("amplitude_every", c.amplitude_every, 1, 1'000'000);
 }
 
@@ -58,7 +56,7 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
   read_array(from, c);
   read_ping(from, c);
 
-  c.seed = scenario.seed;
+  c.world = scenario;
   c.process = process;
   if (const auto found = scenario.mounting(process)) {
     c.mounting = found->second;
@@ -66,13 +64,7 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
     from.problem(
         "", "the scenario mounts no head named " + process + " on a vehicle; add vehicles.NAME.mountings." + process);
   }
-  const Environment environment(scenario, c.frequency_hz);
-  const double depth_m = scenario.mission.depth_m;
-  c.sound_speed_mps = environment.profile().speed_mps(depth_m);
-  c.absorption_dbpm = environment.absorption_dbpm(depth_m, depth_m);
-  c.noise_level_db = environment.noise_level_db();
-  // Lambert's law with the strength that class 0 has at 45 degrees, where sin^2 is 1/2.
-  c.lambert_mu_db = 10.0 * std::log10(2.0 * environment.backscatter().at_angle(0, 0.25F * std::numbers::pi_v<float>));
+  c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
   check(from, c);
   return c;
 }
@@ -84,7 +76,7 @@ bool MultibeamConfig::operator==(const MultibeamConfig& o) const {
          range_m == o.range_m && ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
          processing_latency_s == o.processing_latency_s && sample_rate_hz == o.sample_rate_hz &&
          rays_per_ping == o.rays_per_ping && detection_threshold_db == o.detection_threshold_db &&
-         sound_speed_error_mps == o.sound_speed_error_mps && amplitude_every == o.amplitude_every;
+         amplitude_every == o.amplitude_every;
 }
 
 Rate MultibeamConfig::ping_rate() const { return {std::llround(ping_rate_hz * 1000.0), 1000}; }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "components/runtime/config/scenario.h"
@@ -30,25 +29,19 @@ struct MultibeamConfig {
   double sample_rate_hz = 20e3;         // of the complex envelope, at least 2 / pulse length
   int rays_per_ping = 20480;
   double detection_threshold_db = 13.0;  // signal to noise ratio of a sounding, at least
-  double sound_speed_error_mps = 0.0;    // of the probe at the face: known minus true
   int amplitude_every = 1;               // ping/1 is published for every n-th ping; soundings for all
 
   // From the scenario.
-  std::uint64_t seed = 1;
+  Scenario world;
   std::string process;
   HeadMounting mounting;
-  double sound_speed_mps = 1500.0;
-  double absorption_dbpm = 0.07;
-  double noise_level_db = 35.0;  // re 1 uPa^2/Hz, omnidirectional
-  double lambert_mu_db = -25.0;
+  double sound_speed_mps = 1500.0;  // at the mission's depth as the instrument knows it: it turns range into time
 
   static MultibeamConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const MultibeamConfig& other) const;
 
   Rate ping_rate() const;
-  /// What the head believes the speed of sound to be.
-  double known_sound_speed_mps() const { return sound_speed_mps + sound_speed_error_mps; }
   /// From transmission to the last echo of this range.
   SimTime listening_time(double of_range_m) const {
     return from_seconds(2.0 * of_range_m / sound_speed_mps + pulse_length_s);

@@ -5,7 +5,7 @@
 
 #include "kernels/array/line.h"
 #include "kernels/array/line_array.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/array/stabilisation.h"
 #include "kernels/water/noise.h"
 
 namespace ensonify {
@@ -27,20 +27,6 @@ trace::FanShape fan_of(const MultibeamConfig& c) {
   return shape;
 }
 
-std::vector<float> beams_of(const MultibeamConfig& c) {
-  return c.spacing == MultibeamConfig::Spacing::kEquiangle ? array::equiangular_beams_rad(0.5 * c.swath_rad, c.beams)
-                                                           : array::equidistant_beams_rad(0.5 * c.swath_rad, c.beams);
-}
-
-/// Isotropic noise in the pulse's band: at one element, and against the whole line, DI = 10 log10(2 L / lambda)
-/// [Lurton2010, ch. 5].
-double element_noise_db_of(const MultibeamConfig& c) {
-  return water::in_band_level_db(c.noise_level_db, 1.0 / c.pulse_length_s, 0.0);
-}
-double beam_noise_db_of(const MultibeamConfig& c) {
-  return element_noise_db_of(c) - 10.0 * std::log10(2.0 * array::length_in_waves_for(c.receive_beamwidth_rad));
-}
-
 double wavelength_m_of(const MultibeamConfig& c) { return c.sound_speed_mps / c.frequency_hz; }
 
 array::LineArray receive_array_of(const MultibeamConfig& c) {
@@ -60,23 +46,20 @@ frames::HeadPose true_pose(const frames::PoseHistory& truth, SimTime t, const fr
 MultibeamHead::MultibeamHead(const MultibeamConfig& config)
     : config_(config),
       pulse_(echo::rectangular_pulse(config.pulse_length_s), 1.0 / config.sample_rate_hz),
-      noise_(config.seed, config.process + "/noise"),
-      beam_angle_rad_(beams_of(config)),
-      beam_noise_db_(beam_noise_db_of(config)),
-      scatterers_(cell_m_of(config), {config.seed, "seabed"}),
+      noise_(config.world.seed, config.process + "/noise"),
+      environment_(config.world, config.frequency_hz),
+      paths_(environment_.profile(), true),
+      scatterers_(cell_m_of(config), {config.world.seed, "seabed"}),
       receiver_(echo::element_line(receive_array_of(config), wavelength_m_of(config))),
       weights_{echo::beam_weights(receive_array_of(config).weights)},
       images_(1) {
-  trace::Fan(fan_of(config)).fill({config.seed, config.process + "/rays"}, 0, rays_);
+  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, rays_);
+  // What bubbles under the hull take on the way out and on the way back is the same for all paths.
+  const double source_upa2m2 = std::pow(10.0, 0.1 * config.source_level_db - 0.2 * environment_.bubble_loss_db());
   const double transmit_waves = array::length_in_waves_for(config.transmit_beamwidth_rad);
   for (const trace::Ray& ray : rays_) {
-    source_upa2m2_.push_back(static_cast<float>(std::pow(10.0, 0.1 * config.source_level_db) *
-                                                array::line_power(transmit_waves, ray.direction_head.x())));
-  }
-  // A flat array's delays are made for the sound speed that the head knows; the true one turns its beams.
-  const double turned = config.sound_speed_mps / config.known_sound_speed_mps();
-  for (const float angle : beam_angle_rad_) {
-    sin_beams_true_.push_back(static_cast<float>(std::clamp(std::sin(angle) * turned, -1.0, 1.0)));
+    source_upa2m2_.push_back(
+        static_cast<float>(source_upa2m2 * array::line_power(transmit_waves, ray.direction_head.x())));
   }
 }
 
@@ -84,38 +67,21 @@ echo::Sampling MultibeamHead::sampling(const Shot& shot) const {
   return {0.0, 1.0 / config_.sample_rate_hz, config_.samples(shot.range_m)};
 }
 
-detect::Amplitudes MultibeamHead::listen(const Shot& shot, const frames::PoseHistory& truth,
+detect::Amplitudes MultibeamHead::listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
                                          const trace::Scene& seabed) {
-  trace_rays(shot, truth, seabed);
-  track_receiver(shot, truth);
-  const frames::HeadPose transmit = true_pose(truth, shot.transmit, config_.mounting.actual);
+  track(shot, truth);
+  trace_rays(shot, seabed);
   arrivals_.clear();
-  echo::add_direct_echoes({config_.frequency_hz, config_.absorption_dbpm}, transmit.position_enu_m,
-                          scatterers_.find({transmit, rays_, hits_, source_upa2m2_, backscatter_}), receivers_,
+  echo::add_direct_echoes({config_.frequency_hz, absorption_dbpm_}, poses_.front().position_enu_m,
+                          scatterers_.find({poses_.front(), rays_, hits_, source_upa2m2_, backscatter_}), receivers_,
                           arrivals_);
-  echo::Background background;
-  background.ping = static_cast<std::uint64_t>(shot.ping);
-  background.isotropic_upa2 = std::pow(10.0, 0.1 * element_noise_db_of(config_));
-  background.isotropic = &noise_;
-  receiver_.form({arrivals_, {}, pulse_, sampling(shot), background}, sin_beams_true_, weights_, images_);
+  form_beams(shot, steering);
   if (!amplitude_upa_ || amplitude_upa_.use_count() > 1) amplitude_upa_ = std::make_shared<std::vector<float>>();
   echo::amplitude_upa(images_[0], *amplitude_upa_);
   return {images_[0].beams, images_[0].samples, sampling(shot).start_s, sampling(shot).period_s, *amplitude_upa_};
 }
 
-void MultibeamHead::trace_rays(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed) {
-  seabed.trace(true_pose(truth, shot.transmit, config_.mounting.actual), rays_, static_cast<float>(shot.range_m), hits_,
-               config_.sound_speed_mps);
-  backscatter_.resize(hits_.size());
-  rays_that_hit_ = 0;
-  for (std::size_t i = 0; i < hits_.size(); ++i) {
-    if (!hits_[i].hit()) continue;
-    ++rays_that_hit_;
-    backscatter_[i] = static_cast<float>(seabed::lambert_backscatter(config_.lambert_mu_db, hits_[i].sin_grazing));
-  }
-}
-
-void MultibeamHead::track_receiver(const Shot& shot, const frames::PoseHistory& truth) {
+void MultibeamHead::track(const Shot& shot, const frames::PoseHistory& truth) {
   poses_.clear();
   const SimTime listening = config_.listening_time(shot.range_m);
   for (SimTime t{0}; t < listening + kTrackPeriod; t += kTrackPeriod) {
@@ -124,13 +90,46 @@ void MultibeamHead::track_receiver(const Shot& shot, const frames::PoseHistory& 
   receivers_.set({0.0, seconds(kTrackPeriod), poses_});
 }
 
-msg::Ping MultibeamHead::ping_message(const Shot& shot) const {
+void MultibeamHead::trace_rays(const Shot& shot, const trace::Scene& seabed) {
+  const frames::HeadPose& head = poses_.front();
+  paths_.trace(seabed, head, rays_, shot.range_m, hits_);
+  backscatter_.resize(hits_.size());
+  rays_that_hit_ = 0;
+  double height_m = 0.0;
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    if (!hits_[i].hit()) continue;
+    ++rays_that_hit_;
+    height_m += hits_[i].position_enu_m.z();
+    backscatter_[i] = environment_.backscatter()(hits_[i].sediment, hits_[i].sin_grazing);
+  }
+  const double head_depth_m = -head.position_enu_m.z();
+  absorption_dbpm_ =
+      environment_.absorption_dbpm(head_depth_m, rays_that_hit_ > 0 ? -height_m / rays_that_hit_ : head_depth_m);
+}
+
+void MultibeamHead::form_beams(const Shot& shot, const Steering& steering) {
+  // A flat array's delays are made for the sound speed that the head believes in; the true one turns its beams.
+  const double true_mps = paths_.sound_speed_mps(poses_.front());
+  sin_beams_true_.clear();
+  for (const float sine : steering.sin_beams) {
+    sin_beams_true_.push_back(
+        static_cast<float>(std::clamp(array::true_sine(sine, steering.sound_speed_mps, true_mps), -1.0, 1.0)));
+  }
+  echo::Background background;
+  background.ping = static_cast<std::uint64_t>(shot.ping);
+  background.isotropic_upa2 =
+      std::pow(10.0, 0.1 * water::in_band_level_db(environment_.noise_level_db(), 1.0 / config_.pulse_length_s, 0.0));
+  background.isotropic = &noise_;
+  receiver_.form({arrivals_, {}, pulse_, sampling(shot), background}, sin_beams_true_, weights_, images_);
+}
+
+msg::Ping MultibeamHead::ping_message(const Shot& shot, const Steering& steering) const {
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
   ping.ping = shot.ping;
   ping.sample_period_s = sampling(shot).period_s;
   ping.first_sample_s = sampling(shot).start_s;
-  ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
+  ping.beam_angle_rad = msg::Array<float>::of(steering.beam_angle_rad);
   ping.amplitude_upa = msg::Array<float>::view(
       {static_cast<std::size_t>(images_[0].beams), static_cast<std::size_t>(images_[0].samples)}, amplitude_upa_,
       amplitude_upa_->data());
@@ -138,7 +137,7 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot) const {
   ping.applied.pulse_length_s = config_.pulse_length_s;
   ping.applied.source_level_db = config_.source_level_db;
   ping.applied.range_m = shot.range_m;
-  ping.applied.sound_speed_mps = config_.known_sound_speed_mps();
+  ping.applied.sound_speed_mps = steering.sound_speed_mps;
   return ping;
 }
 

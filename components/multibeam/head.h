@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
+#include "components/multibeam/steering.h"
+#include "components/runtime/head/environment.h"
 #include "components/runtime/head/shot.h"
+#include "components/runtime/head/water_paths.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/echo/arrival.h"
 #include "kernels/echo/line_receiver.h"
@@ -25,40 +28,38 @@ class MultibeamHead {
   explicit MultibeamHead(const MultibeamConfig& config);
 
   /// The beam-time image of a ping: rays from the true pose at transmission, echoes at the true poses at reception,
-  /// noise at the array's elements. A function of the shot, the poses during it and the tiles. Valid until the next
+  /// noise at the array's elements. A function of the shot, the steering, the poses and the tiles. Valid until the next
   /// call.
-  detect::Amplitudes listen(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed);
+  detect::Amplitudes listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
+                            const trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
   int rays_that_hit() const { return rays_that_hit_; }
 
   /// The last image as a message; it shares the samples.
-  msg::Ping ping_message(const Shot& shot) const;
+  msg::Ping ping_message(const Shot& shot, const Steering& steering) const;
   std::size_t max_ping_bytes() const;
 
-  /// Beam axes that the head was told to form, rad in its frame.
-  const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
-  /// Noise in a beam after beam forming, dB re 1 uPa^2.
-  double beam_noise_db() const { return beam_noise_db_; }
-
  private:
-  void trace_rays(const Shot& shot, const frames::PoseHistory& truth, const trace::Scene& seabed);
+  void track(const Shot& shot, const frames::PoseHistory& truth);
+  void trace_rays(const Shot& shot, const trace::Scene& seabed);
+  void form_beams(const Shot& shot, const Steering& steering);
   echo::Sampling sampling(const Shot& shot) const;
-  void track_receiver(const Shot& shot, const frames::PoseHistory& truth);
 
   MultibeamConfig config_;
   echo::SampledPulse pulse_;
   random::Stream noise_;
-  std::vector<float> beam_angle_rad_;
-  std::vector<float> sin_beams_true_;
-  double beam_noise_db_;
+  Environment environment_;
+  WaterPaths paths_;
   std::vector<trace::Ray> rays_;      // in the head's frame, the same for every ping: an unmoved head hears the same
   std::vector<float> source_upa2m2_;  // by ray
 
   // Memory of the ping path, sized by the first ping of a range.
   std::vector<trace::Hit> hits_;
   std::vector<float> backscatter_;
-  std::vector<frames::HeadPose> poses_;
+  std::vector<frames::HeadPose> poses_;  // from transmission on
+  std::vector<float> sin_beams_true_;
+  double absorption_dbpm_ = 0.0;
   echo::Scatterers scatterers_;
   echo::Receivers receivers_;
   std::vector<echo::Arrival> arrivals_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "components/runtime/head/environment.h"
+
 namespace ensonify {
 namespace {
 
@@ -27,7 +29,8 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
     : ports_(ports),
       config_(config),
       head_(config),
-      soundings_(config, head_.beam_angle_rad()),
+      applied_(applied_profile(config.world)),
+      soundings_(config),
       clock_(config.ping_rate(), from_seconds(config.dead_time_s)),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       truth_(keep_ns(config)),
@@ -49,7 +52,7 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
 
 SimTime MultibeamNode::step(SimTime now) {
   while (!pending_.empty() && pending_.front().ready <= now) {
-    receive(pending_.front().shot);
+    receive(pending_.front().shot, pending_.front().sound_speed_mps);
     pending_.pop_front();
   }
   if (clock_.next() <= now) transmit(now);
@@ -72,8 +75,16 @@ void MultibeamNode::transmit(SimTime now) {
   transmit.source_level_db = config_.source_level_db;
   transmit_out_.send(transmit);
   const SimTime listening = config_.listening_time(shot.range_m);
-  pending_.push_back({shot, now + listening + from_seconds(config_.processing_latency_s)});
+  pending_.push_back(
+      {shot, believed_sound_speed_mps(now), now + listening + from_seconds(config_.processing_latency_s)});
   clock_.transmitted(listening);
+}
+
+/// Of the applied profile, at the depth where the head is believed to be.
+double MultibeamNode::believed_sound_speed_mps(SimTime now) const {
+  const auto body = estimate_.at(now.count(), frames::PoseHistory::Outside::kNearest);
+  return applied_.speed_mps(body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z()
+                                 : config_.world.mission.depth_m);
 }
 
 void MultibeamNode::skip(const std::string& why) {
@@ -82,11 +93,12 @@ void MultibeamNode::skip(const std::string& why) {
   ports_.health("degraded", why);
 }
 
-void MultibeamNode::receive(const Shot& shot) {
-  const detect::Amplitudes image = head_.listen(shot, truth_, tiles_.scene());
+void MultibeamNode::receive(const Shot& shot, double sound_speed_mps) {
+  const Steering steering = steer(config_, sound_speed_mps);
+  const detect::Amplitudes image = head_.listen(shot, steering, truth_, tiles_.scene());
   ports_.count("pings");
-  if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot));
-  soundings_out_.send(soundings_.make(shot, image, estimate_));
+  if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot, steering));
+  soundings_out_.send(soundings_.make(shot, steering, image, estimate_));
   range_.update(soundings_.heard(), shot.range_m);
   report(shot, soundings_.heard().size());
 }

@@ -29,17 +29,20 @@ class MultibeamNode {
  private:
   struct Pending {
     Shot shot;
+    double sound_speed_mps;  // at the face, as believed at transmission
     SimTime ready{0};
   };
 
   void transmit(SimTime now);
-  void receive(const Shot& shot);
+  double believed_sound_speed_mps(SimTime now) const;
+  void receive(const Shot& shot, double sound_speed_mps);
   void report(const Shot& shot, std::size_t detections);
   void skip(const std::string& why);
 
   Ports& ports_;
   Config config_;
   MultibeamHead head_;
+  refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;
   PingClock clock_;
   AutoRange range_;

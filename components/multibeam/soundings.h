@@ -3,33 +3,36 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
+#include "components/multibeam/steering.h"
 #include "components/runtime/head/auto_range.h"
 #include "components/runtime/head/shot.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/frames/pose.h"
+#include "kernels/refraction/profile.h"
 #include "messages/soundings.h"
 
 namespace ensonify {
 
 /// What the instrument makes of a ping: bottom detections and where they are, by what it knows: its settings, the
-/// navigation estimate, the measured mounting and its sound-speed probe. Never the truth.
+/// navigation estimate, the measured mounting, the applied sound speed profile. Never the truth.
 class SoundingMaker {
  public:
-  SoundingMaker(const MultibeamConfig& config, std::vector<float> beam_angle_rad);
+  explicit SoundingMaker(const MultibeamConfig& config);
 
   /// Soundings of a ping. Without an estimate none is valid.
-  msg::Soundings make(const Shot& shot, const detect::Amplitudes& image, const frames::PoseHistory& estimate);
+  msg::Soundings make(const Shot& shot, const Steering& steering, const detect::Amplitudes& image,
+                      const frames::PoseHistory& estimate);
 
   /// What the valid soundings of the last ping heard.
   const std::vector<HeardBottom>& heard() const { return heard_; }
 
  private:
-  void drop_beyond_range();
-  void place(const Shot& shot, const frames::PoseHistory& estimate, std::size_t beam, msg::Soundings& soundings);
+  void drop_beyond_range(const Steering& steering);
+  void place(const Shot& shot, const Steering& steering, const frames::PoseHistory& estimate, std::size_t beam,
+             msg::Soundings& soundings);
 
   MultibeamConfig config_;
-  std::vector<float> beam_angle_rad_;
-  std::vector<float> sin_beams_;
+  refraction::SoundSpeedProfile applied_;
   detect::Settings settings_;
   std::vector<detect::Detection> detections_;
   std::vector<HeardBottom> heard_;
