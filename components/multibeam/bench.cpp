@@ -47,7 +47,7 @@ void one_ping(benchmark::State& state) {
   if (head.rays_that_hit() < 15000) throw std::runtime_error("the rays miss the seabed");
   for (auto _ : state) {
     ++shot.ping;
-    benchmark::DoNotOptimize(head.listen(shot, steering, truth, tiles.scene()).amplitude_upa.data());
+    benchmark::DoNotOptimize(head.listen(shot, steering, truth, tiles.scene()).image.amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
@@ -61,8 +61,8 @@ void detections(benchmark::State& state) {
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   const Shot shot{0, SimTime{0}, 75.0};
-  const auto image = head.listen(shot, steering, truth, tiles.scene());
-  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, steering, image, truth).valid.data());
+  const auto heard = head.listen(shot, steering, truth, tiles.scene());
+  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, steering, heard, truth).valid.data());
   if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

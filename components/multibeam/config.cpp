@@ -4,6 +4,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/environment.h"
+#include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
@@ -58,12 +59,7 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
 
   c.world = scenario;
   c.process = process;
-  if (const auto found = scenario.mounting(process)) {
-    c.mounting = found->second;
-  } else {
-    from.problem(
-        "", "the scenario mounts no head named " + process + " on a vehicle; add vehicles.NAME.mountings." + process);
-  }
+  c.mounting = read_mounting(from, scenario, process);
   c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
   check(from, c);
   return c;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/multibeam/arrays.h"
+#include "components/runtime/head/head_motion.h"
 #include "kernels/array/line.h"
-#include "kernels/array/line_array.h"
 #include "kernels/array/stabilisation.h"
 #include "kernels/water/noise.h"
 
@@ -14,7 +15,6 @@ namespace {
 constexpr int kRaysAlong = 20;
 constexpr double kBeyondSwath_beamwidths = 1.5;  // of the outermost beam: to its first null and a little more
 constexpr double kWidestFan_rad = 1.5;
-constexpr SimTime kTrackPeriod = std::chrono::milliseconds(5);
 
 trace::FanShape fan_of(const MultibeamConfig& c) {
   const double half = 0.5 * c.swath_rad;
@@ -27,19 +27,15 @@ trace::FanShape fan_of(const MultibeamConfig& c) {
   return shape;
 }
 
-double wavelength_m_of(const MultibeamConfig& c) { return c.sound_speed_mps / c.frequency_hz; }
-
-array::LineArray receive_array_of(const MultibeamConfig& c) {
-  return array::line_array_of_width(c.receive_beamwidth_rad, wavelength_m_of(c));
-}
-
 /// The range resolution, c tau / 2: finer cells would have too few rays each to be found again by the next ping.
 double cell_m_of(const MultibeamConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
 
-frames::HeadPose true_pose(const frames::PoseHistory& truth, SimTime t, const frames::Mounting& mounting) {
-  const auto body = truth.at(t.count(), frames::PoseHistory::Outside::kNearest);
-  return frames::head_pose(body.value_or(frames::Pose{}), mounting);
+std::vector<std::vector<float>> weights_of(const ReceiveLine& line) {
+  return {echo::beam_weights(line.whole.weights), echo::beam_weights(line.halves.positive, line.whole.weights),
+          echo::beam_weights(line.halves.negative, line.whole.weights)};
 }
+
+echo::ElementLine elements_of(const ReceiveLine& line) { return echo::element_line(line.whole, line.wavelength_m); }
 
 }  // namespace
 
@@ -50,9 +46,9 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config)
       environment_(config.world, config.frequency_hz),
       paths_(environment_.profile(), true),
       scatterers_(cell_m_of(config), {config.world.seed, "seabed"}),
-      receiver_(echo::element_line(receive_array_of(config), wavelength_m_of(config))),
-      weights_{echo::beam_weights(receive_array_of(config).weights)},
-      images_(1) {
+      receiver_(elements_of(receive_line(config))),
+      weights_(weights_of(receive_line(config))),
+      images_(3) {
   trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, rays_);
   // What bubbles under the hull take on the way out and on the way back is the same for all paths.
   const double source_upa2m2 = std::pow(10.0, 0.1 * config.source_level_db - 0.2 * environment_.bubble_loss_db());
@@ -67,9 +63,10 @@ echo::Sampling MultibeamHead::sampling(const Shot& shot) const {
   return {0.0, 1.0 / config_.sample_rate_hz, config_.samples(shot.range_m)};
 }
 
-detect::Amplitudes MultibeamHead::listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
-                                         const trace::Scene& seabed) {
-  track(shot, truth);
+MultibeamHead::Heard MultibeamHead::listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
+                                           const trace::Scene& seabed) {
+  head_poses(truth, config_.mounting.actual, shot.transmit, config_.listening_time(shot.range_m), poses_);
+  receivers_.set({0.0, seconds(kTrackPeriod), poses_});
   trace_rays(shot, seabed);
   arrivals_.clear();
   echo::add_direct_echoes({config_.frequency_hz, absorption_dbpm_}, poses_.front().position_enu_m,
@@ -78,16 +75,8 @@ detect::Amplitudes MultibeamHead::listen(const Shot& shot, const Steering& steer
   form_beams(shot, steering);
   if (!amplitude_upa_ || amplitude_upa_.use_count() > 1) amplitude_upa_ = std::make_shared<std::vector<float>>();
   echo::amplitude_upa(images_[0], *amplitude_upa_);
-  return {images_[0].beams, images_[0].samples, sampling(shot).start_s, sampling(shot).period_s, *amplitude_upa_};
-}
-
-void MultibeamHead::track(const Shot& shot, const frames::PoseHistory& truth) {
-  poses_.clear();
-  const SimTime listening = config_.listening_time(shot.range_m);
-  for (SimTime t{0}; t < listening + kTrackPeriod; t += kTrackPeriod) {
-    poses_.push_back(true_pose(truth, shot.transmit + t, config_.mounting.actual));
-  }
-  receivers_.set({0.0, seconds(kTrackPeriod), poses_});
+  return {{images_[0].beams, images_[0].samples, sampling(shot).start_s, sampling(shot).period_s, *amplitude_upa_},
+          {images_[1].envelope_upa, images_[2].envelope_upa}};
 }
 
 void MultibeamHead::trace_rays(const Shot& shot, const trace::Scene& seabed) {
@@ -133,12 +122,22 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot, const Steering& steering
   ping.amplitude_upa = msg::Array<float>::view(
       {static_cast<std::size_t>(images_[0].beams), static_cast<std::size_t>(images_[0].samples)}, amplitude_upa_,
       amplitude_upa_->data());
-  ping.applied.frequency_hz = config_.frequency_hz;
-  ping.applied.pulse_length_s = config_.pulse_length_s;
-  ping.applied.source_level_db = config_.source_level_db;
-  ping.applied.range_m = shot.range_m;
-  ping.applied.sound_speed_mps = steering.sound_speed_mps;
+  ping.applied = applied(shot, steering);
   return ping;
+}
+
+msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const Steering& steering) const {
+  msg::AppliedSettings applied;
+  applied.frequency_hz = config_.frequency_hz;
+  applied.pulse_length_s = config_.pulse_length_s;
+  applied.source_level_db = config_.source_level_db;
+  applied.range_m = shot.range_m;
+  applied.ping_rate_hz = config_.ping_rate_hz;
+  applied.swath_rad = config_.swath_rad;
+  applied.transmit_beamwidth_rad = config_.transmit_beamwidth_rad;
+  applied.receive_beamwidth_rad = config_.receive_beamwidth_rad;
+  applied.sound_speed_mps = steering.sound_speed_mps;
+  return applied;
 }
 
 std::size_t MultibeamHead::max_ping_bytes() const {

@@ -27,21 +27,26 @@ class MultibeamHead {
  public:
   explicit MultibeamHead(const MultibeamConfig& config);
 
-  /// The beam-time image of a ping: rays from the true pose at transmission, echoes at the true poses at reception,
-  /// noise at the array's elements. A function of the shot, the steering, the poses and the tiles. Valid until the next
-  /// call.
-  detect::Amplitudes listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
-                            const trace::Scene& seabed);
+  /// The beams of a ping against time, as all of the receive line and as each half of it hears them.
+  struct Heard {
+    detect::Amplitudes image;
+    detect::HalfApertures halves;
+  };
+  /// Rays from the true pose at transmission, echoes at the true poses at reception, noise at the array's elements. A
+  /// function of the shot, the steering, the poses and the tiles. Valid until the next call. `truth` has a pose.
+  Heard listen(const Shot& shot, const Steering& steering, const frames::PoseHistory& truth,
+               const trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
   int rays_that_hit() const { return rays_that_hit_; }
 
   /// The last image as a message; it shares the samples.
   msg::Ping ping_message(const Shot& shot, const Steering& steering) const;
+  /// The settings that a ping was made with.
+  msg::AppliedSettings applied(const Shot& shot, const Steering& steering) const;
   std::size_t max_ping_bytes() const;
 
  private:
-  void track(const Shot& shot, const frames::PoseHistory& truth);
   void trace_rays(const Shot& shot, const trace::Scene& seabed);
   void form_beams(const Shot& shot, const Steering& steering);
   echo::Sampling sampling(const Shot& shot) const;
@@ -64,8 +69,8 @@ class MultibeamHead {
   echo::Receivers receivers_;
   std::vector<echo::Arrival> arrivals_;
   echo::LineReceiver receiver_;
-  std::vector<std::vector<float>> weights_;
-  std::vector<echo::Image> images_;                    // one
+  std::vector<std::vector<float>> weights_;            // of the whole line, its starboard half, its port half
+  std::vector<echo::Image> images_;                    // likewise
   std::shared_ptr<std::vector<float>> amplitude_upa_;  // a new one while messages still hold the last
   int rays_that_hit_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "components/runtime/head/environment.h"
+#include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
@@ -15,12 +16,10 @@ std::int64_t keep_ns(const MultibeamConfig& config) {
   return (2 * ping + 1_s).count();
 }
 
-frames::Pose pose_of(const std::array<double, 3>& position, const std::array<double, 4>& wxyz) {
-  return {{position[0], position[1], position[2]}, frames::quaternion_of(wxyz)};
-}
-
 std::size_t soundings_bytes(const MultibeamConfig& config) {
-  return static_cast<std::size_t>(config.beams) * 48 + 4096;
+  const auto poses =
+      static_cast<std::size_t>(config.listening_time(config.range_m) / kTrackPeriod) + 3;  // 8 numbers each
+  return static_cast<std::size_t>(config.beams) * 64 + poses * 64 + 8192;
 }
 
 }  // namespace
@@ -40,12 +39,8 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
           ports.out<msg::Soundings>("soundings", {.max_bytes = soundings_bytes(config), .rate = config.ping_rate()})),
       transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = config.ping_rate()})) {
   ports.note("finest_beam_rad", std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad));
-  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
-    truth_.push(pose.stamp_ns, pose_of(pose.position_enu_m, pose.enu_from_body));
-  });
-  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) {
-    estimate_.push(estimate.stamp_ns, pose_of(estimate.position_enu_m, estimate.enu_from_body));
-  });
+  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
+  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { push(estimate_, estimate); });
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
 }
@@ -95,10 +90,13 @@ void MultibeamNode::skip(const std::string& why) {
 
 void MultibeamNode::receive(const Shot& shot, double sound_speed_mps) {
   const Steering steering = steer(config_, sound_speed_mps);
-  const detect::Amplitudes image = head_.listen(shot, steering, truth_, tiles_.scene());
+  const MultibeamHead::Heard heard = head_.listen(shot, steering, truth_, tiles_.scene());
   ports_.count("pings");
   if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot, steering));
-  soundings_out_.send(soundings_.make(shot, steering, image, estimate_));
+  msg::Soundings soundings = soundings_.make(shot, steering, heard, estimate_);
+  soundings.applied = head_.applied(shot, steering);
+  fill(soundings.track, estimate_, config_.mounting.measured, shot.transmit, config_.listening_time(shot.range_m));
+  soundings_out_.send(soundings);
   range_.update(soundings_.heard(), shot.range_m);
   report(shot, soundings_.heard().size());
 }

@@ -216,6 +216,77 @@ TEST_CASE("a wrong applied profile bends a flat seabed as theory says") {
   }
 }
 
+TEST_CASE("outer beams are detected by phase, about the nadir amplitude has its share") {
+  int nadir = 0, nadir_by_amplitude = 0, outer = 0, outer_by_phase = 0;
+  for (const auto& s : survey(shallow(), {.speed_mps = 3.0}, 1_s)) {
+    for (std::size_t beam = 0; beam < s.valid.size(); ++beam) {
+      const double angle_deg = std::abs(s.beam_angle_rad[beam]) / MultibeamConfig::kDegree;
+      if (angle_deg < 3.0) ++nadir, nadir_by_amplitude += s.kind[beam] == 1;
+      if (angle_deg > 45.0) ++outer, outer_by_phase += s.kind[beam] == 2;
+    }
+  }
+  REQUIRE(nadir > 90);
+  REQUIRE(outer > 700);
+  // In much less noise than kernels/detect is tested in phase gains there too, and speckle decides which of the two.
+  CHECK(nadir_by_amplitude > 0.2 * nadir);
+  CHECK(outer_by_phase > 0.95 * outer);
+}
+
+TEST_CASE("the predicted standard deviations tell the scatter of depths") {
+  const auto soundings = survey(shallow(), {.speed_mps = 3.0}, 3_s);
+  for (const auto& [from, to] : {std::pair{15.0, 40.0}, {40.0, 62.0}}) {
+    double squares = 0.0;
+    int n = 0;
+    for (const auto& s : soundings) {
+      for (std::size_t beam = 0; beam < s.valid.size(); ++beam) {
+        const double angle = std::abs(static_cast<double>(s.beam_angle_rad[beam]));
+        if (s.valid[beam] == 0 || angle < from * MultibeamConfig::kDegree || angle > to * MultibeamConfig::kDegree)
+          continue;
+        const double across_m = 0.5 * s.travel_time_s[beam] * 1500.0 * std::tan(angle) * s.angle_sd_rad[beam];
+        const double range_sd_m = std::hypot(static_cast<double>(s.range_sd_m[beam]), across_m);
+        squares += std::pow(range_sd_m * std::cos(angle), 2), ++n;
+      }
+    }
+    // As kernels/detect promises for a plane: within a factor of 1.5.
+    const double ratio = depth_error(soundings, from, to).sd / std::sqrt(squares / n);
+    INFO(from << " to " << to << " deg: " << ratio << " of the prediction, " << n << " soundings");
+    CHECK(ratio < 1.5);
+    CHECK(ratio > 1.0 / 1.5);
+  }
+}
+
+TEST_CASE("the backscattering strength of a level seabed is that of its law") {
+  double sum = 0.0;
+  int n = 0;
+  for (const auto& s : survey(shallow(), {.speed_mps = 3.0}, 2_s)) {
+    for (std::size_t beam = 0; beam < s.valid.size(); ++beam) {
+      const double angle = std::abs(static_cast<double>(s.beam_angle_rad[beam]));
+      if (s.valid[beam] == 0 || angle < 30 * MultibeamConfig::kDegree || angle > 60 * MultibeamConfig::kDegree)
+        continue;
+      sum += std::pow(10.0, 0.1 * s.backscatter_strength_db[beam]) / std::pow(std::cos(angle), 2), ++n;
+    }
+  }
+  REQUIRE(n > 2000);
+  // Lambert's law with mu = -25 dB; a footprint as a rectangle, and an echo cut at its snippet's ends, are 0.5 dB.
+  CHECK(10.0 * std::log10(sum / n) == Approx(-25.0).margin(0.5));
+}
+
+TEST_CASE("beams without a sounding say why, and what they did measure") {
+  auto config = shallow();
+  config.range_m = 40.0;  // the bottom at 60 deg
+  const auto s = survey(config, {}, 500_ms).back();
+  CHECK(s.flags[128] == 0);
+  CHECK((s.flags[255] & msg::kSideLobe) != 0);
+  CHECK(std::isnan(s.range_sd_m[255]));
+  const auto cut_off = std::ranges::count_if(s.flags.flat(), [](std::uint8_t f) { return (f & msg::kCutOff) != 0; });
+  CHECK(cut_off >= 2);
+
+  config.source_level_db = -200.0;
+  const auto silent = survey(config, {}, 500_ms).back();
+  CHECK(silent.flags[128] == msg::kWeak);
+  CHECK(std::isfinite(silent.quality_db[128]));  // noise was sampled: so far it stands above its median
+}
+
 TEST_CASE("motion during the ping does not disturb depths when the navigation is right") {
   const auto soundings = survey(shallow(), {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5}, 5_s);
   const Spread port_and_starboard = depth_error(soundings, 0.0, 60.0);
