@@ -37,7 +37,7 @@ TEST_CASE("after the first ping, listening allocates nothing") {
   truth.push(0, {});
 
   const MultibeamConfig config = head_in_plain_water();
-  const Steering steering = steer(config, 1500.0);
+  const Steering steering = steer(config, {});
   MultibeamHead head(config);
   const int before_anything = allocations;
   head.listen({0, SimTime{0}, 60.0}, steering, truth, tiles.scene());

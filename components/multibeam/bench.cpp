@@ -37,7 +37,7 @@ frames::PoseHistory at_rest() {
 
 void one_ping(benchmark::State& state) {
   const MultibeamConfig config = head_in_plain_water();
-  const Steering steering = steer(config, 1500.0);
+  const Steering steering = steer(config, {});
   MultibeamHead head(config);
   TileSet tiles;
   tiles.insert(wavy_tile());
@@ -54,7 +54,7 @@ BENCHMARK(one_ping)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void detections(benchmark::State& state) {
   const MultibeamConfig config = head_in_plain_water();
-  const Steering steering = steer(config, 1500.0);
+  const Steering steering = steer(config, {});
   MultibeamHead head(config);
   SoundingMaker maker(config);
   TileSet tiles;

@@ -26,6 +26,9 @@ void read_array(ConfigReader& from, MultibeamConfig& c) {
 void read_ping(ConfigReader& from, MultibeamConfig& c) {
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, 1e-2);
   from.optional("source_level_db", c.source_level_db, -300, 250);
+  from.optional("roll_stabilised", c.roll_stabilised);
+  from.optional("pitch_stabilised", c.pitch_stabilised);
+  from.optional("attitude_latency_s", c.attitude_latency_s, 0, 1);
   from.optional("auto_range", c.auto_range);
   from.optional("range_m", c.range_m, 1, 2000);
   from.optional("ping_rate_hz", c.ping_rate_hz, 0.01, 100);
@@ -68,8 +71,10 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
 bool MultibeamConfig::operator==(const MultibeamConfig& o) const {
   return frequency_hz == o.frequency_hz && beams == o.beams && swath_rad == o.swath_rad && spacing == o.spacing &&
          transmit_beamwidth_rad == o.transmit_beamwidth_rad && receive_beamwidth_rad == o.receive_beamwidth_rad &&
-         pulse_length_s == o.pulse_length_s && source_level_db == o.source_level_db && auto_range == o.auto_range &&
-         range_m == o.range_m && ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
+         pulse_length_s == o.pulse_length_s && source_level_db == o.source_level_db &&
+         roll_stabilised == o.roll_stabilised && pitch_stabilised == o.pitch_stabilised &&
+         attitude_latency_s == o.attitude_latency_s && auto_range == o.auto_range && range_m == o.range_m &&
+         ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
          processing_latency_s == o.processing_latency_s && sample_rate_hz == o.sample_rate_hz &&
          rays_per_ping == o.rays_per_ping && detection_threshold_db == o.detection_threshold_db &&
          amplitude_every == o.amplitude_every;

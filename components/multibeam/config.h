@@ -21,6 +21,9 @@ struct MultibeamConfig {
   double receive_beamwidth_rad = 1.0 * kDegree;   // across-track at nadir
   double pulse_length_s = 100e-6;                 // rectangular CW
   double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m
+  bool roll_stabilised = true;                    // beams and fan are steered against the measured roll
+  bool pitch_stabilised = true;                   // the fan is steered against the measured pitch
+  double attitude_latency_s = 0.0;                // of the motion sensor
   bool auto_range = true;                         // else range_m always
   double range_m = 200.0;                         // the longest range that is listened to
   double ping_rate_hz = 10.0;                     // at most; the interval is never less than 2 R / c + dead time

@@ -49,11 +49,11 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config)
       receiver_(elements_of(receive_line(config))),
       weights_(weights_of(receive_line(config))),
       images_(3) {
-  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, rays_);
+  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, fan_);
   // What bubbles under the hull take on the way out and on the way back is the same for all paths.
   const double source_upa2m2 = std::pow(10.0, 0.1 * config.source_level_db - 0.2 * environment_.bubble_loss_db());
   const double transmit_waves = array::length_in_waves_for(config.transmit_beamwidth_rad);
-  for (const trace::Ray& ray : rays_) {
+  for (const trace::Ray& ray : fan_) {
     source_upa2m2_.push_back(
         static_cast<float>(source_upa2m2 * array::line_power(transmit_waves, ray.direction_head.x())));
   }
@@ -67,6 +67,7 @@ MultibeamHead::Heard MultibeamHead::listen(const Shot& shot, const Steering& ste
                                            const trace::Scene& seabed) {
   head_poses(truth, config_.mounting.actual, shot.transmit, config_.listening_time(shot.range_m), poses_);
   receivers_.set({0.0, seconds(kTrackPeriod), poses_});
+  aim(steering);
   trace_rays(shot, seabed);
   arrivals_.clear();
   echo::add_direct_echoes({config_.frequency_hz, absorption_dbpm_}, poses_.front().position_enu_m,
@@ -77,6 +78,24 @@ MultibeamHead::Heard MultibeamHead::listen(const Shot& shot, const Steering& ste
   echo::amplitude_upa(images_[0], *amplitude_upa_);
   return {{images_[0].beams, images_[0].samples, sampling(shot).start_s, sampling(shot).period_s, *amplitude_upa_},
           {images_[1].envelope_upa, images_[2].envelope_upa}};
+}
+
+/// Turns the fan to where it is steered: steering by phase shifts its sines along the line, roll turns it about the
+/// line. Neither changes solid angles, du dphi, nor the power of a ray.
+void MultibeamHead::aim(const Steering& steering) {
+  const double true_mps = paths_.sound_speed_mps(poses_.front());
+  const auto shift = static_cast<float>(array::true_sine(steering.sin_transmit, steering.sound_speed_mps, true_mps));
+  const auto cosine = static_cast<float>(std::cos(steering.middle_rad));
+  const auto sine = static_cast<float>(std::sin(steering.middle_rad));
+  rays_.resize(fan_.size());
+  for (std::size_t i = 0; i < fan_.size(); ++i) {
+    const Eigen::Vector3f& from = fan_[i].direction_head;
+    const float along = std::clamp(from.x() + shift, -0.999F, 0.999F);
+    const float scale = std::sqrt((1.0F - along * along) / (1.0F - from.x() * from.x()));
+    rays_[i].direction_head = {along, scale * (from.y() * cosine + from.z() * sine),
+                               scale * (from.z() * cosine - from.y() * sine)};
+    rays_[i].solid_angle_sr = fan_[i].solid_angle_sr;
+  }
 }
 
 void MultibeamHead::trace_rays(const Shot& shot, const trace::Scene& seabed) {
@@ -136,6 +155,8 @@ msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const Steering& st
   applied.swath_rad = config_.swath_rad;
   applied.transmit_beamwidth_rad = config_.transmit_beamwidth_rad;
   applied.receive_beamwidth_rad = config_.receive_beamwidth_rad;
+  applied.roll_stabilised = steering.roll_stabilised;
+  applied.pitch_stabilised = steering.pitch_stabilised;
   applied.sound_speed_mps = steering.sound_speed_mps;
   return applied;
 }

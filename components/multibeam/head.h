@@ -47,6 +47,7 @@ class MultibeamHead {
   std::size_t max_ping_bytes() const;
 
  private:
+  void aim(const Steering& steering);
   void trace_rays(const Shot& shot, const trace::Scene& seabed);
   void form_beams(const Shot& shot, const Steering& steering);
   echo::Sampling sampling(const Shot& shot) const;
@@ -56,10 +57,11 @@ class MultibeamHead {
   random::Stream noise_;
   Environment environment_;
   WaterPaths paths_;
-  std::vector<trace::Ray> rays_;      // in the head's frame, the same for every ping: an unmoved head hears the same
+  std::vector<trace::Ray> fan_;       // not steered, the same for every ping: an unmoved head hears the same
   std::vector<float> source_upa2m2_;  // by ray
 
   // Memory of the ping path, sized by the first ping of a range.
+  std::vector<trace::Ray> rays_;  // steered, in the head's frame
   std::vector<trace::Hit> hits_;
   std::vector<float> backscatter_;
   std::vector<frames::HeadPose> poses_;  // from transmission on

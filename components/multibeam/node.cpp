@@ -41,13 +41,20 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
   ports.note("finest_beam_rad", std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad));
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
   ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { push(estimate_, estimate); });
+  ports.in<msg::SoundSpeed>("sound_speed", [this](const msg::SoundSpeed& probe) { probe_mps_ = probe.sound_speed_mps; },
+                            {.optional = true});
+  ports.in<msg::Attitude>("attitude",
+                          [this](const msg::Attitude& sensor) {
+                            attitude_ = {sensor.heading_grid_rad, sensor.pitch_rad, sensor.roll_rad};
+                          },
+                          {.delay = from_seconds(config.attitude_latency_s), .optional = true});
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
 }
 
 SimTime MultibeamNode::step(SimTime now) {
   while (!pending_.empty() && pending_.front().ready <= now) {
-    receive(pending_.front().shot, pending_.front().sound_speed_mps);
+    receive(pending_.front().shot, pending_.front().belief);
     pending_.pop_front();
   }
   if (clock_.next() <= now) transmit(now);
@@ -70,16 +77,17 @@ void MultibeamNode::transmit(SimTime now) {
   transmit.source_level_db = config_.source_level_db;
   transmit_out_.send(transmit);
   const SimTime listening = config_.listening_time(shot.range_m);
-  pending_.push_back(
-      {shot, believed_sound_speed_mps(now), now + listening + from_seconds(config_.processing_latency_s)});
+  pending_.push_back({shot, belief(now), now + listening + from_seconds(config_.processing_latency_s)});
   clock_.transmitted(listening);
 }
 
-/// Of the applied profile, at the depth where the head is believed to be.
-double MultibeamNode::believed_sound_speed_mps(SimTime now) const {
+/// Until the probe tells, the head takes the applied profile's speed at the depth where it believes to be.
+Belief MultibeamNode::belief(SimTime now) const {
+  if (probe_mps_) return {*probe_mps_, attitude_};
   const auto body = estimate_.at(now.count(), frames::PoseHistory::Outside::kNearest);
-  return applied_.speed_mps(body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z()
-                                 : config_.world.mission.depth_m);
+  return {applied_.speed_mps(body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z()
+                                  : config_.world.mission.depth_m),
+          attitude_};
 }
 
 void MultibeamNode::skip(const std::string& why) {
@@ -88,8 +96,8 @@ void MultibeamNode::skip(const std::string& why) {
   ports_.health("degraded", why);
 }
 
-void MultibeamNode::receive(const Shot& shot, double sound_speed_mps) {
-  const Steering steering = steer(config_, sound_speed_mps);
+void MultibeamNode::receive(const Shot& shot, const Belief& belief) {
+  const Steering steering = steer(config_, belief);
   const MultibeamHead::Heard heard = head_.listen(shot, steering, truth_, tiles_.scene());
   ports_.count("pings");
   if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot, steering));

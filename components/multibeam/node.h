@@ -1,7 +1,7 @@
 #pragma once
 
 #include <deque>
-#include <memory>
+#include <optional>
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/soundings.h"
@@ -29,13 +29,13 @@ class MultibeamNode {
  private:
   struct Pending {
     Shot shot;
-    double sound_speed_mps;  // at the face, as believed at transmission
+    Belief belief;
     SimTime ready{0};
   };
 
   void transmit(SimTime now);
-  double believed_sound_speed_mps(SimTime now) const;
-  void receive(const Shot& shot, double sound_speed_mps);
+  Belief belief(SimTime now) const;
+  void receive(const Shot& shot, const Belief& belief);
   void report(const Shot& shot, std::size_t detections);
   void skip(const std::string& why);
 
@@ -48,6 +48,8 @@ class MultibeamNode {
   AutoRange range_;
   TileSet tiles_;
   frames::PoseHistory truth_, estimate_;
+  std::optional<double> probe_mps_;           // the newest that the probe at the face told
+  std::optional<frames::Attitude> attitude_;  // likewise the motion sensor
   std::deque<Pending> pending_;
   std::int64_t pings_ = 0;
   Ports::Out<msg::Ping> ping_out_;

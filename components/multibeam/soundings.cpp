@@ -133,14 +133,14 @@ void SoundingMaker::place(const Shot& shot, const Steering& steering, const fram
                           std::size_t beam, msg::Soundings& soundings) {
   const double two_way_s = detections_[beam].two_way_s;
   const frames::Vec3 place = sounding_enu_m(
-      {believed_pose(estimate, shot.transmit), believed_pose(estimate, shot.transmit + from_seconds(two_way_s)), 0.0,
-       steering.sin_beams[beam], steering.sound_speed_mps, two_way_s},
+      {believed_pose(estimate, shot.transmit), believed_pose(estimate, shot.transmit + from_seconds(two_way_s)),
+       steering.sin_transmit, steering.sin_beams[beam], steering.sound_speed_mps, two_way_s},
       applied_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     soundings.position_enu_m(beam, axis) = place[static_cast<Eigen::Index>(axis)];
   }
   soundings.valid[beam] = 1;
-  heard_.push_back({steering.beam_angle_rad[beam], 0.5 * two_way_s * steering.sound_speed_mps});
+  heard_.push_back({steering.across_rad[beam], 0.5 * two_way_s * steering.sound_speed_mps});
 }
 
 }  // namespace ensonify
