@@ -21,17 +21,7 @@ constexpr int kFewestMainCells = 2;        // of a span
 constexpr std::size_t kCellsPerTask = 16;  // fixed, so the number of threads changes nothing
 constexpr double kWidest = 0.5;            // of a cell, in either coordinate: fill_cell() needs it below 0.6 rad
 
-struct Density {
-  double per_resolution_cell, per_facet;
-};
-Density density_of(Quality quality) {
-  switch (quality) {
-    case Quality::kPreview: return {3.0, 2.5};
-    case Quality::kNormal: return {12.0, 10.0};
-    case Quality::kReference: return {48.0, 40.0};
-  }
-  throw std::invalid_argument("not a quality of rays");
-}
+constexpr double kRaysPerCell = 12.0, kRaysPerFacet = 10.0;  // at normal quality
 
 void check(const Span& span, double lowest, double highest, const char* fault) {
   const bool rises = lowest <= span.low && span.low <= span.main_low && span.main_low < span.main_high &&
@@ -91,23 +81,39 @@ RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings
     throw std::invalid_argument("the angles of a transmit volume must span at most a full circle");
   }
   if (!(settings.range_resolution_m > 0.0)) throw std::invalid_argument("the range resolution must be above 0 m");
-  density_of(settings.quality);
+  if (!(settings.quality > 0.0)) throw std::invalid_argument("the quality of rays must be above 0");
 
   const double sine_width = volume.sine.main_high - volume.sine.main_low;
   const double angle_width = volume.angle_rad.main_high - volume.angle_rad.main_low;
   for (double step = std::max(sine_width, angle_width); cells_.size() < kProbeCells; step *= 0.98) {
-    sine_edges_ = edges_of(volume.sine, step);
-    angle_edges_rad_ = edges_of(volume.angle_rad, step);
-    cells_.resize((sine_edges_.size() - 1) * (angle_edges_rad_.size() - 1));
+    volume_sines_ = edges_of(volume.sine, step);
+    volume_angles_rad_ = edges_of(volume.angle_rad, step);
+    cells_.resize((volume_sines_.size() - 1) * (volume_angles_rad_.size() - 1));
   }
   if (settings.most_rays < 4 * cells_.size()) {
     throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells_.size()));
   }
   needs_.resize(cells_.size());
+  aim();
+}
+
+void RayDistribution::steer(double sine, double angle_rad) {
+  if (sine == steered_sine_ && angle_rad == steered_rad_) return;
+  steered_sine_ = sine;
+  steered_rad_ = angle_rad;
+  aim();
+}
+
+void RayDistribution::aim() {
+  sine_edges_ = volume_sines_;
+  angle_edges_rad_ = volume_angles_rad_;
+  for (double& u : sine_edges_) u = std::clamp(u + steered_sine_, -1.0, 1.0);
+  for (double& phi : angle_edges_rad_) phi += steered_rad_;
+  probes_.clear();
   for (const double u : sine_edges_) {
+    const double beside = std::sqrt(1.0 - u * u);
     for (const double phi : angle_edges_rad_) {
-      const double beside = std::sqrt(std::max(0.0, 1.0 - u * u));
-      probes_.push_back({direction_of(volume.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
+      probes_.push_back({direction_of(volume_.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
                                       static_cast<float>(beside * std::cos(phi))),
                          0.0F});
     }
@@ -151,9 +157,8 @@ bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Cor
 
 RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const Look& probes) const {
   Corners seen;
-  if (!look(i, j, probes, seen)) return {1.0, 1.0};
   const double du = sine_edges_[i + 1] - sine_edges_[i], dphi = angle_edges_rad_[j + 1] - angle_edges_rad_[j];
-  const Density density = density_of(settings_.quality);
+  if (!(du > 0.0) || !look(i, j, probes, seen)) return {1.0, 1.0};
 
   // In units of what is resolved: beams, and ranges within a beam.
   const auto& r = seen.range_m;
@@ -161,7 +166,7 @@ RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const 
   const double along_phi = std::max(std::abs(r[2] - r[0]), std::abs(r[3] - r[1])) / settings_.range_resolution_m;
   const double beams_u = du / volume_.sine.beam, beams_phi = dphi / volume_.angle_rad.beam;
   const double ranges_in_beam = along_u / beams_u + along_phi / beams_phi;
-  const Need resolution{density.per_resolution_cell * beams_u * beams_phi * std::max(1.0, ranges_in_beam),
+  const Need resolution{settings_.quality * kRaysPerCell * beams_u * beams_phi * std::max(1.0, ranges_in_beam),
                         (beams_u + along_u) / (beams_phi + along_phi)};
 
   // In units of facets: two triangles to a square of the posts' spacing.
@@ -169,11 +174,12 @@ RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const 
   const double area_m2 = 0.5 * (p[3] - p[0]).cross(p[2] - p[1]).norm();
   const double wide_u_m = (p[1] - p[0]).norm() + (p[3] - p[2]).norm();
   const double wide_phi_m = (p[2] - p[0]).norm() + (p[3] - p[1]).norm();
-  const Need facets{2.0 * density.per_facet * area_m2 / (seen.facet_m * seen.facet_m), wide_u_m / wide_phi_m};
+  const Need facets{2.0 * settings_.quality * kRaysPerFacet * area_m2 / (seen.facet_m * seen.facet_m),
+                    wide_u_m / wide_phi_m};
 
   Need both = facets.rays > resolution.rays ? facets : resolution;
-  both.rays *= importance(volume_.sine, sine_edges_[i], sine_edges_[i + 1]) *
-               importance(volume_.angle_rad, angle_edges_rad_[j], angle_edges_rad_[j + 1]);
+  both.rays *= importance(volume_.sine, volume_sines_[i], volume_sines_[i + 1]) *
+               importance(volume_.angle_rad, volume_angles_rad_[j], volume_angles_rad_[j + 1]);
   both.rays = std::min(both.rays, static_cast<double>(settings_.most_rays));
   return both;
 }

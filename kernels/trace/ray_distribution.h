@@ -35,17 +35,16 @@ struct TransmitVolume {
 TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receive_length_in_waves,
                                   double half_swath_rad, double reach = 8.0);
 
-/// How many rays a resolution cell (range resolution x beam, -3 dB) and a facet get in the main lobe, on average.
-enum class Quality {
-  kPreview,   // 3 per cell, 2.5 per facet: a quick look
-  kNormal,    // 12 and 10: at least 10 in every cell within -10 dB; of 1000 facets in the main lobe 999 are hit
-  kReference  // 48 and 40: to compare with
-};
-
 struct RaySettings {
-  Quality quality = Quality::kNormal;
+  /// In the main lobe, a resolution cell (range resolution x beam, -3 dB) gets 12 rays times this on average and a
+  /// facet
+  /// 10. At kNormal every cell within -10 dB has at least 10, and of 1000 facets in the main lobe 999 are hit; kPreview
+  /// is for a quick look and kReference to compare with.
+  double quality = kNormal;
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
   std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
+
+  static constexpr double kPreview = 0.25, kNormal = 1.0, kReference = 4.0;
 };
 
 /// Rays over a transmit volume, denser where the seabed asks for it.
@@ -68,7 +67,11 @@ class RayDistribution {
   /// Throws std::invalid_argument for empty or overlapping spans, and for settings that are not positive.
   RayDistribution(const TransmitVolume& volume, const RaySettings& settings, const random::Stream& stream);
 
-  /// The rays that look first; their solid angles are 0.
+  /// Turns the volume from now on: to a sine, as phase shifts along the axis do, and by an angle about the axis.
+  /// Neither changes solid angles; sines beyond -1 and 1 are lost. (0, 0) is the volume as given.
+  void steer(double sine, double angle_rad);
+
+  /// The rays that look first; their solid angles are 0. They change with steer().
   std::span<const Ray> probes() const { return probes_; }
 
   /// The rays for what the probes met within max_range_m. Neighbours follow each other, as packets want it. Throws
@@ -93,6 +96,7 @@ class RayDistribution {
   };
   struct Corners;
   std::size_t corner(std::size_t i, std::size_t j) const { return i * angle_edges_rad_.size() + j; }
+  void aim();
   bool look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const;
   Need need(std::size_t i, std::size_t j, const Look& probes) const;
   std::size_t cut(double share);
@@ -101,7 +105,9 @@ class RayDistribution {
   TransmitVolume volume_;
   RaySettings settings_;
   random::Stream stream_;
-  std::vector<double> sine_edges_, angle_edges_rad_;
+  double steered_sine_ = 0.0, steered_rad_ = 0.0;
+  std::vector<double> volume_sines_, volume_angles_rad_;  // edges of the cells, as given ...
+  std::vector<double> sine_edges_, angle_edges_rad_;      // ... and as steered
   std::vector<Ray> probes_;
   std::vector<Need> needs_;
   std::vector<Cell> cells_;

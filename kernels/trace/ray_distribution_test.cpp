@@ -56,7 +56,7 @@ static double across_rad(const Ray& ray) { return std::atan2(ray.direction_head.
 
 TEST_CASE("the solid angles of a distribution sum to that of its volume, whatever it sees") {
   const Scene seabed = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
-  for (const Quality quality : {Quality::kPreview, Quality::kNormal}) {
+  for (const double quality : {RaySettings::kPreview, RaySettings::kNormal}) {
     double sum = 0;
     for (const Ray& ray : sound(seabed, {quality, 0.075}).rays) {
       sum += ray.solid_angle_sr;
@@ -74,7 +74,7 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
   const HeadPose tilted{{0, 0, 0}, enu_from_body(ensonify::frames::Attitude{0, -0.3, 0})};
   double sum = 0;
   float lowest = 1, highest = -1, port = 0, starboard = 0;
-  for (const Ray& ray : sound(scene_of(flat, 0.5, 400), {Quality::kPreview, 0.1}, 1, tilted, ahead).rays) {
+  for (const Ray& ray : sound(scene_of(flat, 0.5, 400), {RaySettings::kPreview, 0.1}, 1, tilted, ahead).rays) {
     sum += ray.solid_angle_sr;
     const float azimuth = std::atan2(ray.direction_head.y(), ray.direction_head.x());
     lowest = std::min(lowest, ray.direction_head.z()), highest = std::max(highest, ray.direction_head.z());
@@ -100,7 +100,7 @@ TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main
     const SyntheticSeabed seabed(parameters);
     const Scene scene = scene_of([&](double x, double y) { return seabed.height_m(x, y); }, kSpacing_m, kCells);
     const auto count = [&](std::uint64_t draw, bool in_main_lobe, std::vector<int>& hits_of_facet) {
-      const Sounding s = sound(scene, {Quality::kNormal, 0.075}, draw);
+      const Sounding s = sound(scene, {RaySettings::kNormal, 0.075}, draw);
       for (std::size_t k = 0; k < s.hits.size(); ++k) {
         const Ray& ray = s.rays[k];
         const bool main = std::abs(ray.direction_head.x()) < kNull && std::abs(across_rad(ray)) < kSwath_rad;
@@ -159,7 +159,7 @@ static Contributions contributions(const Sounding& s, double resolution_m, int b
 TEST_CASE("every resolution cell within -10 dB gets at least 10 contributions") {
   const Scene scene = scene_of(flat);
   for (const double resolution_m : {0.02, 0.075, 0.3}) {
-    const Sounding s = sound(scene, {Quality::kNormal, resolution_m});
+    const Sounding s = sound(scene, {RaySettings::kNormal, resolution_m});
     const Contributions c = contributions(s, resolution_m, 131);
     CAPTURE(resolution_m, s.rays.size(), c.mean);
     CHECK(c.fewest >= 10);
@@ -182,7 +182,7 @@ TEST_CASE("the mean level of a plane is that of the area integral, whatever the 
     const double u = 8.0 / 50 * ((2 * i + 1.0) / kSteps - 1);
     over_u += pattern(u) * std::pow(1 - u * u, 1.5) * 16.0 / 50 / kSteps;
   }
-  for (const Quality quality : {Quality::kPreview, Quality::kNormal, Quality::kReference}) {
+  for (const double quality : {RaySettings::kPreview, RaySettings::kNormal, RaySettings::kReference}) {
     const Sounding s = sound(scene, {quality, 0.075});
     std::vector<double> level(12);
     for (std::size_t k = 0; k < s.hits.size(); ++k) {
@@ -205,7 +205,7 @@ TEST_CASE("what is behind a crest is in its shadow, to the crest's line of sight
   // A crest 5 m high along north at x = 10 m, 0.25 m wide at its foot. From 20 m above the seabed at x = 0.1 m its
   // shadow ends at 0.1 + 9.9 * 20 / 15 = 13.3 m.
   const Scene scene = scene_of([](double x, double) { return std::abs(x - 10) < 0.1 ? -15.0 : -20.0; });
-  const Sounding s = sound(scene, {Quality::kNormal, 0.075});
+  const Sounding s = sound(scene, {RaySettings::kNormal, 0.075});
   double first_behind_m = 100;
   int on_crest = 0;
   for (const Hit& hit : s.hits) {
@@ -224,7 +224,7 @@ TEST_CASE("rays follow range cells, not beams") {
   const Scene scene = scene_of(flat, 2.0, 100);  // few facets, so range cells decide
   const auto rays = [&](double resolution_m, double receive_waves) {
     const auto volume = mills_cross_volume(50, receive_waves, kSwath_rad);
-    return static_cast<double>(sound(scene, {Quality::kNormal, resolution_m}, 1, kHead, volume).rays.size());
+    return static_cast<double>(sound(scene, {RaySettings::kNormal, resolution_m}, 1, kHead, volume).rays.size());
   };
   // Twice the range cells, twice the rays, but near nadir, where a beam is within one range cell.
   CHECK(rays(0.005, 50) / rays(0.01, 50) == Approx(2).epsilon(0.1));
@@ -233,9 +233,39 @@ TEST_CASE("rays follow range cells, not beams") {
   CHECK(rays(0.01, 100) > rays(0.01, 50));
 }
 
+TEST_CASE("a steered volume has the same solid angles elsewhere, and what is beyond endfire is lost") {
+  const auto extent = [](double sine, double angle_rad) {
+    RayDistribution distribution(mills_cross_volume(50, 50, 30 * kDegree), {RaySettings::kPreview}, {1, "rays"});
+    distribution.steer(sine, angle_rad);
+    std::vector<Ray> rays;
+    const std::vector<Hit> nothing(distribution.probes().size());
+    distribution.fill(kHead, nothing, kFar_m, rays);
+    struct {
+      double solid_angle_sr = 0, least_sine = 1, most_sine = -1, least_rad = 4, most_rad = -4;
+    } e;
+    for (const Ray& ray : rays) {
+      REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
+      e.solid_angle_sr += ray.solid_angle_sr;
+      e.least_sine = std::min(e.least_sine, double(ray.direction_head.x()));
+      e.most_sine = std::max(e.most_sine, double(ray.direction_head.x()));
+      e.least_rad = std::min(e.least_rad, across_rad(ray));
+      e.most_rad = std::max(e.most_rad, across_rad(ray));
+    }
+    return e;
+  };
+  const auto turned = extent(0.1, -20 * kDegree), beyond = extent(0.9, 0);
+  CHECK(turned.solid_angle_sr == Approx(0.32 * 60 * kDegree).epsilon(1e-5));
+  CHECK(turned.least_sine == Approx(-0.06).margin(0.01));
+  CHECK(turned.most_sine == Approx(0.26).margin(0.01));
+  CHECK(turned.least_rad == Approx(-50 * kDegree).margin(0.02));
+  CHECK(turned.most_rad == Approx(10 * kDegree).margin(0.02));
+  CHECK(beyond.solid_angle_sr == Approx(0.26 * 60 * kDegree).epsilon(1e-5));
+}
+
 TEST_CASE("the limit of rays holds, and every cell gives way") {
   const Scene scene = scene_of(flat);
-  const Sounding all = sound(scene, {Quality::kNormal, 0.075}), some = sound(scene, {Quality::kNormal, 0.075, 10'000});
+  const Sounding all = sound(scene, {RaySettings::kNormal, 0.075}),
+                 some = sound(scene, {RaySettings::kNormal, 0.075, 10'000});
   CHECK(all.share == 1.0);
   CHECK(some.share < 0.2);
   CHECK(some.rays.size() <= 10'000);
@@ -243,14 +273,14 @@ TEST_CASE("the limit of rays holds, and every cell gives way") {
   double sum = 0;
   for (const Ray& ray : some.rays) sum += ray.solid_angle_sr;
   CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
-  CHECK(sound(scene, {Quality::kNormal, 1e-9, 10'000}).rays.size() <= 10'000);
+  CHECK(sound(scene, {RaySettings::kNormal, 1e-9, 10'000}).rays.size() <= 10'000);
 }
 
 TEST_CASE("the same pose over the same tiles has the same rays, on any number of threads") {
   const Scene scene = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
   const auto with = [&](std::size_t threads, std::uint64_t seed) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return sound(scene, {Quality::kPreview, 0.075}, seed).rays;
+    return sound(scene, {RaySettings::kPreview, 0.075}, seed).rays;
   };
   const auto one = with(1, 1), two = with(2, 1), other = with(2, 2);
   REQUIRE(one.size() == two.size());
@@ -263,7 +293,7 @@ TEST_CASE("heads on the seabed, below it and above an edge have rays of finite d
   const Scene scene = scene_of(flat, 0.5, 40);
   for (const double z : {-20.0, -20.0001, -19.999, -25.0, 5.0}) {
     for (const double x : {0.0, 10.0, 10.1, 80.0}) {
-      const Sounding s = sound(scene, {Quality::kPreview, 0.075, 20'000}, 1, {{x, 0, z}, kHead.enu_from_head});
+      const Sounding s = sound(scene, {RaySettings::kPreview, 0.075, 20'000}, 1, {{x, 0, z}, kHead.enu_from_head});
       CHECK(s.rays.size() <= 20'000);
       for (const Ray& ray : s.rays) REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
     }
@@ -284,6 +314,7 @@ TEST_CASE("a volume that is none, and settings that cannot be, are refused") {
   volume.angle_rad = {-3, 3.3, -3, 3.3, 1};
   CHECK_THROWS_WITH(make(volume), "the angles of a transmit volume must span at most a full circle");
   CHECK_THROWS_WITH(make(mills_cross(), {.range_resolution_m = 0}), "the range resolution must be above 0 m");
+  CHECK_THROWS_WITH(make(mills_cross(), {.quality = 0}), "the quality of rays must be above 0");
   CHECK_THROWS_WITH(make(mills_cross(), {.most_rays = 100}), Catch::Contains("the limit of rays must be at least "));
   RayDistribution distribution(mills_cross(), {}, {1, "rays"});
   std::vector<Ray> rays;
