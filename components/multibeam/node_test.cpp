@@ -168,9 +168,10 @@ TEST_CASE("on a flat bottom depths are unbiased from nadir to the edge of the sw
   const auto soundings = survey(shallow(), {}, 3_s);
   REQUIRE(soundings.size() == 29);
   for (const auto& s : soundings) CHECK(valid_count(s) == 256);
-  // Amplitude detection [Lurton2010b]: some cm at nadir, growing with the footprint; means over 29 pings.
+  // Phase detection (kernels/detect): under 0.05 % of depth to 60 degrees, 0.15 % to 70. The head rests, so its pings
+  // share one speckle, and a mean is good to sd / sqrt(60 beams) only. Amplitude alone would scatter by 4 cm outside.
   for (const auto& [from, to, bias_m, sd_m] :
-       {std::array{0.0, 15.0, 0.01, 0.03}, {15.0, 45.0, 0.01, 0.05}, {45.0, 65.0, 0.03, 0.08}}) {
+       {std::array{0.0, 15.0, 0.01, 0.025}, {15.0, 45.0, 0.01, 0.015}, {45.0, 65.0, 0.015, 0.015}}) {
     const Spread error = depth_error(soundings, from, to);
     INFO(from << " to " << to << " deg: mean " << error.mean << " m, sd " << error.sd << " m of " << error.count);
     CHECK(std::abs(error.mean) < bias_m);
