@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "components/forward_looking/faces.h"
+#include "components/runtime/head/environment.h"
+#include "components/runtime/head/shot.h"
+#include "components/runtime/head/sight.h"
+#include "components/runtime/head/water_paths.h"
+#include "kernels/echo/arrival.h"
+#include "kernels/echo/line_receiver.h"
+#include "kernels/echo/scatterer.h"
+#include "kernels/echo/volume.h"
+#include "kernels/random/stream.h"
+#include "kernels/trace/ray_distribution.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// The acoustics of a forward-looking head: what its beams hear. Uses the true motion, the actual mounting and the true
+/// water, as the sea does; steering and range use the sound speed that the head knows.
+class ForwardLookingHead {
+ public:
+  explicit ForwardLookingHead(const ForwardLookingConfig& config);
+  ForwardLookingHead(const ForwardLookingHead&) = delete;
+  ForwardLookingHead& operator=(const ForwardLookingHead&) = delete;
+
+  /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
+  /// listens, and the tiles. The track is left to the caller.
+  msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
+                   const frames::PoseHistory& truth, const trace::Scene& seabed);
+
+  /// What the last ping met.
+  const Sight& sight() const { return sight_; }
+
+  RangedPulse pulse_for(double range_m) const { return pulse_at(config_.pulse, range_m, config_.sound_speed_mps); }
+  std::size_t max_ping_bytes() const;
+  /// Beam axes, azimuth from the head's x axis, positive to starboard.
+  const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
+  /// Where the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
+  double near_field_m() const;
+
+ private:
+  /// What a range needs that other pings of the same range use again.
+  struct Listening {
+    RangedPulse ranged;
+    echo::Pulse pulse;
+    echo::SampledPulse sampled, squared;
+    echo::Scatterers scatterers;
+    trace::RayDistribution rays;
+  };
+
+  void prepare(double range_m);
+  void look(const trace::Scene& seabed, double range_m);
+  void light(double source_level_db);
+  void arrive(double source_level_db);
+  void hear(const Shot& shot, double source_level_db, double known_sound_speed_mps);
+  echo::Background background(const Shot& shot, double source_level_db);
+  void form_beams(const echo::Background& background);
+
+  ForwardLookingConfig config_;
+  Environment environment_;
+  array::LineArray array_;
+  ForwardFaces faces_;
+  WaterPaths paths_;
+  random::Stream ambient_, electronic_, volume_;
+  std::vector<float> beam_angle_rad_;
+  std::vector<float> weights_;  // of elements
+  echo::LineReceiver receiver_, power_receiver_;
+  std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
+  double noise_share_;
+  std::optional<Listening> listening_;
+
+  // Of the last ping.
+  std::vector<frames::HeadPose> poses_;
+  std::vector<trace::Ray> rays_;
+  std::vector<trace::Hit> hits_;
+  std::vector<float> source_upa2m2_, backscatter_;
+  echo::Receivers receivers_;
+  std::vector<echo::Arrival> arrivals_;
+  std::vector<float> gain_, sin_beams_, volume_upa2_;
+  std::vector<echo::Image> images_, mean_square_;  // one each
+  Sight sight_;
+  double seabed_depth_m_ = 0.0;  // mean over the hits
+  double absorption_dbpm_ = 0.0;
+};
+
+}  // namespace ensonify

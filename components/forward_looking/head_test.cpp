@@ -1,0 +1,297 @@
+#include "components/forward_looking/head.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "kernels/array/line.h"
+#include "kernels/seabed/lambert.h"
+
+using namespace ensonify;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDeg = kPi / 180.0;
+constexpr double kSpeed_mps = 1500.0;
+constexpr double kAbsorption_dbpm = 0.2;
+
+/// 10 m under the surface; sound that travels straight, over a Lambert seabed.
+ForwardLookingConfig quiet() {
+  ForwardLookingConfig config;
+  config.world.water.profile.sound_speed_mps = kSpeed_mps;
+  config.world.water.absorption_dbpm = kAbsorption_dbpm;
+  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  config.process = "eye";
+  config.effects.noise = config.effects.multipath = false;
+  return config;
+}
+
+/// 128 m of seabed about the origin.
+trace::Scene scene_of(const std::function<double(double, double)>& height_m) {
+  trace::Scene scene({0, 0});
+  scene.insert({0, 0},
+               terrain::sample_tile({.origin_enu_m = {-64, -64}, .spacing_m = 0.25, .cells = 512}, {0, 0}, height_m));
+  return scene;
+}
+
+/// 10 m deep, looking north.
+frames::PoseHistory at_rest() {
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  return truth;
+}
+
+msg::Ping ping_of(const ForwardLookingConfig& config, const trace::Scene& scene) {
+  ForwardLookingHead head(config);
+  return head.listen({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene);
+}
+
+double range_of(const msg::Ping& ping, std::size_t sample) {
+  return 0.5 * kSpeed_mps * (ping.first_sample_s + static_cast<double>(sample) * ping.sample_period_s);
+}
+
+/// Mean square over some beams and slant ranges.
+double mean_square(const msg::Ping& ping, double from_deg, double to_deg, double from_m, double to_m) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t beam = 0; beam < ping.amplitude_upa.rows(); ++beam) {
+    const double angle_deg = static_cast<double>(ping.beam_angle_rad[beam]) / kDeg;
+    if (angle_deg < from_deg || angle_deg > to_deg) continue;
+    for (std::size_t k = 0; k < ping.amplitude_upa.cols(); ++k) {
+      if (range_of(ping, k) < from_m || range_of(ping, k) > to_m) continue;
+      const double a = static_cast<double>(ping.amplitude_upa(beam, k));
+      sum += a * a;
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+double db(double ratio) { return 10.0 * std::log10(ratio); }
+
+}  // namespace
+
+TEST_CASE(
+    "a sphere's echo has the level of the sonar equation, in its beam and at its range; side lobes stand beside") {
+  // TS -20 dB at 20 m, 40 degrees to starboard and 6 degrees down, by the kernel's scatterer and the head's faces.
+  const ForwardLookingConfig config = quiet();
+  const double wavelength_m = kSpeed_mps / config.frequency_hz, R = 20.0, ts_db = -20.0;
+  const array::LineArray array = array::line_array_of_width(config.beamwidth_rad, wavelength_m);
+  const ForwardFaces faces(config, array.element_length_m / wavelength_m);
+  const double azimuth = 40 * kDeg, down = 6 * kDeg;
+  const frames::Vec3 direction(std::cos(down) * std::cos(azimuth), std::cos(down) * std::sin(azimuth), std::sin(down));
+  const frames::HeadPose pose{};
+
+  echo::Scatterer sphere;
+  sphere.position_enu_m = frames::enu_from_head(pose, R * direction);
+  sphere.slowness_spm = static_cast<float>(1.0 / kSpeed_mps);
+  sphere.scattered_upa2m2 = static_cast<float>(std::pow(10.0, 0.1 * (config.source_level_db + ts_db)) *
+                                               faces.transmitted_power(direction.cast<float>()) / R / R);
+  sphere.response = 1.0F;
+  echo::Receivers receivers;
+  receivers.set({0.0, 1.0, std::span(&pose, 1)});
+  std::vector<echo::Arrival> arrivals;
+  echo::add_direct_echoes({config.frequency_hz, kAbsorption_dbpm}, pose.position_enu_m, std::span(&sphere, 1),
+                          receivers, arrivals);
+  const std::vector<float> gain{faces.element_amplitude(arrivals[0].direction_head)};
+
+  const RangedPulse ranged = pulse_at(config.pulse, 30.0, kSpeed_mps);
+  const echo::SampledPulse pulse(echo_pulse(config.pulse, ranged), ranged.sampling.period_s);
+  echo::LineReceiver receiver(echo::element_line(array, wavelength_m));
+  const std::vector<std::vector<float>> weights{echo::beam_weights(array.weights)};
+  const double sin_target = direction.y(), per_lobe = 1.0 / array::length_in_waves_for(config.beamwidth_rad);
+  std::vector<float> sines;  // from the target on in hundredths of lambda / L
+  for (int i = 0; i < 300; ++i) sines.push_back(static_cast<float>(sin_target - 0.01 * i * per_lobe));
+  std::vector<echo::Image> images(1);
+  receiver.form({arrivals, gain, pulse, ranged.sampling, {}}, sines, weights, images);
+
+  const auto on_axis = images[0].row(0);
+  std::size_t peak = 0;
+  for (std::size_t k = 0; k < on_axis.size(); ++k) peak = std::abs(on_axis[k]) > std::abs(on_axis[peak]) ? k : peak;
+  CHECK(0.5 * kSpeed_mps * static_cast<double>(peak) * ranged.sampling.period_s ==
+        Approx(R).margin(0.25 * kSpeed_mps * ranged.sampling.period_s));
+  // Patterns in closed form: cos^q with -3 dB at 65 degrees, both lines of 20 degrees, a half-wave element.
+  const double across_db =
+      20.0 * std::log10(std::cos(std::asin(sin_target))) * (db(0.5) / (20.0 * std::log10(std::cos(65 * kDeg))));
+  const double line_db = db(array::line_power(array::length_in_waves_for(20 * kDeg), std::sin(down)));
+  const double element_db = db(array::line_power(array.element_length_m / wavelength_m, sin_target));
+  const double expected_db = config.source_level_db - 40.0 * std::log10(R) - 2.0 * kAbsorption_dbpm * R + ts_db +
+                             across_db + 2.0 * line_db + element_db;
+  // A sample may stand half a period off the compressed pulse's peak: 0.4 dB there with two samples per 1 / B.
+  const double level_db = db(std::norm(on_axis[peak]));
+  CHECK(level_db == Approx(expected_db).margin(0.5));
+
+  double side_lobe = 0.0;  // beyond the first null
+  for (std::size_t i = 105; i < 200; ++i) {
+    side_lobe = std::max(side_lobe, static_cast<double>(std::norm(images[0].row(static_cast<int>(i))[peak])));
+  }
+  CHECK(db(side_lobe) - level_db == Approx(-13.26).margin(0.05));  // uniform line [Lurton2010, ch. 5]
+}
+
+TEST_CASE("the mean level of a flat seabed is that of the area integral") {
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.range_m = 50.0;
+  config.tilt_rad = 10 * kDeg;
+  config.beams = 64;
+  config.pulse.most_samples = 500;  // 0.1 m
+  config.quality = 1.0;
+  constexpr double kAltitude_m = 5.0;
+  const msg::Ping ping = ping_of(config, scene_of([](double, double) { return -10.0 - kAltitude_m; }));
+  const double wavelength_m = kSpeed_mps / config.frequency_hz;
+  const array::LineArray array = array::line_array_of_width(config.beamwidth_rad, wavelength_m);
+  const double line_in_waves = array::length_in_waves_for(20 * kDeg),
+               q = 0.5 * std::log(0.5) / std::log(std::cos(65 * kDeg));
+  const RangedPulse ranged = pulse_at(config.pulse, 50.0, kSpeed_mps);
+  const double length_m = 0.5 * kSpeed_mps * echo_pulse(config.pulse, ranged).equivalent_length_s();
+
+  for (const double R : {15.0, 25.0, 40.0}) {
+    for (const double beam_deg : {-50.0, 0.0, 30.0}) {
+      // Integral over azimuth of the ring between R and R + length: dA = R dR dphi.
+      double sum = 0.0;
+      constexpr int kSteps = 40000;
+      for (int i = 0; i < kSteps; ++i) {
+        const double phi = -0.5 * kPi + kPi * (i + 0.5) / kSteps, ground = std::sqrt(R * R - kAltitude_m * kAltitude_m);
+        const double x = ground / R * std::cos(phi), y = ground / R * std::sin(phi), z = kAltitude_m / R;
+        const double up_the_face = z * std::cos(config.tilt_rad) - x * std::sin(config.tilt_rad);
+        const double vertical = array::line_power(line_in_waves, up_the_face);
+        sum += std::pow(1.0 - y * y, q) * vertical * vertical *
+               array::power(array, wavelength_m, y, std::sin(beam_deg * kDeg)) * kPi / kSteps;
+      }
+      const double expected_db = config.source_level_db - 40.0 * std::log10(R) - 2.0 * kAbsorption_dbpm * R +
+                                 db(seabed::lambert_backscatter(-25.0, kAltitude_m / R) * R * length_m * sum);
+      // The nearest beam or two, and a metre of range over which the level is near enough linear.
+      const double level_db = db(mean_square(ping, beam_deg - 1.1, beam_deg + 1.1, R - 0.5, R + 0.5));
+      INFO("range " << R << " m, beam " << beam_deg << " deg");
+      CHECK(level_db == Approx(expected_db).margin(0.5));
+    }
+  }
+}
+
+TEST_CASE("a block stands at its azimuth and range, and throws a shadow as long as geometry says") {
+  // 5 m of altitude. North of the head a wall 1 m high and 8 m wide, its top from 20 to 20.5 m.
+  const auto wall = [](double east, double north) {
+    return std::abs(east) <= 4.0 && north >= 20.0 && north <= 20.5 ? -14.0 : -15.0;
+  };
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.range_m = 40.0;
+  config.tilt_rad = 10 * kDeg;
+  config.beams = 131;
+  config.pulse.most_samples = 800;  // every 0.05 m
+  config.quality = 1.0;
+  const msg::Ping ping = ping_of(config, scene_of(wall));
+  // From over the top's far edge at 20.5 m, 4 m below the head, to the seabed 5 m below it.
+  const double begins_m = std::hypot(20.5, 4.0), ends_m = std::hypot(20.5 * 5.0 / 4.0, 5.0);
+  const double beyond = mean_square(ping, -2, 2, ends_m + 0.3, ends_m + 1.3);
+  // Side lobes of the seabed to either side, beyond 11 degrees, stay: 1 / (pi^2 11) of its level, -20 dB.
+  CHECK(db(mean_square(ping, -2, 2, begins_m + 0.3, ends_m - 0.3) / beyond) < -16.0);
+  const double before = mean_square(ping, -2, 2, begins_m - 1.5, begins_m - 0.6);
+  CHECK(before > beyond);
+
+  std::size_t edge = 0;  // the first sample beyond the shadow's middle at half of what follows
+  while (range_of(ping, edge) < 0.5 * (begins_m + ends_m)) ++edge;
+  const double step_m = 0.5 * kSpeed_mps * ping.sample_period_s;
+  while (mean_square(ping, -2, 2, range_of(ping, edge) - 0.1 * step_m, range_of(ping, edge) + 0.1 * step_m) <
+         0.5 * beyond) {
+    ++edge;
+  }
+  CHECK(range_of(ping, edge) == Approx(ends_m).margin(1.5 * step_m));
+}
+
+TEST_CASE("a pillar is brightest in the beam and at the range where it stands") {
+  // 0.5 m thick, 1.5 m high; 30 degrees to starboard (east), 20 m away.
+  const double east_m = 20.0 * std::sin(30 * kDeg), north_m = 20.0 * std::cos(30 * kDeg);
+  const auto pillar = [&](double east, double north) {
+    return std::hypot(east - east_m, north - north_m) < 0.3 ? -13.5 : -15.0;
+  };
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.tilt_rad = 10 * kDeg;
+  config.range_m = 30.0;
+  const msg::Ping ping = ping_of(config, scene_of(pillar));
+  std::size_t brightest = 0;
+  for (std::size_t i = 0; i < ping.amplitude_upa.size(); ++i) {
+    // The seabed grows darker with range as R^-5 or so: what stands out, stands out of that.
+    const auto out = [&](std::size_t at) {
+      const double R = range_of(ping, at % ping.amplitude_upa.cols());
+      return R < 10.0 ? 0.0 : static_cast<double>(ping.amplitude_upa.flat()[at]) * R * R * R;
+    };
+    if (out(i) > out(brightest)) brightest = i;
+  }
+  const double found_deg = static_cast<double>(ping.beam_angle_rad[brightest / ping.amplitude_upa.cols()]) / kDeg;
+  CHECK(found_deg == Approx(30.0).margin(1.6));  // 0.55 m to either side with its slopes: half its width
+  const double front_m = 20.0 - 0.3 - 0.25, range_m = range_of(ping, brightest % ping.amplitude_upa.cols());
+  CHECK(range_m > std::hypot(front_m, 3.5) - 0.1);  // from the front's top ...
+  CHECK(range_m < std::hypot(20.0, 5.0) + 0.1);     // ... to its foot
+}
+
+TEST_CASE("one effect switched off leaves the draws of the others alone") {
+  ForwardLookingConfig config = quiet();
+  config.tilt_rad = 10 * kDeg;
+  config.beams = 32;
+  config.pulse.most_samples = 200;
+  config.quality = 0.1;
+  const trace::Scene scene = scene_of([](double, double) { return -15.0; });
+  const msg::Ping clear = ping_of(config, scene);
+  CHECK(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);
+
+  config.effects.noise = true;
+  const msg::Ping noisy = ping_of(config, scene);
+  CHECK_FALSE(noisy.amplitude_upa == clear.amplitude_upa);
+  // Thermal noise of 42.5 dB re 1 uPa^2/Hz in the pulse's band of 3.8 kHz is 78 dB at a point and less in a beam.
+  const double most_upa = 6.0 * std::pow(10.0, 78.0 / 20.0);
+  for (std::size_t i = 0; i < clear.amplitude_upa.size(); ++i) {
+    REQUIRE(static_cast<double>(std::abs(noisy.amplitude_upa.flat()[i] - clear.amplitude_upa.flat()[i])) < most_upa);
+  }
+
+  config.world.seed = 2;
+  config.effects.noise = false;
+  CHECK_FALSE(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);  // other speckle
+}
+
+TEST_CASE("without directivity outer beams hear more; without side lobes the far side of a wall goes dark") {
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.tilt_rad = 10 * kDeg;
+  config.range_m = 40.0;
+  config.beams = 64;
+  config.pulse.most_samples = 300;
+  const trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
+  const msg::Ping full = ping_of(config, scene);
+  config.effects.side_lobes = false;
+  const msg::Ping shaded = ping_of(config, scene);
+  CHECK(mean_square(shaded, -60, -40, 20, 30) < 0.1 * mean_square(full, -60, -40, 20, 30));
+  CHECK(mean_square(shaded, 20, 40, 20, 30) > 0.5 * mean_square(full, 20, 40, 20, 30));
+  config.effects.side_lobes = true;
+  config.effects.directivity = false;
+  const msg::Ping open = ping_of(config, scene);
+  // At 55 degrees: cos^q takes 2.1 dB, a half-wave element 2.6 dB; elevation takes some more.
+  const double gain_db = db(mean_square(open, 50, 60, 20, 30) / mean_square(full, 50, 60, 20, 30));
+  CHECK(gain_db > 4.0);
+  CHECK(gain_db < 9.0);
+}
+
+TEST_CASE("a wrong sound speed at the face turns the beams as it scales their sines") {
+  const double east_m = 20.0 * std::sin(50 * kDeg), north_m = 20.0 * std::cos(50 * kDeg);
+  const auto pillar = [&](double east, double north) {
+    return std::hypot(east - east_m, north - north_m) < 0.3 ? -12.0 : -60.0;
+  };
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.range_m = 30.0;
+  config.pulse.most_samples = 300;
+  ForwardLookingHead head(config);
+  const trace::Scene scene = scene_of(pillar);
+  const auto seen_deg = [&](double known_mps) {
+    const msg::Ping ping = head.listen({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene);
+    const auto all = ping.amplitude_upa.flat();
+    const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
+    return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;
+  };
+  CHECK(seen_deg(1500.0) == Approx(50.0).margin(0.6));
+  // sin(beam) 1500 / 1440 = sin(50): 47.3 degrees, two and a half beams off.
+  CHECK(seen_deg(1440.0) == Approx(std::asin(std::sin(50 * kDeg) * 0.96) / kDeg).margin(0.6));
+}

@@ -1,0 +1,129 @@
+#include "components/scanning/head.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "components/runtime/head/head_motion.h"
+#include "kernels/array/aperture.h"
+#include "kernels/array/line.h"
+#include "kernels/array/pattern_table.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kNominalSpeed_mps = 1500.0;
+constexpr double kBackLoss_db = 40.0;
+constexpr double kReach = 6.0;     // null to either side that rays go to
+constexpr float kInLobe = 0.316F;  // amplitude, -10 dB
+
+double line_waves(double beamwidth_rad) { return array::length_in_waves_for(beamwidth_rad); }
+
+std::shared_ptr<const array::PatternTable> line_table(double length_in_waves) {
+  return std::make_shared<array::PatternTable>(
+      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
+}
+
+double resolution_m(const ScanningConfig& config) {
+  return 0.5 * kNominalSpeed_mps / pulse_at(config.pulse, config.range_m, config.sound_speed_mps).band_hz;
+}
+
+Apertures apertures_of(const ScanningConfig& config, const AperturePattern& pattern) {
+  Apertures a;
+  a.frequency_hz = config.frequency_hz;
+  a.patterns = {pattern};
+  a.directivity_index_db = array::directivity_index_db(line_waves(config.horizontal_beamwidth_rad),
+                                                       line_waves(config.vertical_beamwidth_rad));
+  a.electronic_noise_db = config.electronic_noise_db;
+  a.narrowest_rad = config.horizontal_beamwidth_rad;
+  a.narrow_axis_head = Eigen::Vector3f::UnitY();
+  a.resolution_m = resolution_m(config);
+  a.seed = config.world.seed;
+  a.process = config.process;
+  return a;
+}
+
+trace::TransmitVolume volume_of(const ScanningConfig& config) {
+  const double narrow = line_waves(config.horizontal_beamwidth_rad), tall = line_waves(config.vertical_beamwidth_rad);
+  const double axis = std::sin(config.tilt_rad);
+  const double null_rad = std::asin(std::min(1.0, 1.0 / narrow)), reach_rad = std::asin(std::min(1.0, kReach / narrow));
+  trace::TransmitVolume volume;
+  volume.axis = trace::TransmitVolume::Axis::kDown;
+  volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
+                 2.0 * array::half_power_half_width(tall)};
+  volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
+  return volume;
+}
+
+}  // namespace
+
+AperturePattern scanning_pattern(const ScanningConfig& config) {
+  const double waves = line_waves(config.horizontal_beamwidth_rad);
+  const auto across = line_table(waves), vertical = line_table(line_waves(config.vertical_beamwidth_rad));
+  const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : 1.0 / waves);
+  const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
+             sine = static_cast<float>(std::sin(config.tilt_rad));
+  const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);
+  const bool directivity = config.effects.directivity;
+  return [=](const Eigen::Vector3f& direction) {
+    if (std::abs(direction.y()) >= first_null) return 0.0F;
+    const float narrow = across->amplitude(static_cast<double>(direction.y())).real();
+    if (!directivity) return narrow;
+    const double face = array::face_amplitude({0.0, kBackLoss_db}, static_cast<double>(axis.dot(direction)));
+    return narrow * vertical->amplitude(static_cast<double>(up_the_face.dot(direction))).real() *
+           static_cast<float>(face);
+  };
+}
+
+ScanningHead::ScanningHead(const ScanningConfig& config)
+    : config_(config),
+      pattern_(scanning_pattern(config)),
+      echoes_(apertures_of(config, pattern_), Environment(config.world, config.frequency_hz), config.effects),
+      distribution_(volume_of(config), {config.quality, resolution_m(config)},
+                    {config.world.seed, config.process + "/rays"}) {}
+
+msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
+                               const frames::PoseHistory& truth, const trace::Scene& seabed) {
+  const double angle_rad = scan_angle_rad(config_.scan, shot.ping);
+  const RangedPulse ranged = pulse_for(settings.range_m);
+  head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
+  const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
+  for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
+  echoes_.move(poses_);
+  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
+  distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
+  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  sight_ = {.range_m = settings.range_m, .altitude_m = altitude_m(seabed, echoes_.transmit_pose())};
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    if (!hits_[i].hit()) continue;
+    ++sight_.rays_that_hit;
+    sight_.rays_in_lobe += std::abs(pattern_(rays_[i].direction_head)) > kInLobe ? 1 : 0;
+  }
+  Emission emission;
+  emission.shot = shot;
+  emission.source_level_db = settings.source_level_db;
+  emission.sample_period_s = ranged.sampling.period_s;
+  emission.listening_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
+  echo::Image& image = echoes_.listen(emission, echo_pulse(config_.pulse, ranged), rays_, hits_);
+
+  msg::Ping ping;
+  ping.stamp_ns = shot.transmit.count();
+  ping.ping = shot.ping;
+  ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
+  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
+  write_samples(tvg_of(settings, known_sound_speed_mps), converter, ranged.sampling, image, ping);
+  fill(ping.applied, settings);
+  ping.applied.frequency_hz = config_.frequency_hz;
+  ping.applied.pulse_length_s = ranged.length_s;
+  ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
+  ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;
+  ping.applied.sound_speed_mps = known_sound_speed_mps;
+  return ping;
+}
+
+std::size_t ScanningHead::max_ping_bytes() const {
+  return static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "components/runtime/head/aperture_echoes.h"
+#include "components/runtime/head/sight.h"
+#include "components/scanning/config.h"
+#include "kernels/trace/ray_distribution.h"
+
+namespace ensonify {
+
+/// The pattern of the transducer, in its own frame: x along its axis's projection onto the plane that it turns in.
+AperturePattern scanning_pattern(const ScanningConfig& config);
+
+/// The acoustics of a mechanically scanned head: what its one transducer hears where it points. It stands still while
+/// it listens. Uses the true motion, the actual mounting and the true water.
+class ScanningHead {
+ public:
+  explicit ScanningHead(const ScanningConfig& config);
+
+  /// The row of a ping: a function of the shot, the settings, the sound speed that the head knows, the poses while it
+  /// listens, and the tiles. The track is left to the caller.
+  msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
+                   const frames::PoseHistory& truth, const trace::Scene& seabed);
+
+  /// What the last ping met.
+  const Sight& sight() const { return sight_; }
+
+  RangedPulse pulse_for(double range_m) const { return pulse_at(config_.pulse, range_m, config_.sound_speed_mps); }
+  std::size_t max_ping_bytes() const;
+
+ private:
+  ScanningConfig config_;
+  AperturePattern pattern_;
+  ApertureEchoes echoes_;
+  trace::RayDistribution distribution_;
+  std::vector<frames::HeadPose> poses_;
+  std::vector<trace::Ray> rays_;
+  std::vector<trace::Hit> hits_;
+  Sight sight_;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,204 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/default_yaml.h"
+#include "components/runtime/testing.h"
+#include "components/scanning/node.h"
+#include "kernels/array/line.h"
+#include "kernels/seabed/lambert.h"
+#include "messages/motion.h"
+#include "messages/navigation.h"
+
+using namespace ensonify;
+
+namespace {
+
+constexpr double kDeg = Scan::kDegree;
+constexpr double kSpeed_mps = 1500.0;
+
+Scenario with_head(const std::string& name) {
+  Scenario scenario;
+  Vehicle auv;
+  auv.name = "auv";
+  auv.mountings[name] = {};
+  scenario.vehicles = {auv};
+  return scenario;
+}
+
+std::string problems(const std::string& yaml) {
+  auto from = ConfigReader::from_text(yaml, "head.yaml");
+  ScanningConfig::read(from, with_head("eye"), "eye");
+  try {
+    from.finish();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<double> angles_deg(const Scan& scan, int pings) {
+  std::vector<double> angles;
+  for (int ping = 0; ping < pings; ++ping) angles.push_back(scan_angle_rad(scan, ping) / kDeg);
+  return angles;
+}
+
+void check_angles(const Scan& scan, const std::vector<double>& expected) {
+  const auto found = angles_deg(scan, static_cast<int>(expected.size()));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    INFO("ping " << i);
+    CHECK(found[i] == Approx(expected[i]).margin(1e-9));
+  }
+}
+
+/// A quiet head over a Lambert seabed.
+ScanningConfig quiet() {
+  ScanningConfig config;
+  config.world.water.profile.sound_speed_mps = kSpeed_mps;
+  config.world.water.absorption_dbpm = 0.2;
+  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  config.process = "eye";
+  config.effects.noise = config.effects.multipath = config.effects.speckle = false;
+  return config;
+}
+
+trace::Scene scene_of(const std::function<double(double, double)>& height_m) {
+  trace::Scene scene({0, 0});
+  scene.insert({0, 0},
+               terrain::sample_tile({.origin_enu_m = {-64, -64}, .spacing_m = 0.25, .cells = 512}, {0, 0}, height_m));
+  return scene;
+}
+
+double range_of(const msg::Ping& ping, std::size_t sample) {
+  return 0.5 * kSpeed_mps * static_cast<double>(sample) * ping.sample_period_s;
+}
+
+}  // namespace
+
+TEST_CASE("scanning/default.yaml lists every parameter with its default") {
+  CHECK(default_yaml_fault<ScanningConfig>("scanning", with_head("scanning")) == "");
+}
+
+TEST_CASE("a scan outside its limits is refused with place and limits") {
+  CHECK(problems("steps_per_ping: 0") == "head.yaml:1:17: steps_per_ping: 0 is outside [1, 100]");
+  CHECK(problems("{sector_width_deg: 5, steps_per_ping: 10}").find("is less than what the head turns") !=
+        std::string::npos);
+  CHECK(problems("{sector_width_deg: 90, turning: reversing}").empty());
+}
+
+TEST_CASE("a full turn goes round without a double place") {
+  Scan scan;
+  CHECK(pings_per_sweep(scan) == 400);
+  check_angles(scan, {180.0, -179.1, -178.2});  // 180 and -180 are one direction
+  CHECK(scan_angle_rad(scan, 399) / kDeg == Approx(179.1));
+  CHECK(scan_angle_rad(scan, 400) == Approx(scan_angle_rad(scan, 0)));
+  scan.steps_per_ping = 10;
+  CHECK(pings_per_sweep(scan) == 40);
+}
+
+TEST_CASE("a sector is scanned from port to starboard, and again or back") {
+  Scan scan{.centre_rad = 90 * kDeg, .width_rad = 4 * kDeg, .step_rad = 1 * kDeg};
+  check_angles(scan, {88, 89, 90, 91, 92, 88, 89});
+  scan.reversing = true;
+  check_angles(scan, {88, 89, 90, 91, 92, 91, 90, 89, 88, 89});
+  scan.steps_per_ping = 2;
+  check_angles(scan, {88, 90, 92, 90, 88});
+}
+
+TEST_CASE("a post is heard in the ping that points at it, at its range") {
+  // 60 degrees to port, 12 m away; the head 10 m deep, 3 m above the seabed.
+  const double east_m = -12.0 * std::sin(60 * kDeg), north_m = 12.0 * std::cos(60 * kDeg);
+  ScanningConfig config = quiet();
+  config.scan = {.centre_rad = -60 * kDeg, .width_rad = 20 * kDeg, .step_rad = 0.9 * kDeg};
+  ScanningHead head(config);
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  const auto scene =
+      scene_of([&](double e, double n) { return std::hypot(e - east_m, n - north_m) < 0.2 ? -9.0 : -60.0; });
+  double loudest_upa = 0.0, angle_deg = 0.0, range_m = 0.0;
+  for (std::int64_t ping = 0; ping < pings_per_sweep(config.scan); ++ping) {
+    const msg::Ping row = head.listen({ping, SimTime{0}, 20.0}, config.start(), kSpeed_mps, truth, scene);
+    REQUIRE(row.amplitude_upa.rows() == 1);
+    for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {
+      if (static_cast<double>(row.amplitude_upa[k]) <= loudest_upa) continue;
+      loudest_upa = static_cast<double>(row.amplitude_upa[k]);
+      angle_deg = static_cast<double>(row.beam_angle_rad[0]) / kDeg;
+      range_m = range_of(row, k);
+    }
+  }
+  CHECK(angle_deg == Approx(-60).margin(1.0));
+  CHECK(range_m == Approx(12.0).margin(0.5));  // a post of 0.4 m on posts of terrain 0.25 m apart
+}
+
+TEST_CASE("the mean level of a flat seabed is that of the area integral") {
+  // 5 m above it, tilted 10 degrees down. Ring between R and R + length: dA = R dR dphi.
+  ScanningConfig config = quiet();
+  config.tilt_rad = 10 * kDeg;
+  config.range_m = 40.0;
+  config.scan.centre_rad = config.scan.width_rad = 0.5 * kDeg;
+  config.quality = 1.0;
+  ScanningHead head(config);
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  const msg::Ping row = head.listen({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth,
+                                    scene_of([](double, double) { return -15.0; }));
+  const double narrow = array::length_in_waves_for(2 * kDeg), tall = array::length_in_waves_for(25 * kDeg);
+  const double length_m = 0.5 * kSpeed_mps * head.pulse_for(40.0).length_s, H = 5.0;
+  for (const double R : {15.0, 20.0, 30.0}) {
+    double sum = 0.0;
+    constexpr int kSteps = 40000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double phi = -0.5 + (i + 0.5) / kSteps, ground = std::sqrt(R * R - H * H);
+      const double x = ground / R * std::cos(phi), y = ground / R * std::sin(phi), z = H / R;
+      const double one_way = array::line_power(narrow, y) *
+                             array::line_power(tall, z * std::cos(config.tilt_rad) - x * std::sin(config.tilt_rad));
+      sum += one_way * one_way / kSteps;
+    }
+    const double expected_db = config.source_level_db - 40.0 * std::log10(R) - 2.0 * 0.2 * R +
+                               10.0 * std::log10(seabed::lambert_backscatter(-25.0, H / R) * R * length_m * sum);
+    double mean_square = 0.0;
+    int count = 0;
+    for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {
+      // The echo at time t is that of ranges from c (t - length) / 2 to c t / 2.
+      if (std::abs(range_of(row, k) - 0.5 * length_m - R) > 0.5) continue;
+      mean_square += static_cast<double>(row.amplitude_upa[k]) * static_cast<double>(row.amplitude_upa[k]);
+      ++count;
+    }
+    INFO("range " << R);
+    CHECK(10.0 * std::log10(mean_square / count) == Approx(expected_db).margin(0.5));
+  }
+}
+
+TEST_CASE("pings carry their angle, and a head that can only see black says why") {
+  ScanningConfig config;
+  config.scan = {.width_rad = 90 * kDeg, .step_rad = 0.9 * kDeg, .steps_per_ping = 10, .reversing = true};
+  config.quality = 0.1;
+  config.range_m = 4.0;  // 5.333 ms, rounded up to whole samples of 16 us; 32 us of pulse and 20 ms of dead time
+  NodeUnderTest<ScanningNode> head(config);
+  for (SimTime t{0}; t <= 500_ms; t += 10_ms) {
+    msg::Pose pose;
+    pose.stamp_ns = t.count();
+    pose.position_enu_m = {0.0, 0.0, -10.0};
+    pose.enu_from_body = frames::wxyz_of(frames::enu_from_ned());
+    head.give("pose", pose);
+  }
+  msg::Tile tile;
+  tile.origin_east_m = tile.origin_north_m = -16.0;
+  tile.spacing_m = 0.5;
+  tile.height_m = msg::Array<float>({65, 65});
+  for (float& h : tile.height_m.flat()) h = -15.0F;
+  tile.sediment = msg::Array<std::uint8_t>({65, 65});
+  head.give("tile", tile);
+  const auto pings = head.step_until<msg::Ping>("ping", 450_ms);
+  REQUIRE(pings.size() > 12);
+  for (const msg::Ping& ping : pings) {
+    CHECK(ping.beam_angle_rad[0] == static_cast<float>(scan_angle_rad(config.scan, ping.ping)));
+    CHECK(ping.amplitude_upa.rows() == 1);
+  }
+  CHECK(static_cast<double>(pings[10].beam_angle_rad[0]) == Approx(45 * kDeg));
+  CHECK(static_cast<double>(pings[11].beam_angle_rad[0]) == Approx(36 * kDeg));
+  CHECK(pings[1].stamp_ns - pings[0].stamp_ns == Approx(25'365'333).margin(20'000));
+  const auto health = head.step_until<msg::Health>("health", 460_ms);
+  REQUIRE_FALSE(health.empty());
+  CHECK(health.back().message == "the range of 4.0 m is below the altitude of 5.0 m");
+}
