@@ -1,6 +1,7 @@
 #include "kernels/trace/scene.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,9 +20,10 @@ using frames::Vec3;
 
 constexpr std::int32_t kBlockCells = 64;  // cells per side of a grid primitive
 
-/// One instruction set everywhere that results must match, and one thread so that a tree is always built the same way.
+/// One instruction set everywhere that results must match. No number of threads: Embree would hold the whole process's
+/// TBB to it.
 Device new_device() {
-  Device device(rtcNewDevice("isa=avx2,threads=1,set_affinity=0"));
+  Device device(rtcNewDevice("isa=avx2,set_affinity=0"));
   if (!device) throw std::runtime_error("Embree cannot start (it needs a processor with AVX2)");
   return device;
 }
@@ -77,7 +79,10 @@ EmbreeScene scene_of(const Device& device, const terrain::Tile& tile, const Vec2
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(scene.get());
+  {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    rtcCommitScene(scene.get());  // a tree is always built the same way
+  }
   if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) throw std::runtime_error("Embree could not build a tile");
   return scene;
 }

@@ -124,6 +124,15 @@ TEST_CASE("an all-hole tile and an empty scene answer nothing") {
   CHECK_FALSE(hits.at(0).hit());
 }
 
+TEST_CASE("a scene leaves the process as many threads as it had") {
+  using tbb::global_control;
+  const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
+  REQUIRE(threads > 1);  // Embree's TBB has at least two, on one core too
+  Scene scene({0, 0});
+  scene.insert({0, 0}, tile_of({.origin_enu_m = {-16, -16}, .spacing_m = 0.5, .cells = 64}, {0, 0}, flat));
+  CHECK(global_control::active_value(global_control::max_allowed_parallelism) == threads);
+}
+
 TEST_CASE("threads, the order of insertion and removed tiles change no bit") {
   const TileGrid grid{.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 128};
   const auto key = [](int i) { return TileKey{i % 2, i / 2}; };
