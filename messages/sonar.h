@@ -180,7 +180,9 @@ struct Transmit {
   std::int64_t ping = 0;
   double frequency_hz = 0.0;
   double pulse_length_s = 0.0;
+  double bandwidth_hz = 0.0;
   double source_level_db = 0.0;
+  std::int64_t next_ns = 0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -188,7 +190,9 @@ struct Transmit {
     visit("ping", "1", "ping number of this head, from 0", self.ping);
     visit("frequency_hz", "Hz", "centre frequency", self.frequency_hz);
     visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
+    visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
+    visit("next_ns", "ns", "when the head means to transmit next, sim time; 0: it does not know", self.next_ns);
   }
 };
 

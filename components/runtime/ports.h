@@ -39,7 +39,7 @@ struct InPort {
   std::string type;  // "*" takes any type
   SimTime delay{0};
   bool optional = false;
-  std::vector<std::string> topics;  // with type "*": topic names or patterns such as "*" and "bow/*"
+  std::vector<std::string> topics;  // given: these names or patterns such as "*" and "bow/*", not the wiring
   std::size_t max_bytes = 0;        // 0: as declared by the publisher
 };
 
@@ -94,6 +94,17 @@ class Ports {
                [handler = std::move(handler)](const msg::Packet& packet) {
                  handler(msg::decode<M>(packet.body, packet.body.size()));
                });
+  }
+
+  /// One type from several publishers: every topic of `topics` (names or patterns such as "*"), which for a name must
+  /// be of this type. The handler is told who published.
+  template <msg::Message M>
+  void in_topics(const std::string& port, std::vector<std::string> topics,
+                 std::function<void(const std::string& publisher, const M&)> handler, InOptions options = {}) {
+    declare_in({port, M::kType, options.delay, options.optional, std::move(topics), 0}, [handler = std::move(handler)](
+                                                                                            const msg::Packet& packet) {
+      handler(packet.topic.substr(0, packet.topic.find('/')), msg::decode<M>(packet.body, packet.body.size()));
+    });
   }
 
   /// An input whose type is only known at run time; messages come undecoded.

@@ -28,6 +28,11 @@ class NodeUnderTest {
     for (std::size_t i = 0; i < ports_.ins().size(); ++i) {
       const InPort& in = ports_.ins()[i];
       if (in.type == "*") continue;  // given by topic: connect_any
+      for (const std::string& topic : in.topics) {
+        const auto id = static_cast<std::uint32_t>(1000 + feeds.size());
+        feeds.push_back({i, topic, id, in.type, topic.substr(0, topic.find('/')), id, in.delay, in.max_bytes});
+      }
+      if (!in.topics.empty()) continue;
       feeds.push_back(
           {i, "given/" + in.port, static_cast<std::uint32_t>(i), in.type, "given", 0, in.delay, in.max_bytes});
     }
@@ -43,8 +48,8 @@ class NodeUnderTest {
     }
   }
 
-  /// Publishes messages to an input port (or, for in_any, a connected topic), in the order given, each at its stamp_ns
-  /// or, for types without one, at the time of the last event.
+  /// Publishes messages to an input port (for in_topics and in_any: a topic that it lists or is connected to), in the
+  /// order given, each at its stamp_ns or, for types without one, at the time of the last event.
   template <msg::Message... M>
   void give(const std::string& port, const M&... messages) {
     (give_at(port, stamp(messages), messages), ...);

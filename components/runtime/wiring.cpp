@@ -82,8 +82,8 @@ class Wirer {
     const InPort& port = processes_[rank].ins[in];
     const std::string name = input_name(rank, in);
     const auto rule = std::find_if(rules_.begin(), rules_.end(), [&](const WireRule& r) { return r.input == name; });
-    if (port.type == "*") {
-      connect_any(rank, in);
+    if (!port.topics.empty()) {
+      connect_listed(rank, in);
     } else if (rule != rules_.end()) {
       connect_named(rank, in, rule->topic, *rule);
     } else {
@@ -91,19 +91,25 @@ class Wirer {
     }
   }
 
-  void connect_any(std::size_t rank, std::size_t in) {
-    for (const std::string& wanted : processes_[rank].ins[in].topics) {
+  void connect_listed(std::size_t rank, std::size_t in) {
+    const InPort& port = processes_[rank].ins[in];
+    for (const std::string& wanted : port.topics) {
       bool any = is_pattern(wanted);
       for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
         const std::size_t publisher = graph_.topics[t].publisher;
         if (publisher == rank || !topic_matches(wanted, graph_.topics[t].name)) continue;
         // Two that watch everything would wait for each other's health: by pattern, watchers do not watch watchers.
-        if (is_pattern(wanted) && watches_by_pattern(publisher)) continue;
+        if (port.type == "*" && is_pattern(wanted) && watches_by_pattern(publisher)) continue;
         any = true;
+        if (port.type != "*" && graph_.topics[t].type != port.type) {
+          if (is_pattern(wanted)) continue;
+          problem(placed_name(rank, in) + ": " + wanted + " is " + graph_.topics[t].type + ", the input takes " +
+                  port.type);
+        }
         const bool already = std::any_of(graph_.edges.begin(), graph_.edges.end(), [&](const Graph::Edge& e) {
           return e.topic == t && e.to == rank && e.in_port == in;
         });
-        if (!already) add_edge(t, rank, in, processes_[rank].ins[in].delay);
+        if (!already) add_edge(t, rank, in, port.delay);
       }
       if (!any) {
         problem(placed_name(rank, in) + ": no process publishes " + wanted + did_you_mean(wanted, topic_names_));

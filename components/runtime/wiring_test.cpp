@@ -83,6 +83,28 @@ TEST_CASE("a pattern takes every topic but its owner's, and a name that nobody p
         "x.yaml:7:3: recorder.all: no process publishes auv/poze (did you mean auv/pose?)");
 }
 
+TEST_CASE("an input of one type takes it from every publisher that it lists") {
+  std::vector<Declaration> heads = {process("bow", {out("transmit", "transmit/1"), out("ping", "ping/1")}, {}),
+                                    process("side", {out("transmit", "transmit/1")}, {}),
+                                    process("down", {out("transmit", "transmit/1")}, {})};
+  for (std::size_t i = 0; i < 2; ++i) {  // they hear each other, and down hears nobody
+    heads[i].ins = {{"transmits", "transmit/1", 20_ms, false, {i == 0 ? "side/transmit" : "bow/transmit"}, 0}};
+  }
+  heads[0].ins[0].topics.push_back("down/transmit");
+  const Graph graph = wire(heads, {});
+  CHECK(graph.problems.empty());
+  const auto feeds = feeds_of(graph, heads, 0);
+  REQUIRE(feeds.size() == 2);
+  CHECK(feeds[0].publisher == "side");
+  CHECK(feeds[1].publisher == "down");
+  CHECK(feeds[1].delay == 20_ms);
+
+  heads[1].ins[0].topics = {"*"};  // whatever is of the type, but its own
+  CHECK(feeds_of(wire(heads, {}), heads, 1).size() == 2);
+  heads[1].ins[0].topics = {"bow/ping"};
+  CHECK(only_problem(heads) == "side.transmits: bow/ping is ping/1, the input takes transmit/1");
+}
+
 TEST_CASE("a sync queue holds two messages and a window of each topic") {
   const Declaration p = process("auv", {{"pose", "pose/1", 4096, {100, 1}}, {"health", "health/1", 4096, {1, 1}}}, {});
   CHECK(queue_length(p, 1_s) == 2 + 100 + 2 + 1);

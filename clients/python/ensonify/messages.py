@@ -425,7 +425,9 @@ class Transmit(Message):
     ping [1]: ping number of this head, from 0
     frequency_hz [Hz]: centre frequency
     pulse_length_s [s]: pulse length
+    bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
+    next_ns [ns]: when the head means to transmit next, sim time; 0: it does not know
     """
 
     TYPE = "transmit/1"
@@ -433,7 +435,9 @@ class Transmit(Message):
     ping: int = 0
     frequency_hz: float = 0.0
     pulse_length_s: float = 0.0
+    bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
+    next_ns: int = 0
 
 
 @dataclass(eq=False)
