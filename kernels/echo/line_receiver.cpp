@@ -61,10 +61,10 @@ ElementLine power_line(const ElementLine& line) {
 
 LineReceiver::LineReceiver(const ElementLine& line)
     : line_(line),
-      cells_(Fft::good_size(std::max(2 * line.elements, 2 * kWidth))),
+      cells_(fft::Transform::good_size(std::max(2 * line.elements, 2 * kWidth))),
       stride_(cells_ + kWidth),
-      to_elements_(cells_, Fft::Sign::kPlus),
-      to_beams_(cells_, Fft::Sign::kMinus) {
+      to_elements_(cells_, fft::Transform::Sign::kPlus),
+      to_beams_(cells_, fft::Transform::Sign::kMinus) {
   if (line.elements < 1 || !(line.spacing_in_waves > 0.0)) {
     throw std::invalid_argument("a line array needs elements and a spacing above 0");
   }

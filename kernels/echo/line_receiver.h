@@ -6,11 +6,11 @@
 
 #include "kernels/array/line_array.h"
 #include "kernels/echo/arrival.h"
-#include "kernels/echo/fft.h"
 #include "kernels/echo/image.h"
 #include "kernels/echo/pulse.h"
 #include "kernels/echo/spreading.h"
 #include "kernels/echo/time_index.h"
+#include "kernels/fft/transform.h"
 #include "kernels/random/stream.h"
 
 namespace ensonify::echo {
@@ -113,7 +113,7 @@ class LineReceiver {
   ElementLine line_;
   int cells_, stride_;
   Spreading spreading_;
-  Fft to_elements_, to_beams_;
+  fft::Transform to_elements_, to_beams_;
   std::vector<float> unspread_;         // by element
   std::vector<float> isotropic_share_;  // by cell, amplitude
   TimeIndex index_;

@@ -1,4 +1,4 @@
-#include "kernels/echo/fft.h"
+#include "kernels/fft/transform.h"
 
 #include <fftw3.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace ensonify::echo {
+namespace ensonify::fft {
 namespace {
 
 std::mutex planner;  // FFTW makes and destroys plans one at a time; using them needs no lock
@@ -15,7 +15,7 @@ fftwf_complex* as_fftw(std::complex<float>* numbers) { return reinterpret_cast<f
 
 }  // namespace
 
-struct Fft::Plan {
+struct Transform::Plan {
   fftwf_plan plan;
 
   Plan(int size, Sign sign) {
@@ -33,13 +33,13 @@ struct Fft::Plan {
   Plan& operator=(const Plan&) = delete;
 };
 
-Fft::Fft(int size, Sign sign) : plan_(std::make_shared<Plan>(size, sign)) {}
+Transform::Transform(int size, Sign sign) : plan_(std::make_shared<Plan>(size, sign)) {}
 
-void Fft::operator()(std::complex<float>* numbers) const {
+void Transform::operator()(std::complex<float>* numbers) const {
   fftwf_execute_dft(plan_->plan, as_fftw(numbers), as_fftw(numbers));
 }
 
-int Fft::good_size(int least) {
+int Transform::good_size(int least) {
   for (int size = least + least % 2;; size += 2) {
     int rest = size;
     for (const int factor : {2, 3, 5}) {
@@ -49,4 +49,4 @@ int Fft::good_size(int least) {
   }
 }
 
-}  // namespace ensonify::echo
+}  // namespace ensonify::fft

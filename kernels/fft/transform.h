@@ -3,15 +3,15 @@
 #include <complex>
 #include <memory>
 
-namespace ensonify::echo {
+namespace ensonify::fft {
 
 /// A discrete Fourier transform of one size in float, in place, not scaled. Made once (FFTW, the planner's estimate, so
 /// the same on every run on a kind of processor), then used from any thread.
-class Fft {
+class Transform {
  public:
   enum class Sign { kMinus, kPlus };  // of the exponent: e^(-2 pi i m g / size) or e^(+2 pi i m g / size)
 
-  Fft(int size, Sign sign);
+  Transform(int size, Sign sign);
 
   /// `numbers` must start on a multiple of 16 bytes.
   void operator()(std::complex<float>* numbers) const;
@@ -24,4 +24,4 @@ class Fft {
   std::shared_ptr<const Plan> plan_;
 };
 
-}  // namespace ensonify::echo
+}  // namespace ensonify::fft

@@ -1,0 +1,55 @@
+#include "kernels/relief_statistics/exact_fbm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "kernels/fft/plane.h"
+#include "kernels/random/gaussian.h"
+
+namespace ensonify::relief_statistics {
+
+Surface exact_fbm(double hurst, int posts, const random::Stream& stream, std::uint64_t number) {
+  if (!(hurst > 0.0 && hurst <= 0.75))
+    throw std::invalid_argument("exact_fbm: hurst is " + std::to_string(hurst) + ", allowed: above 0, at most 0.75");
+  if (posts < 2 || posts > 2048)
+    throw std::invalid_argument("exact_fbm: posts is " + std::to_string(posts) + ", allowed: 2 to 2048");
+  // In units of the diagonal all usable pairs have rho <= 1; the covariance vanishes there, so a period of 2 suffices.
+  const double diagonal = std::numbers::sqrt2 * posts;
+  const int period = fft::Transform::good_size(static_cast<int>(std::ceil(2.0 * diagonal)));
+  const auto n = static_cast<std::size_t>(period);
+  std::vector<std::complex<float>> plane(n * n);
+  for (int j = 0; j < period; ++j) {
+    for (int i = 0; i < period; ++i) {
+      const double rho = std::hypot(std::min(i, period - i), std::min(j, period - j)) / diagonal;
+      const double covariance = rho < 1.0 ? 1.0 - hurst - std::pow(rho, 2.0 * hurst) + hurst * rho * rho : 0.0;
+      plane[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)] = static_cast<float>(covariance);
+    }
+  }
+  fft::transform_plane(plane, period, period, fft::Transform::Sign::kMinus);
+  std::vector<std::complex<float>> noise(n * n);
+  random::add_gaussian(stream, number, 0, 1.0F, noise);
+  const double cells = static_cast<double>(period) * period;
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    const double power = std::max(0.0, static_cast<double>(plane[i].real()));  // rounding leaves some below 0
+    noise[i] *= static_cast<float>(std::sqrt(power / cells));
+  }
+  fft::transform_plane(noise, period, period, fft::Transform::Sign::kPlus);
+  // Heights in units of r^(2 H), r in posts: D of the field is 2 (rho^2H - H rho^2); the tilt returns H rho^2.
+  const double unit = std::pow(diagonal, hurst) / std::numbers::sqrt2;
+  const auto tilt = stream.normal_pair(number, ~std::uint64_t{0}, 1);
+  Surface surface{posts, posts, 1.0, {}};
+  for (int j = 0; j < posts; ++j) {
+    for (int i = 0; i < posts; ++i) {
+      const double z = noise[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)].real() - noise[0].real();
+      const double plane_z = std::sqrt(2.0 * hurst) * (tilt[0] * i + tilt[1] * j) / diagonal;
+      surface.height_m.push_back(static_cast<float>(unit * (z + plane_z)));
+    }
+  }
+  return surface;
+}
+
+}  // namespace ensonify::relief_statistics

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace ensonify::relief_statistics {
+
+/// Heights on a square lattice of posts, row by row from the south, each row from the west. NaN is a hole.
+struct Surface {
+  int columns = 0;
+  int rows = 0;
+  double spacing_m = 1.0;
+  std::vector<float> height_m;
+
+  float at(int column, int row) const {
+    return height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)];
+  }
+};
+
+/// A square part of a surface and the plane that fits it best (least squares).
+struct Patch {
+  std::vector<double> residual_m;  // height less the plane, row by row
+  double east_slope = 0.0;         // of the plane, m per m
+  double north_slope = 0.0;
+  double mean_m = 0.0;
+};
+
+/// Throws std::invalid_argument unless the sizes agree and there is at least one post.
+void check(const Surface& surface);
+
+/// The `cells` x `cells` posts from (column, row) on, less their plane. False, and `patch` in an unspecified state, if
+/// one of them is a hole.
+bool patch_of(const Surface& surface, int column, int row, int cells, Patch& patch);
+
+}  // namespace ensonify::relief_statistics
