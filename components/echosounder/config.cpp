@@ -1,7 +1,5 @@
 #include "components/echosounder/config.h"
 
-#include <cmath>
-
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/head_motion.h"
 
@@ -75,7 +73,5 @@ SettingLimits EchosounderConfig::limits() const {
   limits.ping_rate_hz = {0.01, ping_rate_hz};
   return limits;
 }
-
-Rate EchosounderConfig::rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
 
 }  // namespace ensonify

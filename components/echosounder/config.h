@@ -4,6 +4,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
+#include "components/runtime/head/ping_clock.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
@@ -43,6 +44,9 @@ struct EchosounderConfig {
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const EchosounderConfig& other) const;
 
+  PingTiming timing() const {
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+  }
   /// Settings that it starts with, and what a command can make of them.
   HeadSettings start() const;
   SettingLimits limits() const;
@@ -50,7 +54,6 @@ struct EchosounderConfig {
   double listening_s(const HeadSettings& settings) const {
     return 2.0 * settings.range_m / sound_speed_mps + settings.pulse_length_s;
   }
-  static Rate rate_of(double hz);
 
   static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 };

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <deque>
-
 #include "components/echosounder/head.h"
-#include "components/runtime/head/ping_clock.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/runtime/head/head_inputs.h"
+#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
-#include "messages/motion.h"
-#include "messages/navigation.h"
 
 namespace ensonify {
 
@@ -23,28 +19,15 @@ class EchosounderNode {
   SimTime step(SimTime now);
 
  private:
-  struct Pending {
-    Shot shot;
-    SimTime ready{0};
-    HeadSettings settings;
-  };
-
   void transmit(SimTime now);
-  void receive(const Pending& pending);
-  void skip(const std::string& why);
+  void publish(const PingUnderWay& ping);
 
-  Ports& ports_;
   Config config_;
-  CommandedSettings settings_;
   EchosounderHead head_;
-  PingClock clock_;
-  TileSet tiles_;
-  frames::PoseHistory truth_, estimate_;
-  std::deque<Pending> pending_;
-  std::int64_t pings_ = 0;
+  HeadInputs inputs_;
+  PingCycle cycle_;
   Ports::Out<msg::Ping> ping_out_;
   Ports::Out<msg::BottomTrack> bottom_out_;
-  Ports::Out<msg::Transmit> transmit_out_;
 };
 
 }  // namespace ensonify

@@ -1,7 +1,5 @@
 #include "components/forward_looking/config.h"
 
-#include <cmath>
-
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/head_motion.h"
 
@@ -76,8 +74,6 @@ bool ForwardLookingConfig::operator==(const ForwardLookingConfig& o) const {
          gain_absorption_dbpm == o.gain_absorption_dbpm && gain_offset_db == o.gain_offset_db &&
          converter == o.converter && quality == o.quality && effects == o.effects;
 }
-
-Rate ForwardLookingConfig::rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
 
 HeadSettings ForwardLookingConfig::start() const {
   HeadSettings start;

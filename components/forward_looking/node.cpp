@@ -1,81 +1,48 @@
 #include "components/forward_looking/node.h"
 
-#include <algorithm>
-
-#include "components/runtime/head/head_motion.h"
-
 namespace ensonify {
 namespace {
 
 HeadInputs::Start start_of(const ForwardLookingConfig& config, const ForwardLookingHead& head) {
   HeadInputs::Start start;
-  start.actual = config.mounting.actual;
-  start.keep =
-      from_seconds(2.0 * (head.pulse_for(config.longest_range_m).listening_s() + config.processing_latency_s) + 1.0);
+  start.mounting = config.mounting;
+  start.longest_ping = from_seconds(head.pulse_for(config.longest_range_m).listening_s() + config.processing_latency_s);
   start.sound_speed_mps = config.sound_speed_mps;
-  start.settings = config.start();
-  start.limits = config.limits();
+  start.probe = true;
+  start.channels = {{"", config.start(), config.limits()}};
   return start;
 }
 
 }  // namespace
 
 ForwardLookingNode::ForwardLookingNode(const Config& config, Ports& ports)
-    : ports_(ports),
-      config_(config),
+    : frequency_hz_(config.frequency_hz),
       head_(config),
       inputs_(ports, start_of(config, head_)),
-      clock_(config.ping_rate(), from_seconds(config.dead_time_s)),
-      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.ping_rate()})),
-      transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = config.ping_rate()})) {
+      cycle_(ports, inputs_, config.timing()),
+      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.timing().rate})) {
   ports.note("finest_beam_rad", config.beamwidth_rad);
   ports.note("near_field_m", head_.near_field_m());
 }
 
 SimTime ForwardLookingNode::step(SimTime now) {
-  while (!pending_.empty() && pending_.front().ready <= now) {
-    receive(pending_.front());
-    pending_.pop_front();
-  }
-  if (clock_.next() <= now) transmit(now);
-  return pending_.empty() ? clock_.next() : std::min(clock_.next(), pending_.front().ready);
+  while (const auto ping = cycle_.ready(now)) publish(*ping);
+  if (cycle_.may_transmit(now)) transmit(now);
+  return cycle_.next();
 }
 
 void ForwardLookingNode::transmit(SimTime now) {
-  if (const std::string obstacle = inputs_.obstacle(now); !obstacle.empty()) {
-    clock_.skipped();
-    ports_.count("pings_skipped");
-    return ports_.health("degraded", obstacle);
-  }
-  const HeadSettings& settings = inputs_.settings().at_ping();
-  const SimTime listening = from_seconds(head_.pulse_for(settings.range_m).listening_s());
-  pending_.push_back({{pings_++, now, settings.range_m},
-                      settings,
-                      inputs_.sound_speed_mps(),
-                      listening,
-                      now + listening + from_seconds(config_.processing_latency_s)});
-  msg::Transmit transmit;
-  transmit.stamp_ns = now.count();
-  transmit.ping = pending_.back().shot.ping;
-  transmit.frequency_hz = config_.frequency_hz;
-  transmit.pulse_length_s = head_.pulse_for(settings.range_m).length_s;
-  transmit.source_level_db = settings.source_level_db;
-  transmit_out_.send(transmit);
-  clock_.set_rate(Config::rate_of(settings.ping_rate_hz));
-  clock_.transmitted(listening);
+  const HeadSettings& settings = inputs_.settings_at_ping();
+  const RangedPulse pulse = head_.pulse_for(settings.range_m);
+  cycle_.transmit(now, {{frequency_hz_, pulse.length_s, from_seconds(pulse.listening_s()), settings}});
 }
 
-void ForwardLookingNode::receive(const Pending& pending) {
-  msg::Ping ping =
-      head_.listen(pending.shot, pending.settings, pending.sound_speed_mps, inputs_.truth(), inputs_.seabed());
-  fill(ping.track, inputs_.estimate(), config_.mounting.measured, pending.shot.transmit, pending.listening);
-  ping_out_.send(ping);
-  ports_.count("pings");
-  if (const std::string why = why_black(head_.sight()); !why.empty()) return ports_.health("degraded", why);
-  if (inputs_.estimate().empty()) {
-    return ports_.health("degraded", "no navigation estimate has arrived: pings have no track");
-  }
-  ports_.health("ok", "");
+void ForwardLookingNode::publish(const PingUnderWay& ping) {
+  const Transmission& sent = ping.channels.front();
+  msg::Ping image = head_.listen(ping.shot(), sent.settings, ping.sound_speed_mps, inputs_.truth(), inputs_.seabed());
+  inputs_.fill_track(image.track, ping.transmit, sent.listening);
+  ping_out_.send(image);
+  cycle_.published(why_black(head_.sight()));
 }
 
 }  // namespace ensonify

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 
 namespace ensonify {
@@ -24,6 +25,9 @@ struct Rate {
   constexpr double hz() const { return static_cast<double>(num) / static_cast<double>(den); }
   bool operator==(const Rate&) const = default;
 };
+
+/// To the nearest thousandth of a hertz.
+inline Rate rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
 
 /// Time of event n of a periodic port: phase + floor(n 10^9 den / num) ns, computed from n, never summed.
 constexpr SimTime event_time(std::int64_t n, Rate rate, SimTime phase = SimTime{0}) {

@@ -1,7 +1,5 @@
 #include "components/scanning/config.h"
 
-#include <cmath>
-
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/head_motion.h"
 
@@ -66,8 +64,6 @@ bool ScanningConfig::operator==(const ScanningConfig& o) const {
          gain_absorption_dbpm == o.gain_absorption_dbpm && gain_offset_db == o.gain_offset_db &&
          converter == o.converter && quality == o.quality && effects == o.effects;
 }
-
-Rate ScanningConfig::rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
 
 HeadSettings ScanningConfig::start() const {
   HeadSettings start;

@@ -4,6 +4,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
+#include "components/runtime/head/ping_clock.h"
 #include "components/runtime/head/ranged_pulse.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
@@ -46,10 +47,11 @@ struct ScanningConfig {
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const ScanningConfig& other) const;
 
+  PingTiming timing() const {
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+  }
   HeadSettings start() const;
   SettingLimits limits() const;
-  Rate ping_rate() const { return rate_of(ping_rate_hz); }
-  static Rate rate_of(double hz);
 };
 
 }  // namespace ensonify

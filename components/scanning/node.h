@@ -1,9 +1,7 @@
 #pragma once
 
-#include <deque>
-
 #include "components/runtime/head/head_inputs.h"
-#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
 #include "components/scanning/head.h"
 
@@ -21,26 +19,14 @@ class ScanningNode {
   SimTime step(SimTime now);
 
  private:
-  struct Pending {
-    Shot shot;
-    HeadSettings settings;
-    double sound_speed_mps = 0.0;  // as the head knew it
-    SimTime listening{0};
-    SimTime ready{0};
-  };
-
   void transmit(SimTime now);
-  void receive(const Pending& pending);
+  void publish(const PingUnderWay& ping);
 
-  Ports& ports_;
-  Config config_;
+  double frequency_hz_;
   ScanningHead head_;
   HeadInputs inputs_;
-  PingClock clock_;
-  std::deque<Pending> pending_;
-  std::int64_t pings_ = 0;
+  PingCycle cycle_;
   Ports::Out<msg::Ping> ping_out_;
-  Ports::Out<msg::Transmit> transmit_out_;
 };
 
 }  // namespace ensonify

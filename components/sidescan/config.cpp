@@ -93,8 +93,6 @@ bool SidescanConfig::operator==(const SidescanConfig& o) const {
          bottom_threshold_db == o.bottom_threshold_db && quality == o.quality && effects == o.effects;
 }
 
-Rate SidescanConfig::rate_of(double hz) { return {std::llround(hz * 1000.0), 1000}; }
-
 HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {
   HeadSettings start;
   start.range_m = channel.range_m;

@@ -6,6 +6,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
+#include "components/runtime/head/ping_clock.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
@@ -67,8 +68,9 @@ struct SidescanConfig {
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const SidescanConfig& other) const;
 
-  Rate ping_rate() const { return rate_of(ping_rate_hz); }
-  static Rate rate_of(double hz);
+  PingTiming timing() const {
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+  }
   /// Settings that a channel starts with, and what a command can make of them.
   HeadSettings start_of(const SidescanChannel& channel) const;
   SettingLimits limits_of(const SidescanChannel& channel) const;

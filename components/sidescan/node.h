@@ -1,14 +1,11 @@
 #pragma once
 
-#include <deque>
 #include <vector>
 
-#include "components/runtime/head/ping_clock.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/runtime/head/head_inputs.h"
+#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
 #include "components/sidescan/head.h"
-#include "messages/motion.h"
-#include "messages/navigation.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -27,32 +24,18 @@ class SidescanNode {
  private:
   struct Channel {
     SidescanChannel config;
-    CommandedSettings settings;
     SidescanHead head;
     Ports::Out<msg::Ping> ping_out;
     Ports::Out<msg::BottomTrack> bottom_out;
   };
-  struct Pending {
-    std::int64_t ping = 0;
-    SimTime transmit{0};
-    SimTime ready{0};
-    std::vector<HeadSettings> settings;  // by channel
-  };
 
-  void command(const msg::SonarSettings& wanted);
   void transmit(SimTime now);
-  void receive(const Pending& pending);
-  void skip(const std::string& why);
+  void publish(const PingUnderWay& ping);
 
-  Ports& ports_;
   Config config_;
+  HeadInputs inputs_;
+  PingCycle cycle_;
   std::vector<Channel> channels_;
-  PingClock clock_;
-  TileSet tiles_;
-  frames::PoseHistory truth_, estimate_;
-  std::deque<Pending> pending_;
-  std::int64_t pings_ = 0;
-  Ports::Out<msg::Transmit> transmit_out_;
 };
 
 }  // namespace ensonify

@@ -1,26 +1,34 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
 #include "kernels/frames/pose.h"
+#include "messages/sonar.h"
 
 namespace ensonify {
 
-/// What a head is told, and its ports: `pose` (the truth), `estimate`, `tile`, `release`, and, if they are connected,
-/// `sound_speed` (the probe at the face) and `settings`. A command is heard 100 ms later: it may well come from
-/// somebody who looks at the head's own pings.
+/// What a head is told, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `estimate`,
+/// `settings` and, of a head that has a probe at its face, `sound_speed`. A command is heard 100 ms later: it may well
+/// come from somebody who looks at the head's own pings.
 class HeadInputs {
  public:
-  struct Start {
-    frames::Mounting actual;
-    SimTime keep{0};                  // poses older than this are never asked for
-    double sound_speed_mps = 1500.0;  // believed until the probe tells
+  /// What is set by commands, apart from other channels of the head.
+  struct Channel {
+    std::string name;  // "": the only one
     HeadSettings settings;
     SettingLimits limits;
+  };
+  struct Start {
+    HeadMounting mounting;
+    SimTime longest_ping{0};          // from transmission to the end of its processing: poses are kept for two of them
+    double sound_speed_mps = 1500.0;  // believed, until a probe tells
+    bool probe = false;               // there is one
+    std::vector<Channel> channels;
   };
   HeadInputs(Ports& ports, const Start& start);
   HeadInputs(const HeadInputs&) = delete;
@@ -30,7 +38,12 @@ class HeadInputs {
   const frames::PoseHistory& estimate() const { return estimate_; }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   double sound_speed_mps() const { return sound_speed_mps_; }
-  CommandedSettings& settings() { return settings_; }
+
+  /// The settings of a channel for the ping that goes out now.
+  const HeadSettings& settings_at_ping(std::size_t channel = 0) { return settings_[channel].at_ping(); }
+
+  /// Where the head was while it listened, by the estimate and the measured mounting.
+  void fill_track(msg::HeadTrack& track, SimTime transmit, SimTime listening) const;
 
   /// Why the head cannot ping now; "" when it can. A head never pings on missing geometry.
   std::string obstacle(SimTime now) const;
@@ -39,11 +52,12 @@ class HeadInputs {
   void command(const msg::SonarSettings& wanted);
 
   Ports& ports_;
-  frames::Mounting actual_;
+  HeadMounting mounting_;
   frames::PoseHistory truth_, estimate_;
   TileSet tiles_;
   double sound_speed_mps_;
-  CommandedSettings settings_;
+  std::vector<std::string> names_;  // of channels
+  std::vector<CommandedSettings> settings_;
 };
 
 }  // namespace ensonify

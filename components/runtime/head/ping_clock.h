@@ -4,6 +4,13 @@
 
 namespace ensonify {
 
+/// How fast a head pings, and how long it takes from the last echo to the published ping.
+struct PingTiming {
+  Rate rate;             // at most
+  SimTime dead_time{0};  // between the end of listening and the next transmission, at least
+  SimTime processing_latency{0};
+};
+
 /// When a head may transmit: on the beat of its ping rate as long as pings fit into the beat; a ping that listens
 /// longer moves the beat. Times are computed from counts, never summed.
 class PingClock {

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/runtime/head/head_inputs.h"
+#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/shot.h"
+#include "components/runtime/ports.h"
+#include "messages/sonar.h"
+
+namespace ensonify {
+
+/// What one channel of a head sends, and until when it listens to it.
+struct Transmission {
+  double frequency_hz = 0.0;
+  double pulse_length_s = 0.0;
+  SimTime listening{0};  // from transmission to the end of the last echo
+  HeadSettings settings;
+};
+
+/// A ping from its transmission to the end of its processing: what was fixed when it was sent.
+struct PingUnderWay {
+  std::int64_t ping = 0;
+  SimTime transmit{0};
+  std::vector<Transmission> channels;  // of one head, sent at once
+  double sound_speed_mps = 0.0;        // as the head knew it
+  SimTime ready{0};                    // its last echo has come and is processed, every pose that it needs is known
+
+  Shot shot(std::size_t channel = 0) const { return {ping, transmit, channels[channel].settings.range_m}; }
+};
+
+/// The pings of a head from transmission to publication, and its port `transmit`. A node asks in each step for the
+/// pings that are ready, transmits if it may, and sleeps until next().
+class PingCycle {
+ public:
+  PingCycle(Ports& ports, const HeadInputs& inputs, const PingTiming& timing);
+
+  /// The oldest ping that is ready by now; each is given once.
+  std::optional<PingUnderWay> ready(SimTime now);
+
+  /// Whether to transmit now. A beat at which something stands in the way passes, and health says what it is.
+  bool may_transmit(SimTime now);
+
+  /// The next ping goes out, all its channels at once. The first channel's settings tell the ping rate.
+  void transmit(SimTime now, std::vector<Transmission> channels);
+
+  /// A ping was published. Health tells `trouble`, or if there is none, whether the ping lacks its track.
+  void published(const std::string& trouble);
+
+  /// Time of the next transmission or of the next ping that is ready.
+  SimTime next() const;
+
+ private:
+  Ports& ports_;
+  const HeadInputs& inputs_;
+  SimTime processing_latency_;
+  PingClock clock_;
+  std::deque<PingUnderWay> under_way_;
+  std::int64_t pings_ = 0;
+  Ports::Out<msg::Transmit> transmit_out_;
+};
+
+}  // namespace ensonify
