@@ -107,6 +107,7 @@ struct Ping {
   static constexpr const char* kAbout = "What one transmission brought back, for any head.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
+  std::string kind;
   double sample_period_s = 0.0;
   double first_sample_s = 0.0;
   Array<float> beam_angle_rad;
@@ -122,10 +123,13 @@ struct Ping {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of transmission, sim time", self.stamp_ns);
     visit("ping", "1", "ping number of this head, from 0", self.ping);
+    visit("kind", "", "of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not told",
+          self.kind);
     visit("sample_period_s", "s", "time between samples", self.sample_period_s);
     visit("first_sample_s", "s", "time of the first sample after transmission", self.first_sample_s);
     visit("beam_angle_rad", "rad",
-          "receive beam axes of this ping in the head frame, from its down axis, positive to starboard",
+          "receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of the kinds "
+          "forward_looking and scanning from its forward axis",
           self.beam_angle_rad);
     visit("amplitude_upa", "uPa",
           "rms pressure amplitude at the receiver (beam x sample), linear, the gain taken out again",

@@ -9,6 +9,8 @@
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
 #include "kernels/seabed/lambert.h"
+#include "messages/motion.h"
+#include "messages/navigation.h"
 
 using namespace ensonify;
 

@@ -97,6 +97,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   heard.bottom = bottom_.find(image, sampling, config_.sound_speed_mps);
   heard.bottom.stamp_ns = heard.ping.stamp_ns = shot.transmit.count();
   heard.bottom.ping = heard.ping.ping = shot.ping;
+  heard.ping.kind = "echosounder";
   heard.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
   fill(heard.ping.applied, settings);
   heard.ping.applied.frequency_hz = config_.frequency_hz;

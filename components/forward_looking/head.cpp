@@ -118,6 +118,7 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
   ping.ping = shot.ping;
+  ping.kind = "forward_looking";
   ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
   const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
   write_samples(tvg_of(settings, known_sound_speed_mps), converter, ranged.sampling, images_[0], ping);

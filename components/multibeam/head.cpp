@@ -135,6 +135,7 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot, const Steering& steering
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
   ping.ping = shot.ping;
+  ping.kind = "multibeam";
   ping.sample_period_s = sampling(shot).period_s;
   ping.first_sample_s = sampling(shot).start_s;
   ping.beam_angle_rad = msg::Array<float>::of(steering.beam_angle_rad);

@@ -110,6 +110,7 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
   ping.ping = shot.ping;
+  ping.kind = "scanning";
   ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
   const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
   write_samples(tvg_of(settings, known_sound_speed_mps), converter, ranged.sampling, image, ping);

@@ -126,6 +126,7 @@ msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& setti
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
   ping.ping = shot.ping;
+  ping.kind = "sidescan";
   const auto broadside = static_cast<float>(0.5 * std::numbers::pi - channel_.depression_rad);
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
   fill(ping.applied, settings);

@@ -5,6 +5,8 @@
 
 #include "components/runtime/head/test_seabed.h"
 #include "components/runtime/testing.h"
+#include "messages/motion.h"
+#include "messages/navigation.h"
 
 using namespace ensonify;
 
