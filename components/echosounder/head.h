@@ -25,7 +25,7 @@ class EchosounderHead {
                const trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
-  int rays_that_hit() const { return echoes_.rays_that_hit(); }
+  int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
 
  private:
   EchosounderConfig config_;

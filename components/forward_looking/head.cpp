@@ -8,7 +8,6 @@
 #include "kernels/array/beam_layout.h"
 #include "kernels/array/line.h"
 #include "kernels/array/near_field.h"
-#include "kernels/echo/multipath.h"
 
 namespace ensonify {
 namespace {
@@ -18,7 +17,6 @@ constexpr double kBeyondAperture_rad = 0.15;  // to where rays go, for the beams
 constexpr double kWidest_rad = 1.5;
 constexpr double kCellsPerResolution = 2.0;  // of seabed that answers as one point
 constexpr double kVolumeStep_rad = 0.5 * std::numbers::pi / 180.0;
-constexpr double kInLobe = 0.1;  // -10 dB of the transmission
 
 double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
@@ -32,13 +30,9 @@ std::vector<float> weights_of(const array::LineArray& array, bool side_lobes) {
   return echo::beam_weights(array::shading_weights({array::Shading::Window::kDolphChebyshev, 60.0}, array.elements()));
 }
 
-double true_speed_mps(const ForwardLookingConfig& config, const Environment& environment) {
-  return environment.profile().speed_mps(config.world.mission.depth_m);
-}
-
-echo::ElementLine line_of(const ForwardLookingConfig& config, const array::LineArray& array,
-                          const Environment& environment) {
-  return echo::element_line(array, true_speed_mps(config, environment) / config.frequency_hz);
+/// True, at the depth of the mission.
+double wavelength_m(const ForwardLookingConfig& config) {
+  return true_profile(config.world).speed_mps(config.world.mission.depth_m) / config.frequency_hz;
 }
 
 /// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams hear.
@@ -60,21 +54,21 @@ std::string stream_of(const ForwardLookingConfig& config, const char* what) { re
 
 ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
     : config_(config),
-      environment_(config.world, config.frequency_hz),
       array_(array_of(config)),
-      faces_(config, array_.element_length_m * config.frequency_hz / true_speed_mps(config, environment_)),
-      paths_(environment_.profile(), config.effects.refraction),
+      faces_(config, array_.element_length_m / wavelength_m(config)),
+      arrivals_(Environment(config.world, config.frequency_hz), config.frequency_hz, config.effects,
+                [this](const Eigen::Vector3f& direction) { return faces_.transmitted_power(direction); }),
       ambient_(config.world.seed, stream_of(config, "noise")),
       electronic_(config.world.seed, stream_of(config, "electronic")),
       volume_(config.world.seed, stream_of(config, "volume")),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       weights_(weights_of(array_, config.effects.side_lobes)),
-      receiver_(line_of(config, array_, environment_)),
+      receiver_(echo::element_line(array_, wavelength_m(config))),
       power_receiver_(echo::power_line(receiver_.line())),
       noise_share_(faces_.noise_share()),
       images_(1),
       mean_square_(1) {
-  if (config.effects.volume && !environment_.scattering_layers().empty()) {
+  if (arrivals_.water_scatters()) {
     volume_directions_ = echo::directions_of_cells(
         receiver_,
         [this](const Eigen::Vector3f& direction) {
@@ -106,14 +100,12 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   prepare(settings.range_m);
   const RangedPulse& ranged = listening_->ranged;
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
-  if (!config_.effects.motion) poses_.resize(1);
-  receivers_.set({0.0, seconds(kTrackPeriod), poses_});
-  look(seabed, settings.range_m);
-  // What bubbles under the hull take on the way out and on the way back is the same for all paths.
-  const double source_level_db = settings.source_level_db - 2.0 * environment_.bubble_loss_db();
-  light(source_level_db);
-  arrive(source_level_db);
-  hear(shot, source_level_db, known_sound_speed_mps);
+  arrivals_.move(poses_);
+  look(seabed);
+  point_beams(known_sound_speed_mps);
+  const auto& arrivals = arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
+  form_beams(arrivals, background(shot, settings.source_level_db));
+  sight_ = arrivals_.sight(settings.range_m, seabed);
 
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();
@@ -133,68 +125,22 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   return ping;
 }
 
-void ForwardLookingHead::look(const trace::Scene& seabed, double range_m) {
+void ForwardLookingHead::look(const trace::Scene& seabed) {
   const auto& sampling = listening_->ranged.sampling;
   // The window is set by the head's sound speed; sound travels by the true one.
-  const double reach_m = 0.5 * paths_.sound_speed_mps(poses_.front()) * sampling.count * sampling.period_s;
-  const frames::HeadPose& pose = poses_.front();
-  paths_.trace(seabed, pose, listening_->rays.probes(), reach_m, hits_);
-  listening_->rays.fill(pose, hits_, static_cast<float>(reach_m), rays_);
-  paths_.trace(seabed, pose, rays_, reach_m, hits_);
-  sight_ = {.range_m = range_m, .altitude_m = altitude_m(seabed, pose)};
+  const double reach_m = 0.5 * arrivals_.sound_speed_mps() * sampling.count * sampling.period_s;
+  arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
+  listening_->rays.fill(arrivals_.transmit_pose(), hits_, static_cast<float>(reach_m), rays_);
+  arrivals_.trace(seabed, rays_, reach_m, hits_);
 }
 
-/// What rays carry to what they met.
-void ForwardLookingHead::light(double source_level_db) {
-  const double source = power_of(source_level_db);
-  source_upa2m2_.resize(rays_.size());
-  backscatter_.resize(rays_.size());
-  double height_m = 0.0;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!hits_[i].hit()) continue;
-    const double transmitted = faces_.transmitted_power(rays_[i].direction_head);
-    ++sight_.rays_that_hit;
-    sight_.rays_in_lobe += transmitted > kInLobe ? 1 : 0;
-    height_m += hits_[i].position_enu_m.z();
-    source_upa2m2_[i] = static_cast<float>(source * transmitted);
-    backscatter_[i] = environment_.backscatter()(hits_[i].sediment, hits_[i].sin_grazing);
-  }
-  const double head_depth_m = -poses_.front().position_enu_m.z();
-  seabed_depth_m_ = sight_.rays_that_hit > 0 ? -height_m / sight_.rays_that_hit : head_depth_m;
-  absorption_dbpm_ = config_.effects.absorption ? environment_.absorption_dbpm(head_depth_m, seabed_depth_m_) : 0.0;
-}
-
-void ForwardLookingHead::arrive(double source_level_db) {
-  const frames::HeadPose& pose = poses_.front();
-  const echo::Carrier carrier{config_.frequency_hz, absorption_dbpm_,
-                              config_.effects.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare};
-  const auto scatterers = listening_->scatterers.find({pose, rays_, hits_, source_upa2m2_, backscatter_});
-  arrivals_.clear();
-  echo::add_direct_echoes(carrier, pose.position_enu_m, scatterers, receivers_, arrivals_);
-  if (config_.effects.multipath) {
-    echo::MultipathHead head;
-    head.source_level_db = source_level_db;
-    head.transmit = [this](const Eigen::Vector3f& direction) { return faces_.transmitted_power(direction); };
-    echo::SurfaceMirror surface;
-    surface.sound_speed_mps = paths_.sound_speed_mps(pose);
-    surface.rms_height_m = environment_.rms_wave_height_m();
-    echo::add_multipath(carrier, head, surface, {}, pose, scatterers, receivers_, arrivals_);
-  }
-  gain_.resize(arrivals_.size());
-  for (std::size_t i = 0; i < arrivals_.size(); ++i) {
-    const float amplitude = faces_.element_amplitude(arrivals_[i].direction_head);
-    gain_[i] = config_.effects.speckle ? amplitude : amplitude * amplitude;
-  }
-}
-
-void ForwardLookingHead::hear(const Shot& shot, double source_level_db, double known_sound_speed_mps) {
-  // Delays are made for the sound speed that the head knows; the true one turns its beams.
-  const double turned = paths_.sound_speed_mps(poses_.front()) / known_sound_speed_mps;
+/// Delays are made for the sound speed that the head knows; the true one turns its beams.
+void ForwardLookingHead::point_beams(double known_sound_speed_mps) {
+  const double turned = arrivals_.sound_speed_mps() / known_sound_speed_mps;
   sin_beams_.clear();
   for (const float angle : beam_angle_rad_) {
     sin_beams_.push_back(static_cast<float>(std::clamp(turned * std::sin(static_cast<double>(angle)), -1.0, 1.0)));
   }
-  form_beams(background(shot, source_level_db));
 }
 
 echo::Background ForwardLookingHead::background(const Shot& shot, double source_level_db) {
@@ -202,36 +148,35 @@ echo::Background ForwardLookingHead::background(const Shot& shot, double source_
   echo::Background background;
   background.ping = static_cast<std::uint64_t>(shot.ping);
   if (config_.effects.noise) {
-    background.isotropic_upa2 = power_of(environment_.noise_level_db()) * pulse.noise_bandwidth_hz * noise_share_;
+    background.isotropic_upa2 =
+        power_of(arrivals_.environment().noise_level_db()) * pulse.noise_bandwidth_hz * noise_share_;
     background.isotropic = &ambient_;
     background.electronic_upa2 = power_of(config_.electronic_noise_db) * pulse.noise_bandwidth_hz;
     background.electronic = &electronic_;
   }
-  if (!volume_directions_.empty()) {
-    echo::VolumeLayers layers;
-    layers.backscatter_per_m = [this](double depth_m) {
-      return power_of(water::volume_scattering_db(environment_.scattering_layers(), depth_m));
-    };
-    layers.deepest_m = seabed_depth_m_;
-    echo::reverberation_upa2(source_level_db, absorption_dbpm_, paths_.sound_speed_mps(poses_.front()),
-                             volume_directions_, layers, poses_.front(), pulse, listening_->ranged.sampling,
-                             volume_upa2_);
-    background.volume_upa2 = volume_upa2_;
+  if (arrivals_.water_scatters()) {
+    background.volume_upa2 =
+        arrivals_.reverberation_upa2(source_level_db, volume_directions_, pulse, listening_->ranged.sampling);
     background.volume = &volume_;
   }
   return background;
 }
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
-void ForwardLookingHead::form_beams(const echo::Background& background) {
+void ForwardLookingHead::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
+  gain_.resize(arrivals.size());
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    const float amplitude = faces_.element_amplitude(arrivals[i].direction_head);
+    gain_[i] = config_.effects.speckle ? amplitude : amplitude * amplitude;
+  }
   const echo::Sampling& sampling = listening_->ranged.sampling;
   const std::vector<std::vector<float>> weights{weights_};
   if (config_.effects.speckle) {
-    receiver_.form({arrivals_, gain_, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
+    receiver_.form({arrivals, gain_, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
     return;
   }
   const std::vector<std::vector<float>> power{echo::power_weights(weights_)};
-  power_receiver_.form({arrivals_, gain_, listening_->squared, sampling, {}}, sin_beams_, power, mean_square_);
+  power_receiver_.form({arrivals, gain_, listening_->squared, sampling, {}}, sin_beams_, power, mean_square_);
   receiver_.form({{}, {}, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
   const auto& mean_square = mean_square_[0].envelope_upa;
   auto& envelope = images_[0].envelope_upa;

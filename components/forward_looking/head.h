@@ -4,11 +4,8 @@
 #include <vector>
 
 #include "components/forward_looking/faces.h"
-#include "components/runtime/head/environment.h"
+#include "components/runtime/head/arrivals.h"
 #include "components/runtime/head/shot.h"
-#include "components/runtime/head/sight.h"
-#include "components/runtime/head/water_paths.h"
-#include "kernels/echo/arrival.h"
 #include "kernels/echo/line_receiver.h"
 #include "kernels/echo/scatterer.h"
 #include "kernels/echo/volume.h"
@@ -52,18 +49,15 @@ class ForwardLookingHead {
   };
 
   void prepare(double range_m);
-  void look(const trace::Scene& seabed, double range_m);
-  void light(double source_level_db);
-  void arrive(double source_level_db);
-  void hear(const Shot& shot, double source_level_db, double known_sound_speed_mps);
+  void look(const trace::Scene& seabed);
+  void point_beams(double known_sound_speed_mps);
   echo::Background background(const Shot& shot, double source_level_db);
-  void form_beams(const echo::Background& background);
+  void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);
 
   ForwardLookingConfig config_;
-  Environment environment_;
   array::LineArray array_;
   ForwardFaces faces_;
-  WaterPaths paths_;
+  Arrivals arrivals_;
   random::Stream ambient_, electronic_, volume_;
   std::vector<float> beam_angle_rad_;
   std::vector<float> weights_;  // of elements
@@ -76,14 +70,9 @@ class ForwardLookingHead {
   std::vector<frames::HeadPose> poses_;
   std::vector<trace::Ray> rays_;
   std::vector<trace::Hit> hits_;
-  std::vector<float> source_upa2m2_, backscatter_;
-  echo::Receivers receivers_;
-  std::vector<echo::Arrival> arrivals_;
-  std::vector<float> gain_, sin_beams_, volume_upa2_;
+  std::vector<float> gain_, sin_beams_;
   std::vector<echo::Image> images_, mean_square_;  // one each
   Sight sight_;
-  double seabed_depth_m_ = 0.0;  // mean over the hits
-  double absorption_dbpm_ = 0.0;
 };
 
 }  // namespace ensonify

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kNominalSpeed_mps = 1500.0;
 constexpr double kBackLoss_db = 40.0;
-constexpr double kReach = 6.0;     // null to either side that rays go to
-constexpr float kInLobe = 0.316F;  // amplitude, -10 dB
+constexpr double kReach = 6.0;  // null to either side that rays go to
 
 double line_waves(double beamwidth_rad) { return array::length_in_waves_for(beamwidth_rad); }
 
@@ -29,10 +28,10 @@ double resolution_m(const ScanningConfig& config) {
   return 0.5 * kNominalSpeed_mps / pulse_at(config.pulse, config.range_m, config.sound_speed_mps).band_hz;
 }
 
-Apertures apertures_of(const ScanningConfig& config, const AperturePattern& pattern) {
+Apertures apertures_of(const ScanningConfig& config) {
   Apertures a;
   a.frequency_hz = config.frequency_hz;
-  a.patterns = {pattern};
+  a.patterns = {scanning_pattern(config)};
   a.directivity_index_db = array::directivity_index_db(line_waves(config.horizontal_beamwidth_rad),
                                                        line_waves(config.vertical_beamwidth_rad));
   a.electronic_noise_db = config.electronic_noise_db;
@@ -78,8 +77,7 @@ AperturePattern scanning_pattern(const ScanningConfig& config) {
 
 ScanningHead::ScanningHead(const ScanningConfig& config)
     : config_(config),
-      pattern_(scanning_pattern(config)),
-      echoes_(apertures_of(config, pattern_), Environment(config.world, config.frequency_hz), config.effects),
+      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects),
       distribution_(volume_of(config), {config.quality, resolution_m(config)},
                     {config.world.seed, config.process + "/rays"}) {}
 
@@ -94,18 +92,13 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
   distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
   echoes_.trace(seabed, rays_, settings.range_m, hits_);
-  sight_ = {.range_m = settings.range_m, .altitude_m = altitude_m(seabed, echoes_.transmit_pose())};
-  for (std::size_t i = 0; i < hits_.size(); ++i) {
-    if (!hits_[i].hit()) continue;
-    ++sight_.rays_that_hit;
-    sight_.rays_in_lobe += std::abs(pattern_(rays_[i].direction_head)) > kInLobe ? 1 : 0;
-  }
   Emission emission;
   emission.shot = shot;
   emission.source_level_db = settings.source_level_db;
   emission.sample_period_s = ranged.sampling.period_s;
   emission.listening_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
   echo::Image& image = echoes_.listen(emission, echo_pulse(config_.pulse, ranged), rays_, hits_);
+  sight_ = echoes_.arrivals().sight(settings.range_m, seabed);
 
   msg::Ping ping;
   ping.stamp_ns = shot.transmit.count();

@@ -31,7 +31,6 @@ class ScanningHead {
 
  private:
   ScanningConfig config_;
-  AperturePattern pattern_;
   ApertureEchoes echoes_;
   trace::RayDistribution distribution_;
   std::vector<frames::HeadPose> poses_;

@@ -29,7 +29,7 @@ class SidescanHead {
                const trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
-  int rays_that_hit() const { return echoes_.rays_that_hit(); }
+  int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
   std::size_t max_ping_bytes() const;
 
  private:

@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/effects.h"
-#include "components/runtime/head/environment.h"
+#include "components/runtime/head/arrivals.h"
 #include "components/runtime/head/shot.h"
-#include "components/runtime/head/water_paths.h"
 #include "kernels/echo/aperture.h"
-#include "kernels/echo/arrival.h"
 #include "kernels/echo/pulse.h"
 #include "kernels/echo/scatterer.h"
 #include "kernels/echo/volume.h"
@@ -51,50 +48,38 @@ class ApertureEchoes {
   ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects);
 
   /// Where the head truly is from transmission on; frames::HeadPose per kTrackPeriod. Comes before the others.
-  void move(std::span<const frames::HeadPose> poses);
-  const frames::HeadPose& transmit_pose() const { return poses_.front(); }
+  void move(std::span<const frames::HeadPose> poses) { arrivals_.move(poses); }
+  const frames::HeadPose& transmit_pose() const { return arrivals_.transmit_pose(); }
 
   /// The first seabed that each ray meets from the pose of transmission, within a slant range.
   void trace(const trace::Scene& seabed, std::span<const trace::Ray> rays, double range_m,
-             std::vector<trace::Hit>& hits);
+             std::vector<trace::Hit>& hits) {
+    arrivals_.trace(seabed, rays, range_m, hits);
+  }
 
   /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `rays` and `hits` are those of trace().
   echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const trace::Ray> rays,
                       std::span<const trace::Hit> hits);
 
-  /// How many rays of the last ping met the seabed.
-  int rays_that_hit() const { return rays_that_hit_; }
+  /// What the rays of the last ping met.
+  const Arrivals& arrivals() const { return arrivals_; }
 
  private:
-  double transmitted_power(const Eigen::Vector3f& direction_head) const;
-  void light(const Emission& emission, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
-  void arrive(const Emission& emission, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
-  void hear(const echo::SampledPulse& pulse, const echo::Sampling& sampling);
-  void add_volume(const Emission& emission, const echo::Pulse& pulse, const echo::SampledPulse& sampled,
-                  const echo::Sampling& sampling);
+  void hear(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse, const echo::Sampling& sampling);
   void add_noise(const Emission& emission, const echo::Pulse& pulse);
 
   Apertures apertures_;
-  Environment environment_;
   Effects effects_;
   random::Stream noise_, volume_;
-  WaterPaths paths_;
+  Arrivals arrivals_;
   echo::Scatterers scatterers_;
-  echo::Receivers receivers_;
   echo::ApertureReceiver receiver_;
   echo::RowReverberation reverberation_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
 
   // Memory of the ping path.
-  std::vector<frames::HeadPose> poses_;
-  std::vector<float> source_upa2m2_, backscatter_;
-  std::vector<echo::Arrival> arrivals_;
   std::vector<std::vector<float>> gains_;
-  std::vector<float> volume_upa2_;
   echo::Image image_;
-  double seabed_depth_m_ = 0.0;  // mean over the hits
-  double absorption_dbpm_ = 0.0;
-  int rays_that_hit_ = 0;
 };
 
 }  // namespace ensonify

@@ -1,0 +1,86 @@
+#include "components/runtime/head/arrivals.h"
+
+#include <cmath>
+
+#include "components/runtime/head/head_motion.h"
+#include "kernels/echo/multipath.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kInLobe = 0.1;  // -10 dB of the transmission
+
+double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
+
+}  // namespace
+
+Arrivals::Arrivals(const Environment& environment, double frequency_hz, const Effects& effects,
+                   TransmittedPower transmitted)
+    : environment_(environment),
+      frequency_hz_(frequency_hz),
+      effects_(effects),
+      transmitted_(std::move(transmitted)),
+      paths_(environment.profile(), effects.refraction) {}
+
+void Arrivals::move(std::span<const frames::HeadPose> poses) {
+  poses_.assign(poses.begin(), effects_.motion ? poses.end() : poses.begin() + 1);
+  receivers_.set({0.0, seconds(kTrackPeriod), poses_});
+}
+
+/// What bubbles under the hull take on the way out and on the way back is the same for all paths.
+double Arrivals::sent_db(double source_level_db) const { return source_level_db - 2.0 * environment_.bubble_loss_db(); }
+
+const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo::Scatterers& scatterers,
+                                                   std::span<const trace::Ray> rays, std::span<const trace::Hit> hits) {
+  light(source_level_db, rays, hits);
+  const frames::HeadPose& pose = transmit_pose();
+  const echo::Carrier carrier{frequency_hz_, absorption_dbpm_,
+                              effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare};
+  const auto found = scatterers.find({pose, rays, hits, source_upa2m2_, backscatter_});
+  arrivals_.clear();
+  echo::add_direct_echoes(carrier, pose.position_enu_m, found, receivers_, arrivals_);
+  if (effects_.multipath) {
+    const echo::MultipathHead head{.source_level_db = sent_db(source_level_db), .transmit = transmitted_};
+    echo::SurfaceMirror surface;
+    surface.sound_speed_mps = sound_speed_mps();
+    surface.rms_height_m = environment_.rms_wave_height_m();
+    echo::add_multipath(carrier, head, surface, {}, pose, found, receivers_, arrivals_);
+  }
+  return arrivals_;
+}
+
+/// What rays carry to what they met.
+void Arrivals::light(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits) {
+  const double source = power_of(sent_db(source_level_db));
+  source_upa2m2_.resize(rays.size());
+  backscatter_.resize(rays.size());
+  rays_that_hit_ = rays_in_lobe_ = 0;
+  double height_m = 0.0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!hits[i].hit()) continue;
+    const double transmitted = transmitted_(rays[i].direction_head);
+    ++rays_that_hit_;
+    rays_in_lobe_ += transmitted > kInLobe ? 1 : 0;
+    height_m += hits[i].position_enu_m.z();
+    source_upa2m2_[i] = static_cast<float>(source * transmitted);
+    backscatter_[i] = environment_.backscatter()(hits[i].sediment, hits[i].sin_grazing);
+  }
+  const double head_depth_m = -transmit_pose().position_enu_m.z();
+  seabed_depth_m_ = rays_that_hit_ > 0 ? -height_m / rays_that_hit_ : head_depth_m;
+  absorption_dbpm_ = effects_.absorption ? environment_.absorption_dbpm(head_depth_m, seabed_depth_m_) : 0.0;
+}
+
+const std::vector<float>& Arrivals::reverberation_upa2(double source_level_db,
+                                                       std::span<const echo::VolumeDirections> listeners,
+                                                       const echo::Pulse& pulse, const echo::Sampling& sampling) {
+  echo::VolumeLayers layers;
+  layers.backscatter_per_m = [this](double depth_m) {
+    return power_of(water::volume_scattering_db(environment_.scattering_layers(), depth_m));
+  };
+  layers.deepest_m = seabed_depth_m_;
+  echo::reverberation_upa2(sent_db(source_level_db), absorption_dbpm_, sound_speed_mps(), listeners, layers,
+                           transmit_pose(), pulse, sampling, volume_upa2_);
+  return volume_upa2_;
+}
+
+}  // namespace ensonify

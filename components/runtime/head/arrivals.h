@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "components/runtime/head/effects.h"
+#include "components/runtime/head/environment.h"
+#include "components/runtime/head/sight.h"
+#include "components/runtime/head/water_paths.h"
+#include "kernels/echo/arrival.h"
+#include "kernels/echo/pulse.h"
+#include "kernels/echo/scatterer.h"
+#include "kernels/echo/volume.h"
+
+namespace ensonify {
+
+/// What one transmission sends back to a head of one frequency, as it arrives there: echoes of the seabed and those by
+/// way of the surface, by the true motion and the true water. A function of the transmission, the poses, the rays and
+/// the tiles. What the head hears of it by its receive patterns, and the noise, are the head's.
+class Arrivals {
+ public:
+  /// Power of the transmission in a direction (unit vector, head frame), 1 on its axis.
+  using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head)>;
+
+  Arrivals(const Environment& environment, double frequency_hz, const Effects& effects, TransmittedPower transmitted);
+
+  /// Where the head truly is from transmission on; frames::HeadPose per kTrackPeriod. Comes before the others.
+  void move(std::span<const frames::HeadPose> poses);
+  const frames::HeadPose& transmit_pose() const { return poses_.front(); }
+  /// The true one, at the head.
+  double sound_speed_mps() const { return paths_.sound_speed_mps(transmit_pose()); }
+
+  /// The first seabed that each ray meets from the pose of transmission, within a slant range.
+  void trace(const trace::Scene& seabed, std::span<const trace::Ray> rays, double range_m,
+             std::vector<trace::Hit>& hits) {
+    paths_.trace(seabed, transmit_pose(), rays, range_m, hits);
+  }
+
+  /// Echoes with their direction and time, valid until the next call; amplitudes are pressures, or with speckle
+  /// switched off mean squares. `rays` and `hits` are those of trace(), the patches of seabed that answer as one point
+  /// those of `scatterers`.
+  const std::vector<echo::Arrival>& listen(double source_level_db, echo::Scatterers& scatterers,
+                                           std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+
+  /// Mean squares of what the water column sends back to listeners in these directions, down to the seabed that the
+  /// last call of listen() found; sample by listener. Nobody needs them where the water does not scatter or that is
+  /// off.
+  bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
+  /// Mean squares of that (sample by listener) for listeners in these directions, down to the depth of the seabed that
+  /// the last call of listen() met.
+  const std::vector<float>& reverberation_upa2(double source_level_db,
+                                               std::span<const echo::VolumeDirections> listeners,
+                                               const echo::Pulse& pulse, const echo::Sampling& sampling);
+
+  const Environment& environment() const { return environment_; }
+  /// How many rays of the last ping met the seabed.
+  int rays_that_hit() const { return rays_that_hit_; }
+  /// What they met, for health.
+  Sight sight(double range_m, const trace::Scene& seabed) const {
+    return {rays_that_hit_, rays_in_lobe_, range_m, altitude_m(seabed, transmit_pose())};
+  }
+
+ private:
+  void light(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+  double sent_db(double source_level_db) const;
+
+  Environment environment_;
+  double frequency_hz_;
+  Effects effects_;
+  TransmittedPower transmitted_;
+  WaterPaths paths_;
+  echo::Receivers receivers_;
+
+  // Of the last ping.
+  std::vector<frames::HeadPose> poses_;
+  std::vector<float> source_upa2m2_, backscatter_;
+  std::vector<echo::Arrival> arrivals_;
+  std::vector<float> volume_upa2_;
+  double seabed_depth_m_ = 0.0;  // mean over the hits
+  double absorption_dbpm_ = 0.0;
+  int rays_that_hit_ = 0, rays_in_lobe_ = 0;
+};
+
+}  // namespace ensonify
