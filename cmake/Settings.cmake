@@ -44,6 +44,11 @@ target_compile_options(ensonify_settings INTERFACE
   $<$<BOOL:${ENSONIFY_WERROR}>:$<BUILD_INTERFACE:-Werror>>
   # The same source gives the same bits: no fused multiply-add unless written (docs/architecture.md).
   $<BUILD_INTERFACE:-ffp-contract=off>)
+# Rays are traced with Embree's AVX2 code, so nothing is lost by the compiler's using it. Public, because the alignment
+# of Eigen's types follows it.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(ensonify_settings INTERFACE -march=x86-64-v3)
+endif()
 if(ENSONIFY_SANITIZE)
   add_compile_options(-fsanitize=${ENSONIFY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${ENSONIFY_SANITIZE})

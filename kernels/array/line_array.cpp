@@ -127,9 +127,10 @@ LineArray line_array_of_width(double width_rad, double wavelength_m, const Shadi
     trial.element_length_m *= unit;
     return trial.spacing_m * half_power_edges(trial, wavelength_m).upper_sine / half_sine;
   };
-  constexpr int kTrialElements = 64;
+  constexpr int kTrialElements = 64, kAlwaysEven = 10;
   const double length_m = kTrialElements * spacing_for(kTrialElements);
-  const int elements = std::max(1, static_cast<int>(std::ceil(length_m / (spacing_in_waves * wavelength_m))));
+  int elements = std::max(1, static_cast<int>(std::ceil(length_m / (spacing_in_waves * wavelength_m))));
+  if (elements > kAlwaysEven) elements += elements % 2;
   const double spacing_m = spacing_for(elements);
   return {.spacing_m = spacing_m, .weights = shading_weights(shading, elements), .element_length_m = spacing_m};
 }

@@ -60,8 +60,9 @@ double two_way_equivalent_width(const LineArray& transmit, const LineArray& rece
 std::vector<double> grating_lobes(const LineArray& array, double wavelength_m, double sin_steer = 0.0);
 
 /// The array whose unsteered half-power width at `wavelength_m` is exactly `width_rad`, of elements that touch each
-/// other (no gaps), spaced by at most about `spacing_in_waves`. For instruments that state a beamwidth and no element.
-/// Throws std::invalid_argument unless 0 < width_rad <= pi/2 and 0 < spacing_in_waves <= 1.
+/// other (no gaps), spaced by at most about `spacing_in_waves`; above ten, an even number, which halves. For
+/// instruments that state a beamwidth and no element. Throws std::invalid_argument unless 0 < width_rad <= pi/2 and 0 <
+/// spacing_in_waves <= 1.
 LineArray line_array_of_width(double width_rad, double wavelength_m, const Shading& shading = {},
                               double spacing_in_waves = 0.5);
 

@@ -21,6 +21,15 @@ constexpr int kLeft = kWidth / 2 - 1;  // points of a tap before the one that ho
 /// Number k of a sample draws from counter (sample << 24) + k / 2: arrays of up to 2^25 cells do not overlap.
 std::uint64_t counter_of(int sample) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(sample)) << 24; }
 
+/// Whether the first set of weights is the sum of the other two, to the bit.
+bool is_sum(std::span<const std::vector<float>> weights) {
+  if (weights.size() != 3) return false;
+  for (std::size_t m = 0; m < weights[0].size(); ++m) {
+    if (weights[0][m] != weights[1][m] + weights[2][m]) return false;
+  }
+  return true;
+}
+
 float component_sd(double mean_square) { return static_cast<float>(std::sqrt(0.5 * mean_square)); }
 
 float* floats(std::complex<float>* numbers) { return reinterpret_cast<float*>(numbers); }
@@ -64,7 +73,8 @@ LineReceiver::LineReceiver(const ElementLine& line)
       cells_(fft::Transform::good_size(std::max(2 * line.elements, 2 * kWidth))),
       stride_(cells_ + kWidth),
       to_elements_(cells_, fft::Transform::Sign::kPlus),
-      to_beams_(cells_, fft::Transform::Sign::kMinus) {
+      to_beams_(cells_, fft::Transform::Sign::kMinus),
+      white_(std::abs(line.spacing_in_waves - 0.5) < 0.005) {
   if (line.elements < 1 || !(line.spacing_in_waves > 0.0)) {
     throw std::invalid_argument("a line array needs elements and a spacing above 0");
   }
@@ -72,7 +82,7 @@ LineReceiver::LineReceiver(const ElementLine& line)
     const double phase = 2.0 * std::numbers::pi * (m - line.elements / 2) / cells_;
     unspread_.push_back(static_cast<float>(1.0 / Spreading::transform(phase)));
   }
-  for (int cell = 0; cell < cells_; ++cell)
+  for (int cell = 0; cell < cells_ && !white_; ++cell)
     isotropic_share_.push_back(static_cast<float>(std::sqrt(share_of_sphere(cell))));
 }
 
@@ -140,9 +150,10 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
     memory.sum.resize(row);
     memory.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
   }
+  const bool halved = is_sum(weights);
   tbb::parallel_for(0, index_.blocks(), [&](int block) {
-    form_block(input, block, weights, memory_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())],
-               images);
+    form_block(input, block, weights, halved,
+               memory_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())], images);
   });
 }
 
@@ -186,7 +197,7 @@ void LineReceiver::draw_field(const Input& input, int block, int sample, Memory&
   const auto cells = static_cast<std::size_t>(cells_);
   std::complex<float>* field = memory.field.data();
   std::fill_n(field, cells, std::complex<float>{});
-  if (background.isotropic_upa2 > 0.0) {
+  if (background.isotropic_upa2 > 0.0 && !white_) {
     random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
                          component_sd(background.isotropic_upa2), std::span(field, cells));
     for (std::size_t c = 0; c < cells; ++c) field[c] *= isotropic_share_[c];
@@ -222,10 +233,14 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Memory
   std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
   for (int m = 0; m < M; ++m) elements[m] = grid[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
   const Background& background = input.background;
-  if (background.isotropic_upa2 > 0.0 || !background.volume_upa2.empty()) {
+  if ((background.isotropic_upa2 > 0.0 && !white_) || !background.volume_upa2.empty()) {
     draw_field(input, block, sample, memory);
     to_elements_(memory.field.data());
     for (int m = 0; m < M; ++m) elements[m] += memory.field[static_cast<std::size_t>(harmonic(m))];
+  }
+  if (background.isotropic_upa2 > 0.0 && white_) {
+    random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
+                         component_sd(background.isotropic_upa2), std::span(elements, static_cast<std::size_t>(M)));
   }
   if (background.electronic_upa2 > 0.0) {
     random::add_gaussian(*background.electronic, background.ping, counter_of(sample),
@@ -263,7 +278,7 @@ void LineReceiver::read_beams(int block, int samples, const Memory& memory, Imag
   }
 }
 
-void LineReceiver::form_block(const Input& input, int block, std::span<const std::vector<float>> weights,
+void LineReceiver::form_block(const Input& input, int block, std::span<const std::vector<float>> weights, bool halved,
                               Memory& memory, std::span<Image> images) const {
   const Background& background = input.background;
   const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
@@ -279,9 +294,16 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
   spread(input, block, memory);
   if (!background.volume_upa2.empty()) draw_volume(input, block, memory);
   for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, memory);
-  for (std::size_t i = 0; i < images.size(); ++i) {
+  for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
     to_beam_grid(samples, weights[i], memory);
     read_beams(block, samples, memory, images[i]);
+  }
+  if (!halved) return;
+  for (int beam = 0; beam < images[0].beams; ++beam) {
+    const std::complex<float>* one = images[1].row(beam).data() + first;
+    const std::complex<float>* other = images[2].row(beam).data() + first;
+    std::complex<float>* whole = images[0].row(beam).data() + first;
+    for (int k = 0; k < samples; ++k) whole[k] = one[k] + other[k];
   }
 }
 

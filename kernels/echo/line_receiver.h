@@ -58,6 +58,9 @@ struct Background {
 /// array is narrow-band: an arrival's envelope reaches all elements at once. Element m of M stands at
 /// (m - floor(M / 2)) spacings along the axis, and that of number floor(M / 2) is the reference of phase.
 ///
+/// Isotropic noise has the correlation sin(2 pi x) / (2 pi x) between elements x waves apart: none at half waves. Where
+/// elements stand within 1 % of half a wave they draw their own; beams then hear it within 0.05 dB.
+///
 /// Blocks of samples are independent and each sums in a fixed order: the same bits for any number of threads.
 class LineReceiver {
  public:
@@ -81,7 +84,8 @@ class LineReceiver {
   };
 
   /// One image (beam by sample) for each set of element weights; images are resized and overwritten. sin_beams: sines
-  /// of the beams' axes along the array's axis, true, any order.
+  /// of the beams' axes along the array's axis, true, any order. Of three sets of weights of which the first is the sum
+  /// of the others (a whole and its halves), the first image costs an addition only.
   void form(const Input& input, std::span<const float> sin_beams, std::span<const std::vector<float>> weights,
             std::span<Image> images);
 
@@ -107,15 +111,16 @@ class LineReceiver {
   void to_elements(const Input& input, int block, int sample, Memory& memory) const;
   void to_beam_grid(int samples, std::span<const float> weights, Memory& memory) const;
   void read_beams(int block, int samples, const Memory& memory, Image& image) const;
-  void form_block(const Input& input, int block, std::span<const std::vector<float>> weights, Memory& memory,
-                  std::span<Image> images) const;
+  void form_block(const Input& input, int block, std::span<const std::vector<float>> weights, bool halved,
+                  Memory& memory, std::span<Image> images) const;
 
   ElementLine line_;
   int cells_, stride_;
   Spreading spreading_;
   fft::Transform to_elements_, to_beams_;
   std::vector<float> unspread_;         // by element
-  std::vector<float> isotropic_share_;  // by cell, amplitude
+  bool white_;                          // isotropic noise is independent from element to element
+  std::vector<float> isotropic_share_;  // by cell, amplitude; empty if white
   TimeIndex index_;
   std::vector<Steer> steer_;
   std::vector<Memory> memory_;

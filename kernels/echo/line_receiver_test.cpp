@@ -112,7 +112,9 @@ TEST_CASE("the halves of an array add up to it, and their phase tells how far of
   std::vector<Image> images(3);
   const std::vector<std::vector<float>> weights{whole, lower, upper};
   receiver.form({arrivals, {}, kPulse, kSampling, {}}, beams, weights, images);
+  const Image alone = form(element_line(array, 2.0), {arrivals, {}, kPulse, kSampling, {}}, beams, whole);
   for (std::size_t i = 0; i < images[0].envelope_upa.size(); ++i) {
+    REQUIRE(std::abs(alone.envelope_upa[i] - images[0].envelope_upa[i]) < 1e-4);
     REQUIRE(std::abs(images[1].envelope_upa[i] + images[2].envelope_upa[i] - images[0].envelope_upa[i]) < 1e-4);
   }
   const std::vector<float> beam{0.2F};
@@ -157,6 +159,10 @@ TEST_CASE("isotropic noise loses the directivity index and is correlated between
   CHECK(std::abs(product(image, 0, 1)) * M / 100 ==
         Approx(1 / (M * std::sin(0.5 * std::numbers::pi / M))).margin(0.02));
   CHECK(std::abs(product(image, 0, 2)) * M / 100 < 0.02);
+  // Elements close to half a wave apart, drawn from each direction: the same to the limit of the draws' own.
+  const Image near = form({M, 0.494}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
+                          std::vector<float>{0.3F}, uniform(M));
+  CHECK(product(near, 0, 0).real() == Approx(100.0 / (2 * 0.494 * M)).epsilon(0.03));
   // Elements 0.3 waves apart are correlated: DI is 10 log10(2 L / lambda), not 10 log10 M.
   const Image dense = form({M, 0.3}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                            std::vector<float>{0.1F}, uniform(M));
