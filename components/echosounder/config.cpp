@@ -30,6 +30,7 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
   read_converter(from, c.converter);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
+  read_quality(from, c.quality);
   read_effects(from, c.effects);
   c.world = scenario;
   c.process = process;
@@ -45,7 +46,7 @@ bool EchosounderConfig::operator==(const EchosounderConfig& o) const {
          gain_spreading_db == o.gain_spreading_db && gain_absorption_dbpm == o.gain_absorption_dbpm &&
          gain_offset_db == o.gain_offset_db && converter == o.converter &&
          electronic_noise_db == o.electronic_noise_db && bottom_threshold_db == o.bottom_threshold_db &&
-         effects == o.effects;
+         quality == o.quality && effects == o.effects;
 }
 
 HeadSettings EchosounderConfig::start() const {

@@ -33,6 +33,7 @@ struct EchosounderConfig {
   Converter converter;
   double electronic_noise_db = -200.0;  // as sound in the water, re 1 uPa^2/Hz
   double bottom_threshold_db = 12.0;    // first return over the water column
+  double quality = 1.0;                 // of the rays (trace::RaySettings)
   Effects effects;
 
   // From the scenario.

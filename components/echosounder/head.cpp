@@ -12,8 +12,7 @@
 namespace ensonify {
 namespace {
 
-constexpr double kReach = 3.0;    // sines in which rays are sent, in lambda / D: three side lobes
-constexpr int kRaysAcross = 120;  // and as many along
+constexpr double kReach = 3.0;  // sines in which rays are sent, in lambda / D: three side lobes
 constexpr double kWidest_rad = 1.5;
 
 bool circular(const EchosounderConfig& c) { return c.face == EchosounderConfig::Face::kCircular; }
@@ -22,6 +21,8 @@ bool circular(const EchosounderConfig& c) { return c.face == EchosounderConfig::
 double size_in_waves(const EchosounderConfig& c) {
   return array::length_in_waves_for(c.beamwidth_rad) * (circular(c) ? 58.96 / 50.76 : 1.0);
 }
+
+double range_resolution_m(const EchosounderConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
 
 AperturePattern pattern_of(const EchosounderConfig& c) {
   if (!c.effects.directivity) return [](const Eigen::Vector3f&) { return 1.0F; };
@@ -47,27 +48,27 @@ Apertures apertures_of(const EchosounderConfig& config) {
   a.electronic_noise_db = config.electronic_noise_db;
   a.narrowest_rad = config.beamwidth_rad;
   a.nearest_m = 1.0;
-  a.resolution_m = 0.5 * config.sound_speed_mps * config.pulse_length_s;
+  a.resolution_m = range_resolution_m(config);
   a.seed = config.world.seed;
   a.process = config.process;
   return a;
 }
 
-trace::FanShape fan_of(const EchosounderConfig& config) {
-  trace::FanShape shape;
-  shape.transmit_length_in_waves = size_in_waves(config);
-  shape.along_reach = kReach;
-  shape.half_swath_rad = std::min(kWidest_rad, std::asin(std::min(1.0, kReach / size_in_waves(config))));
-  shape.along = shape.across = kRaysAcross;
-  shape.grazing_share = 0.0;
-  return shape;
+trace::RayDistribution rays_of(const EchosounderConfig& c) {
+  const double first_null = std::min(1.0, (circular(c) ? 1.2197 : 1.0) / size_in_waves(c));
+  const double reach = std::min(1.0, kReach / size_in_waves(c)), reach_rad = std::min(kWidest_rad, std::asin(reach));
+  const double null_rad = std::min(reach_rad, std::asin(first_null));
+  const trace::TransmitVolume volume{trace::TransmitVolume::Axis::kForward,
+                                     {-reach, reach, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
+                                     {-reach_rad, reach_rad, -null_rad, null_rad, c.beamwidth_rad}};
+  return {volume, {c.quality, range_resolution_m(c)}, {c.world.seed, c.process + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
   detect::FirstBottomSettings settings;
   settings.threshold_db = config.bottom_threshold_db;
   // Straight down, an echo lasts little longer than the pulse.
-  settings.persistence_m = std::max(0.1, 0.5 * config.sound_speed_mps * config.pulse_length_s);
+  settings.persistence_m = std::max(0.1, range_resolution_m(config));
   return settings;
 }
 
@@ -76,9 +77,8 @@ detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
 EchosounderHead::EchosounderHead(const EchosounderConfig& config)
     : config_(config),
       echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects),
-      bottom_(bottom_of(config)) {
-  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, rays_);
-}
+      distribution_(rays_of(config)),
+      bottom_(bottom_of(config)) {}
 
 EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSettings& settings,
                                                const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
@@ -89,6 +89,8 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   emission.sample_period_s = config_.sample_period_s();
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
   echoes_.move(poses_);
+  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
+  distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
   echoes_.trace(seabed, rays_, settings.range_m, hits_);
   echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), rays_, hits_);
 

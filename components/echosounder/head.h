@@ -5,7 +5,7 @@
 #include "components/echosounder/config.h"
 #include "components/runtime/head/aperture_echoes.h"
 #include "components/runtime/head/bottom_finder.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray_distribution.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -30,8 +30,9 @@ class EchosounderHead {
  private:
   EchosounderConfig config_;
   ApertureEchoes echoes_;
+  trace::RayDistribution distribution_;
   BottomFinder bottom_;
-  std::vector<trace::Ray> rays_;  // in the head's frame, the same for every ping: an unmoved head hears the same
+  std::vector<trace::Ray> rays_;
   std::vector<frames::HeadPose> poses_;
   std::vector<trace::Hit> hits_;
 };

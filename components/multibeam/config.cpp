@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/effects.h"
 #include "components/runtime/head/environment.h"
 #include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
 
-constexpr int kFewestRays = 20000;
 constexpr double kMostSamples = 20000;  // per beam: 20 MB of ping with 256 beams
 
 void read_array(ConfigReader& from, MultibeamConfig& c) {
@@ -35,7 +35,7 @@ void read_ping(ConfigReader& from, MultibeamConfig& c) {
   from.optional("dead_time_s", c.dead_time_s, 0, 1);
   from.optional("processing_latency_s", c.processing_latency_s, 0, 10);
   from.optional("sample_rate_hz", c.sample_rate_hz, 1e3, 1e6);
-  from.optional("rays_per_ping", c.rays_per_ping, kFewestRays, 10'000'000);
+  read_quality(from, c.quality);
   from.optional("detection_threshold_db", c.detection_threshold_db, 0, 60);
   from.optional("amplitude_every", c.amplitude_every, 1, 1'000'000);
 }
@@ -75,9 +75,8 @@ bool MultibeamConfig::operator==(const MultibeamConfig& o) const {
          roll_stabilised == o.roll_stabilised && pitch_stabilised == o.pitch_stabilised &&
          attitude_latency_s == o.attitude_latency_s && auto_range == o.auto_range && range_m == o.range_m &&
          ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
-         processing_latency_s == o.processing_latency_s && sample_rate_hz == o.sample_rate_hz &&
-         rays_per_ping == o.rays_per_ping && detection_threshold_db == o.detection_threshold_db &&
-         amplitude_every == o.amplitude_every;
+         processing_latency_s == o.processing_latency_s && sample_rate_hz == o.sample_rate_hz && quality == o.quality &&
+         detection_threshold_db == o.detection_threshold_db && amplitude_every == o.amplitude_every;
 }
 
 Rate MultibeamConfig::ping_rate() const { return {std::llround(ping_rate_hz * 1000.0), 1000}; }

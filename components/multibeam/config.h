@@ -28,9 +28,9 @@ struct MultibeamConfig {
   double range_m = 200.0;                         // the longest range that is listened to
   double ping_rate_hz = 10.0;                     // at most; the interval is never less than 2 R / c + dead time
   double dead_time_s = 0.5e-3;
-  double processing_latency_s = 20e-3;  // from the last echo to the published ping
-  double sample_rate_hz = 20e3;         // of the complex envelope, at least 2 / pulse length
-  int rays_per_ping = 20480;
+  double processing_latency_s = 20e-3;   // from the last echo to the published ping
+  double sample_rate_hz = 20e3;          // of the complex envelope, at least 2 / pulse length
+  double quality = 0.25;                 // of the rays (trace::RaySettings)
   double detection_threshold_db = 13.0;  // signal to noise ratio of a sounding, at least
   int amplitude_every = 1;               // ping/1 is published for every n-th ping; soundings for all
 

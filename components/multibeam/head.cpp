@@ -12,23 +12,27 @@
 namespace ensonify {
 namespace {
 
-constexpr int kRaysAlong = 20;
 constexpr double kBeyondSwath_beamwidths = 1.5;  // of the outermost beam: to its first null and a little more
 constexpr double kWidestFan_rad = 1.5;
+constexpr std::size_t kFewestRays = 80'000;  // at normal quality: 20,000 at the default
 
-trace::FanShape fan_of(const MultibeamConfig& c) {
+double range_resolution_m(const MultibeamConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
+
+trace::RayDistribution rays_of(const MultibeamConfig& c) {
   const double half = 0.5 * c.swath_rad;
-  trace::FanShape shape;
-  shape.transmit_length_in_waves = array::length_in_waves_for(c.transmit_beamwidth_rad);
-  shape.half_swath_rad =
+  const double reach_rad =
       std::min(kWidestFan_rad, half + kBeyondSwath_beamwidths * c.receive_beamwidth_rad / std::cos(half));
-  shape.along = kRaysAlong;
-  shape.across = (c.rays_per_ping + kRaysAlong - 1) / kRaysAlong;
-  return shape;
+  const auto volume = trace::mills_cross_volume(array::length_in_waves_for(c.transmit_beamwidth_rad),
+                                                array::length_in_waves_for(c.receive_beamwidth_rad), reach_rad);
+  return {volume,
+          {.quality = c.quality, .range_resolution_m = range_resolution_m(c), .fewest_rays = kFewestRays},
+          {c.world.seed, c.process + "/rays"}};
 }
 
-/// The range resolution, c tau / 2: finer cells would have too few rays each to be found again by the next ping.
-double cell_m_of(const MultibeamConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
+array::PatternTable transmit_pattern_of(const MultibeamConfig& c) {
+  const double waves = array::length_in_waves_for(c.transmit_beamwidth_rad);
+  return {[=](double sine) { return array::line_amplitude(waves, sine); }, 0.5 * waves};
+}
 
 std::vector<std::vector<float>> weights_of(const ReceiveLine& line) {
   return {echo::beam_weights(line.whole.weights), echo::beam_weights(line.halves.positive, line.whole.weights),
@@ -45,19 +49,12 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config)
       noise_(config.world.seed, config.process + "/noise"),
       environment_(config.world, config.frequency_hz),
       paths_(environment_.profile(), true),
-      scatterers_(cell_m_of(config), {config.world.seed, "seabed"}),
+      distribution_(rays_of(config)),
+      transmit_pattern_(transmit_pattern_of(config)),
+      scatterers_(range_resolution_m(config), {config.world.seed, "seabed"}),
       receiver_(elements_of(receive_line(config))),
       weights_(weights_of(receive_line(config))),
-      images_(3) {
-  trace::Fan(fan_of(config)).fill({config.world.seed, config.process + "/rays"}, 0, fan_);
-  // What bubbles under the hull take on the way out and on the way back is the same for all paths.
-  const double source_upa2m2 = std::pow(10.0, 0.1 * config.source_level_db - 0.2 * environment_.bubble_loss_db());
-  const double transmit_waves = array::length_in_waves_for(config.transmit_beamwidth_rad);
-  for (const trace::Ray& ray : fan_) {
-    source_upa2m2_.push_back(
-        static_cast<float>(source_upa2m2 * array::line_power(transmit_waves, ray.direction_head.x())));
-  }
-}
+      images_(3) {}
 
 echo::Sampling MultibeamHead::sampling(const Shot& shot) const {
   return {0.0, 1.0 / config_.sample_rate_hz, config_.samples(shot.range_m)};
@@ -67,8 +64,7 @@ MultibeamHead::Heard MultibeamHead::listen(const Shot& shot, const Steering& ste
                                            const trace::Scene& seabed) {
   head_poses(truth, config_.mounting.actual, shot.transmit, config_.listening_time(shot.range_m), poses_);
   receivers_.set({0.0, seconds(kTrackPeriod), poses_});
-  aim(steering);
-  trace_rays(shot, seabed);
+  trace_rays(shot, steering, seabed);
   arrivals_.clear();
   echo::add_direct_echoes({config_.frequency_hz, absorption_dbpm_}, poses_.front().position_enu_m,
                           scatterers_.find({poses_.front(), rays_, hits_, source_upa2m2_, backscatter_}), receivers_,
@@ -80,27 +76,19 @@ MultibeamHead::Heard MultibeamHead::listen(const Shot& shot, const Steering& ste
           {images_[1].envelope_upa, images_[2].envelope_upa}};
 }
 
-/// Turns the fan to where it is steered: steering by phase shifts its sines along the line, roll turns it about the
-/// line. Neither changes solid angles, du dphi, nor the power of a ray.
-void MultibeamHead::aim(const Steering& steering) {
-  const double true_mps = paths_.sound_speed_mps(poses_.front());
-  const auto shift = static_cast<float>(array::true_sine(steering.sin_transmit, steering.sound_speed_mps, true_mps));
-  const auto cosine = static_cast<float>(std::cos(steering.middle_rad));
-  const auto sine = static_cast<float>(std::sin(steering.middle_rad));
-  rays_.resize(fan_.size());
-  for (std::size_t i = 0; i < fan_.size(); ++i) {
-    const Eigen::Vector3f& from = fan_[i].direction_head;
-    const float along = std::clamp(from.x() + shift, -0.999F, 0.999F);
-    const float scale = std::sqrt((1.0F - along * along) / (1.0F - from.x() * from.x()));
-    rays_[i].direction_head = {along, scale * (from.y() * cosine + from.z() * sine),
-                               scale * (from.z() * cosine - from.y() * sine)};
-    rays_[i].solid_angle_sr = fan_[i].solid_angle_sr;
-  }
-}
-
-void MultibeamHead::trace_rays(const Shot& shot, const trace::Scene& seabed) {
+void MultibeamHead::trace_rays(const Shot& shot, const Steering& steering, const trace::Scene& seabed) {
   const frames::HeadPose& head = poses_.front();
+  const double true_mps = paths_.sound_speed_mps(head);
+  const double sin_transmit = array::true_sine(steering.sin_transmit, steering.sound_speed_mps, true_mps);
+  distribution_.steer(sin_transmit, steering.middle_rad);
+  paths_.trace(seabed, head, distribution_.probes(), shot.range_m, hits_);
+  distribution_.fill(head, hits_, static_cast<float>(shot.range_m), rays_);
   paths_.trace(seabed, head, rays_, shot.range_m, hits_);
+
+  // What bubbles under the hull take on the way out and on the way back is the same for all paths.
+  const auto source =
+      static_cast<float>(std::pow(10.0, 0.1 * config_.source_level_db - 0.2 * environment_.bubble_loss_db()));
+  source_upa2m2_.resize(hits_.size());
   backscatter_.resize(hits_.size());
   rays_that_hit_ = 0;
   double height_m = 0.0;
@@ -108,6 +96,7 @@ void MultibeamHead::trace_rays(const Shot& shot, const trace::Scene& seabed) {
     if (!hits_[i].hit()) continue;
     ++rays_that_hit_;
     height_m += hits_[i].position_enu_m.z();
+    source_upa2m2_[i] = source * transmit_pattern_.power(rays_[i].direction_head.x() - sin_transmit);
     backscatter_[i] = environment_.backscatter()(hits_[i].sediment, hits_[i].sin_grazing);
   }
   const double head_depth_m = -head.position_enu_m.z();

@@ -8,6 +8,7 @@
 #include "components/runtime/head/environment.h"
 #include "components/runtime/head/shot.h"
 #include "components/runtime/head/water_paths.h"
+#include "kernels/array/pattern_table.h"
 #include "kernels/detect/bottom.h"
 #include "kernels/echo/arrival.h"
 #include "kernels/echo/line_receiver.h"
@@ -15,7 +16,7 @@
 #include "kernels/echo/scatterer.h"
 #include "kernels/frames/pose.h"
 #include "kernels/random/stream.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray_distribution.h"
 #include "kernels/trace/scene.h"
 #include "messages/sonar.h"
 
@@ -47,8 +48,7 @@ class MultibeamHead {
   std::size_t max_ping_bytes() const;
 
  private:
-  void aim(const Steering& steering);
-  void trace_rays(const Shot& shot, const trace::Scene& seabed);
+  void trace_rays(const Shot& shot, const Steering& steering, const trace::Scene& seabed);
   void form_beams(const Shot& shot, const Steering& steering);
   echo::Sampling sampling(const Shot& shot) const;
 
@@ -57,11 +57,12 @@ class MultibeamHead {
   random::Stream noise_;
   Environment environment_;
   WaterPaths paths_;
-  std::vector<trace::Ray> fan_;       // not steered, the same for every ping: an unmoved head hears the same
-  std::vector<float> source_upa2m2_;  // by ray
+  trace::RayDistribution distribution_;
+  array::PatternTable transmit_pattern_;  // against the sine from the steered fan
 
-  // Memory of the ping path, sized by the first ping of a range.
-  std::vector<trace::Ray> rays_;  // steered, in the head's frame
+  // Memory of the ping path, sized by the first pings of a range.
+  std::vector<trace::Ray> rays_;
+  std::vector<float> source_upa2m2_;  // by ray
   std::vector<trace::Hit> hits_;
   std::vector<float> backscatter_;
   std::vector<frames::HeadPose> poses_;  // from transmission on

@@ -46,7 +46,7 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   from.optional("gain_absorption_db_per_km", c.gain_absorption_dbpm, 0, 2000, kDecibelsPerKilometre);
   from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
   read_converter(from, c.converter);
-  from.optional("quality", c.quality, 0.05, 4);
+  read_quality(from, c.quality);
   read_effects(from, c.effects);
   c.world = scenario;
   c.process = process;

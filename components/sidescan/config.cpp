@@ -70,7 +70,7 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
   from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
   read_converter(from, c.converter);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
-  from.optional("quality", c.quality, 0.1, 10);
+  read_quality(from, c.quality);
   read_effects(from, c.effects);
   for (const SidescanChannel& channel : c.channels) {
     const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();

@@ -56,7 +56,7 @@ struct SidescanConfig {
   double gain_offset_db = 0.0;          // O
   Converter converter;
   double bottom_threshold_db = 12.0;  // of the bottom track: first return over the water column
-  double quality = 1.0;               // rays: from 0.1 (preview) to 10 (reference)
+  double quality = 1.0;               // of the rays (trace::RaySettings)
   Effects effects;
 
   // From the scenario.

@@ -14,8 +14,7 @@ namespace ensonify {
 namespace {
 
 constexpr double kFarthest_rad = 1.75;  // of rays from the head's down axis: a little above the horizon
-constexpr double kRowsPerResolution = 1.5;
-constexpr int kFewestRows = 512;
+constexpr double kReach = 8.0;          // sines in which rays are sent, in lambda / L
 
 double lines_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.horizontal_beamwidth_rad); }
 double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
@@ -43,14 +42,16 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   return a;
 }
 
-trace::SideFanShape fan_of(const SidescanConfig& config, const SidescanChannel& channel) {
-  trace::SideFanShape shape;
-  shape.transmit_length_in_waves = lines_in_waves(channel);
-  shape.from_rad = -kFarthest_rad;
-  shape.to_rad = kFarthest_rad;
-  const double cells = 2.0 * channel.range_m / channel.resolution_m(config.sound_speed_mps);
-  shape.across = std::max(kFewestRows, static_cast<int>(config.quality * kRowsPerResolution * cells));
-  return shape;
+/// To both sides. Across-track only range tells echoes apart.
+trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel) {
+  const double null = 1.0 / lines_in_waves(channel), reach = std::min(1.0, kReach * null);
+  const trace::TransmitVolume volume{
+      trace::TransmitVolume::Axis::kForward,
+      {-reach, reach, -null, null, channel.horizontal_beamwidth_rad},
+      {-kFarthest_rad, kFarthest_rad, -kFarthest_rad, kFarthest_rad, channel.vertical_beamwidth_rad}};
+  return {volume,
+          {config.quality, channel.resolution_m(config.sound_speed_mps)},
+          {config.world.seed, config.process + "/" + channel.name + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
@@ -86,8 +87,7 @@ SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& 
     : config_(config),
       channel_(channel),
       echoes_(apertures_of(config, channel), Environment(config.world, channel.frequency_hz), config.effects),
-      fan_(fan_of(config, channel)),
-      jitter_(config.world.seed, config.process + "/" + channel.name + "/rays"),
+      distribution_(rays_of(config, channel)),
       bottom_(bottom_of(config)),
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}
@@ -106,10 +106,8 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
 
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
   echoes_.move(poses_);
-  echoes_.trace(seabed, fan_.look(), settings.range_m, hits_);
-  met_range_m_.clear();
-  for (const trace::Hit& hit : hits_) met_range_m_.push_back(hit.range_m);
-  fan_.fill(met_range_m_, jitter_, 0, rays_);  // the same in every ping: an unmoved head hears the same
+  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
+  distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
   echoes_.trace(seabed, rays_, settings.range_m, hits_);
   echo::Image& image = echoes_.listen(emission, pulse_, rays_, hits_);
 

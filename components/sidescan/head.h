@@ -5,8 +5,7 @@
 #include "components/runtime/head/aperture_echoes.h"
 #include "components/runtime/head/bottom_finder.h"
 #include "components/sidescan/config.h"
-#include "kernels/random/stream.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray_distribution.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -38,8 +37,7 @@ class SidescanHead {
   SidescanConfig config_;
   SidescanChannel channel_;
   ApertureEchoes echoes_;
-  trace::SideFan fan_;
-  random::Stream jitter_;
+  trace::RayDistribution distribution_;
   BottomFinder bottom_;
   double pulse_length_s_;
   echo::Pulse pulse_;
@@ -47,7 +45,6 @@ class SidescanHead {
   // Memory of the ping path.
   std::vector<frames::HeadPose> poses_;
   std::vector<trace::Hit> hits_;
-  std::vector<float> met_range_m_;
   std::vector<trace::Ray> rays_;
 };
 

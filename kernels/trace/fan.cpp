@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace ensonify::trace {
 namespace {
 
 constexpr std::size_t kRowsTogether = 4;
-constexpr double kBlindShare = 0.05;  // rows of a direction where the first look met nothing, over those of others
 
 std::vector<double> sine_edges(double length_in_waves, double along_reach, int along) {
   const double core = 0.6 / length_in_waves;
@@ -46,23 +44,6 @@ std::vector<double> across_edges_rad(const FanShape& shape) {
   return edges;
 }
 
-void fill_strata(std::span<const double> sine_edges, std::span<const double> across_edges_rad,
-                 const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) {
-  const std::size_t along = sine_edges.size() - 1, across = across_edges_rad.size() - 1;
-  rays.resize(along * across);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::size_t first_row = i / (along * kRowsTogether) * kRowsTogether;
-    const std::size_t rows = std::min(kRowsTogether, across - first_row);
-    const std::size_t a = (i - first_row * along) / rows, b = first_row + (i - first_row * along) % rows;
-    const auto bits = jitter.bits(ping, i);
-    const double du = sine_edges[a + 1] - sine_edges[a];
-    const double dphi = across_edges_rad[b + 1] - across_edges_rad[b];
-    const double u = sine_edges[a] + du * (0x1p-32 * bits[0]);
-    const double phi = across_edges_rad[b] + dphi * (0x1p-32 * bits[1]);
-    rays[i] = {direction_of(u, phi).cast<float>(), static_cast<float>(du * dphi)};
-  }
-}
-
 }  // namespace
 
 Fan::Fan(const FanShape& shape) {
@@ -77,64 +58,19 @@ Fan::Fan(const FanShape& shape) {
 }
 
 void Fan::fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) const {
-  fill_strata(sine_edges_, across_edges_rad_, jitter, ping, rays);
-}
-
-SideFan::SideFan(const SideFanShape& shape) : shape_(shape) {
-  if (shape.along < 1 || shape.across < 1 || shape.look < 2 || !(shape.transmit_length_in_waves > 0.0) ||
-      !(shape.along_reach > 0.0)) {
-    throw std::invalid_argument("a side fan needs rays, looks, an array length and a reach, all positive");
+  const std::size_t along = sine_edges_.size() - 1, across = across_edges_rad_.size() - 1;
+  rays.resize(along * across);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::size_t first_row = i / (along * kRowsTogether) * kRowsTogether;
+    const std::size_t rows = std::min(kRowsTogether, across - first_row);
+    const std::size_t a = (i - first_row * along) / rows, b = first_row + (i - first_row * along) % rows;
+    const auto bits = jitter.bits(ping, i);
+    const double du = sine_edges_[a + 1] - sine_edges_[a];
+    const double dphi = across_edges_rad_[b + 1] - across_edges_rad_[b];
+    const double u = sine_edges_[a] + du * (0x1p-32 * bits[0]);
+    const double phi = across_edges_rad_[b] + dphi * (0x1p-32 * bits[1]);
+    rays[i] = {direction_of(u, phi).cast<float>(), static_cast<float>(du * dphi)};
   }
-  if (!(-std::numbers::pi < shape.from_rad && shape.from_rad < shape.to_rad && shape.to_rad < std::numbers::pi)) {
-    throw std::invalid_argument("a side fan goes from one angle to a greater one, both between -180 and 180 degrees");
-  }
-  sine_edges_ = sine_edges(shape.transmit_length_in_waves, shape.along_reach, shape.along);
-  const double step_rad = (shape.to_rad - shape.from_rad) / shape.look;
-  for (int i = 0; i < shape.look; ++i) {
-    look_.push_back({direction_of(0.0, shape.from_rad + (i + 0.5) * step_rad).cast<float>(), 0.0F});
-  }
-}
-
-/// Rows by look, then the angles at which each row begins.
-void SideFan::lay_rows(std::span<const float> met_range_m) {
-  const std::size_t looks = look_.size();
-  const auto met = [&](std::size_t i) { return i < looks && met_range_m[i] > 0.0F; };  // i may wrap below 0
-  const auto step_m = [&](std::size_t i, std::size_t j) {
-    return met(i) && met(j) ? std::abs(static_cast<double>(met_range_m[i]) - met_range_m[j]) : 0.0;
-  };
-  extent_m_.resize(looks);
-  rows_.resize(looks);
-  double extents_m = 0.0, angles = 0.0;
-  for (std::size_t i = 0; i < looks; ++i) {
-    // Half way to each neighbour. Where the answers end they go on as before, up to half a look farther.
-    const double before = step_m(i - 1, i), after = step_m(i, i + 1);
-    extent_m_[i] = met(i) ? (met(i - 1) && met(i + 1) ? 0.5 * (before + after) : before + after)
-                          : 0.5 * (step_m(i - 2, i - 1) + step_m(i + 1, i + 2));
-    rows_[i] = met(i - 1) || met(i) || met(i + 1) ? 1.0 : kBlindShare;
-    extents_m += extent_m_[i];
-    angles += rows_[i];
-  }
-  const double by_range = extents_m > 0.0 ? shape_.range_share * shape_.across / extents_m : 0.0;
-  const double by_angle = (extents_m > 0.0 ? 1.0 - shape_.range_share : 1.0) * shape_.across / angles;
-  for (std::size_t i = 0; i < looks; ++i) rows_[i] = by_range * extent_m_[i] + by_angle * rows_[i];
-
-  const double look_rad = (shape_.to_rad - shape_.from_rad) / static_cast<double>(looks);
-  across_edges_rad_.clear();
-  std::size_t look = 0;
-  double begun = 0.0;  // rows before this look
-  for (int row = 0; row < shape_.across; ++row) {
-    while (look + 1 < looks && begun + rows_[look] <= row) begun += rows_[look++];
-    const double part = std::min((row - begun) / rows_[look], 1.0);
-    across_edges_rad_.push_back(shape_.from_rad + (static_cast<double>(look) + part) * look_rad);
-  }
-  across_edges_rad_.push_back(shape_.to_rad);
-}
-
-void SideFan::fill(std::span<const float> met_range_m, const random::Stream& jitter, std::uint64_t ping,
-                   std::vector<Ray>& rays) {
-  if (met_range_m.size() != look_.size()) throw std::invalid_argument("a side fan needs one range per look");
-  lay_rows(met_range_m);
-  fill_strata(sine_edges_, across_edges_rad_, jitter, ping, rays);
 }
 
 }  // namespace ensonify::trace

@@ -93,6 +93,9 @@ RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings
   if (settings.most_rays < 4 * cells_.size()) {
     throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells_.size()));
   }
+  if (2.0 * settings.quality * static_cast<double>(settings.fewest_rays) > static_cast<double>(settings.most_rays)) {
+    throw std::invalid_argument("the fewest rays times the quality must be at most half of the most");
+  }
   needs_.resize(cells_.size());
   aim();
 }
@@ -214,6 +217,12 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
   std::size_t count = cut(share_);
   while (count > settings_.most_rays) {  // strata are whole: the last per cent may take another turn
     share_ *= 0.999 * static_cast<double>(settings_.most_rays) / static_cast<double>(count);
+    count = cut(share_);
+  }
+  const bool any = std::any_of(probe_hits.begin(), probe_hits.end(), [](const Hit& hit) { return hit.hit(); });
+  const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
+  while (static_cast<double>(count) < fewest) {
+    share_ *= 1.001 * fewest / static_cast<double>(count);
     count = cut(share_);
   }
   rays.resize(count);

@@ -43,6 +43,7 @@ struct RaySettings {
   double quality = kNormal;
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
   std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
+  std::size_t fewest_rays = 0;        // at normal quality, else that times the quality: cells share in what is missing
 
   static constexpr double kPreview = 0.25, kNormal = 1.0, kReference = 4.0;
 };
@@ -78,7 +79,8 @@ class RayDistribution {
   /// std::invalid_argument unless there is one hit per probe.
   void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, float max_range_m, std::vector<Ray>& rays);
 
-  /// What the last fill had of the rays that the quality asks for: 1, or less where most_rays limits them.
+  /// What the last fill had of the rays that the quality asks for: 1; less where most_rays limits them, more where
+  /// there are fewest_rays.
   double share() const { return share_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numbers>
 
@@ -87,18 +88,23 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
   CHECK(starboard == Approx(20 * kDegree).margin(0.01));
 }
 
+/// Relief of 0.3 m rms and some 200 boulders per hectare.
+static Scene strewn_with_boulders(std::uint64_t seed, double spacing_m, int cells) {
+  SyntheticSeabedParameters parameters{.seed = seed, .reference_depth_m = kDepth_m};
+  parameters.boulders = {.per_hectare = 200, .smallest_radius_m = 0.5, .largest_radius_m = 2.0};
+  parameters.relief.rms_m = 0.3;
+  const SyntheticSeabed seabed(parameters);
+  return scene_of([&](double x, double y) { return seabed.height_m(x, y); }, spacing_m, cells);
+}
+
 TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main lobe at most 0.1 % are unhit") {
-  // Relief of 0.3 m rms and some 200 boulders per hectare: shadows, silhouettes and facets seen edge-on. Four seabeds
-  // have 14,000 facets in the main lobe, so the limit is 14 of them.
+  // Shadows, silhouettes and facets seen edge-on. Four seabeds have 15,000 facets in the main lobe, so the limit is 15
+  // of them.
   constexpr double kSpacing_m = 0.25;
   constexpr int kCells = 400;
   int found = 0, unhit = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    SyntheticSeabedParameters parameters{.seed = seed, .reference_depth_m = kDepth_m};
-    parameters.boulders = {.per_hectare = 200, .smallest_radius_m = 0.5, .largest_radius_m = 2.0};
-    parameters.relief.rms_m = 0.3;
-    const SyntheticSeabed seabed(parameters);
-    const Scene scene = scene_of([&](double x, double y) { return seabed.height_m(x, y); }, kSpacing_m, kCells);
+    const Scene scene = strewn_with_boulders(seed, kSpacing_m, kCells);
     const auto count = [&](std::uint64_t draw, bool in_main_lobe, std::vector<int>& hits_of_facet) {
       const Sounding s = sound(scene, {RaySettings::kNormal, 0.075}, draw);
       for (std::size_t k = 0; k < s.hits.size(); ++k) {
@@ -122,6 +128,17 @@ TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main
   CAPTURE(found, unhit);
   CHECK(found > 10'000);
   CHECK(unhit <= 1e-3 * found);
+}
+
+TEST_CASE("rays for the picture", "[.rays-csv]") {
+  const Sounding s = sound(strewn_with_boulders(1, 0.25, 400), {RaySettings::kNormal, 0.075});
+  std::puts("sine,across_deg,range_m,east_m,north_m,up_m");
+  for (std::size_t k = 0; k < s.hits.size(); ++k) {
+    const auto& at = s.hits[k].position_enu_m;
+    if (!s.hits[k].hit()) continue;
+    std::printf("%.5f,%.3f,%.3f,%.3f,%.3f,%.3f\n", static_cast<double>(s.rays[k].direction_head.x()),
+                across_rad(s.rays[k]) / kDegree, static_cast<double>(s.hits[k].range_m), at.x(), at.y(), at.z());
+  }
 }
 
 /// Rays in each resolution cell (range x beam of 1 degree) of a head over a plane: fewest, and mean.
@@ -276,6 +293,21 @@ TEST_CASE("the limit of rays holds, and every cell gives way") {
   CHECK(sound(scene, {RaySettings::kNormal, 1e-9, 10'000}).rays.size() <= 10'000);
 }
 
+TEST_CASE("there are never fewer rays than asked for, where there is anything to hit") {
+  const Scene scene = scene_of(flat);
+  const Sounding few = sound(scene, {RaySettings::kPreview, 1.0}),
+                 filled = sound(scene,
+                                {.quality = RaySettings::kPreview, .range_resolution_m = 1.0, .fewest_rays = 120'000});
+  REQUIRE(few.rays.size() < 20'000);
+  CHECK(filled.rays.size() >= 30'000);  // a quarter, as the quality is
+  CHECK(filled.rays.size() < 33'000);
+  CHECK(filled.share > 1.3);
+  double sum = 0;
+  for (const Ray& ray : filled.rays) sum += ray.solid_angle_sr;
+  CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
+  CHECK(sound(Scene({0, 0}), {.fewest_rays = 80'000}).rays.size() < 10'000);
+}
+
 TEST_CASE("the same pose over the same tiles has the same rays, on any number of threads") {
   const Scene scene = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
   const auto with = [&](std::size_t threads, std::uint64_t seed) {
@@ -315,6 +347,8 @@ TEST_CASE("a volume that is none, and settings that cannot be, are refused") {
   CHECK_THROWS_WITH(make(volume), "the angles of a transmit volume must span at most a full circle");
   CHECK_THROWS_WITH(make(mills_cross(), {.range_resolution_m = 0}), "the range resolution must be above 0 m");
   CHECK_THROWS_WITH(make(mills_cross(), {.quality = 0}), "the quality of rays must be above 0");
+  CHECK_THROWS_WITH(make(mills_cross(), {.most_rays = 10'000, .fewest_rays = 5'001}),
+                    "the fewest rays times the quality must be at most half of the most");
   CHECK_THROWS_WITH(make(mills_cross(), {.most_rays = 100}), Catch::Contains("the limit of rays must be at least "));
   RayDistribution distribution(mills_cross(), {}, {1, "rays"});
   std::vector<Ray> rays;

@@ -4,6 +4,8 @@
 
 namespace ensonify {
 
+void read_quality(ConfigReader& from, double& quality) { from.optional("quality", quality, 0.05, 10); }
+
 void read_effects(ConfigReader& from, Effects& effects) {
   auto section = from.optional_section("effects");
   if (!section) return;

@@ -22,6 +22,10 @@ struct Effects {
   bool operator==(const Effects&) const = default;
 };
 
+/// Reads `quality:`, of the rays (trace::RaySettings): 0.05 to 10 in every head. 0.25 is a preview, 1 is what tests
+/// hold, 4 is to compare with.
+void read_quality(ConfigReader& from, double& quality);
+
 /// Reads the section `effects:` of a head's configuration; left out, all effects are on.
 void read_effects(ConfigReader& from, Effects& effects);
 
