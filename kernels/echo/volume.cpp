@@ -23,6 +23,7 @@ using Power = std::function<double(const Eigen::Vector3f&)>;
 class Table {
  public:
   explicit Table(const VolumeLayers& layers) : per_step_(1.0 / layers.step_m) {
+    if (!(layers.deepest_m > 0.0)) return;
     const auto steps = static_cast<std::size_t>(std::ceil(layers.deepest_m / layers.step_m)) + 1;
     for (std::size_t i = 0; i < steps; ++i) {
       values_.push_back(static_cast<float>(layers.backscatter_per_m((static_cast<double>(i) + 0.5) * layers.step_m)));

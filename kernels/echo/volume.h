@@ -43,7 +43,7 @@ std::vector<VolumeDirections> directions_of_cells(
 /// the world's zero (positive down); 0 above the surface and below the seabed.
 struct VolumeLayers {
   std::function<double(double depth_m)> backscatter_per_m;
-  double deepest_m = 1000.0;  // nothing below
+  double deepest_m = 1000.0;  // nothing below; 0 or less: nothing, a seabed above the surface
   double step_m = 0.25;       // of the table that is made of it
 };
 

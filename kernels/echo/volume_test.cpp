@@ -1,5 +1,6 @@
 #include "kernels/echo/volume.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -58,6 +59,17 @@ TEST_CASE("a layer answers from its depth, in every beam at its own time") {
   while (level[end] == 0.0F) --end;
   CHECK(750 * (begin - 1) * 100e-6 == Approx(10 / c).margin(0.45));  // the pencil is 2.3 deg wide: 0.3 m; steps 0.075
   CHECK(750 * (end - 1) * 100e-6 == Approx(12 / c).margin(0.45));
+}
+
+TEST_CASE("a seabed above the surface leaves no water to scatter") {
+  const auto ball = VolumeDirections::of([](const Eigen::Vector3f&) { return 1.0; }, {0, 1, 0}, -1, 1, 0.05);
+  auto layers = everywhere(-70);
+  std::vector<float> level;
+  for (const double deepest_m : {0.0, -3.0}) {
+    layers.deepest_m = deepest_m;
+    reverberation_upa2(210, 0.05, 1500, std::span(&ball, 1), layers, kHead, kPulse, {0, 100e-6, 200}, level);
+    CHECK(*std::max_element(level.begin(), level.end()) == 0.0F);
+  }
 }
 
 TEST_CASE("beams of a line array hear it with their own patterns, and neighbours alike") {
