@@ -5,6 +5,8 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -141,6 +143,44 @@ void whole_ping(benchmark::State& state) {
   set_rays(state, ping.rays.size());
 }
 
+template <class Work>
+double wall_s(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A ping on two cores over Embree alone with its rays on two cores, and over the same ping on one core, in turns.
+/// of_embree: 1 is as fast. parallel: 1 is twice as fast on two cores.
+void whole_ping_in_turns(benchmark::State& state) {
+  const trace::EmbreeAlone embree(tile());
+  Ping ping(static_cast<int>(state.range(0)));
+  auto packets = trace::EmbreeAlone::packets_of(kHead, ping.rays);
+  std::uint64_t number = 0;
+  std::vector<double> of_embree, parallel;
+  for (auto _ : state) {
+    const Limit limit(kThreads, 2);
+    const double floor_s = wall_s([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 64), [&](const auto& range) {
+        embree.trace(std::span(packets).subspan(range.begin(), range.size()), kMaxRange_m);
+      });
+    });
+    const double two_s = wall_s([&] { ping.whole(number++); });
+    const Limit one(kThreads, 1);
+    const double one_s = wall_s([&] { ping.whole(number++); });
+    of_embree.push_back(floor_s / two_s);
+    parallel.push_back(0.5 * one_s / two_s);
+  }
+  state.counters["of_embree"] = median(of_embree);
+  state.counters["parallel"] = median(parallel);
+}
+
 template <class Part>
 void part_of_ping(benchmark::State& state, const Part& part) {
   const Limit limit(kThreads, 1);
@@ -165,6 +205,7 @@ void beams_part(benchmark::State& state) {
 
 BENCHMARK(embree_alone)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_ping)->Args({1, 1})->Args({2, 1})->Args({2, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(whole_ping_in_turns)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(2.0);
 BENCHMARK(trace_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(scatterers_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(arrivals_part)->Unit(benchmark::kMillisecond);

@@ -77,7 +77,7 @@ class EmbreeAlone {
   }
 
  private:
-  RTCDevice device_ = rtcNewDevice("isa=avx2,threads=1");
+  RTCDevice device_ = rtcNewDevice("isa=avx2,set_affinity=0");
   RTCScene scene_ = rtcNewScene(device_);
 };
 
