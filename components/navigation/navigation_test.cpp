@@ -179,3 +179,24 @@ TEST_CASE("an origin left to the raster comes with the chart; nothing is measure
   CHECK(positions[0].stamp_ns == 1'000'000'000);
   CHECK(positions[0].latitude_deg == Approx(10.0).margin(1e-4));
 }
+
+TEST_CASE("a latency of the motion sensor makes attitude and heave late, the position's fixes not") {
+  // A sixth of the heave's 5 s. The roll turns with time: 2 degrees per second.
+  NavigationConfig config = config_of(0);
+  config.motion_latency_s = 5.0 / 6.0;
+  NodeUnderTest<NavigationNode> navigation(config);
+  for (int i = 0; i <= 300; ++i) {
+    msg::Pose pose = truth_at(i * 10_ms);
+    pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{0.5, 0.0, 2 * kPi / 180 * 0.01 * i}));
+    navigation.give("pose", pose);
+  }
+  const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 2_s);
+  const auto positions = navigation.step_until<msg::Position>("position", 2_s);
+  const msg::Attitude& last = attitudes.back();
+  CHECK(last.stamp_ns == (2_s).count());
+  // Poses come every 10 ms: the newest that is old enough is 0.84 s old.
+  CHECK(last.roll_rad == Approx(2 * kPi / 180 * (2.0 - 0.84)).margin(1e-9));
+  CHECK(last.heave_m == Approx(0.3 * std::sin(2 * kPi / 5.0 * (2.0 - 0.84))).margin(1e-9));
+  CHECK(attitudes.front().roll_rad == Approx(0.0).margin(1e-9));  // before, the oldest there is
+  CHECK(positions.back().position_enu_m[1] == Approx(4.0));
+}

@@ -17,13 +17,19 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       attitude_due_(Rate{config.attitude_rate_hz, 1}),
       position_due_(Rate{config.position_rate_hz, 1}),
       sound_speed_due_(Rate{config.probe.rate_hz, 1}),
+      motion_latency_(from_seconds(config.motion_latency_s)),
       sound_speed_latency_(from_seconds(config.probe.latency_s)),
       attitudes_(ports.out<msg::Attitude>("attitude", {.rate = Rate{config.attitude_rate_hz, 1}})),
       positions_(ports.out<msg::Position>("position", {.rate = Rate{config.position_rate_hz, 1}})),
       sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = Rate{config.probe.rate_hz, 1}})),
       estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{config.attitude_rate_hz, 1}})) {
   if (config.origin) world_.emplace(*config.origin);
-  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { truth_ = pose; });
+  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
+    truth_ = pose;
+    recent_.push_back(pose);
+    const std::int64_t old_ns = pose.stamp_ns - motion_latency_.count();
+    while (recent_.size() > 1 && recent_[1].stamp_ns <= old_ns) recent_.pop_front();
+  });
   if (!world_) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) {
       world_.emplace(frames::Geodetic{chart.origin_latitude_deg, chart.origin_longitude_deg});
@@ -35,9 +41,9 @@ SimTime NavigationNode::step(SimTime now) {
   const std::int64_t sample = attitude_due_.count(), fix = position_due_.count();
   const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
   if (truth_ && world_) {
-    if (attitude) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(*truth_, sample));
+    if (attitude) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(moved(), sample));
     if (position) measure_position(fix);
-    if (attitude) estimate(sensors_.attitude(*truth_, sample));
+    if (attitude) estimate(sensors_.attitude(moved(), sample));
   }
   const std::int64_t dip = sound_speed_due_.count();
   if (sound_speed_due_.due(now) && truth_) {
@@ -46,6 +52,13 @@ SimTime NavigationNode::step(SimTime now) {
   report_sound_speed(now);
   const SimTime next = std::min({attitude_due_.next(), position_due_.next(), sound_speed_due_.next()});
   return sound_speeds_under_way_.empty() ? next : std::min(next, sound_speeds_under_way_.front().first);
+}
+
+/// What the motion sensor measures now: the pose of its latency ago, with the newest stamp.
+msg::Pose NavigationNode::moved() const {
+  msg::Pose pose = recent_.front();
+  pose.stamp_ns = truth_->stamp_ns;
+  return pose;
 }
 
 void NavigationNode::report_sound_speed(SimTime now) {

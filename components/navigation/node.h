@@ -20,6 +20,7 @@ class NavigationNode {
   SimTime step(SimTime now);
 
  private:
+  msg::Pose moved() const;
   void measure_position(std::int64_t n);
   void report_sound_speed(SimTime now);
   void estimate(const msg::Attitude& attitude);
@@ -27,10 +28,11 @@ class NavigationNode {
   NavigationSensors sensors_;
   DeadReckoning filter_;
   Periodic attitude_due_, position_due_, sound_speed_due_;
-  SimTime sound_speed_latency_;
+  SimTime motion_latency_, sound_speed_latency_;
   std::deque<std::pair<SimTime, msg::SoundSpeed>> sound_speeds_under_way_;
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;
+  std::deque<msg::Pose> recent_;  // the newest pose that is as old as the motion sensor's latency, and all after it
   Ports::Out<msg::Attitude> attitudes_;
   Ports::Out<msg::Position> positions_;
   Ports::Out<msg::SoundSpeed> sound_speeds_;
