@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Draws the pictures of docs/plots.md (and the ping of docs/first-survey.md) by the commands that the page gives.
 
-    docs/draw_plots.py first.mcap
+    docs/draw_plots.py first.mcap forward_looking.mcap scanning.mcap
 
-The record is that of docs/first-survey.md with `amplitude_every: 1`. What its head cannot show is drawn from echoes made by
-formula (tools/plot/tests/synthetic_heads.py, which needs the package mcap).
+The first record is that of docs/first-survey.md with `amplitude_every: 1`, the others those of launch/forward_looking.yaml and
+launch/scanning.yaml. What these heads cannot show is drawn from echoes made by formula (tools/plot/tests/synthetic_heads.py, which needs the package mcap).
 """
 import pathlib
 import sys
@@ -35,22 +35,22 @@ def draw(name, *command):
         small.save(DOCS / "pictures" / f"{name}.png", optimize=True)
 
 
-def draw_all(survey):
+def draw_all(survey, ahead, around):
+    draw("plot_fls", "fls", ahead)
+    draw("plot_scan", "scan", around)
     draw("ping", "ping", survey, "--ping", 45)
     draw("plot_fan", "fan", survey, "--ping", 45)
     draw("plot_water_column", "water-column", survey)
     with tempfile.TemporaryDirectory() as folder:
-        fish, eye, bow = (pathlib.Path(folder) / f"{name}.mcap" for name in ("fish", "eye", "bow"))
+        fish, bow = (pathlib.Path(folder) / f"{name}.mcap" for name in ("fish", "bow"))
         made.write(fish, made.sidescan(pings=160))
-        made.write(eye, made.forward_looking(beams=256))
         made.write(bow, made.soundings())
         draw("plot_waterfall", "waterfall", fish)
         draw("plot_waterfall_ground", "waterfall", fish, "--ground")
-        draw("plot_fls", "fls", eye)
         draw("plot_angular_response", "angular-response", bow)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
-    draw_all(sys.argv[1])
+    draw_all(*sys.argv[1:])

@@ -47,7 +47,7 @@ def forward_looking_picture(heard: Heard, show: Show):
     left.imshow(polar, extent=extent_m, **colours)
     left.set_facecolor("white")
     left.set(xlabel="starboard of the head (m)", ylabel="ahead of the head (m)")
-    draw_ranges(left, heard)
+    range_arcs(left, heard)
     image, extent = rectangular_panel(heard, power)
     mappable = right.imshow(image, extent=extent, aspect="auto", **colours)
     right.set_facecolor(EMPTY)
@@ -59,13 +59,15 @@ def forward_looking_picture(heard: Heard, show: Show):
     return figure
 
 
-def draw_ranges(axes, heard: Heard) -> None:
-    """Thin arcs of equal slant range, labelled at the starboard edge."""
+def range_arcs(axes, heard: Heard, at_rad: float | None = None) -> None:
+    """Thin arcs of equal slant range, labelled at this angle, by default at the starboard edge."""
     edges = geometry.beam_edges_rad(heard.angle_rad)
     rim = np.linspace(edges[0], edges[-1], 181)
+    label_rad = rim[-1] if at_rad is None else at_rad
+    on_picture = {} if at_rad is None else {"color": "white"}
     for range_m in MaxNLocator(5).tick_values(0, heard.end_m):
         if not max(heard.first_range_m, 0.0) < range_m <= heard.end_m:
             continue
         axes.plot(range_m * np.sin(rim), range_m * np.cos(rim), color="white", linewidth=0.5, alpha=0.5)
-        axes.annotate(f"{range_m:g} m", range_m * np.array([np.sin(rim[-1]), np.cos(rim[-1])]), (3, -2),
-                      textcoords="offset points", fontsize=7, va="top", annotation_clip=False)
+        axes.annotate(f"{range_m:g} m", range_m * np.array([np.sin(label_rad), np.cos(label_rad)]), (3, -2),
+                      textcoords="offset points", fontsize=7, va="top", annotation_clip=False, **on_picture)

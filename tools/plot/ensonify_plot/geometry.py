@@ -17,8 +17,9 @@ def beam_edges_rad(angle_rad: np.ndarray) -> np.ndarray:
 
 
 def beam_at(angle_rad: np.ndarray, wanted_rad: np.ndarray) -> np.ndarray:
-    """Index of the beam whose sector holds each angle, -1 outside the fan."""
-    sector = np.searchsorted(beam_edges_rad(angle_rad), wanted_rad, side="right") - 1
+    """Index of the beam whose sector holds each angle, whole turns apart or not, -1 outside the fan."""
+    edges = beam_edges_rad(angle_rad)
+    sector = np.searchsorted(edges, edges[0] + np.mod(np.asarray(wanted_rad) - edges[0], 2 * np.pi), side="right") - 1
     inside = (sector >= 0) & (sector < len(angle_rad))
     return np.where(inside, np.argsort(angle_rad, kind="stable")[np.where(inside, sector, 0)], -1)
 

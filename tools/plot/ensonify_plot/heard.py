@@ -59,7 +59,7 @@ class Heard:
 
 def settings_line(p) -> str:
     """Settings of a ping or of soundings in one line."""
-    return (f"{p.frequency_hz / 1e3:g} kHz, {PULSES.get(p.pulse, p.pulse)} {p.pulse_length_s * 1e3:g} ms, source level "
+    return (f"{p.frequency_hz / 1e3:g} kHz, {PULSES.get(p.pulse, p.pulse)} {p.pulse_length_s * 1e3:.3g} ms, source level "
             f"{p.source_level_db:g} dB re 1 µPa at 1 m, sound speed {p.sound_speed_mps:g} m/s")
 
 
@@ -96,6 +96,11 @@ def must_sound(who: str, power_upa2) -> None:
     if not np.any(np.nan_to_num(power_upa2) > 0):
         raise UserError(f"{who}: all amplitudes are zero, there is nothing to draw; the head's health and log say why (range "
                         "below the altitude, no terrain, wrong frame)")
+
+
+def of_kinds(kinds: tuple, guess: Callable[[str, ensonify.Ping], bool]) -> Callable[[str, ensonify.Ping], bool]:
+    """Fits the pings of these kinds of heads. Those that do not tell their kind are guessed."""
+    return lambda topic, ping: ping.kind in kinds if ping.kind else guess(topic, ping)
 
 
 def choose_topic(record: ensonify.Record, asked: str | None, fits: Callable[[str, ensonify.Ping], bool], what: str,
@@ -161,20 +166,27 @@ class Span:
         return (self.first is None or value >= self.first) and (self.last is None or value <= self.last)
 
 
-def choose_ping(record: ensonify.Record, topic: str, number: int | None = None, t_s: float | None = None) -> Heard:
-    """The ping of this number, or the first one at or after this time, or the one in the middle of the record."""
+def place_of(record: ensonify.Record, topic: str, number: int | None, t_s: float | None, otherwise: Callable[[int], int]) -> int:
+    """Which of a topic's pings this number is, or the first one at or after this time; without both `otherwise` of their count."""
     pings = [(message.content.ping, message.content.stamp_ns * 1e-9) for message in record.messages(topic)]
-    chosen = len(pings) // 2
     if number is not None:
         chosen = next((at for at, (n, _) in enumerate(pings) if n == number), None)
     elif t_s is not None:
         chosen = next((at for at, (_, t) in enumerate(pings) if t >= t_s), None)
+    else:
+        chosen = otherwise(len(pings))
     if chosen is None and number is not None:
         near = min((n for n, _ in pings), key=lambda n: abs(n - number))
         raise UserError(f"{record.file}: ping {number} of {topic} was not recorded; the nearest is {near}, and there are "
                         f"{len(pings)} from {pings[0][0]} to {pings[-1][0]}")
     if chosen is None:
         raise UserError(f"{record.file}: no ping of {topic} at or after t = {t_s:g} s; {_extent(pings)}")
+    return chosen
+
+
+def choose_ping(record: ensonify.Record, topic: str, number: int | None = None, t_s: float | None = None) -> Heard:
+    """The ping of this number, or the first one at or after this time, or the one in the middle of the record."""
+    chosen = place_of(record, topic, number, t_s, lambda count: count // 2)
     message = next(m for at, m in enumerate(record.messages(topic)) if at == chosen)
     found = heard(topic, message.content)
     must_sound(f"{record.file}: ping {found.ping.ping} of {topic}", found.power_upa2)

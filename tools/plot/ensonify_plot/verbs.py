@@ -3,9 +3,10 @@ import argparse
 import math
 
 import ensonify
-from ensonify_plot import angular_response, water_column, waterfall
+from ensonify_plot import angular_response, scanning, water_column, waterfall
 from ensonify_plot.forward_looking import forward_looking_picture
-from ensonify_plot.heard import Span, choose_ping, choose_topic, heads_with_soundings, pings_in, process_of, soundings_of
+from ensonify_plot.heard import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
+                                 soundings_of)
 from ensonify_plot.level import Gain
 from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.results import open_record, save_picture
@@ -31,6 +32,11 @@ def add_verbs(verbs) -> None:
                 "range in m).")
     _one_ping(fls)
     _colours(fls, "auto")
+    scan = _verb(verbs, "scan", plot_scan,
+                 "What a mechanically scanned head saw around it (m ahead against m to starboard): the newest row of every direction "
+                 "up to a ping.")
+    _one_ping(scan, "the last")
+    _colours(scan, "auto")
     _add_waterfall(verbs)
     _add_water_column(verbs)
     _add_angular_response(verbs)
@@ -79,10 +85,10 @@ def _verb(verbs, name: str, act, text: str) -> argparse.ArgumentParser:
     return command
 
 
-def _one_ping(command) -> None:
+def _one_ping(command, default: str = "the one in the middle of the record") -> None:
     command.add_argument("--topic", help="the head's ping topic; default: the only one that fits")
     which = command.add_mutually_exclusive_group()
-    which.add_argument("--ping", type=int, metavar="N", help="ping number; default: the one in the middle of the record")
+    which.add_argument("--ping", type=int, metavar="N", help=f"ping number; default: {default}")
     which.add_argument("--t", type=_number(), metavar="S", help="the first ping at or after this sim time, in s")
 
 
@@ -155,7 +161,7 @@ def multibeam_topic(record: ensonify.Record, asked: str | None, or_first: bool =
     def fits(topic, ping):
         return ping.beam_angle_rad.size > 2 and (not sounding or process_of(topic) in sounding)
 
-    return choose_topic(record, asked, fits, "pings of a multibeam", or_first)
+    return choose_topic(record, asked, of_kinds(("multibeam",), fits), "pings of a multibeam", or_first)
 
 
 def downward_topic(record: ensonify.Record, asked: str | None) -> str:
@@ -165,7 +171,7 @@ def downward_topic(record: ensonify.Record, asked: str | None) -> str:
     def fits(topic, ping):
         return process_of(topic) in sounding if sounding else not waterfall.is_sidescan(topic, ping)
 
-    return choose_topic(record, asked, fits, "pings of a head that looks down")
+    return choose_topic(record, asked, of_kinds(("multibeam", "echosounder"), fits), "pings of a head that looks down")
 
 
 def plot_ping(options) -> int:
@@ -194,8 +200,18 @@ def plot_fls(options) -> int:
     def fits(topic, ping):
         return ping.beam_angle_rad.size > 2 and process_of(topic) not in sounding
 
-    heard = choose_ping(record, choose_topic(record, options.topic, fits, "forward-looking pings"), options.ping, options.t)
+    topic = choose_topic(record, options.topic, of_kinds(("forward_looking",), fits), "forward-looking pings")
+    heard = choose_ping(record, topic, options.ping, options.t)
     save_picture(record, options.out, f"fls_{heard.ping.ping}.png", forward_looking_picture(heard, _show(options)))
+    return 0
+
+
+def plot_scan(options) -> int:
+    """`ensonify plot scan`."""
+    record = open_record(options.record)
+    topic = choose_topic(record, options.topic, of_kinds(("scanning",), scanning.is_scanning), "pings of a scanning head")
+    turn = scanning.turn_of(record, topic, options.ping, options.t)
+    save_picture(record, options.out, f"scan_{turn[-1].ping.ping}.png", scanning.scan_picture(turn, _show(options)))
     return 0
 
 

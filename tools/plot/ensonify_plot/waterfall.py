@@ -4,7 +4,7 @@ from matplotlib.colors import LinearSegmentedColormap
 
 import ensonify
 from ensonify_plot import geometry
-from ensonify_plot.heard import Span, choose_topic, must_sound, one_of_process, pings_in
+from ensonify_plot.heard import Span, choose_topic, must_sound, of_kinds, one_of_process, pings_in
 from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
 from ensonify_plot.ping import EMPTY, FINDS, Show, bar
 from ensonify_plot.pictures import new_figure
@@ -26,7 +26,7 @@ def is_sidescan(_: str, ping: ensonify.Ping) -> bool:
 
 def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span, ground: bool) -> tuple:
     """(pings, valid bottom tracks by ping number) of a span."""
-    topic = choose_topic(record, topic, is_sidescan, "sidescan pings (one beam to port, one to starboard)")
+    topic = choose_topic(record, topic, of_kinds(("sidescan",), is_sidescan), "sidescan pings (one beam to port, one to starboard)")
     pings = list(pings_in(record, topic, numbers, times))
     odd = next((heard for heard in pings if not is_sidescan(topic, heard.ping)), None)
     if odd:

@@ -1,5 +1,7 @@
 """Echoes made from formulas, with targets whose places are known: what the pictures of pings are tested on, and what docs/plots.md
 shows of heads that its survey does not carry. The sonar equation in closed forms, straight rays, Rayleigh speckle."""
+import math
+
 import numpy as np
 from mcap.writer import CompressionType, Writer
 
@@ -98,6 +100,19 @@ def forward_looking(targets=((-0.4, 18.0), (0.3, 31.0)), beams=512, samples=1200
         first_sample_s=2 * slant_m[0] / SOUND_SPEED_MPS, beam_angle_rad=azimuth.astype("f4"), range_m=range_m,
         amplitude_upa=speckled(power + SILENCE_UPA**2, random),
         **applied(frequency_hz=750e3, pulse_length_s=4e-5, source_level_db=205.0, gain_spreading_db=30.0, gain_absorption_dbpm=0.25))
+
+
+def scanning(pings=400, step_deg=0.9, target=(math.radians(179.1), 7.0), samples=400, range_m=10.0, first_deg=-180.0):
+    """A turn of a scanning head in silence but for one sample in the direction nearest to `target`: (angle in rad, slant range in m)."""
+    for ping in range(pings):
+        angle = np.radians((first_deg + ping * step_deg + 180) % 360 - 180)
+        amplitude = np.full((1, samples), SILENCE_UPA, "f4")
+        if abs(math.remainder(angle - target[0], 2 * math.pi)) < np.radians(step_deg) / 2:
+            amplitude[0, int(round(target[1] / range_m * samples))] = 1e4
+        yield "turner/ping", ensonify.Ping(
+            stamp_ns=ping * 10**7, ping=ping, kind="scanning", sample_period_s=2 * range_m / SOUND_SPEED_MPS / samples,
+            beam_angle_rad=np.array([angle], "f4"), amplitude_upa=amplitude, range_m=range_m, pose_time_s=np.zeros(1),
+            pose_enu_from_head=level_pose(), pose_position_enu_m=np.array([[0.0, 0.01 * ping, -5.0]]), **applied(frequency_hz=750e3))
 
 
 def soundings(mu_db=-25.0, pings=100, beams=256, depth_m=20.0, absorption_dbpm=0.07, roll_rad=0.0, seed=1, **changed):

@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
-from ensonify_plot import angular_response, geometry, stack, water_column, waterfall  # noqa: E402
+from ensonify_plot import angular_response, geometry, scanning, stack, water_column, waterfall  # noqa: E402
 from ensonify_plot.forward_looking import polar_panel, rectangular_panel  # noqa: E402
 from ensonify_plot.heard import Span, heard  # noqa: E402
 from ensonify_plot.level import Gain, level_db, limits_of  # noqa: E402
@@ -163,6 +163,29 @@ class Places(unittest.TestCase):
         self.assertAlmostEqual(azimuth_deg, np.degrees(-0.4), delta=1.7)
         self.assertAlmostEqual(range_m, 18.0, delta=0.5)
 
+    def test_a_target_in_the_turn_of_a_scanning_head(self):
+        for angle_deg in (-180.0, -0.9, 90.0, 179.1):  # off the nearest step by 0.45 degrees at most; astern there is no seam
+            with tempfile.TemporaryDirectory() as folder:
+                messages = made.scanning(pings=500, first_deg=-120.0, target=(np.radians(angle_deg), 7.0))
+                record = ensonify.Record(made.write(pathlib.Path(folder) / "turn.mcap", messages))
+                turn = scanning.turn_of(record, "turner/ping", None, None)
+            self.assertEqual([row.ping.ping for row in turn], list(range(100, 500)))  # the newest of each direction
+            whole = scanning.assembled(turn)
+            image, extent = polar_panel(whole, whole.power_upa2)
+            x, y = place_of_brightest(image, extent, from_top=False)
+            # A direction is 0.11 m wide at 7 m, and its middle up to half as far off; a sample is 0.025 m long.
+            self.assertAlmostEqual(x, 7 * np.sin(np.radians(angle_deg)), delta=0.12)
+            self.assertAlmostEqual(y, 7 * np.cos(np.radians(angle_deg)), delta=0.12)
+            # The disc is filled: pi / 4 of its square but for the pixels at its rim.
+            self.assertAlmostEqual(np.isfinite(image).mean(), np.pi / 4, delta=0.01)
+
+    def test_a_scanned_sector_astern_is_drawn_astern(self):
+        turn = [heard(topic, ping) for topic, ping in made.scanning(pings=100, first_deg=135.0)]
+        self.assertAlmostEqual(np.ptp(scanning.assembled(turn).angle_rad), np.radians(99 * 0.9))
+        image, (left, right, low, high) = polar_panel(scanning.assembled(turn), scanning.assembled(turn).power_upa2)
+        self.assertAlmostEqual(low, -10.0, delta=0.1)
+        self.assertAlmostEqual(high, 0.0, delta=0.1)
+
     def test_a_target_in_the_waterfall(self):
         pings, altitudes = [], []
         for _, message in made.sidescan(pings=20, target=(10, 1, 30.0), range_m=50.0, samples=1000):
@@ -259,6 +282,7 @@ class Commands(unittest.TestCase):
         soundings = list(made.soundings(pings=3, beams=128))
         cls.mute = cls.record("mute", [*made.soundings(pings=3, beams=128), ("bow/ping", silent)])
         cls.heads = cls.record("heads", fan + [("bow/ping", silent)] + soundings + list(made.forward_looking()))
+        cls.turner = cls.record("turner", made.scanning(pings=20))
         cls.fish = cls.record("fish", made.sidescan(pings=12, target=(5, 1, 30.0), samples=300))
         lost = ensonify.BottomTrack(ping=0, valid=False, altitude_m=9.0)
         cls.lost = cls.record("lost", [*made.sidescan(pings=2, samples=300, bottom_track=False), ("fish/bottom_track", lost)])
@@ -272,6 +296,7 @@ class Commands(unittest.TestCase):
         for verb, record, arguments, name in (
                 ("fan", self.heads, ("--ping", 1), "fan_1.png"), ("fan", self.heads, ("--t", 0.15), "fan_2.png"),
                 ("ping", self.heads, ("--ping", 1), "ping_1.png"), ("fls", self.heads, (), "fls_25.png"),
+                ("scan", self.turner, (), "scan_19.png"), ("scan", self.turner, ("--t", 0.1), "scan_10.png"),
                 ("waterfall", self.fish, (), "waterfall.png"), ("waterfall", self.fish, ("--ground", "--t", "0.2:"), "waterfall_ground.png"),
                 ("water-column", self.heads, ("--ping", 1), "water_column_1.png"),
                 ("water-column", self.heads, ("--ping", ":2", "--angle", -20), "water_column.png"),
@@ -295,6 +320,9 @@ class Commands(unittest.TestCase):
             ("fan", self.heads, "--ping", "1", "--db", "5", "4"): "--db 5 4: LOW must be below HIGH",
             ("fan", self.heads, "--gain", "30"): "30: allowed: none, head, auto, or S,A with S in [0, 100] dB and A in [0, 2000] dB/km",
             ("fan", self.fish): "no topic is known to hold pings of a multibeam; name one with --topic: fish/ping (beams: 2)",
+            ("scan", self.turner, "--ping", "40"): "ping 40 of turner/ping was not recorded; the nearest is 19",
+            ("scan", self.heads, "--topic", "bow/ping"): "ping 0 of bow/ping has 128 beams; a scanning head has one",
+            ("fls", self.turner): "no topic is known to hold forward-looking pings",
             ("waterfall", self.heads): "no topic is known to hold sidescan pings",
             ("waterfall", self.heads, "--topic", "bow/ping"): "has 128 beams; a waterfall needs one to port (beam_angle_rad below 0) and one to starboard",
             ("waterfall", self.fish, "--t", "5:"): "no ping of fish/ping lies in what was asked for; there are 12, from 0 (t = 0.000 s) to 11 (t = 1.100 s)",
@@ -366,7 +394,7 @@ class Commands(unittest.TestCase):
                 self.assertIn(why, errors)
 
     def test_help_names_units_and_defaults(self):
-        for verb in ("fan", "fls", "waterfall", "water-column", "angular-response"):
+        for verb in ("fan", "fls", "scan", "waterfall", "water-column", "angular-response"):
             code, printed, _ = run(verb, "--help")
             self.assertEqual(code, 0)
             self.assertGreaterEqual(printed.count("default:"), 4, verb)
