@@ -1,8 +1,20 @@
 #include "kernels/detect/accuracy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ensonify::detect {
+
+double theoretical_sd(double angle_rad, double snr_db) {
+  constexpr double kDeg = std::numbers::pi / 180.0;
+  const double beta = std::abs(angle_rad), range_m = 20.0 / std::cos(beta);
+  if (beta < 10.5 * kDeg) return (9e-3 + 4e-3 * beta / (10 * kDeg)) / 20.0;
+  const double pulses = std::max(1.0, range_m * std::tan(beta) * 1.0 * kDeg / std::cos(beta) / (1500 * 100e-6 / 2));
+  const double by_noise = std::pow(10, -0.05 * snr_db) * std::sin(beta) /
+                          (2 * std::numbers::pi * 0.5 * 50.76 * std::pow(std::cos(beta), 2) * std::sqrt(pulses));
+  return std::hypot(by_noise, 5e-4);
+}
 
 std::vector<Accuracy> accuracy(const PlaneSurvey& survey, const Settings& settings, int pings) {
   const std::size_t beams = survey.sin_beams.size();

@@ -24,18 +24,6 @@ std::vector<Accuracy> accuracy_at(double snr_db, std::vector<double> angles_deg,
   return accuracy(survey, settings, pings);
 }
 
-/// Relative standard deviation that theory allows a zero crossing [Lurton2010b]: sigma_phi^2 = 1 / SNR over N
-/// independent pulses, and the floor of 0.05 % that speckle leaves; up to 10 degrees the centre of gravity, whose 9 mm
-/// at nadir and 13 mm at 10 degrees stand for 100 us in 20 m (simulated by others: 6-12 and 9-17 mm for 50-200 us).
-double expected_sd(double angle_rad, double snr_db) {
-  const double beta = std::abs(angle_rad), range_m = 20.0 / std::cos(beta);
-  if (beta < 10.5 * kDeg) return (9e-3 + 4e-3 * beta / (10 * kDeg)) / 20.0;
-  const double pulses = std::max(1.0, range_m * std::tan(beta) * 1.0 * kDeg / std::cos(beta) / (1500 * 100e-6 / 2));
-  const double by_noise = std::pow(10, -0.05 * snr_db) * std::sin(beta) /
-                          (2 * std::numbers::pi * 0.5 * 50.76 * std::pow(std::cos(beta), 2) * std::sqrt(pulses));
-  return std::hypot(by_noise, 5e-4);
-}
-
 const std::vector<double> kAngles{0, 3, 5, 7, 10, 12, 15, 20, 25, 30, -30, 45, 60, -60, 65, 70};
 
 }  // namespace
@@ -46,13 +34,13 @@ TEST_CASE("a plane is detected without bias, as exactly as theory allows, and th
       const double angle_deg = std::abs(a.angle_rad) / kDeg;
       INFO(snr_db << " dB, " << a.angle_rad / kDeg << " deg: found " << a.found << ", bias " << 100 * a.bias
                   << " %, sd " << 100 * a.sd << " %, predicted " << 100 * a.predicted_sd << " %, allowed "
-                  << 150 * expected_sd(a.angle_rad, snr_db) << " %");
+                  << 150 * theoretical_sd(a.angle_rad, snr_db) << " %");
       // A beam near nadir hears one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
       // 47 % of the pings.
       CHECK(a.found > (angle_deg > 25 ? 0.9 : 0.4));
       // The mean of 40 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
       CHECK(std::abs(a.bias) < (angle_deg > 60.5 ? 1.5e-3 : 5e-4));
-      CHECK(a.sd < 1.5 * expected_sd(a.angle_rad, snr_db));
+      CHECK(a.sd < 1.5 * theoretical_sd(a.angle_rad, snr_db));
       // 95 % of the errors within 5 cm of 20 m.
       if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
       // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
@@ -98,7 +86,7 @@ TEST_CASE("print accuracy by angle", "[.accuracy-csv]") {
   for (const double snr_db : {20.0, 10.0}) {
     for (const Accuracy& a : accuracy_at(snr_db, angles, 0.0, 300)) {
       std::printf("%g,%g,%g,%g,%g,%g,%g,%g,%g\n", snr_db, a.angle_rad / kDeg, a.bias, a.sd, a.predicted_sd,
-                  a.amplitude_sd, a.phase_weight, a.found, expected_sd(a.angle_rad, snr_db));
+                  a.amplitude_sd, a.phase_weight, a.found, theoretical_sd(a.angle_rad, snr_db));
     }
   }
 }
