@@ -16,7 +16,7 @@ struct RippleParameters {
   double travel_heading_rad = 0;   // grid heading that the lee sides face; crests run across it
   double lee_fraction = 0.5;       // of the wavelength under the lee side: 0.3 (steep lee) to 0.5 (symmetric)
   double disorder = 0.3;           // 0: straight endless crests; towards 1 bent, short, forked ones
-  double patch_wavelengths = 4.0;  // over how many wavelengths crests bend and heights change, > 0
+  double patch_wavelengths = 2.0;  // over how many wavelengths crests bend and heights change, > 0
   double height_ln_sd = 0.3;       // of ln height from place to place; measured 0.38-0.5, on large dunes 0.1
 };
 

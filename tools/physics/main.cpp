@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   physics::add_noise(app, verbs);
   physics::add_pattern(app, verbs);
   physics::add_ray(app, verbs);
+  physics::add_relief(app, verbs);
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);
   physics::add_surface(app, verbs);

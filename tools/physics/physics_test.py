@@ -127,4 +127,12 @@ near(value("horizontal_m", "ray", "--until", "point", "--distance-m", "150"), 15
 assert rows("ray", "--depression-deg", "-30")[0]["horizontal_m"] == "nan"  # it goes up for good
 assert physics("ray", "--profile", "/none")[0] == 2, "a profile that is not there"
 
+# Generated seabed: one post alone is the same as in a sweep; a layer's own mistakes are the user's.
+relief = ["relief", "--layer", "outcrops", "--north-m", "12.8"]
+row_of_posts = [row["elevation_m"] for row in rows(*relief, "--east-m", "-30:30:0.5")]
+assert len(set(row_of_posts)) > 60 and row_of_posts[37] == rows(*relief, "--east-m", "-11.5")[0]["elevation_m"], row_of_posts
+near(value("elevation_m", "relief", "--rms-m", "0"), 0, 0)
+code, _, error = physics("relief", "--inner-scale-m", "60")
+assert code == 2 and "relief spectrum: inner_scale_m is 60.000000, allowed: 0 or more, below outer_scale_m" in error, error
+
 print("ensonify physics answers as documented")

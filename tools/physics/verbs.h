@@ -12,6 +12,7 @@ void add_material(CLI::App& app, Verbs& verbs);
 void add_noise(CLI::App& app, Verbs& verbs);
 void add_pattern(CLI::App& app, Verbs& verbs);
 void add_ray(CLI::App& app, Verbs& verbs);
+void add_relief(CLI::App& app, Verbs& verbs);
 void add_sound_speed(CLI::App& app, Verbs& verbs);
 void add_stabilisation(CLI::App& app, Verbs& verbs);
 void add_surface(CLI::App& app, Verbs& verbs);
