@@ -31,6 +31,8 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   read_quality(from, c.quality);
+  read_trigger(from, c.trigger);
+  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
   read_effects(from, c.effects);
   c.world = scenario;
   c.process = process;
@@ -46,7 +48,7 @@ bool EchosounderConfig::operator==(const EchosounderConfig& o) const {
          gain_spreading_db == o.gain_spreading_db && gain_absorption_dbpm == o.gain_absorption_dbpm &&
          gain_offset_db == o.gain_offset_db && converter == o.converter &&
          electronic_noise_db == o.electronic_noise_db && bottom_threshold_db == o.bottom_threshold_db &&
-         quality == o.quality && effects == o.effects;
+         quality == o.quality && trigger == o.trigger && interference == o.interference && effects == o.effects;
 }
 
 HeadSettings EchosounderConfig::start() const {

@@ -4,7 +4,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
-#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/ping_timing.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
@@ -34,6 +34,8 @@ struct EchosounderConfig {
   double electronic_noise_db = -200.0;  // as sound in the water, re 1 uPa^2/Hz
   double bottom_threshold_db = 12.0;    // first return over the water column
   double quality = 1.0;                 // of the rays (trace::RaySettings)
+  Trigger trigger;
+  std::vector<OtherHead> interference;  // whom it hears
   Effects effects;
 
   // From the scenario.
@@ -46,7 +48,8 @@ struct EchosounderConfig {
   bool operator==(const EchosounderConfig& other) const;
 
   PingTiming timing() const {
-    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
+            interference};
   }
   /// Settings that it starts with, and what a command can make of them.
   HeadSettings start() const;

@@ -46,6 +46,7 @@ void read_operation(ConfigReader& from, ForwardLookingConfig& c) {
   from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
   read_converter(from, c.converter);
   read_quality(from, c.quality);
+  read_trigger(from, c.trigger);
   read_effects(from, c.effects);
 }
 
@@ -57,6 +58,7 @@ ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const Scenar
   read_faces(from, c);
   read_pulse(from, c);
   read_operation(from, c);
+  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
   c.world = scenario;
   c.process = process;
   c.mounting = read_mounting(from, scenario, process);
@@ -72,7 +74,8 @@ bool ForwardLookingConfig::operator==(const ForwardLookingConfig& o) const {
          processing_latency_s == o.processing_latency_s && sound_speed_mps == o.sound_speed_mps &&
          electronic_noise_db == o.electronic_noise_db && gain_spreading_db == o.gain_spreading_db &&
          gain_absorption_dbpm == o.gain_absorption_dbpm && gain_offset_db == o.gain_offset_db &&
-         converter == o.converter && quality == o.quality && effects == o.effects;
+         converter == o.converter && quality == o.quality && trigger == o.trigger && interference == o.interference &&
+         effects == o.effects;
 }
 
 HeadSettings ForwardLookingConfig::start() const {

@@ -103,7 +103,8 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   arrivals_.move(poses_);
   look(seabed);
   point_beams(known_sound_speed_mps);
-  const auto& arrivals = arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
+  arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
+  const auto& arrivals = arrivals_.add_interference(shot.foreign, listening_->pulse);
   form_beams(arrivals, background(shot, settings.source_level_db));
   sight_ = arrivals_.sight(settings.range_m, seabed);
 

@@ -16,7 +16,7 @@ HeadInputs::Start start_of(const ForwardLookingConfig& config, const ForwardLook
 }  // namespace
 
 ForwardLookingNode::ForwardLookingNode(const Config& config, Ports& ports)
-    : frequency_hz_(config.frequency_hz),
+    : config_(config),
       head_(config),
       inputs_(ports, start_of(config, head_)),
       cycle_(ports, inputs_, config.timing()),
@@ -34,7 +34,8 @@ SimTime ForwardLookingNode::step(SimTime now) {
 void ForwardLookingNode::transmit(SimTime now) {
   const HeadSettings& settings = inputs_.settings_at_ping();
   const RangedPulse pulse = head_.pulse_for(settings.range_m);
-  cycle_.transmit(now, {{frequency_hz_, pulse.length_s, from_seconds(pulse.listening_s()), settings}});
+  cycle_.transmit(now, {{config_.frequency_hz, pulse.length_s, from_seconds(pulse.listening_s()), settings,
+                         config_.pulse.chirp ? pulse.band_hz : 0.0}});
 }
 
 void ForwardLookingNode::publish(const PingUnderWay& ping) {

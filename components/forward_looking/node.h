@@ -22,7 +22,7 @@ class ForwardLookingNode {
   void transmit(SimTime now);
   void publish(const PingUnderWay& ping);
 
-  double frequency_hz_;
+  Config config_;
   ForwardLookingHead head_;
   HeadInputs inputs_;
   PingCycle cycle_;

@@ -30,7 +30,7 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
       head_(config),
       applied_(applied_profile(config.world)),
       soundings_(config),
-      clock_(config.ping_rate(), from_seconds(config.dead_time_s)),
+      clock_(ports, {.rate = config.ping_rate(), .dead_time = from_seconds(config.dead_time_s)}),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       truth_(keep_ns(config)),
       estimate_(keep_ns(config)),
@@ -57,7 +57,7 @@ SimTime MultibeamNode::step(SimTime now) {
     receive(pending_.front().shot, pending_.front().belief);
     pending_.pop_front();
   }
-  if (clock_.next() <= now) transmit(now);
+  if (clock_.due(now)) transmit(now);
   return pending_.empty() ? clock_.next() : std::min(clock_.next(), pending_.front().ready);
 }
 
@@ -78,7 +78,7 @@ void MultibeamNode::transmit(SimTime now) {
   transmit_out_.send(transmit);
   const SimTime listening = config_.listening_time(shot.range_m);
   pending_.push_back({shot, belief(now), now + listening + from_seconds(config_.processing_latency_s)});
-  clock_.transmitted(listening);
+  clock_.transmitted(now, listening);
 }
 
 /// Until the probe tells, the head takes the applied profile's speed at the depth where it believes to be.

@@ -47,6 +47,8 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
   read_converter(from, c.converter);
   read_quality(from, c.quality);
+  read_trigger(from, c.trigger);
+  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
   read_effects(from, c.effects);
   c.world = scenario;
   c.process = process;
@@ -62,7 +64,8 @@ bool ScanningConfig::operator==(const ScanningConfig& o) const {
          processing_latency_s == o.processing_latency_s && sound_speed_mps == o.sound_speed_mps &&
          electronic_noise_db == o.electronic_noise_db && gain_spreading_db == o.gain_spreading_db &&
          gain_absorption_dbpm == o.gain_absorption_dbpm && gain_offset_db == o.gain_offset_db &&
-         converter == o.converter && quality == o.quality && effects == o.effects;
+         converter == o.converter && quality == o.quality && trigger == o.trigger && interference == o.interference &&
+         effects == o.effects;
 }
 
 HeadSettings ScanningConfig::start() const {

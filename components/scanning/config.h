@@ -4,7 +4,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
-#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/ping_timing.h"
 #include "components/runtime/head/ranged_pulse.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
@@ -36,6 +36,8 @@ struct ScanningConfig {
   double gain_offset_db = 0.0;          // O
   Converter converter;
   double quality = 1.0;  // of the rays (trace::RaySettings)
+  Trigger trigger;
+  std::vector<OtherHead> interference;  // whom it hears
   Effects effects;
 
   // From the scenario.
@@ -48,7 +50,8 @@ struct ScanningConfig {
   bool operator==(const ScanningConfig& other) const;
 
   PingTiming timing() const {
-    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
+            interference};
   }
   HeadSettings start() const;
   SettingLimits limits() const;

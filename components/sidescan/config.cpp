@@ -71,6 +71,8 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
   read_converter(from, c.converter);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   read_quality(from, c.quality);
+  read_trigger(from, c.trigger);
+  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
   read_effects(from, c.effects);
   for (const SidescanChannel& channel : c.channels) {
     const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
@@ -90,7 +92,8 @@ bool SidescanConfig::operator==(const SidescanConfig& o) const {
          processing_latency_s == o.processing_latency_s && sound_speed_mps == o.sound_speed_mps &&
          gain_spreading_db == o.gain_spreading_db && gain_absorption_dbpm == o.gain_absorption_dbpm &&
          gain_offset_db == o.gain_offset_db && converter == o.converter &&
-         bottom_threshold_db == o.bottom_threshold_db && quality == o.quality && effects == o.effects;
+         bottom_threshold_db == o.bottom_threshold_db && quality == o.quality && trigger == o.trigger &&
+         interference == o.interference && effects == o.effects;
 }
 
 HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {

@@ -6,7 +6,7 @@
 
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/head/effects.h"
-#include "components/runtime/head/ping_clock.h"
+#include "components/runtime/head/ping_timing.h"
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
@@ -57,6 +57,8 @@ struct SidescanConfig {
   Converter converter;
   double bottom_threshold_db = 12.0;  // of the bottom track: first return over the water column
   double quality = 1.0;               // of the rays (trace::RaySettings)
+  Trigger trigger;
+  std::vector<OtherHead> interference;  // whom it hears
   Effects effects;
 
   // From the scenario.
@@ -69,7 +71,8 @@ struct SidescanConfig {
   bool operator==(const SidescanConfig& other) const;
 
   PingTiming timing() const {
-    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s)};
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
+            interference};
   }
   /// Settings that a channel starts with, and what a command can make of them.
   HeadSettings start_of(const SidescanChannel& channel) const;

@@ -48,7 +48,8 @@ void SidescanNode::transmit(SimTime now) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const HeadSettings& settings = inputs_.settings_at_ping(i);
     const double listening_s = config_.listening_s(settings.range_m, settings.pulse_length_s);
-    sent.push_back({channels_[i].config.frequency_hz, settings.pulse_length_s, from_seconds(listening_s), settings});
+    sent.push_back({channels_[i].config.frequency_hz, settings.pulse_length_s, from_seconds(listening_s), settings,
+                    channels_[i].config.bandwidth_hz});
   }
   cycle_.transmit(now, std::move(sent));
 }

@@ -24,7 +24,7 @@ Passed through_filter(const ForeignTransmission& foreign, const ReceiverBand& ba
   const double high_hz = std::min(apart_hz + 0.5 * theirs_hz, 0.5 * ours_hz);
   const double least = pulse.equivalent_length_s();
   if (high_hz <= low_hz) {
-    return {0.0, std::max(least, foreign.duration_s), std::pow(10.0, -0.1 * band.rejection_db)};
+    return {0.0, std::max(least, foreign.duration_s), std::pow(10.0, -0.1 * foreign.rejection_db)};
   }
   const double filter_sweep_hz = pulse.processing_gain_db > 0.0 ? ours_hz : 0.0;
   const auto out_s = [&](double offset_hz) {

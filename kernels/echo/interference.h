@@ -16,12 +16,12 @@ struct ForeignTransmission {
   double frequency_hz = 0.0;
   double sweep_hz = 0.0;  // band that it sweeps upwards; 0: a tone
   double duration_s = 0.0;
+  double rejection_db = 80.0;  // by our receiver, of what lies outside its band
 };
 
 /// The receiver, besides its pulse.
 struct ReceiverBand {
   double frequency_hz = 300e3;  // the pulse's band lies about it
-  double rejection_db = 80.0;   // of what lies outside
   double sound_speed_mps = 1500.0;
   double absorption_dbpm = 0.07;  // at the foreign frequency, near enough
   Sum sum = Sum::kPressure;

@@ -11,7 +11,7 @@ using namespace ensonify::echo;
 
 namespace {
 
-const ReceiverBand kBand{300e3, 80.0, 1500.0, 0.0};
+const ReceiverBand kBand{300e3, 1500.0, 0.0};
 const Pulse kPulse = rectangular_pulse(100e-6);
 
 ForeignTransmission neighbour() {

@@ -64,7 +64,8 @@ echo::Image& ApertureEchoes::listen(const Emission& emission, const echo::Pulse&
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.listening_s / emission.sample_period_s))};
   const echo::SampledPulse sampled(pulse, sampling.period_s);
-  hear(arrivals_.listen(emission.source_level_db, scatterers_, rays, hits), sampled, sampling);
+  arrivals_.listen(emission.source_level_db, scatterers_, rays, hits);
+  hear(arrivals_.add_interference(emission.shot.foreign, pulse), sampled, sampling);
   if (arrivals_.water_scatters()) {
     const auto& volume = arrivals_.reverberation_upa2(emission.source_level_db, volume_directions_, pulse, sampling);
     reverberation_.add(volume, sampled, static_cast<std::uint64_t>(emission.shot.ping), volume_, image_);

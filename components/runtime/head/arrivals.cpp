@@ -34,8 +34,7 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
                                                    std::span<const trace::Ray> rays, std::span<const trace::Hit> hits) {
   light(source_level_db, rays, hits);
   const frames::HeadPose& pose = transmit_pose();
-  const echo::Carrier carrier{frequency_hz_, absorption_dbpm_,
-                              effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare};
+  const echo::Carrier carrier{frequency_hz_, absorption_dbpm_, sum()};
   const auto found = scatterers.find({pose, rays, hits, source_upa2m2_, backscatter_});
   arrivals_.clear();
   echo::add_direct_echoes(carrier, pose.position_enu_m, found, receivers_, arrivals_);
@@ -45,6 +44,15 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
     surface.sound_speed_mps = sound_speed_mps();
     surface.rms_height_m = environment_.rms_wave_height_m();
     echo::add_multipath(carrier, head, surface, {}, pose, found, receivers_, arrivals_);
+  }
+  return arrivals_;
+}
+
+const std::vector<echo::Arrival>& Arrivals::add_interference(std::span<const echo::ForeignTransmission> foreign,
+                                                             const echo::Pulse& pulse) {
+  if (effects_.interference) {
+    echo::add_interference(foreign, {frequency_hz_, sound_speed_mps(), absorption_dbpm_, sum()}, pulse, receivers_,
+                           arrivals_);
   }
   return arrivals_;
 }

@@ -9,6 +9,7 @@
 #include "components/runtime/head/sight.h"
 #include "components/runtime/head/water_paths.h"
 #include "kernels/echo/arrival.h"
+#include "kernels/echo/interference.h"
 #include "kernels/echo/pulse.h"
 #include "kernels/echo/scatterer.h"
 #include "kernels/echo/volume.h"
@@ -43,6 +44,10 @@ class Arrivals {
   const std::vector<echo::Arrival>& listen(double source_level_db, echo::Scatterers& scatterers,
                                            std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
 
+  /// The same and what other heads send meanwhile, as the filter of this pulse hears it.
+  const std::vector<echo::Arrival>& add_interference(std::span<const echo::ForeignTransmission> foreign,
+                                                     const echo::Pulse& pulse);
+
   /// Mean squares of what the water column sends back to listeners in these directions, down to the seabed that the
   /// last call of listen() found; sample by listener. Nobody needs them where the water does not scatter or that is
   /// off.
@@ -62,6 +67,7 @@ class Arrivals {
   }
 
  private:
+  echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
   void light(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
   double sent_db(double source_level_db) const;
 

@@ -17,6 +17,7 @@ void read_effects(ConfigReader& from, Effects& effects) {
   section->optional("noise", effects.noise);
   section->optional("volume", effects.volume);
   section->optional("multipath", effects.multipath);
+  section->optional("interference", effects.interference);
   section->optional("motion", effects.motion);
   section->optional("tvg", effects.tvg);
   section->optional("quantisation", effects.quantisation);

@@ -15,6 +15,7 @@ struct Effects {
   bool noise = true;         // off: neither ambient nor electronic noise
   bool volume = true;        // off: the water does not scatter
   bool multipath = true;     // off: no sound by way of the surface
+  bool interference = true;  // off: no sound of other heads
   bool motion = true;        // off: the head rests during each ping, at its pose of transmission
   bool tvg = true;           // off: no gain that varies with time
   bool quantisation = true;  // off: no converter; amplitudes are numbers

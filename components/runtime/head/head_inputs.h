@@ -37,6 +37,7 @@ class HeadInputs {
   const frames::PoseHistory& truth() const { return truth_; }
   const frames::PoseHistory& estimate() const { return estimate_; }
   const trace::Scene& seabed() const { return tiles_.scene(); }
+  const HeadMounting& mounting() const { return mounting_; }
   double sound_speed_mps() const { return sound_speed_mps_; }
 
   /// The settings of a channel for the ping that goes out now.

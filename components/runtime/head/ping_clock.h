@@ -1,53 +1,69 @@
 #pragma once
 
-#include "components/runtime/sim_time.h"
+#include <deque>
+#include <optional>
+
+#include "components/runtime/head/ping_timing.h"
+#include "components/runtime/ports.h"
+#include "messages/sonar.h"
 
 namespace ensonify {
 
-/// How fast a head pings, and how long it takes from the last echo to the published ping.
-struct PingTiming {
-  Rate rate;             // at most
-  SimTime dead_time{0};  // between the end of listening and the next transmission, at least
-  SimTime processing_latency{0};
-};
-
-/// When a head may transmit: on the beat of its ping rate as long as pings fit into the beat; a ping that listens
-/// longer moves the beat. Times are computed from counts, never summed.
+/// When a head may transmit. Whatever the trigger, the interval is never less than the listening time plus the dead
+/// time, nor than that of the ping rate. Free: on the beat as long as pings fit into it; a ping that listens longer
+/// moves the beat. Slave: a transmission of the master that comes too early to be followed is passed over and counted
+/// (`triggers_missed`). Interleaved: slots that come too early are passed over; the beat never moves. Times are
+/// computed from counts, never summed.
+///
+/// A slave has the input `trigger`. Data wake nobody, so it looks when the master said that it would transmit, and
+/// while it does not, every kLook. What it sees too late it follows at once, and counts it (`triggers_late`).
 class PingClock {
  public:
-  PingClock(Rate rate, SimTime dead_time) : rate_(rate), dead_time_(dead_time) {}
+  static constexpr SimTime kLook = std::chrono::milliseconds(10);
 
-  /// The next transmission.
-  SimTime next() const { return next_; }
+  PingClock(Ports& ports, const PingTiming& timing);
+  PingClock(const PingClock&) = delete;
+  PingClock& operator=(const PingClock&) = delete;
 
-  /// Another beat, counted from next() on.
-  void set_rate(Rate rate) {
-    if (rate == rate_) return;
-    rate_ = rate;
-    restart(next_);
-  }
+  /// Whether to transmit now: asked at each event. If so, transmitted() or skipped() follows.
+  bool due(SimTime now);
 
-  /// The head has transmitted at next() and listens for this long.
-  void transmitted(SimTime listening) {
-    const SimTime free = next_ + listening + dead_time_;
-    advance();
-    if (next_ < free) restart(free);
-  }
-  /// The head let a beat pass without transmitting.
-  void skipped() { advance(); }
+  /// Another rate: from the transmission on that is due or comes next.
+  void set_rate(Rate rate);
+
+  /// When to ask next: at the next transmission, or, for a slave, to look for the master's.
+  SimTime next() const;
+
+  /// The head has transmitted now and listens for this long.
+  void transmitted(SimTime now, SimTime listening);
+  /// The head let it pass without transmitting.
+  void skipped();
+
+  /// When the head means to transmit next, for transmit/1; 0: it does not know.
+  SimTime intended() const;
 
  private:
-  void advance() { next_ = event_time(++beat_, rate_, phase_); }
-  void restart(SimTime phase) {
-    phase_ = next_ = phase;
-    beat_ = 0;
-  }
+  void follow(const msg::Transmit& master);
+  bool follows_now(SimTime now);
+  void tell_missing(SimTime now);
+  void advance();
 
+  Ports& ports_;
+  Trigger trigger_;
   Rate rate_;
   SimTime dead_time_;
+  SimTime free_{0};  // nothing is transmitted before
+
+  // Free and interleaved.
   SimTime phase_{0};
   std::int64_t beat_ = 0;
   SimTime next_{0};
+
+  // Slave.
+  std::deque<SimTime> to_follow_;    // own transmissions that the master has asked for
+  SimTime look_{0};                  // for the master's next
+  std::optional<SimTime> expected_;  // of the master, by its own word
+  SimTime followed_{-1};             // the master's last transmission
 };
 
 }  // namespace ensonify

@@ -8,18 +8,20 @@ PingCycle::PingCycle(Ports& ports, const HeadInputs& inputs, const PingTiming& t
     : ports_(ports),
       inputs_(inputs),
       processing_latency_(timing.processing_latency),
-      clock_(timing.rate, timing.dead_time),
+      clock_(ports, timing),
+      others_(ports, inputs, timing.others, timing.processing_latency),
       transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = timing.rate})) {}
 
 std::optional<PingUnderWay> PingCycle::ready(SimTime now) {
   if (under_way_.empty() || under_way_.front().ready > now) return std::nullopt;
   PingUnderWay ping = std::move(under_way_.front());
   under_way_.pop_front();
+  ping.foreign = others_.during(ping.transmit, ping.ready - processing_latency_ - ping.transmit);
   return ping;
 }
 
 bool PingCycle::may_transmit(SimTime now) {
-  if (clock_.next() > now) return false;
+  if (!clock_.due(now)) return false;
   const std::string obstacle = inputs_.obstacle(now);
   if (obstacle.empty()) return true;
   clock_.skipped();
@@ -30,18 +32,20 @@ bool PingCycle::may_transmit(SimTime now) {
 
 void PingCycle::transmit(SimTime now, std::vector<Transmission> channels) {
   SimTime listening{0};
+  for (const Transmission& channel : channels) listening = std::max(listening, channel.listening);
+  clock_.set_rate(rate_of(channels.front().settings.ping_rate_hz));
+  clock_.transmitted(now, listening);
   for (const Transmission& channel : channels) {
-    listening = std::max(listening, channel.listening);
     msg::Transmit transmit;
     transmit.stamp_ns = now.count();
     transmit.ping = pings_;
     transmit.frequency_hz = channel.frequency_hz;
     transmit.pulse_length_s = channel.pulse_length_s;
+    transmit.bandwidth_hz = channel.bandwidth_hz;
     transmit.source_level_db = channel.settings.source_level_db;
+    transmit.next_ns = clock_.intended().count();
     transmit_out_.send(transmit);
   }
-  clock_.set_rate(rate_of(channels.front().settings.ping_rate_hz));
-  clock_.transmitted(listening);
   under_way_.push_back(
       {pings_++, now, std::move(channels), inputs_.sound_speed_mps(), now + listening + processing_latency_});
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/runtime/head/head_inputs.h"
+#include "components/runtime/head/interference.h"
 #include "components/runtime/head/ping_clock.h"
 #include "components/runtime/head/shot.h"
 #include "components/runtime/ports.h"
@@ -19,6 +20,7 @@ struct Transmission {
   double pulse_length_s = 0.0;
   SimTime listening{0};  // from transmission to the end of the last echo
   HeadSettings settings;
+  double bandwidth_hz = 0.0;  // that a chirp sweeps
 };
 
 /// A ping from its transmission to the end of its processing: what was fixed when it was sent.
@@ -29,10 +31,13 @@ struct PingUnderWay {
   double sound_speed_mps = 0.0;        // as the head knew it
   SimTime ready{0};                    // its last echo has come and is processed, every pose that it needs is known
 
-  Shot shot(std::size_t channel = 0) const { return {ping, transmit, channels[channel].settings.range_m}; }
+  std::vector<echo::ForeignTransmission> foreign = {};  // what other heads send meanwhile
+
+  Shot shot(std::size_t channel = 0) const { return {ping, transmit, channels[channel].settings.range_m, foreign}; }
 };
 
-/// The pings of a head from transmission to publication, and its port `transmit`. A node asks in each step for the
+/// The pings of a head from transmission to publication, and its ports `transmit`, `trigger` and `transmits`
+/// (PingClock, Interference). A node asks in each step for the
 /// pings that are ready, transmits if it may, and sleeps until next().
 class PingCycle {
  public:
@@ -58,6 +63,7 @@ class PingCycle {
   const HeadInputs& inputs_;
   SimTime processing_latency_;
   PingClock clock_;
+  Interference others_;
   std::deque<PingUnderWay> under_way_;
   std::int64_t pings_ = 0;
   Ports::Out<msg::Transmit> transmit_out_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "components/runtime/sim_time.h"
+#include "kernels/echo/interference.h"
 
 namespace ensonify {
 
@@ -11,6 +13,7 @@ struct Shot {
   std::int64_t ping = 0;
   SimTime transmit{0};
   double range_m = 0.0;
+  std::vector<echo::ForeignTransmission> foreign = {};  // what other heads send meanwhile
 };
 
 }  // namespace ensonify
