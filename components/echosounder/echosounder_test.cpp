@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -122,6 +123,18 @@ TEST_CASE("the energy of the bottom echo is that of the area integral, for both 
     expected *= std::pow(10.0, 21.5) * config.pulse_length_s;
     CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
   }
+}
+
+TEST_CASE("the surface overhead is heard through the back of the piston only") {
+  // EL = SL - 20 log L - alpha L - losses [Lurton2010]: up 2 m from a calm surface and down again, 40 dB less each way.
+  EchosounderConfig config = over_lambert();
+  config.effects.noise = false;
+  const Survey survey(config, flat());
+  const auto& amplitude = survey.pings.at(0).amplitude_upa;
+  const auto last = static_cast<std::size_t>(2.0 * 10.0 / 1500.0 / config.sample_period_s());  // 10 m, above the bed
+  const float loudest = *std::max_element(&amplitude[0], &amplitude[last]);
+  CHECK(20.0 * std::log10(static_cast<double>(loudest)) ==
+        Approx(215.0 - 20.0 * std::log10(4.0) - 0.05 * 4.0 - 80.0).margin(0.1));  // a steady tone's level is exact
 }
 
 TEST_CASE("a range below the altitude, and an echo below the noise, are said in health") {

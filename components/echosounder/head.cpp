@@ -12,7 +12,8 @@
 namespace ensonify {
 namespace {
 
-constexpr double kReach = 3.0;  // sines in which rays are sent, in lambda / D: three side lobes
+constexpr double kBackLoss_db = 40.0;  // one-way, behind the face
+constexpr double kReach = 3.0;         // sines in which rays are sent, in lambda / D: three side lobes
 constexpr double kWidest_rad = 1.5;
 
 bool circular(const EchosounderConfig& c) { return c.face == EchosounderConfig::Face::kCircular; }
@@ -35,8 +36,10 @@ AperturePattern pattern_of(const EchosounderConfig& c) {
   const auto along = [=](float sine) {
     return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
   };
-  if (round) return [=](const Eigen::Vector3f& d) { return along(d.head<2>().norm()); };
-  return [=](const Eigen::Vector3f& d) { return along(d.x()) * along(d.y()); };
+  return [=](const Eigen::Vector3f& d) {
+    const double face = array::face_amplitude({0.0, kBackLoss_db}, static_cast<double>(d.z()));
+    return static_cast<float>(face) * (round ? along(d.head<2>().norm()) : along(d.x()) * along(d.y()));
+  };
 }
 
 Apertures apertures_of(const EchosounderConfig& config) {
