@@ -108,6 +108,19 @@ TEST_CASE("coral: a multifractal with steep-sided plates lies within what a reef
   CHECK(coral.patches.slope_correlation < 0.75);
 }
 
+TEST_CASE("neighbouring tiles of a whole seabed share their edge to the bit, in heights and classes") {
+  const Seabed seabed = rock_and_sand(5);
+  const Window west{0, -128, 0, 129, 129}, east{0, 0, 0, 129, 129};
+  std::vector<float> left(west.size()), right(east.size());
+  std::vector<std::uint8_t> left_class(west.size()), right_class(east.size());
+  seabed.fill(west, left, left_class);
+  seabed.fill(east, right, right_class);
+  for (int j = 0; j < 129; ++j) {
+    REQUIRE(left[west.node(128, j)] == right[east.node(0, j)]);
+    REQUIRE(left_class[west.node(128, j)] == right_class[east.node(0, j)]);
+  }
+}
+
 TEST_CASE("a bedform field is even within its class: K2 about 0, patches 1.0 to 1.2") {
   const Ripples dunes(
       {.wavelength_m = 10.0, .height_m = 0.3, .lee_fraction = 0.35, .disorder = 0.4, .height_ln_sd = 0.4}, 1.0, 4,
