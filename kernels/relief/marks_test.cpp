@@ -2,17 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "kernels/relief/combine.h"
 #include "kernels/relief/seabed.h"
 
 using namespace ensonify::relief;
 using ensonify::frames::Vec2;
-
-namespace {
-constexpr double kPi = std::numbers::pi;
-}
 
 TEST_CASE("across a furrow: its depth, its berms, and the share of the spoil") {
   for (const double curvature : {0.0, 0.002, -0.002}) {
