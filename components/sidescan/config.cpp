@@ -4,15 +4,14 @@
 #include <set>
 
 #include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
 
-constexpr FileUnit kDecibelsPerKilometre{1e-3};
+constexpr double kFastest_hz = 100.0;
+
 constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
 constexpr double kLongestPulse_s = 20e-3;
-constexpr double kWeakest_db = 40.0;        // below the highest source level, that can be set
 constexpr double kMostSamples = 100'000.0;  // per side
 
 void check(const ConfigReader& from, const SidescanChannel& c) {
@@ -61,19 +60,8 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
     if (!names.insert(c.channels.back().name).second) channel.problem("name", "is taken by another channel");
   }
   if (c.channels.empty()) from.problem("channels", "needs at least one channel");
-  from.optional("ping_rate_hz", c.ping_rate_hz, 0.01, 100);
-  from.optional("dead_time_s", c.dead_time_s, 0, 1);
-  from.optional("processing_latency_s", c.processing_latency_s, 0, 10);
-  from.optional("sound_speed_mps", c.sound_speed_mps, 1300, 1700);
-  from.optional("gain_spreading_db", c.gain_spreading_db, 0, 80);
-  from.optional("gain_absorption_db_per_km", c.gain_absorption_dbpm, 0, 2000, kDecibelsPerKilometre);
-  from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
-  read_converter(from, c.converter);
+  read_head(from, scenario, process, kFastest_hz, c);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
-  read_quality(from, c.quality);
-  read_trigger(from, c.trigger);
-  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
-  read_effects(from, c.effects);
   for (const SidescanChannel& channel : c.channels) {
     const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
     if (samples > kMostSamples) {
@@ -81,46 +69,24 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
                                    " samples a side; at most 100000 are allowed: shorten range_m");
     }
   }
-  c.world = scenario;
-  c.process = process;
-  c.mounting = read_mounting(from, scenario, process);
   return c;
 }
 
 bool SidescanConfig::operator==(const SidescanConfig& o) const {
-  return channels == o.channels && ping_rate_hz == o.ping_rate_hz && dead_time_s == o.dead_time_s &&
-         processing_latency_s == o.processing_latency_s && sound_speed_mps == o.sound_speed_mps &&
-         gain_spreading_db == o.gain_spreading_db && gain_absorption_dbpm == o.gain_absorption_dbpm &&
-         gain_offset_db == o.gain_offset_db && converter == o.converter &&
-         bottom_threshold_db == o.bottom_threshold_db && quality == o.quality && trigger == o.trigger &&
-         interference == o.interference && effects == o.effects;
+  return same_parameters(*this, o) && channels == o.channels && bottom_threshold_db == o.bottom_threshold_db;
 }
 
 HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {
-  HeadSettings start;
-  start.range_m = channel.range_m;
-  start.source_level_db = channel.source_level_db;
+  HeadSettings start = start_at(channel.range_m, channel.source_level_db);
   start.pulse_length_s = channel.pulse_length_s;
-  start.gain_spreading_db = effects.tvg ? gain_spreading_db : 0.0;
-  start.gain_absorption_dbpm = effects.tvg ? gain_absorption_dbpm : 0.0;
-  start.gain_offset_db = gain_offset_db;
-  start.ping_rate_hz = ping_rate_hz;
   return start;
 }
 
 SettingLimits SidescanConfig::limits_of(const SidescanChannel& channel) const {
-  SettingLimits limits;
-  limits.range_m = {1.0, channel.range_m};
-  limits.source_level_db = {channel.source_level_db - kWeakest_db, channel.source_level_db};
+  SettingLimits limits = limits_up_to(1.0, channel.range_m, channel.source_level_db);
   // Samples come as often as the shortest pulse needs; a chirp's length changes neither resolution nor samples.
   limits.pulse_length_s = {channel.chirp ? kLeastSweep / channel.bandwidth_hz : channel.pulse_length_s,
                            kLongestPulse_s};
-  if (effects.tvg) {
-    limits.gain_spreading_db = {0.0, 80.0};
-    limits.gain_absorption_dbpm = {0.0, 2.0};
-  }
-  limits.gain_offset_db = {-200.0, 200.0};
-  limits.ping_rate_hz = {0.01, ping_rate_hz};
   return limits;
 }
 

@@ -4,12 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/head/effects.h"
-#include "components/runtime/head/ping_timing.h"
-#include "components/runtime/head/samples.h"
-#include "components/runtime/head/settings.h"
-#include "components/runtime/sim_time.h"
+#include "components/runtime/head/head_config.h"
 #include "kernels/echo/pulse.h"
 
 namespace ensonify {
@@ -45,35 +40,18 @@ struct SidescanChannel {
 };
 
 /// A sidescan sonar: the frequencies ping together.
-struct SidescanConfig {
+struct SidescanConfig : HeadConfig {
   std::vector<SidescanChannel> channels{SidescanChannel{}};
-  double ping_rate_hz = 30.0;  // at most; the interval is never less than 2 R / c + dead time
-  double dead_time_s = 1e-3;
-  double processing_latency_s = 20e-3;  // from the last echo to the published ping
-  double sound_speed_mps = 1500.0;      // by which the instrument takes time for range
-  double gain_spreading_db = 30.0;      // gain S log10(R) + 2 A R + O at range R: S,
-  double gain_absorption_dbpm = 0.1;    // A,
-  double gain_offset_db = 0.0;          // O
-  Converter converter;
   double bottom_threshold_db = 12.0;  // of the bottom track: first return over the water column
-  double quality = 1.0;               // of the rays (trace::RaySettings)
-  Trigger trigger;
-  std::vector<OtherHead> interference;  // whom it hears
-  Effects effects;
 
-  // From the scenario.
-  Scenario world;
-  std::string process;
-  HeadMounting mounting;
-
+  SidescanConfig() {  // what it has other defaults for than heads in general
+    ping_rate_hz = 30.0;
+    gain_absorption_dbpm = 0.1;
+  }
   static SidescanConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const SidescanConfig& other) const;
 
-  PingTiming timing() const {
-    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
-            interference};
-  }
   /// Settings that a channel starts with, and what a command can make of them.
   HeadSettings start_of(const SidescanChannel& channel) const;
   SettingLimits limits_of(const SidescanChannel& channel) const;
