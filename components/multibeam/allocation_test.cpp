@@ -37,13 +37,14 @@ TEST_CASE("after the first ping, listening allocates nothing") {
   truth.push(0, {});
 
   const MultibeamConfig config = head_in_plain_water();
-  const Steering steering = steer(config, {});
+  const Steering steering = steer(config, config.swath_rad, {});
+  const HeadSettings settings = config.start();
   MultibeamHead head(config);
   const int before_anything = allocations;
-  head.listen({0, SimTime{0}, 60.0}, steering, truth, tiles.scene());
+  head.listen({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   CHECK(allocations > before_anything);  // the count works
-  head.listen({1, SimTime{0}, 60.0}, steering, truth, tiles.scene());
+  head.listen({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   const int before = allocations;
-  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, steering, truth, tiles.scene());
+  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   CHECK(allocations - before == 0);
 }

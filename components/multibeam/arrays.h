@@ -1,7 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "components/multibeam/config.h"
+#include "components/multibeam/steering.h"
 #include "kernels/array/line_array.h"
+#include "kernels/array/pattern_table.h"
 
 namespace ensonify {
 
@@ -12,6 +16,41 @@ struct ReceiveLine {
   array::SplitAperture halves;  // positive: starboard
 };
 
+/// With side lobes switched off they lie 60 dB down, and the main lobe is wider for it; the elements are the same.
 ReceiveLine receive_line(const MultibeamConfig& config);
+
+/// Length of the transmit line at a frequency, in wavelengths: it is built for the head's.
+double transmit_length_in_waves(const MultibeamConfig& config, double frequency_hz);
+double receive_length_in_waves(const MultibeamConfig& config, double frequency_hz);
+
+/// Where a sector's sound goes, in the head's frame: a uniform line along x; across-track everywhere or between the
+/// sector's edges; less behind the face.
+class SectorPattern {
+ public:
+  /// Sine over which an edge falls, from full to nothing; half way it is at -6 dB.
+  static constexpr double kRollOff = 0.1;
+
+  SectorPattern(const MultibeamConfig& config, double frequency_hz);
+
+  /// From now on; sines and edges are those of the water as it is.
+  void steer(const SteeredSector& sector) { sector_ = sector; }
+
+  /// Power, 1 on the axis.
+  float transmitted_power(const Eigen::Vector3f& direction_head) const;
+  /// Amplitude that an element of the receive line gives a direction.
+  float element_amplitude(const Eigen::Vector3f& direction_head) const {
+    return direction_head.z() < 0.0F ? behind_ : 1.0F;
+  }
+  /// Power of isotropic noise in an element, over that of one that hears all around.
+  double noise_share() const { return 0.5 * (1.0 + static_cast<double>(behind_) * static_cast<double>(behind_)); }
+
+ private:
+  float edge(double sine_inside) const;
+
+  array::PatternTable line_, edge_;
+  double first_null_;  // beyond it there is nothing, where side lobes are switched off
+  float behind_;
+  SteeredSector sector_;
+};
 
 }  // namespace ensonify

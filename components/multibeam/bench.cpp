@@ -30,47 +30,54 @@ msg::Tile wavy_tile() {
 
 frames::PoseHistory at_rest() {
   frames::PoseHistory truth(10'000'000'000);
-  truth.push(0, {});
-  truth.push(1'000'000'000, {});
+  frames::Pose pose;
+  pose.position_enu_m.z() = -1.0;
+  truth.push(0, pose);
+  truth.push(1'000'000'000, pose);
   return truth;
 }
 
 void one_ping(benchmark::State& state) {
   MultibeamConfig config = head_in_plain_water();
   config.quality = 0.01 * static_cast<double>(state.range(0));
-  const Steering steering = steer(config, {});
+  config.world.water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
+  const Steering steering = steer(config, config.swath_rad, {});
+  const HeadSettings settings = config.start();
   MultibeamHead head(config);
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   Shot shot{0, SimTime{0}, 75.0};
-  head.listen(shot, steering, truth, tiles.scene());
-  if (head.rays_that_hit() < 4000) throw std::runtime_error("the rays miss the seabed");
-  state.counters["rays"] = head.rays_that_hit();
+  head.listen(shot, settings, steering, truth, tiles.scene());
+  const int rays = head.sight(shot.range_m, tiles.scene()).rays_that_hit;
+  if (rays < 20000) throw std::runtime_error("the rays miss the seabed");
+  state.counters["rays"] = rays;
   for (auto _ : state) {
     ++shot.ping;
-    benchmark::DoNotOptimize(head.listen(shot, steering, truth, tiles.scene()).image.amplitude_upa.data());
+    benchmark::DoNotOptimize(
+        head.listen(shot, settings, steering, truth, tiles.scene()).front().image.amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)
-    ->ArgName("quality_pct")
-    ->Arg(25)
-    ->Arg(50)
-    ->Arg(100)
+    ->ArgNames({"quality_pct", "calm"})
+    ->Args({25, 0})
+    ->Args({25, 1})
+    ->Args({100, 0})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 
 void detections(benchmark::State& state) {
   const MultibeamConfig config = head_in_plain_water();
-  const Steering steering = steer(config, {});
+  const Steering steering = steer(config, config.swath_rad, {});
+  const HeadSettings settings = config.start();
   MultibeamHead head(config);
   SoundingMaker maker(config);
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   const Shot shot{0, SimTime{0}, 75.0};
-  const auto heard = head.listen(shot, steering, truth, tiles.scene());
-  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, steering, heard, truth).valid.data());
+  const auto& heard = head.listen(shot, settings, steering, truth, tiles.scene());
+  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, settings, steering, heard, truth).valid.data());
   if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

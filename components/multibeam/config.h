@@ -1,39 +1,90 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "components/runtime/config/scenario.h"
+#include "components/runtime/head/effects.h"
+#include "components/runtime/head/ping_timing.h"
+#include "components/runtime/head/samples.h"
+#include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis.
-struct MultibeamConfig {
-  enum class Spacing { kEquiangle, kEquidistant };
+/// What default.yaml lists.
+struct MultibeamParameters {
+  enum class Spacing { kEquiangle, kEquidistant, kHighDensity };
+
+  /// One of the transmissions that a ping consists of. They share the swath from port to starboard.
+  struct Sector {
+    double share = 1.0;  // of the swath, over the sum of all shares
+    double frequency_hz = 0.0;
+    double tilt_rad = 0.0;  // of its fan, forward
+    double delay_s = 0.0;   // after the ping's time of transmission
+
+    bool operator==(const Sector&) const = default;
+  };
+
+  /// seabed_image/1, and the seabed that it is flattened by.
+  struct Image {
+    bool published = false;
+    double normal_strength_db = -15.0;  // at normal incidence
+    double oblique_strength_db = -25.0;
+    double crossover_rad = 25.0 * kDegree;  // Lambert's law takes over there
+
+    bool operator==(const Image&) const = default;
+  };
 
   double frequency_hz = 300e3;
   int beams = 256;
   double swath_rad = 130.0 * kDegree;
   Spacing spacing = Spacing::kEquiangle;
+  int soundings = 0;                              // of high density; 0: twice the beams
+  int detections_per_beam = 1;                    // at most
   double transmit_beamwidth_rad = 1.0 * kDegree;  // along-track, one-way, -3 dB
   double receive_beamwidth_rad = 1.0 * kDegree;   // across-track at nadir
+  double back_loss_db = 40.0;                     // one-way, behind the face
+  double electronic_noise_db = -200.0;            // of each element, as sound in the water, re 1 uPa^2/Hz
+  std::vector<Sector> sectors;                    // from port to starboard; empty: one transmission over the swath
   double pulse_length_s = 100e-6;                 // rectangular CW
-  double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m
-  bool roll_stabilised = true;                    // beams and fan are steered against the measured roll
-  bool pitch_stabilised = true;                   // the fan is steered against the measured pitch
+  double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m; the most that can be set
+  bool roll_stabilised = true;                    // beams and sectors are steered against the measured roll
+  bool pitch_stabilised = true;                   // fans are steered against the measured pitch
+  bool yaw_stabilised = false;                    // and against the measured heading, from its mean
+  double heading_mean_s = 20.0;                   // time constant of that mean
   double attitude_latency_s = 0.0;                // of the motion sensor
-  bool auto_range = true;                         // else range_m always
+  bool auto_range = true;                         // else range_m, to start with
   double range_m = 200.0;                         // the longest range that is listened to
   double ping_rate_hz = 10.0;                     // at most; the interval is never less than 2 R / c + dead time
   double dead_time_s = 0.5e-3;
-  double processing_latency_s = 20e-3;   // from the last echo to the published ping
-  double sample_rate_hz = 20e3;          // of the complex envelope, at least 2 / pulse length
+  double processing_latency_s = 20e-3;  // from the last echo to the published ping
+  double sample_rate_hz = 20e3;         // of the complex envelope, at least 2 / pulse length
+  double gain_spreading_db = 30.0;      // gain S log10(R) + 2 A R + O at range R: S,
+  double gain_absorption_dbpm = 0.07;   // A, the operator's absorption: soundings and images are made with it too,
+  double gain_offset_db = 0.0;          // O
+  Converter converter;
   double quality = 0.25;                 // of the rays (trace::RaySettings)
   double detection_threshold_db = 13.0;  // signal to noise ratio of a sounding, at least
+  double least_range_m = 2.0;            // nearer, nothing is taken for the seabed
+  std::string mode = "bathymetry";       // or water_column: every ping with amplitude and phase
   int amplitude_every = 1;               // ping/1 is published for every n-th ping; soundings for all
+  int phase_every = 0;                   // and has the phase in every n-th ping; 0: never
+  bool snippets = false;                 // snippets/1 of every ping
+  Image image;
+  Trigger trigger;
+  std::vector<OtherHead> interference;  // whom it hears
+  Effects effects;
 
+  bool operator==(const MultibeamParameters&) const = default;
+
+  static constexpr double kDegree = 3.14159265358979323846 / 180.0;
+};
+
+/// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis.
+struct MultibeamConfig : MultibeamParameters {
   // From the scenario.
   Scenario world;
   std::string process;
@@ -41,17 +92,25 @@ struct MultibeamConfig {
   double sound_speed_mps = 1500.0;  // at the mission's depth as the instrument knows it: it turns range into time
 
   static MultibeamConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
-  /// The parameters of its own, which default.yaml lists.
-  bool operator==(const MultibeamConfig& other) const;
+  /// Parameters only.
+  bool operator==(const MultibeamConfig& other) const { return MultibeamParameters::operator==(other); }
 
-  Rate ping_rate() const;
-  /// From transmission to the last echo of this range.
-  SimTime listening_time(double of_range_m) const {
-    return from_seconds(2.0 * of_range_m / sound_speed_mps + pulse_length_s);
+  /// Settings that it starts with, and what a command can make of them.
+  HeadSettings start() const;
+  SettingLimits limits() const;
+  PingTiming timing() const {
+    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
+            interference};
   }
-  int samples(double of_range_m) const;
 
-  static constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  /// The sectors as given, or the one that a head without sectors has.
+  std::vector<Sector> all_sectors() const;
+  /// From transmission to the end of the last echo.
+  double listening_s(double of_range_m, double of_pulse_length_s) const;
+  int samples(double of_range_m, double of_pulse_length_s) const;
+  /// With the longest range and pulse that can be set.
+  double longest_listening_s() const;
+  int most_samples() const;
 };
 
 }  // namespace ensonify

@@ -41,6 +41,19 @@ TEST_CASE("a head outside its limits is refused with place and limits") {
   CHECK(problems("range_m: 1900").find("at most 20000 are allowed") != std::string::npos);
 }
 
+TEST_CASE("sectors take the head's frequency where they name none") {
+  auto from = ConfigReader::from_text(
+      "frequency_hz: 200000\nsectors: [{share: 2}, {frequency_hz: 210000, delay_s: 0.002}]", "head.yaml");
+  const MultibeamConfig config = MultibeamConfig::read(from, with_head("bow"), "bow");
+  from.finish();
+  REQUIRE(config.sectors.size() == 2);
+  CHECK(config.sectors[0].frequency_hz == 200e3);
+  CHECK(config.sectors[1].frequency_hz == 210e3);
+  CHECK(config.listening_s(75.0, 1e-4) == Approx(0.002 + 150.0 / config.sound_speed_mps + 1e-4));
+  CHECK(problems("sectors: [{tilt_deg: 30}]").find("30 is outside [-20, 20]") != std::string::npos);
+  CHECK(problems("spacing: high_density\nsoundings: 100").find("100 are fewer than the beams") != std::string::npos);
+}
+
 TEST_CASE("a head that no vehicle carries is refused") {
   auto from = ConfigReader::from_text("{}", "head.yaml");
   MultibeamConfig::read(from, with_head("bow"), "stern");

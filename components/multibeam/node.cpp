@@ -1,124 +1,145 @@
 #include "components/multibeam/node.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "components/multibeam/snippets.h"
 #include "components/runtime/head/environment.h"
 #include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
 
-/// Poses older than the longest ping and its processing are never asked for again.
-std::int64_t keep_ns(const MultibeamConfig& config) {
-  const SimTime ping = config.listening_time(config.range_m) + from_seconds(config.processing_latency_s);
-  return (2 * ping + 1_s).count();
+HeadInputs::Start start_of(const MultibeamConfig& config) {
+  HeadInputs::Start start;
+  start.mounting = config.mounting;
+  start.longest_ping = from_seconds(config.longest_listening_s() + config.processing_latency_s);
+  start.probe = true;
+  start.channels = {{"", config.start(), config.limits()}};
+  return start;
+}
+
+std::size_t most_entries(const MultibeamConfig& config) {
+  const Steering steering = steer(config, config.swath_rad, {});
+  return steering.sin_soundings.size() * static_cast<std::size_t>(config.detections_per_beam);
 }
 
 std::size_t soundings_bytes(const MultibeamConfig& config) {
-  const auto poses =
-      static_cast<std::size_t>(config.listening_time(config.range_m) / kTrackPeriod) + 3;  // 8 numbers each
-  return static_cast<std::size_t>(config.beams) * 64 + poses * 64 + 8192;
+  const auto poses = static_cast<std::size_t>(config.longest_listening_s() / seconds(kTrackPeriod)) + 3;  // 8 numbers
+  return most_entries(config) * 80 + poses * 64 + 8192;
+}
+
+/// Every sample of every entry's beam, at worst.
+std::size_t snippet_bytes(const MultibeamConfig& config) {
+  return most_entries(config) * (static_cast<std::size_t>(config.most_samples()) * sizeof(float) + 32) + 8192;
 }
 
 }  // namespace
 
 MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
-    : ports_(ports),
-      config_(config),
+    : config_(config),
       head_(config),
       applied_(applied_profile(config.world)),
       soundings_(config),
-      clock_(ports, {.rate = config.ping_rate(), .dead_time = from_seconds(config.dead_time_s)}),
+      inputs_(ports, start_of(config)),
+      cycle_(ports, inputs_, config.timing()),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
-      truth_(keep_ns(config)),
-      estimate_(keep_ns(config)),
-      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.ping_rate()})),
-      soundings_out_(
-          ports.out<msg::Soundings>("soundings", {.max_bytes = soundings_bytes(config), .rate = config.ping_rate()})),
-      transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = config.ping_rate()})) {
+      swath_of_range_rad_(config.swath_rad),
+      heading_(config.heading_mean_s),
+      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.timing().rate})),
+      soundings_out_(ports.out<msg::Soundings>("soundings",
+                                               {.max_bytes = soundings_bytes(config), .rate = config.timing().rate})) {
   ports.note("finest_beam_rad", std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad));
-  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
-  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { push(estimate_, estimate); });
-  ports.in<msg::SoundSpeed>("sound_speed", [this](const msg::SoundSpeed& probe) { probe_mps_ = probe.sound_speed_mps; },
-                            {.optional = true});
+  const OutOptions snippets{.max_bytes = snippet_bytes(config), .rate = config.timing().rate};
+  if (config.snippets) snippets_out_ = ports.out<msg::Snippets>("snippets", snippets);
+  if (config.image.published) image_out_ = ports.out<msg::SeabedImage>("seabed_image", snippets);
   ports.in<msg::Attitude>("attitude",
                           [this](const msg::Attitude& sensor) {
                             attitude_ = {sensor.heading_grid_rad, sensor.pitch_rad, sensor.roll_rad};
+                            heading_.update(1e-9 * static_cast<double>(sensor.stamp_ns), sensor.heading_grid_rad);
                           },
                           {.delay = from_seconds(config.attitude_latency_s), .optional = true});
-  ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
-  ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
 }
 
 SimTime MultibeamNode::step(SimTime now) {
-  while (!pending_.empty() && pending_.front().ready <= now) {
-    receive(pending_.front().shot, pending_.front().belief);
-    pending_.pop_front();
-  }
-  if (clock_.due(now)) transmit(now);
-  return pending_.empty() ? clock_.next() : std::min(clock_.next(), pending_.front().ready);
+  while (const auto ping = cycle_.ready(now)) publish(*ping);
+  if (cycle_.may_transmit(now)) transmit(now);
+  return cycle_.next();
 }
 
 void MultibeamNode::transmit(SimTime now) {
-  if (truth_.empty()) return skip("no pose of the vehicle has arrived");
-  const auto body = truth_.at(now.count(), frames::PoseHistory::Outside::kNearest);
-  const frames::Vec3 place = frames::head_pose(*body, config_.mounting.actual).position_enu_m;
-  if (!tiles_.covers(place.head<2>())) {
-    return skip(fmt::format("no seabed tile under the head at ({:.0f}, {:.0f}) m", place.x(), place.y()));
+  HeadSettings settings = inputs_.settings_at_ping();
+  follow_range(settings);
+  if (settings.auto_range) settings.range_m = range_.range_m();
+  const SimTime listening = from_seconds(config_.listening_s(settings.range_m, settings.pulse_length_s));
+  std::vector<Transmission> sectors;
+  for (const auto& sector : config_.all_sectors()) {
+    sectors.push_back({sector.frequency_hz, settings.pulse_length_s, listening, settings});
   }
-  const Shot shot{pings_++, now, config_.auto_range ? range_.range_m() : config_.range_m};
-  msg::Transmit transmit;
-  transmit.stamp_ns = now.count();
-  transmit.ping = shot.ping;
-  transmit.frequency_hz = config_.frequency_hz;
-  transmit.pulse_length_s = config_.pulse_length_s;
-  transmit.source_level_db = config_.source_level_db;
-  transmit_out_.send(transmit);
-  const SimTime listening = config_.listening_time(shot.range_m);
-  pending_.push_back({shot, belief(now), now + listening + from_seconds(config_.processing_latency_s)});
-  clock_.transmitted(now, listening);
+  cycle_.transmit(now, std::move(sectors));
+  steerings_.push_back(steer(config_, settings.swath_rad, belief(now)));
+}
+
+/// A swath of another width looks for its edges anew.
+void MultibeamNode::follow_range(const HeadSettings& settings) {
+  if (settings.swath_rad == swath_of_range_rad_) return;
+  swath_of_range_rad_ = settings.swath_rad;
+  range_ = AutoRange(config_.range_m, 0.5 * settings.swath_rad, config_.beams);
 }
 
 /// Until the probe tells, the head takes the applied profile's speed at the depth where it believes to be.
 Belief MultibeamNode::belief(SimTime now) const {
-  if (probe_mps_) return {*probe_mps_, attitude_};
-  const auto body = estimate_.at(now.count(), frames::PoseHistory::Outside::kNearest);
-  return {applied_.speed_mps(body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z()
-                                  : config_.world.mission.depth_m),
-          attitude_};
-}
-
-void MultibeamNode::skip(const std::string& why) {
-  clock_.skipped();
-  ports_.count("pings_skipped");
-  ports_.health("degraded", why);
-}
-
-void MultibeamNode::receive(const Shot& shot, const Belief& belief) {
-  const Steering steering = steer(config_, belief);
-  const MultibeamHead::Heard heard = head_.listen(shot, steering, truth_, tiles_.scene());
-  ports_.count("pings");
-  if (shot.ping % config_.amplitude_every == 0) ping_out_.send(head_.ping_message(shot, steering));
-  msg::Soundings soundings = soundings_.make(shot, steering, heard, estimate_);
-  soundings.applied = head_.applied(shot, steering);
-  fill(soundings.track, estimate_, config_.mounting.measured, shot.transmit, config_.listening_time(shot.range_m));
-  soundings_out_.send(soundings);
-  range_.update(soundings_.heard(), shot.range_m);
-  report(shot, soundings_.heard().size());
-}
-
-void MultibeamNode::report(const Shot& shot, std::size_t detections) {
-  if (head_.rays_that_hit() == 0) {
-    return ports_.health("degraded",
-                         fmt::format("no seabed within the range of {:.0f} m: the range is below the altitude, "
-                                     "or the terrain has a hole here",
-                                     shot.range_m));
+  Belief belief;
+  belief.vehicle = attitude_;
+  belief.mean_heading_rad = heading_.mean_rad();
+  if (const auto probe = inputs_.probe_mps()) {
+    belief.sound_speed_mps = *probe;
+    return belief;
   }
-  if (estimate_.empty()) return ports_.health("degraded", "no navigation estimate has arrived: no soundings");
-  if (detections == 0) return ports_.health("degraded", "no beam detects the seabed");
-  ports_.health("ok", "");
+  const auto body = inputs_.estimate().at(now.count(), frames::PoseHistory::Outside::kNearest);
+  belief.sound_speed_mps = applied_.speed_mps(
+      body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z() : config_.world.mission.depth_m);
+  return belief;
+}
+
+void MultibeamNode::publish(const PingUnderWay& ping) {
+  const Steering steering = std::move(steerings_.front());
+  steerings_.pop_front();
+  const Transmission& sent = ping.channels.front();
+  const Shot shot = ping.shot();
+  const auto& heard = head_.listen(shot, sent.settings, steering, inputs_.truth(), inputs_.seabed());
+
+  const auto every = [&](int n) { return n > 0 && shot.ping % n == 0; };
+  const bool whole = sent.settings.mode == "water_column", phase = whole || every(config_.phase_every);
+  if (phase || every(config_.amplitude_every)) {
+    msg::Ping message = head_.ping_message(shot, sent.settings, steering, phase);
+    inputs_.fill_track(message.track, ping.transmit, sent.listening);
+    ping_out_.send(message);
+  }
+  msg::Soundings soundings = soundings_.make(shot, sent.settings, steering, heard, inputs_.estimate());
+  soundings.applied = head_.applied(shot, sent.settings, steering);
+  inputs_.fill_track(soundings.track, ping.transmit, sent.listening);
+  soundings_out_.send(soundings);
+  publish_images(sent.settings, steering, heard, soundings);
+  range_.update(soundings_.heard(), shot.range_m);
+  cycle_.published(trouble(head_.sight(shot.range_m, inputs_.seabed())));
+}
+
+void MultibeamNode::publish_images(const HeadSettings& settings, const Steering& steering,
+                                   const std::vector<MultibeamHead::Heard>& heard, const msg::Soundings& soundings) {
+  if (!snippets_out_ && !image_out_) return;
+  msg::Snippets snippets = snippets_of(heard, steering, soundings_.echoes(), soundings);
+  snippets.applied = soundings.applied;
+  if (snippets_out_) snippets_out_->send(snippets);
+  if (!image_out_) return;
+  msg::SeabedImage image = seabed_image_of(config_, settings, steering, snippets, soundings);
+  image.applied = soundings.applied;
+  image_out_->send(image);
+}
+
+std::string MultibeamNode::trouble(const Sight& sight) const {
+  const std::string why = why_black(sight);
+  if (!why.empty() || inputs_.estimate().empty()) return why;
+  return soundings_.heard().empty() ? "no beam detects the seabed" : "";
 }
 
 }  // namespace ensonify

@@ -4,19 +4,18 @@
 #include <optional>
 
 #include "components/multibeam/head.h"
+#include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
 #include "components/runtime/head/auto_range.h"
-#include "components/runtime/head/ping_clock.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/runtime/head/head_inputs.h"
+#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
-#include "messages/motion.h"
 #include "messages/navigation.h"
-#include "messages/sonar.h"
 
 namespace ensonify {
 
-/// Two kinds of event: a transmission, at which the settings of the ping are fixed, and the end of its processing, at
-/// which every pose it needs has arrived and it is computed and published.
+/// Two kinds of event: a transmission, at which the settings and the steering of the ping are fixed, and the end of its
+/// processing, at which every pose it needs has arrived and it is computed and published.
 class MultibeamNode {
  public:
   using Config = MultibeamConfig;
@@ -27,34 +26,29 @@ class MultibeamNode {
   SimTime step(SimTime now);
 
  private:
-  struct Pending {
-    Shot shot;
-    Belief belief;
-    SimTime ready{0};
-  };
-
   void transmit(SimTime now);
   Belief belief(SimTime now) const;
-  void receive(const Shot& shot, const Belief& belief);
-  void report(const Shot& shot, std::size_t detections);
-  void skip(const std::string& why);
+  void publish(const PingUnderWay& ping);
+  void publish_images(const HeadSettings& settings, const Steering& steering,
+                      const std::vector<MultibeamHead::Heard>& heard, const msg::Soundings& soundings);
+  void follow_range(const HeadSettings& settings);
+  std::string trouble(const Sight& sight) const;
 
-  Ports& ports_;
   Config config_;
   MultibeamHead head_;
   refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;
-  PingClock clock_;
+  HeadInputs inputs_;
+  PingCycle cycle_;
   AutoRange range_;
-  TileSet tiles_;
-  frames::PoseHistory truth_, estimate_;
-  std::optional<double> probe_mps_;           // the newest that the probe at the face told
-  std::optional<frames::Attitude> attitude_;  // likewise the motion sensor
-  std::deque<Pending> pending_;
-  std::int64_t pings_ = 0;
+  double swath_of_range_rad_;                 // that range_ knows
+  std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor told
+  HeadingMean heading_;
+  std::deque<Steering> steerings_;  // of the pings under way
   Ports::Out<msg::Ping> ping_out_;
   Ports::Out<msg::Soundings> soundings_out_;
-  Ports::Out<msg::Transmit> transmit_out_;
+  std::optional<Ports::Out<msg::Snippets>> snippets_out_;
+  std::optional<Ports::Out<msg::SeabedImage>> image_out_;
 };
 
 }  // namespace ensonify

@@ -4,81 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "components/multibeam/test_head.h"
+#include "components/multibeam/test_survey.h"
 #include "components/runtime/head/environment.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/head/test_seabed.h"
 #include "kernels/refraction/eigenray.h"
 
 using namespace ensonify;
 
 namespace {
-
-/// A square of seabed at one height about the origin, 256 m wide.
-msg::Tile flat_tile(double height_m) {
-  msg::Tile tile;
-  tile.origin_east_m = tile.origin_north_m = -128.0;
-  tile.spacing_m = 0.25;
-  tile.height_m = msg::Array<float>({1025, 1025});
-  for (float& h : tile.height_m.flat()) h = static_cast<float>(height_m);
-  tile.sediment = msg::Array<std::uint8_t>({1025, 1025});
-  return tile;
-}
-
-struct Track {
-  double speed_mps = 0.0;
-  double roll_rad = 0.0;  // amplitude
-  double heave_m = 0.0;
-  frames::Vec3 offset_enu_m = frames::Vec3::Zero();  // of the estimate from the truth
-  bool motion_sensor = false;                        // whether there is an attitude, without error
-};
-
-frames::Pose pose_on(const Track& track, SimTime t) {
-  const double s = seconds(t);
-  frames::Pose pose;
-  pose.position_enu_m = {0.0, track.speed_mps * s, track.heave_m * std::sin(1.1 * s)};
-  pose.enu_from_body = frames::enu_from_body({0.0, 0.0, track.roll_rad * std::sin(1.3 * s)});
-  return pose;
-}
-
-using Head = NodeUnderTest<MultibeamNode>;
-
-void give_motion(Head& head, const Track& track, SimTime until) {
-  for (SimTime t{0}; t <= until; t += 10_ms) {
-    const frames::Pose truth = pose_on(track, t);
-    msg::Pose pose;
-    pose.stamp_ns = t.count();
-    for (std::size_t i = 0; i < 3; ++i) pose.position_enu_m[i] = truth.position_enu_m[static_cast<Eigen::Index>(i)];
-    pose.enu_from_body = frames::wxyz_of(truth.enu_from_body);
-    head.give("pose", pose);
-    msg::Estimate estimate;
-    estimate.stamp_ns = t.count();
-    for (std::size_t i = 0; i < 3; ++i) {
-      estimate.position_enu_m[i] = pose.position_enu_m[i] + track.offset_enu_m[static_cast<Eigen::Index>(i)];
-    }
-    estimate.enu_from_body = pose.enu_from_body;
-    head.give("estimate", estimate);
-    if (!track.motion_sensor) continue;
-    msg::Attitude attitude;
-    attitude.stamp_ns = t.count();
-    attitude.roll_rad = frames::attitude_of(truth.enu_from_body).roll_rad;
-    head.give("attitude", attitude);
-  }
-}
-
-/// 20 m of water, 60 m of range.
-MultibeamConfig shallow() {
-  MultibeamConfig config = head_in_plain_water();
-  config.auto_range = false;
-  config.range_m = 60.0;
-  return config;
-}
-
-std::vector<msg::Soundings> survey(const MultibeamConfig& config, const Track& track, SimTime until) {
-  Head head(config);
-  give_motion(head, track, until);
-  head.give("tile", flat_tile(-20.0));
-  return head.step_until<msg::Soundings>("soundings", until);
-}
 
 int valid_count(const msg::Soundings& s) { return std::accumulate(s.valid.flat().begin(), s.valid.flat().end(), 0); }
 
@@ -151,9 +84,7 @@ TEST_CASE("a range below the altitude is said in health") {
   Head head(config);
   give_motion(head, {}, 3_s);
   head.give("tile", flat_tile(-20.0));
-  CHECK(
-      last_health(head, 2500_ms) ==
-      "degraded: no seabed within the range of 15 m: the range is below the altitude, or the terrain has a hole here");
+  CHECK(last_health(head, 2500_ms) == "degraded: the range of 15.0 m is below the altitude of 20.0 m");
 }
 
 TEST_CASE("a source level of -200 dB gives no soundings") {
@@ -295,7 +226,7 @@ TEST_CASE("beams without a sounding say why, and what they did measure") {
 }
 
 TEST_CASE("motion during the ping does not disturb depths when the navigation is right") {
-  const auto soundings = survey(shallow(), {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5}, 5_s);
+  const auto soundings = survey(shallow(), {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5, .depth_m = 1.0}, 5_s);
   const Spread port_and_starboard = depth_error(soundings, 0.0, 60.0);
   CHECK(std::abs(port_and_starboard.mean) < 0.01);
   CHECK(port_and_starboard.sd < 0.06);
@@ -528,5 +459,182 @@ TEST_CASE("beams beyond the range give no sounding, not the sidelobes of those w
       CHECK(std::isnan(s.travel_time_s[beam]) == (s.valid[beam] == 0));  // nobody takes it for a measurement
       CHECK(std::isnan(s.position_enu_m(beam, 2)) == (s.valid[beam] == 0));
     }
+  }
+}
+
+TEST_CASE("commands change the next ping: range, power, pulse, gain, swath, rate and mode") {
+  MultibeamConfig config = shallow();
+  config.amplitude_every = 1000;
+  Head head(config);
+  give_motion(head, {}, 3_s);
+  head.give("tile", flat_tile(-20.0));
+  msg::SonarSettings wanted;
+  wanted.stamp_ns = (1_s).count();
+  wanted.range_m = 50.0;
+  wanted.source_level_db = 205.0;
+  wanted.pulse_length_s = 200e-6;
+  wanted.gain_absorption_dbpm = 0.08;
+  wanted.swath_rad = 90.0 * MultibeamConfig::kDegree;
+  wanted.ping_rate_hz = 5.0;
+  wanted.mode = "water_column";
+  head.give("settings", wanted);
+  const auto pings = head.step_until<msg::Ping>("ping", 3_s);
+  const auto soundings = head.step_until<msg::Soundings>("soundings", 3_s);
+  REQUIRE(pings.size() > 5);
+  CHECK(pings[0].stamp_ns == 0);
+  CHECK(pings[0].phase_rad.size() == 0);
+  CHECK(pings[1].stamp_ns == (1100_ms).count());  // heard 100 ms later, from the next ping on: every one in this mode
+  const msg::AppliedSettings& applied = pings[1].applied;
+  CHECK(applied.range_m == 50.0);
+  CHECK(applied.source_level_db == 205.0);
+  CHECK(applied.pulse_length_s == 200e-6);
+  CHECK(applied.gain_absorption_dbpm == 0.08);
+  CHECK(applied.ping_rate_hz == 5.0);
+  CHECK(applied.mode == "water_column");
+  CHECK(pings[2].stamp_ns - pings[1].stamp_ns == (200_ms).count());
+  CHECK(pings[1].phase_rad.size() == pings[1].amplitude_upa.size());
+  CHECK(pings[1].track.pose_time_s.size() > 10);
+  CHECK(static_cast<double>(pings[1].beam_angle_rad[255]) == Approx(45.0 * MultibeamConfig::kDegree));
+  const double nadir_m = -soundings.back().position_enu_m(128, 2);
+  CHECK(nadir_m == Approx(20.0).margin(0.05));
+}
+
+TEST_CASE("a range of 0 lets the head choose, one beyond the longest is clamped") {
+  Head head(shallow());
+  give_motion(head, {}, 2_s);
+  head.give("tile", flat_tile(-20.0));
+  msg::SonarSettings choose, far;
+  choose.stamp_ns = (500_ms).count();
+  choose.range_m = 0.0;
+  far.stamp_ns = (1500_ms).count();
+  far.range_m = 500.0;
+  head.give("settings", choose, far);
+  const auto soundings = head.step_until<msg::Soundings>("soundings", 2_s);
+  const auto at = [&](SimTime t) {
+    return std::ranges::find(soundings, t.count(), &msg::Soundings::stamp_ns)->applied.range_m;
+  };
+  CHECK(at(0_ms) == 60.0);
+  CHECK(at(1400_ms) == Approx(1.13 * 20.0 / std::cos(65.0 * MultibeamConfig::kDegree)).margin(1.5));
+  CHECK(at(1800_ms) == 60.0);
+}
+
+TEST_CASE("on a flat bottom the phase passes zero where the beam's axis meets it, and grows outward with time") {
+  MultibeamConfig config = shallow();
+  config.phase_every = 1;
+  Head head(config);
+  give_motion(head, {}, 300_ms);
+  head.give("tile", flat_tile(-20.0));
+  const auto pings = head.step_until<msg::Ping>("ping", 200_ms);
+  const auto soundings = head.step_until<msg::Soundings>("soundings", 200_ms);
+  REQUIRE(pings.size() == 1);
+  const double per_s = 1.0 / pings[0].sample_period_s;
+  double at = 0.0, later = 0.0, squares = 0.0;
+  int n = 0;
+  for (std::size_t beam = 200; beam < 240; ++beam) {  // 37 to 57 degrees to starboard
+    const double echo_s = static_cast<double>(soundings[0].travel_time_s[beam]) + 0.5 * config.pulse_length_s;
+    const auto k = static_cast<std::size_t>(std::lround(echo_s * per_s));
+    const auto phase = pings[0].phase_rad.row(beam);
+    at += static_cast<double>(phase[k]), later += static_cast<double>(phase[k + 3]);
+    squares += std::pow(static_cast<double>(phase[k]), 2), ++n;
+  }
+  // 4 rad/m at 45 degrees (PHYSICS.md section 9): three samples of 3.75 cm are 0.45 rad; speckle scatters by 0.3 rad.
+  CHECK(at / n == Approx(0.0).margin(0.15));
+  CHECK(std::sqrt(squares / n) < 0.8);
+  CHECK((later - at) / n == Approx(0.45).margin(0.2));
+}
+
+TEST_CASE("high density has more soundings than beams, equally spaced on the seabed, as right as the beams are") {
+  MultibeamConfig config = shallow();
+  config.beams = 128;
+  config.spacing = MultibeamConfig::Spacing::kHighDensity;
+  config.soundings = 400;
+  const auto pings = survey(config, {.speed_mps = 3.0}, 1_s);
+  const msg::Soundings& s = pings.back();
+  REQUIRE(s.valid.size() == 400);
+  REQUIRE(s.beam.size() == 400);
+  CHECK(std::ranges::is_sorted(s.beam.flat()));
+  CHECK(s.beam[399] == 127);
+  CHECK(valid_count(s) > 390);
+  const double step_m = 2.0 * 20.0 * std::tan(65.0 * MultibeamConfig::kDegree) / 399.0;
+  double spacing = 0.0;
+  int n = 0;
+  for (std::size_t i = 1; i < 400; ++i) {
+    if (s.valid[i] == 0 || s.valid[i - 1] == 0) continue;
+    spacing += s.position_enu_m(i, 0) - s.position_enu_m(i - 1, 0), ++n;
+  }
+  CHECK(spacing / n == Approx(step_m).epsilon(0.02));
+  for (const auto& [from, to] : {std::pair{0.0, 20.0}, {20.0, 45.0}, {45.0, 63.0}}) {
+    const Spread error = depth_error(pings, from, to);
+    INFO(from << " to " << to << " deg: mean " << error.mean << " m, sd " << error.sd << " m of " << error.count);
+    CHECK(std::abs(error.mean) < 0.015);
+    CHECK(error.sd < 0.04);
+  }
+}
+
+TEST_CASE("a beam over the top of a wall detects both the wall and the seabed behind, if it may") {
+  MultibeamConfig config = shallow();
+  config.detections_per_beam = 3;
+  Head head(config);
+  give_motion(head, {}, 300_ms);
+  head.give("tile",
+            tile_of(256.0, 0.25, [](double east, double) { return std::abs(east - 15.0) < 0.2 ? -14.0 : -20.0; }));
+  const auto s = head.step_until<msg::Soundings>("soundings", 300_ms).front();
+  REQUIRE(s.detection.size() == s.valid.size());
+  REQUIRE(s.valid.size() > 256);
+  bool both = false;
+  for (std::size_t i = 1; i < s.valid.size(); ++i) {
+    if (s.detection[i] == 0) continue;
+    REQUIRE(s.beam[i] == s.beam[i - 1]);
+    CHECK(s.valid[i] == 1);
+    CHECK(s.travel_time_s[i] > s.travel_time_s[i - 1]);
+    // The wall's top edge is 20.5 m away, the seabed behind it some 29 m.
+    both = both || (std::abs(s.position_enu_m(i - 1, 2) + 14.3) < 0.6 && std::abs(s.position_enu_m(i, 2) + 20.0) < 0.6);
+  }
+  CHECK(both);
+}
+
+TEST_CASE("with yaw stabilised the fans of sectors stay across the mean heading") {
+  MultibeamConfig config = shallow();
+  config.sectors = {{.frequency_hz = 290e3}, {.frequency_hz = 300e3}, {.frequency_hz = 310e3}};
+  config.heading_mean_s = 1000.0;
+  const double yaw = 5.0 * MultibeamConfig::kDegree;
+  // A vehicle that was told to head north for long, and now heads 5 degrees to starboard of it.
+  const auto along_m = [&](bool stabilised) {
+    config.yaw_stabilised = stabilised;
+    Head head(config);
+    msg::Attitude north;
+    head.give("attitude", north);
+    give_motion(head, {.heading_rad = yaw, .motion_sensor = true}, 300_ms);
+    head.give("tile", flat_tile(-20.0));
+    const auto s = head.step_until<msg::Soundings>("soundings", 300_ms).front();
+    REQUIRE(s.applied.yaw_stabilised == stabilised);
+    REQUIRE(s.sector.size() == 256);
+    std::array<double, 2> edges{};  // north of the head, about the middle of the outer sectors: 43 degrees
+    for (int i = -5; i < 5; ++i) {
+      edges[0] += 0.1 * s.position_enu_m(static_cast<std::size_t>(43 + i), 1);
+      edges[1] += 0.1 * s.position_enu_m(static_cast<std::size_t>(213 + i), 1);
+    }
+    return edges;
+  };
+  // Unstabilised the fan turns with the head: 18.9 m out it is 1.65 m off to the north (port) and the south.
+  const auto turned = along_m(false), held = along_m(true);
+  const double off_m = 20.0 * std::tan(43.3 * MultibeamConfig::kDegree) * std::sin(yaw);
+  CHECK(turned[0] == Approx(off_m).epsilon(0.05));
+  CHECK(turned[1] == Approx(-off_m).epsilon(0.05));
+  CHECK(held[0] == Approx(0.0).margin(0.05));
+  CHECK(held[1] == Approx(0.0).margin(0.05));
+}
+
+TEST_CASE("sectors of several frequencies, one after the other, see one flat seabed") {
+  MultibeamConfig config = shallow();
+  config.sectors = {
+      {.frequency_hz = 280e3, .delay_s = 1e-3}, {.frequency_hz = 300e3, .delay_s = 2e-3}, {.frequency_hz = 320e3}};
+  const auto pings = survey(config, {.speed_mps = 3.0}, 1_s);
+  CHECK(valid_count(pings.back()) > 250);
+  for (const auto& [from, to] : {std::pair{0.0, 15.0}, {15.0, 45.0}, {45.0, 62.0}}) {
+    const Spread error = depth_error(pings, from, to);
+    INFO(from << " to " << to << " deg: mean " << error.mean << " m, sd " << error.sd << " m of " << error.count);
+    CHECK(std::abs(error.mean) < 0.02);
+    CHECK(error.sd < 0.04);
   }
 }

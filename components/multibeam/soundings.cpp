@@ -1,18 +1,19 @@
 #include "components/multibeam/soundings.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "components/multibeam/arrays.h"
 #include "components/multibeam/placing.h"
 #include "components/runtime/head/environment.h"
-#include "kernels/array/line.h"
 
 namespace ensonify {
 namespace {
 
-/// Entries of a beam without a sounding are NaN, so that no sum, bound or picture takes it for a measurement.
+/// Entries without a sounding are NaN, so that no sum, bound or picture takes them for a measurement.
 template <class T>
 msg::Array<T> nothing(std::vector<std::size_t> shape) {
   msg::Array<T> array(std::move(shape));
@@ -20,21 +21,28 @@ msg::Array<T> nothing(std::vector<std::size_t> shape) {
   return array;
 }
 
-/// As many entries as beams, none of which says anything yet.
-msg::Soundings without_entries(std::size_t beams) {
+/// So many entries, none of which says anything yet.
+msg::Soundings without_measurements(std::size_t entries) {
   msg::Soundings soundings;
-  soundings.travel_time_s = nothing<float>({beams});
-  soundings.backscatter_db = nothing<float>({beams});
-  soundings.backscatter_strength_db = nothing<float>({beams});
-  soundings.quality_db = nothing<float>({beams});
-  soundings.range_sd_m = nothing<float>({beams});
-  soundings.angle_sd_rad = nothing<float>({beams});
-  soundings.window_s = nothing<float>({beams});
-  soundings.kind = msg::Array<std::uint8_t>({beams});
-  soundings.flags = msg::Array<std::uint8_t>({beams});
-  soundings.valid = msg::Array<std::uint8_t>({beams});
-  soundings.position_enu_m = nothing<double>({beams, 3});
+  soundings.travel_time_s = nothing<float>({entries});
+  soundings.backscatter_db = nothing<float>({entries});
+  soundings.backscatter_strength_db = nothing<float>({entries});
+  soundings.quality_db = nothing<float>({entries});
+  soundings.range_sd_m = nothing<float>({entries});
+  soundings.angle_sd_rad = nothing<float>({entries});
+  soundings.window_s = nothing<float>({entries});
+  soundings.kind = msg::Array<std::uint8_t>({entries});
+  soundings.flags = msg::Array<std::uint8_t>({entries});
+  soundings.valid = msg::Array<std::uint8_t>({entries});
+  soundings.position_enu_m = nothing<double>({entries, 3});
   return soundings;
+}
+
+template <class T, class Member>
+msg::Array<T> of_each(const std::vector<Echo>& echoes, Member member) {
+  std::vector<T> values;
+  for (const Echo& echo : echoes) values.push_back(static_cast<T>(echo.*member));
+  return msg::Array<T>::of(values);
 }
 
 std::uint8_t flags_of(const detect::Detection& detection) {
@@ -53,94 +61,175 @@ double seabed_tilt_rad(const frames::HeadPose& head) {
 
 }  // namespace
 
-SoundingMaker::SoundingMaker(const MultibeamConfig& config)
-    : config_(config),
-      applied_(applied_profile(config.world)),
-      transmit_length_in_waves_(array::length_in_waves_for(config.transmit_beamwidth_rad)) {
-  settings_.pulse_length_s = config.pulse_length_s;
+SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), applied_(applied_profile(config.world)) {
   settings_.gates.snr_db = config.detection_threshold_db;
-  const double depth_m = config.world.mission.depth_m;
-  settings_.absorption_dbpm = Environment(config.world, config.frequency_hz).absorption_dbpm(depth_m, depth_m);
+  settings_.gates.min_range_m = config.least_range_m;
+  settings_.max_detections = config.detections_per_beam;
   const ReceiveLine line = receive_line(config);
-  settings_.receive_length_in_waves = array::length_in_waves_for(config.receive_beamwidth_rad);
-  settings_.phase_centres_in_waves = line.halves.baseline_m / line.wavelength_m;
+  for (const auto& sector : config.all_sectors()) {
+    sectors_.push_back({sector.delay_s, transmit_length_in_waves(config, sector.frequency_hz),
+                        receive_length_in_waves(config, sector.frequency_hz),
+                        line.halves.baseline_m / line.wavelength_m * sector.frequency_hz / config.frequency_hz});
+  }
 }
 
 frames::HeadPose SoundingMaker::believed_pose(const frames::PoseHistory& estimate, SimTime t) const {
   return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
 }
 
-msg::Soundings SoundingMaker::make(const Shot& shot, const Steering& steering, const MultibeamHead::Heard& heard,
+msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+                                   const std::vector<MultibeamHead::Heard>& heard,
                                    const frames::PoseHistory& estimate) {
-  settings_.sound_speed_mps = steering.sound_speed_mps;
-  settings_.seabed_tilt_rad = estimate.empty() ? 0.0 : seabed_tilt_rad(believed_pose(estimate, shot.transmit));
-  detect::detect_bottom(settings_, steering.sin_beams, heard.image, heard.halves, detections_);
+  const Ping ping{shot, settings, steering, estimate};
+  detect(ping, heard);
 
-  msg::Soundings soundings = without_entries(steering.sin_beams.size());
+  const double period_s = heard.front().image.period_s;
+  msg::Soundings soundings = without_measurements(echoes_.size());
   soundings.stamp_ns = shot.transmit.count();
   soundings.ping = shot.ping;
-  soundings.sample_period_s = heard.image.period_s;
-  soundings.beam_angle_rad = msg::Array<float>::of(steering.beam_angle_rad);
+  soundings.sample_period_s = period_s;
+  std::vector<float> angle_rad;
+  for (const Echo& echo : echoes_) {
+    angle_rad.push_back(steering.sounding_angle_rad[static_cast<std::size_t>(echo.place)]);
+  }
+  soundings.beam_angle_rad = msg::Array<float>::of(angle_rad);
+  if (steering.high_density() || config_.detections_per_beam > 1) {
+    soundings.beam = of_each<std::uint16_t>(echoes_, &Echo::beam);
+  }
+  if (config_.detections_per_beam > 1) soundings.detection = of_each<std::uint8_t>(echoes_, &Echo::detection);
+  if (sectors_.size() > 1) soundings.sector = of_each<std::uint8_t>(echoes_, &Echo::sector);
   flag(steering, soundings);
   heard_.clear();
   if (estimate.empty()) return soundings;
-  for (std::size_t beam = 0; beam < detections_.size(); ++beam) {
-    if ((detections_[beam].flags & detect::kNoSignal) == 0) soundings.quality_db[beam] = detections_[beam].snr_db;
-    if (soundings.flags[beam] != 0) continue;
-    measure(steering.sound_speed_mps, beam, heard.image.period_s, soundings);
-    place(shot, steering, estimate, beam, soundings);
+  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    const detect::Detection& found = echoes_[i].heard;
+    if ((found.flags & detect::kNoSignal) == 0) soundings.quality_db[i] = found.snr_db;
+    if (soundings.flags[i] != 0) continue;
+    measure(ping, i, period_s, soundings);
+    place(ping, i, soundings);
   }
   return soundings;
 }
 
-/// Why beams give no sounding. Outward of a beam whose echo is cut off by the range, what a beam hears are the side
-/// lobes of those within it.
+void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard) {
+  const Steering& steering = ping.steering;
+  settings_.pulse_length_s = ping.settings.pulse_length_s;
+  settings_.absorption_dbpm = ping.settings.gain_absorption_dbpm;
+  settings_.sound_speed_mps = steering.sound_speed_mps;
+  settings_.seabed_tilt_rad =
+      ping.estimate.empty() ? 0.0 : seabed_tilt_rad(believed_pose(ping.estimate, ping.shot.transmit));
+  echoes_.clear();
+  std::size_t first = 0;  // place of the sector's first sounding
+  for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {
+    settings_.receive_length_in_waves = sectors_[sector].receive_length_in_waves;
+    settings_.phase_centres_in_waves = sectors_[sector].phase_centres_in_waves;
+    const SteeredSector& beams = steering.sectors[sector];
+    const auto begin = steering.beam_of_sounding.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = std::lower_bound(begin, steering.beam_of_sounding.end(), beams.first_beam + beams.beams);
+    const auto count = static_cast<std::size_t>(end - begin);
+    const auto sines = std::span(steering.sin_soundings).subspan(first, count);
+    const MultibeamHead::Heard& as_formed = heard[sector];
+    const MultibeamHead::Heard at =
+        steering.high_density()
+            ? at_places(steering, sector, as_formed, std::span(steering.beam_of_sounding).subspan(first, count), sines)
+            : as_formed;
+    detect::detect_bottom(settings_, sines, at.image, at.halves, detections_);
+    for (std::size_t i = 0; i < detections_.size(); ++i) {
+      const auto place = static_cast<int>(first + i / static_cast<std::size_t>(settings_.max_detections));
+      const auto detection = static_cast<int>(i % static_cast<std::size_t>(settings_.max_detections));
+      if (detection > 0 && !detections_[i].valid) continue;
+      echoes_.push_back({steering.beam_of_sounding[static_cast<std::size_t>(place)], detection,
+                         static_cast<int>(sector), place, detections_[i]});
+    }
+    first += count;
+  }
+}
+
+/// The beams nearest to places in the swath, their halves turned from their axes to these places: what turns is the
+/// phase between the halves, what the beams hear stays.
+MultibeamHead::Heard SoundingMaker::at_places(const Steering& steering, std::size_t sector,
+                                              const MultibeamHead::Heard& beams, std::span<const int> beam_of_place,
+                                              std::span<const float> sin_places) {
+  const auto samples = static_cast<std::size_t>(beams.image.samples), count = sin_places.size();
+  const bool phase = !beams.halves.positive_upa.empty();
+  amplitude_upa_.resize(count * samples);
+  positive_upa_.resize(phase ? count * samples : 0);
+  negative_upa_.resize(positive_upa_.size());
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const auto beam = static_cast<std::size_t>(beam_of_place[i]);
+    const std::size_t from = (beam - static_cast<std::size_t>(steering.sectors[sector].first_beam)) * samples;
+    const auto to = static_cast<std::ptrdiff_t>(i * samples);
+    std::ranges::copy(beams.image.amplitude_upa.subspan(from, samples), amplitude_upa_.begin() + to);
+    if (!phase) return;
+    std::ranges::copy(beams.halves.negative_upa.subspan(from, samples), negative_upa_.begin() + to);
+    const double off_axis = static_cast<double>(sin_places[i]) - static_cast<double>(steering.sin_beams[beam]);
+    const std::complex<float> turn(
+        std::polar(1.0, -2.0 * std::numbers::pi * sectors_[sector].phase_centres_in_waves * off_axis));
+    std::ranges::transform(beams.halves.positive_upa.subspan(from, samples), positive_upa_.begin() + to,
+                           [&](std::complex<float> value) { return value * turn; });
+  });
+  MultibeamHead::Heard at = beams;
+  at.image.beams = static_cast<int>(count);
+  at.image.amplitude_upa = amplitude_upa_;
+  at.halves = {positive_upa_, negative_upa_};
+  return at;
+}
+
+/// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam hears
+/// are the side lobes of those within it.
 void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) const {
-  for (std::size_t beam = 0; beam < detections_.size(); ++beam) soundings.flags[beam] = flags_of(detections_[beam]);
-  const auto outward = [&](std::ptrdiff_t first, std::ptrdiff_t step) {
-    bool cut_off = false;
-    const auto end = static_cast<std::ptrdiff_t>(detections_.size());
-    for (std::ptrdiff_t i = first; i >= 0 && i < end; i += step) {
-      const auto beam = static_cast<std::size_t>(i);
-      if (cut_off) soundings.flags[beam] |= msg::kSideLobe;
-      cut_off = cut_off || (detections_[beam].flags & detect::kCutOff) != 0;
+  for (std::size_t i = 0; i < echoes_.size(); ++i) soundings.flags[i] = flags_of(echoes_[i].heard);
+  const auto sine = [&](const Echo& echo) { return steering.sin_soundings[static_cast<std::size_t>(echo.place)]; };
+  const auto middle = std::ranges::lower_bound(echoes_, 0.0F, {}, sine) - echoes_.begin();
+  const auto outward = [&](std::ptrdiff_t from, std::ptrdiff_t step) {
+    const auto end = static_cast<std::ptrdiff_t>(echoes_.size());
+    int cut_off_at = -1;  // place
+    for (std::ptrdiff_t i = from; i >= 0 && i < end; i += step) {
+      const Echo& echo = echoes_[static_cast<std::size_t>(i)];
+      if (cut_off_at >= 0 && echo.place != cut_off_at) soundings.flags[static_cast<std::size_t>(i)] |= msg::kSideLobe;
+      if (cut_off_at < 0 && (echo.heard.flags & detect::kCutOff) != 0) cut_off_at = echo.place;
     }
   };
-  const auto middle = std::ranges::lower_bound(steering.sin_beams, 0.0F) - steering.sin_beams.begin();
   outward(middle, 1);
   outward(middle - 1, -1);
 }
 
-void SoundingMaker::measure(double sound_speed_mps, std::size_t beam, double sample_period_s,
+void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_period_s,
                             msg::Soundings& soundings) const {
-  const detect::Detection& detection = detections_[beam];
-  const double level_db = detection.echo_energy_db - 10.0 * std::log10(config_.pulse_length_s);
-  const double range_m = 0.5 * detection.two_way_s * sound_speed_mps;
-  const double area_m2 = detect::beam_area_m2(range_m, std::sin(static_cast<double>(soundings.beam_angle_rad[beam])),
-                                              transmit_length_in_waves_, settings_.receive_length_in_waves);
-  soundings.travel_time_s[beam] = static_cast<float>(detection.two_way_s);
-  soundings.backscatter_db[beam] = static_cast<float>(level_db);
-  soundings.backscatter_strength_db[beam] =
-      static_cast<float>(level_db - config_.source_level_db + 40.0 * std::log10(range_m) +
-                         2.0 * settings_.absorption_dbpm * range_m - 10.0 * std::log10(area_m2));
-  soundings.range_sd_m[beam] = detection.range_sd_m;
-  soundings.angle_sd_rad[beam] = detection.angle_sd_rad;
-  soundings.window_s[beam] = static_cast<float>(detection.snippet_count * sample_period_s);
-  soundings.kind[beam] = detection.phase_weight > 0.5F ? 2 : 1;
+  const detect::Detection& detection = echoes_[entry].heard;
+  const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
+  const HeadSettings& settings = ping.settings;
+  const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings.pulse_length_s);
+  const double range_m = 0.5 * detection.two_way_s * ping.steering.sound_speed_mps;
+  const double area_m2 = detect::beam_area_m2(range_m, std::sin(static_cast<double>(soundings.beam_angle_rad[entry])),
+                                              sector.transmit_length_in_waves, sector.receive_length_in_waves);
+  soundings.travel_time_s[entry] = static_cast<float>(detection.two_way_s);
+  soundings.backscatter_db[entry] = static_cast<float>(level_db);
+  soundings.backscatter_strength_db[entry] =
+      static_cast<float>(level_db - settings.source_level_db + 40.0 * std::log10(range_m) +
+                         2.0 * settings.gain_absorption_dbpm * range_m - 10.0 * std::log10(area_m2));
+  soundings.range_sd_m[entry] = detection.range_sd_m;
+  soundings.angle_sd_rad[entry] = detection.angle_sd_rad;
+  soundings.window_s[entry] = static_cast<float>(detection.snippet_count * sample_period_s);
+  soundings.kind[entry] = detection.phase_weight > 0.5F ? 2 : 1;
 }
 
-void SoundingMaker::place(const Shot& shot, const Steering& steering, const frames::PoseHistory& estimate,
-                          std::size_t beam, msg::Soundings& soundings) {
-  const double two_way_s = detections_[beam].two_way_s;
-  const frames::Vec3 place = sounding_enu_m(
-      {believed_pose(estimate, shot.transmit), believed_pose(estimate, shot.transmit + from_seconds(two_way_s)),
-       steering.sin_transmit, steering.sin_beams[beam], steering.sound_speed_mps, two_way_s},
+void SoundingMaker::place(const Ping& ping, std::size_t entry, msg::Soundings& soundings) {
+  const Echo& echo = echoes_[entry];
+  const Steering& steering = ping.steering;
+  const auto sector = static_cast<std::size_t>(echo.sector), place = static_cast<std::size_t>(echo.place);
+  const SimTime transmit = ping.shot.transmit + from_seconds(sectors_[sector].delay_s);
+  const double two_way_s = echo.heard.two_way_s;
+  const frames::Vec3 where = sounding_enu_m(
+      {believed_pose(ping.estimate, transmit), believed_pose(ping.estimate, transmit + from_seconds(two_way_s)),
+       steering.sectors[sector].sin_transmit, static_cast<double>(steering.sin_soundings[place]),
+       steering.sound_speed_mps, two_way_s},
       applied_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    soundings.position_enu_m(beam, axis) = place[static_cast<Eigen::Index>(axis)];
+    soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
   }
-  soundings.valid[beam] = 1;
-  heard_.push_back({steering.across_rad[beam], 0.5 * two_way_s * steering.sound_speed_mps});
+  soundings.valid[entry] = 1;
+  heard_.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
 }
 
 }  // namespace ensonify

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "components/multibeam/arrays.h"
 #include "components/multibeam/config.h"
 #include "components/multibeam/head.h"
 #include "components/multibeam/steering.h"
@@ -14,32 +15,61 @@
 
 namespace ensonify {
 
-/// What the instrument makes of a ping: bottom detections and where they are, by what it knows: its settings, the
-/// navigation estimate, the measured mounting, the applied sound speed profile. Never the truth.
+/// One detection of a ping: an entry of soundings/1.
+struct Echo {
+  int beam = 0;
+  int detection = 0;  // of its beam, or of its place in the swath with high density
+  int sector = 0;
+  int place = 0;  // in Steering::sin_soundings
+  detect::Detection heard;
+};
+
+/// What the instrument makes of a ping: bottom detections and where they are, by what it knows: its settings (with the
+/// operator's absorption), the navigation estimate, the measured mounting, the applied sound speed profile. Never the
+/// truth.
 class SoundingMaker {
  public:
   explicit SoundingMaker(const MultibeamConfig& config);
 
   /// Soundings of a ping, without settings and track. Without an estimate none is valid.
-  msg::Soundings make(const Shot& shot, const Steering& steering, const MultibeamHead::Heard& heard,
-                      const frames::PoseHistory& estimate);
+  msg::Soundings make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+                      const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate);
 
-  /// What the valid soundings of the last ping heard.
+  /// The detections behind the entries of the last soundings.
+  const std::vector<Echo>& echoes() const { return echoes_; }
+  /// What the valid ones heard of the bottom.
   const std::vector<HeardBottom>& heard() const { return heard_; }
 
  private:
+  /// The detector's view of one sector.
+  struct Sector {
+    double delay_s, transmit_length_in_waves, receive_length_in_waves, phase_centres_in_waves;
+  };
+  struct Ping {
+    const Shot& shot;
+    const HeadSettings& settings;
+    const Steering& steering;
+    const frames::PoseHistory& estimate;
+  };
+
   frames::HeadPose believed_pose(const frames::PoseHistory& estimate, SimTime t) const;
+  void detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard);
+  MultibeamHead::Heard at_places(const Steering& steering, std::size_t sector, const MultibeamHead::Heard& beams,
+                                 std::span<const int> beam_of_place, std::span<const float> sin_places);
   void flag(const Steering& steering, msg::Soundings& soundings) const;
-  void measure(double sound_speed_mps, std::size_t beam, double sample_period_s, msg::Soundings& soundings) const;
-  void place(const Shot& shot, const Steering& steering, const frames::PoseHistory& estimate, std::size_t beam,
-             msg::Soundings& soundings);
+  void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
+  void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
 
   MultibeamConfig config_;
   refraction::SoundSpeedProfile applied_;
-  double transmit_length_in_waves_;
+  std::vector<Sector> sectors_;
   detect::Settings settings_;
-  std::vector<detect::Detection> detections_;
+  std::vector<detect::Detection> detections_;  // of one sector
+  std::vector<Echo> echoes_;
   std::vector<HeardBottom> heard_;
+  // Beams turned to the places where soundings are sought, of high density.
+  std::vector<float> amplitude_upa_;
+  std::vector<std::complex<float>> positive_upa_, negative_upa_;
 };
 
 }  // namespace ensonify

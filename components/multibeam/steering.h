@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "components/multibeam/config.h"
+#include "kernels/array/sectors.h"
 #include "kernels/frames/attitude.h"
 
 namespace ensonify {
@@ -12,24 +14,43 @@ namespace ensonify {
 struct Belief {
   double sound_speed_mps = 1500.0;          // at the face
   std::optional<frames::Attitude> vehicle;  // by the motion sensor; nothing: nothing can be stabilised
+  double mean_heading_rad = 0.0;            // of the vehicle: what yaw is held against
 };
 
-/// What the head tells its arrays in one ping. Sines are from the planes across its x axis (transmit) and its y axis
-/// (receive).
+/// How a sector is sent. Sines are from the planes across the head's x axis (transmit) and its y axis.
+struct SteeredSector {
+  double sin_transmit = 0.0;  // of its fan
+  double middle_rad = 0.0;    // of its fan, about the head's x axis from its z axis, positive to starboard
+  double lower_sine = -std::numeric_limits<double>::infinity();  // edges; infinite at the edges of the swath
+  double upper_sine = std::numeric_limits<double>::infinity();
+  int first_beam = 0;  // that listen to it
+  int beams = 0;
+};
+
+/// What the head tells its arrays in one ping.
 struct Steering {
   double sound_speed_mps = 1500.0;  // delays are made for it
-  double sin_transmit = 0.0;        // of the fan
-  double middle_rad = 0.0;          // of the fan, about the head's x axis from its z axis, positive to starboard
+  std::vector<SteeredSector> sectors;
   std::vector<float> sin_beams;
-  std::vector<float> beam_angle_rad;  // their arcsines
-  std::vector<float> across_rad;      // angles that the beams are to have: from the vertical when roll is stabilised
+  std::vector<float> beam_angle_rad;      // their arcsines
+  std::vector<std::uint8_t> beam_sector;  // index in sectors
+  std::vector<float> sin_soundings;       // where soundings are sought: the beams, or more of high density ...
+  std::vector<float> sounding_angle_rad;  // ... their arcsines ...
+  std::vector<float> across_rad;          // ... and from the vertical, when roll is stabilised
+  std::vector<int> beam_of_sounding;      // ascending
   bool roll_stabilised = false;
   bool pitch_stabilised = false;
+  bool yaw_stabilised = false;
+
+  bool high_density() const { return sin_soundings.size() > sin_beams.size(); }
 };
 
-/// The fan goes through the vertical below the head, and the beams cut it at their angles from there, as far as roll
-/// and pitch are stabilised; else from the head's z axis. Both stay as they are for the whole ping. A beam that would
-/// have to look behind the face lies along it.
-Steering steer(const MultibeamConfig& config, const Belief& belief);
+/// Which part of a swath each sector has: angles from the vertical when roll is stabilised.
+std::vector<array::TransmitSector> sectors_of(const MultibeamConfig& config, double swath_rad);
+
+/// The fan of each sector goes through the middle of its part of the swath, and the beams cut it at their angles from
+/// the vertical below the head, as far as roll, pitch and yaw are stabilised; else from the head's z axis. All stay as
+/// they are for the whole ping. A beam that would have to look behind the face lies along it.
+Steering steer(const MultibeamConfig& config, double swath_rad, const Belief& belief);
 
 }  // namespace ensonify

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "components/multibeam/heading_mean.h"
 #include "components/multibeam/test_head.h"
 #include "kernels/array/stabilisation.h"
 
@@ -15,13 +16,14 @@ namespace {
 constexpr double kDegree = MultibeamConfig::kDegree;
 
 /// Angle from the vertical across the track at which a beam lies, with the head turned like this.
-double across_rad(const Steering& steering, std::size_t beam, const frames::Attitude& attitude) {
+double across_rad(const Steering& steering, std::size_t beam, const frames::Attitude& attitude,
+                  std::optional<double> mean_heading_rad = {}) {
   frames::Attitude counted = attitude;
-  counted.heading_rad = 0.0;
+  counted.heading_rad = mean_heading_rad ? attitude.heading_rad - *mean_heading_rad : 0.0;
   const frames::Quaternion level_from_head = frames::enu_from_ned().conjugate() * frames::enu_from_body(counted);
-  const auto direction =
-      array::cone_intersection(level_from_head * Vec3::UnitX(), steering.sin_transmit, level_from_head * Vec3::UnitY(),
-                               static_cast<double>(steering.sin_beams[beam]));
+  const auto direction = array::cone_intersection(
+      level_from_head * Vec3::UnitX(), steering.sectors[steering.beam_sector[beam]].sin_transmit,
+      level_from_head * Vec3::UnitY(), static_cast<double>(steering.sin_beams[beam]));
   return std::atan2(direction->y(), direction->z());
 }
 
@@ -32,7 +34,7 @@ TEST_CASE("stabilised beams keep their angles from the vertical, whatever roll a
   for (const double roll_deg : {-10.0, 0.0, 10.0}) {
     for (const double pitch_deg : {-4.0, 0.0, 4.0}) {
       const frames::Attitude attitude{1.0, pitch_deg * kDegree, roll_deg * kDegree};
-      const Steering steering = steer(config, {1500.0, attitude});
+      const Steering steering = steer(config, config.swath_rad, {1500.0, attitude});
       CHECK((steering.roll_stabilised && steering.pitch_stabilised));
       for (const std::size_t beam : {0U, 60U, 128U, 255U}) {  // of a float sine at 75 degrees: 2e-7
         CHECK(across_rad(steering, beam, attitude) ==
@@ -45,18 +47,58 @@ TEST_CASE("stabilised beams keep their angles from the vertical, whatever roll a
 TEST_CASE("without stabilisation, and without a motion sensor, angles are counted from the head's own axis") {
   MultibeamConfig config = head_in_plain_water();
   const auto unsteered = [](const Steering& s) {
-    return s.sin_transmit == 0.0 && s.middle_rad == 0.0 && !s.roll_stabilised && !s.pitch_stabilised &&
-           std::abs(s.beam_angle_rad[255] - static_cast<float>(65.0 * kDegree)) < 1e-6F;
+    return s.sectors[0].sin_transmit == 0.0 && s.sectors[0].middle_rad == 0.0 && !s.roll_stabilised &&
+           !s.pitch_stabilised && std::abs(s.beam_angle_rad[255] - static_cast<float>(65.0 * kDegree)) < 1e-6F;
   };
-  CHECK(unsteered(steer(config, {1500.0, std::nullopt})));
+  CHECK(unsteered(steer(config, config.swath_rad, {1500.0, std::nullopt})));
   config.roll_stabilised = config.pitch_stabilised = false;
-  CHECK(unsteered(steer(config, {1500.0, frames::Attitude{0.0, 0.1, 0.1}})));
+  CHECK(unsteered(steer(config, config.swath_rad, {1500.0, frames::Attitude{0.0, 0.1, 0.1}})));
 }
 
 TEST_CASE("a beam is never steered behind the face") {
   MultibeamConfig config = head_in_plain_water();
   config.swath_rad = 170.0 * kDegree;
-  const Steering steering = steer(config, {1500.0, frames::Attitude{0.0, 0.0, 15.0 * kDegree}});
+  const Steering steering = steer(config, config.swath_rad, {1500.0, frames::Attitude{0.0, 0.0, 15.0 * kDegree}});
   for (const float sine : steering.sin_beams) CHECK(std::abs(sine) <= 1.0F);
   CHECK(std::ranges::is_sorted(steering.sin_beams));
+}
+
+TEST_CASE("each sector's fan goes through the middle of its part of the swath, across the mean heading") {
+  MultibeamConfig config = head_in_plain_water();
+  config.sectors = {
+      {.frequency_hz = 300e3, .tilt_rad = 0.02}, {.share = 2.0, .frequency_hz = 300e3}, {.frequency_hz = 300e3}};
+  config.yaw_stabilised = true;
+  const auto sectors = sectors_of(config, config.swath_rad);
+  REQUIRE(sectors.size() == 3);
+  CHECK(sectors[0].centre_rad == Approx(-48.75 * kDegree));
+  CHECK(sectors[1].width_rad == Approx(65.0 * kDegree));
+  for (const double yaw_deg : {-6.0, 0.0, 6.0}) {
+    const frames::Attitude attitude{1.0 + yaw_deg * kDegree, 2.0 * kDegree, -3.0 * kDegree};
+    const Steering steering = steer(config, config.swath_rad, {1500.0, attitude, 1.0});
+    frames::Attitude from_mean = attitude;
+    from_mean.heading_rad -= 1.0;
+    const frames::Quaternion level_from_head = frames::enu_from_ned().conjugate() * frames::enu_from_body(from_mean);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double a = sectors[i].centre_rad, t = sectors[i].tilt_rad;
+      const Vec3 middle(std::sin(t), std::cos(t) * std::sin(a), std::cos(t) * std::cos(a));
+      CHECK((level_from_head * Vec3::UnitX()).dot(middle) == Approx(steering.sectors[i].sin_transmit).margin(1e-12));
+    }
+    // Every beam lies in its sector's edges, and at its angle from the vertical.
+    for (std::size_t beam = 0; beam < 256; ++beam) {
+      const SteeredSector& sector = steering.sectors[steering.beam_sector[beam]];
+      CHECK(static_cast<double>(steering.sin_beams[beam]) >= sector.lower_sine - 1e-6);
+      CHECK(static_cast<double>(steering.sin_beams[beam]) <= sector.upper_sine + 1e-6);
+      CHECK(across_rad(steering, beam, attitude, 1.0) ==
+            Approx(static_cast<double>(steering.across_rad[beam])).margin(1e-5));
+    }
+  }
+}
+
+TEST_CASE("the mean heading follows slowly, the short way round") {
+  HeadingMean mean(10.0);
+  mean.update(0.0, 6.2);
+  CHECK(mean.mean_rad() == 6.2);
+  for (int i = 1; i <= 100; ++i) mean.update(0.1 * i, 0.1);  // 0.183 rad further, through north
+  const double turned = 0.1 - (6.2 - 2.0 * std::acos(-1.0));
+  CHECK(mean.mean_rad() == Approx(6.2 + turned * (1.0 - std::exp(-1.0))).margin(1e-9));
 }

@@ -16,6 +16,7 @@ namespace {
 using frames::Vec3;
 
 constexpr std::size_t kPerTask = 1024;
+constexpr double kLeastReflection = 1e-5;
 
 Vec3 mirrored(const Vec3& point, double level_m) { return {point.x(), point.y(), 2.0 * level_m - point.z()}; }
 
@@ -96,6 +97,16 @@ struct Paths {
   }
 };
 
+/// Of the surface on the way to any of the scatterers: waves leave most where it is met at the lowest angle.
+double strongest_reflection(const Paths& paths, std::span<const Scatterer> scatterers) {
+  double least_sine = 1.0;
+  for (const Scatterer& scatterer : scatterers) {
+    const Vec3 leg = mirrored(scatterer.position_enu_m, paths.surface.level_enu_m) - paths.pose.position_enu_m;
+    least_sine = std::min(least_sine, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
+  }
+  return std::abs(surface_reflection(paths.surface, paths.carrier.frequency_hz, least_sine));
+}
+
 }  // namespace
 
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing) {
@@ -111,7 +122,8 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
   const double level_m = surface.level_enu_m;
   if (pose.position_enu_m.z() >= level_m) return;
   const Paths paths{carrier, head, surface, pose, receivers};
-  const std::size_t each = (parts.one_bounce ? 2U : 0U) + (parts.second_bottom ? 2U : 0U);
+  const bool mirrors = strongest_reflection(paths, scatterers) >= kLeastReflection;
+  const std::size_t each = mirrors ? (parts.one_bounce ? 2U : 0U) + (parts.second_bottom ? 2U : 0U) : 0U;
   const std::size_t before = arrivals.size();
   arrivals.resize(before + each * scatterers.size());
   tbb::parallel_for(

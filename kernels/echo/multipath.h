@@ -51,8 +51,9 @@ double surface_reflection(const SurfaceMirror& surface, double frequency_hz, dou
 /// that of rays traced to it).
 /// Level: source level and transmit pattern in the direction of departure, scattering cross section (that of
 /// backscattering at the hit), one over the squares of both straight legs, absorption along them, the surface's and the
-/// bottom's reflections. Nothing is added for a head or a scatterer above the surface. With Sum::kMeanSquare the two of
-/// a pair add as powers, 3.01 dB below what they are.
+/// bottom's reflections. Nothing is added for a head or a scatterer above the surface, nor for scatterers where waves
+/// leave less than 1e-5 of the amplitude on every way to them (-100 dB: then it costs nothing). With Sum::kMeanSquare
+/// the two of a pair add as powers, 3.01 dB below what they are.
 void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
                    const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
                    const Receivers& receivers, std::vector<Arrival>& arrivals);

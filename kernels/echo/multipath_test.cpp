@@ -119,6 +119,16 @@ TEST_CASE("waves and bubbles take the coherent reflection away") {
   CHECK(20 * std::log10(-surface_reflection(rough, 300e3, 0.5)) == Approx(-27.43 - 3).margin(0.01));
 }
 
+TEST_CASE("where waves leave nothing, nothing is added") {
+  // At 30 m the surface is met at 43 degrees: 2 k sigma sin = 4 leaves e^-8, 3e-4; 6 leaves 2e-8.
+  Geometry geometry(4.0, 20.0);
+  const double sine = 28.0 / std::hypot(28.0, 30.0), wavenumber = 2.0 * std::numbers::pi * 100e3 / kSpeed;
+  geometry.surface.rms_height_m = 4.0 / (2.0 * wavenumber * sine);
+  CHECK(geometry.multipath(30.0, {true, true, false}).size() == 4);
+  geometry.surface.rms_height_m = 6.0 / (2.0 * wavenumber * sine);
+  CHECK(geometry.multipath(30.0, {true, true, false}).empty());
+}
+
 TEST_CASE("nothing is added for a head in the air") {
   const Geometry above(-0.5, 20.0);
   CHECK(above.multipath(10.0, {}).empty());

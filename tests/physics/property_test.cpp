@@ -50,12 +50,26 @@ std::string effects_yaml(Draws& draw) {
 
 std::string multibeam_yaml(Draws& draw) {
   const double pulse_s = draw.scale(3e-5, 1e-3);
-  return fmt::format(
+  const char* const spacings[] = {"equiangle", "equidistant", "high_density"};
+  std::string yaml = fmt::format(
       "frequency_hz: {}\nbeams: {}\nswath_deg: {}\nspacing: {}\ntransmit_beamwidth_deg: {}\nreceive_beamwidth_deg: {}\n"
-      "pulse_length_s: {}\nsample_rate_hz: {}\nsource_level_db: {}\nauto_range: {}\nrange_m: {}\n",
-      draw.scale(50e3, 1e6), draw.whole(2, 100), draw.between(1, 170), draw.yes() ? "equiangle" : "equidistant",
-      draw.scale(0.5, 20), draw.scale(0.5, 20), pulse_s, draw.between(2.0, 4.0) / pulse_s, draw.between(-300, 250),
-      draw.yes(), draw.scale(1, 40));
+      "pulse_length_s: {}\nsample_rate_hz: {}\nsource_level_db: {}\nauto_range: {}\nrange_m: {}\nquality: 0.05\n",
+      draw.scale(50e3, 1e6), draw.whole(2, 100), draw.between(1, 170), spacings[draw.whole(0, 2)], draw.scale(0.5, 20),
+      draw.scale(0.5, 20), pulse_s, draw.between(2.0, 4.0) / pulse_s, draw.between(-300, 250), draw.yes(),
+      draw.scale(1, 40));
+  yaml += fmt::format(
+      "detections_per_beam: {}\nback_loss_db: {}\nconverter:\n  bits: {}\nphase_every: {}\nsnippets: {}\n"
+      "seabed_image:\n  published: true\nleast_range_m: {}\n",
+      draw.yes() ? 1 : draw.whole(2, 8), draw.between(0, 100), draw.yes() ? 0 : draw.whole(1, 16), draw.whole(0, 2),
+      draw.yes(), draw.between(0, 4));
+  if (draw.yes()) {
+    yaml += "sectors:\n";
+    for (int i = draw.whole(1, 4); i > 0; --i) {
+      yaml += fmt::format("  - {{ share: {}, frequency_hz: {}, tilt_deg: {}, delay_s: {} }}\n", draw.scale(0.05, 20),
+                          draw.scale(50e3, 1e6), draw.between(-20, 20), draw.between(0, 0.01));
+    }
+  }
+  return yaml + effects_yaml(draw);
 }
 
 std::string sidescan_yaml(Draws& draw) {
@@ -166,6 +180,7 @@ Course random_course(Draws& draw, const msg::Tile& tile, int number) {
 struct Run {
   std::vector<msg::Ping> pings;
   std::vector<msg::Soundings> soundings;
+  std::vector<msg::SeabedImage> images;
   std::vector<msg::Health> health;
 };
 
@@ -181,6 +196,7 @@ Run run(const std::string& yaml, Draws& draw, int number) {
   Run run;
   run.pings = head.template step_until<msg::Ping>(std::is_same_v<Node, SidescanNode> ? "ping_main" : "ping", 300_ms);
   run.soundings = head.template step_until<msg::Soundings>("soundings", 300_ms);
+  run.images = head.template step_until<msg::SeabedImage>("seabed_image", 300_ms);
   run.health = head.template step_until<msg::Health>("health", 300_ms);
   return run;
 }
@@ -189,6 +205,7 @@ int check_finite(const Run& run) {
   for (const msg::Ping& ping : run.pings) {
     for (const float a : ping.amplitude_upa.flat()) REQUIRE(std::isfinite(a));
     for (const float angle : ping.beam_angle_rad.flat()) REQUIRE(std::isfinite(angle));
+    for (const float phase : ping.phase_rad.flat()) REQUIRE(std::isfinite(phase));
     CHECK(ping.amplitude_upa.size() + ping.amplitude_count.size() > 0);
   }
   for (const msg::Soundings& s : run.soundings) {
@@ -197,6 +214,9 @@ int check_finite(const Run& run) {
       REQUIRE(std::isfinite(s.travel_time_s[i]));
       for (std::size_t axis = 0; axis < 3; ++axis) REQUIRE(std::isfinite(s.position_enu_m(i, axis)));
     }
+  }
+  for (const msg::SeabedImage& image : run.images) {
+    for (const float strength : image.strength_db.flat()) REQUIRE(std::isfinite(strength));
   }
   REQUIRE_FALSE(run.health.empty());
   return static_cast<int>(run.pings.size());

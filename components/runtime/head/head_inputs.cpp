@@ -19,7 +19,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
       mounting_(start.mounting),
       truth_((2 * start.longest_ping + 1_s).count()),
       estimate_((2 * start.longest_ping + 1_s).count()),
-      sound_speed_mps_(start.sound_speed_mps) {
+      start_mps_(start.sound_speed_mps) {
   for (const Channel& channel : start.channels) {
     names_.push_back(channel.name);
     settings_.emplace_back(channel.settings, channel.limits);
@@ -31,7 +31,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
   if (start.probe) {
     ports.in<msg::SoundSpeed>("sound_speed",
-                              [this](const msg::SoundSpeed& probe) { sound_speed_mps_ = probe.sound_speed_mps; },
+                              [this](const msg::SoundSpeed& probe) { probe_mps_ = probe.sound_speed_mps; },
                               {.optional = true});
   }
   ports.in<msg::SonarSettings>("settings", [this](const msg::SonarSettings& wanted) { command(wanted); },

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,10 @@ class HeadInputs {
   const frames::PoseHistory& estimate() const { return estimate_; }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   const HeadMounting& mounting() const { return mounting_; }
-  double sound_speed_mps() const { return sound_speed_mps_; }
+  /// Believed: of the probe, or what the head starts with.
+  double sound_speed_mps() const { return probe_mps_.value_or(start_mps_); }
+  /// The newest that the probe told.
+  std::optional<double> probe_mps() const { return probe_mps_; }
 
   /// The settings of a channel for the ping that goes out now.
   const HeadSettings& settings_at_ping(std::size_t channel = 0) { return settings_[channel].at_ping(); }
@@ -56,7 +60,8 @@ class HeadInputs {
   HeadMounting mounting_;
   frames::PoseHistory truth_, estimate_;
   TileSet tiles_;
-  double sound_speed_mps_;
+  double start_mps_;
+  std::optional<double> probe_mps_;
   std::vector<std::string> names_;  // of channels
   std::vector<CommandedSettings> settings_;
 };

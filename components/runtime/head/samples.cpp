@@ -1,5 +1,6 @@
 #include "components/runtime/head/samples.h"
 
+#include <cmath>
 #include <memory>
 
 #include "components/runtime/config/config_reader.h"
@@ -8,10 +9,10 @@ namespace ensonify {
 namespace {
 
 template <class T>
-msg::Array<T> array_of(const echo::Image& image, std::shared_ptr<std::vector<T>> values) {
+msg::Array<T> array_of(int samples, std::shared_ptr<std::vector<T>> values) {
   const T* data = values->data();
-  return msg::Array<T>::view({static_cast<std::size_t>(image.beams), static_cast<std::size_t>(image.samples)},
-                             std::move(values), data);
+  const std::size_t beams = values->size() / static_cast<std::size_t>(samples);
+  return msg::Array<T>::view({beams, static_cast<std::size_t>(samples)}, std::move(values), data);
 }
 
 }  // namespace
@@ -33,23 +34,29 @@ echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps) {
 }
 
 void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
-                   echo::Image& envelope, msg::Ping& ping) {
+                   const echo::Image& envelope, msg::Ping& ping) {
+  auto amplitude = std::make_shared<std::vector<float>>();
+  echo::amplitude_upa(envelope, *amplitude);
+  write_samples(gain, converter, sampling, std::move(amplitude), ping);
+}
+
+void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
+                   std::shared_ptr<std::vector<float>> amplitude_upa, msg::Ping& ping) {
   ping.first_sample_s = sampling.start_s;
   ping.sample_period_s = sampling.period_s;
-  auto amplitude = std::make_shared<std::vector<float>>();
   if (converter.bits == 0) {
-    echo::amplitude_upa(envelope, *amplitude);
-    ping.amplitude_upa = array_of(envelope, std::move(amplitude));
+    ping.amplitude_upa = array_of(sampling.count, std::move(amplitude_upa));
     return;
   }
-  std::vector<float> gain_db;
-  echo::tvg_db(gain, sampling, gain_db);
-  echo::apply_gain(gain_db, envelope);
-  echo::amplitude_upa(envelope, *amplitude);
+  std::vector<float> gains;
+  echo::tvg_db(gain, sampling, gains);
+  for (float& value : gains) value = std::pow(10.0F, 0.05F * value);
+  std::vector<float> behind_gain(amplitude_upa->size());
+  for (std::size_t i = 0; i < behind_gain.size(); ++i) behind_gain[i] = (*amplitude_upa)[i] * gains[i % gains.size()];
   auto counts = std::make_shared<std::vector<std::uint16_t>>();
   ping.count_upa = converter.full_scale_upa / ((1 << converter.bits) - 1);
-  echo::amplitude_counts(*amplitude, ping.count_upa, converter.bits, *counts);
-  ping.amplitude_count = array_of(envelope, std::move(counts));
+  echo::amplitude_counts(behind_gain, ping.count_upa, converter.bits, *counts);
+  ping.amplitude_count = array_of(sampling.count, std::move(counts));
 }
 
 }  // namespace ensonify

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "components/runtime/head/effects.h"
 #include "components/runtime/head/settings.h"
 #include "kernels/echo/gain.h"
@@ -25,9 +28,11 @@ void read_converter(ConfigReader& from, Converter& converter);
 echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps);
 
 /// Writes what the receiver records of an envelope: counts behind the gain, or, without a converter, amplitudes, from
-/// which the gain is taken out again. first sample, period and amplitudes of `ping` are overwritten; the envelope has
-/// the gain in it afterwards.
+/// which the gain is taken out again. First sample, period and amplitudes of `ping` are overwritten.
 void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
-                   echo::Image& envelope, msg::Ping& ping);
+                   const echo::Image& envelope, msg::Ping& ping);
+/// The same of amplitudes, beam by sample; without a converter the message shares them.
+void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
+                   std::shared_ptr<std::vector<float>> amplitude_upa, msg::Ping& ping);
 
 }  // namespace ensonify

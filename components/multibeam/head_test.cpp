@@ -1,0 +1,228 @@
+#include "components/multibeam/head.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "components/multibeam/test_head.h"
+#include "components/runtime/head/test_seabed.h"
+#include "components/runtime/head/tile_set.h"
+
+using namespace ensonify;
+
+namespace {
+
+using Field = std::vector<std::complex<float>>;
+
+/// 32 beams over 20 m of water that scatters, 2 m below a calm surface.
+MultibeamConfig small() {
+  MultibeamConfig config = head_in_plain_water();
+  config.beams = 32;
+  config.receive_beamwidth_rad = config.transmit_beamwidth_rad = 4.0 * MultibeamConfig::kDegree;
+  config.quality = 0.05;
+  config.world.water.noise_level_db = 70.0;
+  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
+  return config;
+}
+
+frames::PoseHistory moving() {
+  frames::PoseHistory truth(1'000'000'000);
+  for (int i = 0; i <= 20; ++i) {
+    frames::Pose pose;
+    pose.position_enu_m = {0.03 * i, 0.0, -2.0};
+    pose.enu_from_body = frames::enu_from_body({0.0, 0.0, 0.002 * i});
+    truth.push(10'000'000 * i, pose);
+  }
+  return truth;
+}
+
+const trace::Scene& seabed() {
+  static TileSet tiles;
+  if (tiles.scene().size() == 0) {
+    tiles.insert(tile_of(200.0, 0.5, [](double east, double) { return -22.0 + 0.3 * std::sin(0.3 * east); }));
+  }
+  return tiles.scene();
+}
+
+struct Listened {
+  Field starboard;
+  std::vector<float> amplitude_upa;
+  msg::Ping ping;
+};
+
+Listened listened(const MultibeamConfig& config, bool phase = false) {
+  MultibeamHead head(config);
+  const Shot shot{7, SimTime{0}, 45.0};
+  const Steering steering = steer(config, config.swath_rad, {});
+  const auto& heard = head.listen(shot, config.start(), steering, moving(), seabed());
+  Listened result;
+  for (const auto& sector : heard) {
+    const auto half = sector.halves.positive_upa;
+    result.starboard.insert(result.starboard.end(), half.begin(), half.end());
+    const auto amplitude = sector.image.amplitude_upa;
+    result.amplitude_upa.insert(result.amplitude_upa.end(), amplitude.begin(), amplitude.end());
+  }
+  result.ping = head.ping_message(shot, config.start(), steering, phase);
+  return result;
+}
+
+float largest(const Field& field) {
+  float most = 0.0F;
+  for (const auto value : field) most = std::max(most, std::abs(value));
+  return most;
+}
+
+Field difference(const Field& a, const Field& b) {
+  Field result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] - b[i];
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("one effect switched off leaves the draws of the others alone") {
+  const MultibeamConfig all = small();
+  const Field whole = listened(all).starboard;
+  const std::pair<const char*, bool Effects::*> switches[] = {{"refraction", &Effects::refraction},
+                                                              {"absorption", &Effects::absorption},
+                                                              {"noise", &Effects::noise},
+                                                              {"volume", &Effects::volume},
+                                                              {"multipath", &Effects::multipath},
+                                                              {"motion", &Effects::motion},
+                                                              {"tvg", &Effects::tvg},
+                                                              {"quantisation", &Effects::quantisation}};
+  const auto without = [&](bool Effects::*one, bool Effects::*other) {
+    MultibeamConfig config = all;
+    config.effects.*one = config.effects.*other = false;
+    return listened(config).starboard;
+  };
+  // What noise (or the volume) adds to the field is the same with any other effect off, to the rounding of its sum with
+  // louder echoes: 2^-24 of the loudest, through two transforms.
+  for (const auto added : {&Effects::noise, &Effects::volume}) {
+    const Field part = difference(whole, without(added, added));
+    CHECK(largest(part) > 1e-4F * largest(whole));
+    for (const auto& [name, off] : switches) {
+      if (off == added || (added == &Effects::volume && off == &Effects::absorption)) continue;  // the volume's own
+      INFO(name);
+      const Field alone = difference(without(off, off), without(off, added));
+      CHECK(largest(difference(alone, part)) < 2e-6F * largest(whole));
+    }
+  }
+}
+
+TEST_CASE("switches change what they name") {
+  const MultibeamConfig all = small();
+  const auto amplitudes = [&](const std::function<void(MultibeamConfig&)>& change) {
+    MultibeamConfig config = all;
+    config.effects.noise = config.effects.volume = false;
+    change(config);
+    return listened(config).amplitude_upa;
+  };
+  const auto as_is = amplitudes([](MultibeamConfig&) {});
+  CHECK(amplitudes([](MultibeamConfig&) {}) == as_is);
+  CHECK(amplitudes([](MultibeamConfig& c) { c.effects.tvg = false; }) == as_is);           // acts on counts only
+  CHECK(amplitudes([](MultibeamConfig& c) { c.effects.quantisation = false; }) == as_is);  // likewise
+  CHECK(amplitudes([](MultibeamConfig& c) { c.effects.refraction = false; }) == as_is);    // in isovelocity water
+  for (const auto off : {&Effects::absorption, &Effects::directivity, &Effects::side_lobes, &Effects::speckle,
+                         &Effects::multipath, &Effects::motion}) {
+    CHECK_FALSE(amplitudes([&](MultibeamConfig& c) { c.effects.*off = false; }) == as_is);
+  }
+}
+
+TEST_CASE("in calm water the surface answers after 2 d / c; with multipath off, or in waves, it does not") {
+  MultibeamConfig config = small();
+  config.effects.noise = config.effects.volume = false;
+  config.back_loss_db = 10.0;
+  const auto at_surface = [&] {
+    const Listened heard = listened(config);
+    const auto row = heard.ping.amplitude_upa.row(16);
+    const auto k = static_cast<std::size_t>(2.0 * 2.0 / 1500.0 * config.sample_rate_hz) + 1;
+    return static_cast<double>(row[k]);
+  };
+  // SL - 20 log 4 m - 0.07 x 4 - 2 x 10 dB behind the face, and what a beam of 4 degrees loses 2 degrees beside its
+  // axis: 3 dB.
+  const double level_db = 20.0 * std::log10(at_surface());
+  CHECK(level_db == Approx(215.0 - 12.04 - 0.28 - 20.0 - 3.0).margin(1.0));
+  config.effects.multipath = false;
+  CHECK(at_surface() == 0.0);
+  config.effects.multipath = true;
+  config.world.water.wind_speed_mps = 5.0;
+  CHECK(at_surface() == 0.0);
+}
+
+TEST_CASE("counts are amplitudes with the operator's gain, to half a step, and saturate") {
+  MultibeamConfig config = small();
+  const Listened plain = listened(config);
+  config.converter = {8, 3e8};
+  const Listened counted = listened(config);
+  CHECK(counted.amplitude_upa == plain.amplitude_upa);  // detection sees amplitudes before the converter
+  const msg::Ping& ping = counted.ping;
+  REQUIRE(ping.amplitude_upa.size() == 0);
+  REQUIRE(ping.amplitude_count.size() == plain.amplitude_upa.size());
+  const auto samples = static_cast<std::size_t>(ping.amplitude_count.cols());
+  int saturated = 0;
+  for (std::size_t i = 0; i < plain.amplitude_upa.size(); ++i) {
+    const double range_m = std::max(1.0, 750.0 * static_cast<double>(i % samples) * ping.sample_period_s);
+    const double gain_db = 30.0 * std::log10(range_m) + 2.0 * 0.07 * range_m;
+    const double step = static_cast<double>(plain.amplitude_upa[i]) * std::pow(10.0, gain_db / 20.0) / ping.count_upa;
+    saturated += step > 255.5;
+    REQUIRE(static_cast<double>(ping.amplitude_count[i]) == Approx(std::min(step, 255.0)).margin(0.51));
+  }
+  CHECK(saturated > 0);
+  config.effects.tvg = false;
+  CHECK(listened(config).ping.applied.gain_spreading_db == 0.0);
+}
+
+TEST_CASE("the phase of a ping is that between the halves; without speckle there is none") {
+  MultibeamConfig config = small();
+  const Listened heard = listened(config, true);
+  REQUIRE(heard.ping.phase_rad.size() == heard.amplitude_upa.size());
+  for (const float phase : heard.ping.phase_rad.flat()) REQUIRE(std::abs(phase) <= 3.1416F);
+  CHECK(listened(config).ping.phase_rad.size() == 0);
+  config.effects.speckle = false;
+  CHECK(listened(config, true).ping.phase_rad.size() == 0);
+}
+
+TEST_CASE("each sector is sent at its own time and frequency, and heard by its own beams") {
+  MultibeamConfig config = small();
+  config.effects.noise = config.effects.volume = config.effects.multipath = false;
+  config.sectors = {{.frequency_hz = 280e3}, {.frequency_hz = 300e3, .delay_s = 4e-3}, {.frequency_hz = 320e3}};
+  const Listened heard = listened(config);
+  const msg::Ping& ping = heard.ping;
+  REQUIRE(ping.beam_sector.size() == 32);
+  CHECK(ping.beam_sector[0] == 0);
+  CHECK(ping.beam_sector[16] == 1);
+  CHECK(ping.beam_sector[31] == 2);
+  REQUIRE(ping.applied.sectors.size() == 3);
+  CHECK(ping.applied.sectors[1].delay_s == 4e-3);
+  CHECK(ping.applied.sectors[2].frequency_hz == 320e3);
+
+  // The nadir beam hears the seabed 20 m below (0.3 m of relief) later by the delay.
+  const auto row = ping.amplitude_upa.row(16);
+  const float strongest = *std::max_element(row.begin(), row.end());
+  const auto first = std::find_if(row.begin(), row.end(), [&](float a) { return a > 0.2F * strongest; });
+  CHECK(static_cast<double>(first - row.begin()) * ping.sample_period_s == Approx(0.004 + 0.0267).margin(0.0006));
+}
+
+TEST_CASE("where two sectors meet each is sent with half its amplitude") {
+  MultibeamConfig config = small();
+  config.effects.noise = config.effects.volume = config.effects.multipath = config.effects.speckle = false;
+  config.quality = 0.5;
+  const Listened one = listened(config);
+  config.sectors = {{.share = 10.0, .frequency_hz = 300e3}, {.share = 21.0, .frequency_hz = 300e3}};
+  const Listened two = listened(config);
+  const auto energy = [](const Listened& of, std::size_t beam) {
+    double sum = 0.0;
+    for (const float a : of.ping.amplitude_upa.row(beam)) sum += static_cast<double>(a) * a;
+    return sum;
+  };
+  // Rays differ: some hundred of them share a beam, and their mean is good to half a decibel.
+  for (const std::size_t inside : {4U, 16U, 24U}) {
+    CHECK(10.0 * std::log10(energy(two, inside) / energy(one, inside)) == Approx(0.0).margin(0.5));
+  }
+  // The edge is the axis of beam 10: a quarter of the power there, none to one side and all of it to the other, and
+  // half of the beam's width lies within the edge's 0.1 of sine.
+  const double edge_db = 10.0 * std::log10(energy(two, 10) / energy(one, 10));
+  CHECK(edge_db < -3.0);
+  CHECK(edge_db > -6.5);
+}

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "components/multibeam/arrays.h"
+#include "components/multibeam/config.h"
+#include "components/multibeam/steering.h"
+#include "components/runtime/head/arrivals.h"
+#include "components/runtime/head/shot.h"
+#include "components/runtime/head/sight.h"
+#include "kernels/echo/line_receiver.h"
+#include "kernels/echo/pulse.h"
+#include "kernels/echo/scatterer.h"
+#include "kernels/echo/volume.h"
+#include "kernels/frames/pose.h"
+#include "kernels/random/stream.h"
+#include "kernels/trace/ray_distribution.h"
+#include "kernels/trace/scene.h"
+
+namespace ensonify {
+
+/// The acoustics of one transmit sector: what its beams hear of its transmission. Uses the true motion, the actual
+/// mounting and the true water, as the sea does. Other sectors are not heard: they differ in frequency, or have died
+/// away.
+class SectorEchoes {
+ public:
+  SectorEchoes(const MultibeamConfig& config, std::size_t sector);
+  SectorEchoes(const SectorEchoes&) = delete;
+  SectorEchoes& operator=(const SectorEchoes&) = delete;
+
+  /// Rays from the true pose at transmission, echoes at the true poses at reception, noise at the array's elements. A
+  /// function of the shot, the settings, the steering, the poses and the tiles. `truth` has a pose.
+  void listen(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+              const frames::PoseHistory& truth, const trace::Scene& seabed);
+
+  /// The sector's beams of the last ping, as all of the receive line hears them, and as its starboard and its port half
+  /// do (empty without speckle: sums of mean squares have no phase). Times count from the sector's own transmission.
+  const echo::Image& whole() const { return images_[0]; }
+  const echo::Image& starboard() const { return images_[1]; }
+  const echo::Image& port() const { return images_[2]; }
+  const echo::Sampling& sampling() const { return sampling_; }
+
+  /// What the last ping met.
+  Sight sight(double range_m, const trace::Scene& seabed) const { return arrivals_.sight(range_m, seabed); }
+
+ private:
+  /// What pings of the same pulse and swath use again.
+  struct Listening {
+    double pulse_length_s, swath_rad;
+    double centre_rad;  // of the sector
+    echo::Pulse pulse;
+    echo::SampledPulse sampled, squared;
+    echo::Scatterers scatterers;
+    trace::RayDistribution rays;
+    std::vector<echo::VolumeDirections> volume_directions;  // empty: the water does not scatter
+  };
+
+  Listening listening_for(double pulse_length_s, double swath_rad);
+  void prepare(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& truth);
+  void aim(const Steering& steering);
+  void look(const trace::Scene& seabed);
+  echo::Background background(std::int64_t ping, double source_level_db);
+  void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);
+
+  MultibeamConfig config_;
+  std::size_t sector_;
+  double frequency_hz_, delay_s_;
+  SectorPattern pattern_;
+  Arrivals arrivals_;
+  random::Stream ambient_, electronic_, volume_;
+  echo::LineReceiver receiver_, power_receiver_;
+  std::vector<std::vector<float>> weights_;        // of the whole line, its starboard half, its port half
+  std::vector<std::vector<float>> power_weights_;  // of the whole line
+  std::optional<Listening> listening_;
+
+  // Memory of the ping path, sized by the first pings of a range.
+  echo::Sampling sampling_;
+  std::vector<frames::HeadPose> poses_;  // from transmission on
+  std::vector<trace::Ray> rays_;
+  std::vector<trace::Hit> hits_;
+  std::vector<float> gain_, sin_beams_;
+  std::vector<echo::Image> images_, mean_square_;
+};
+
+}  // namespace ensonify

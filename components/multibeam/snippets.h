@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "components/multibeam/config.h"
+#include "components/multibeam/head.h"
+#include "components/multibeam/soundings.h"
+#include "components/multibeam/steering.h"
+#include "messages/soundings.h"
+
+namespace ensonify {
+
+/// The amplitudes around each valid sounding as they were heard, uncorrected. The settings are not filled.
+msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const Steering& steering,
+                          const std::vector<Echo>& echoes, const msg::Soundings& soundings);
+
+/// The same after the corrections that the head is set to: spreading 40 log10 R and the operator's absorption, the area
+/// of a level seabed, and the angular law of MultibeamConfig::image about the nearest sounding of the ping
+/// (kernels/detect/seabed_image.h). Nothing but what the instrument knows goes in. The settings are not filled.
+msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettings& settings, const Steering& steering,
+                                 const msg::Snippets& snippets, const msg::Soundings& soundings);
+
+}  // namespace ensonify
