@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "components/runtime/tiles/tile_set.h"
+
+namespace ensonify::tiles {
+
+/// What stands in a tile's sidecar and world file; the same facts give the same bytes.
+std::string sidecar_text(const TileSet& set, const terrain::TileKey& key, const TileFacts& facts);
+std::string world_file(const TileSet& set, const terrain::TileKey& key);
+
+}  // namespace ensonify::tiles
