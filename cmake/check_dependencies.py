@@ -24,7 +24,8 @@ HEAVY = (
     ("ZeroMQ", r"^zmq", r"^(components/runtime/bus|bench|tests)/", "components/runtime/bus, bench, tests"),
     ("Embree", r"^embree\d/", r"^kernels/trace/", "kernels/trace"),
     ("OpenMesh", r"^OpenMesh/", r"^kernels/terrain/", "kernels/terrain"),
-    ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/terrain_pager|tools)/", "components/terrain_pager, tools"),
+    ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/runtime/terrain|components/terrain_pager|tools)/",
+     "components/runtime/terrain, components/terrain_pager, tools"),
     ("OpenSSL", r"^openssl/", r"^components/runtime/tiles/", "components/runtime/tiles"),
     ("nlohmann/json", r"^nlohmann/json\.hpp", r"\.cpp$", ".cpp files (headers take <nlohmann/json_fwd.hpp>)"),
 )

@@ -36,6 +36,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"compare", "say where two records differ"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},
+    {"terrain", "seabeds on disk: build, info, verify, sample"},
     {"doctor", "look for what is wrong with this machine or installation"},
     {"plot", "pictures and summary of a survey"},
     {"terrain", "import, make and show terrain"},

@@ -13,13 +13,13 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   from.optional("threads", config.threads, 1, 64);
   from.optional("lsb_m", config.lsb_m, 1e-6, 4e-3);
   from.optional("corridor_half_deg", config.corridor_half_deg, 0, 85);
-  from.optional("raster_crs", config.raster_crs);
-  from.optional("raster_band", config.raster_band, 1, 1000);
-  from.optional("raster_nodata", config.raster_nodata);
+  from.optional("raster_crs", config.terrain.raster_crs);
+  from.optional("raster_band", config.terrain.raster_band, 1, 1000);
+  from.optional("raster_nodata", config.terrain.raster_nodata);
 
   config.scenario_file = scenario.file;
-  config.site = scenario.site;
-  config.seabed = scenario.seabed;
+  config.terrain.site = scenario.site;
+  config.terrain.seabed = scenario.seabed;
   config.mission = scenario.mission;
   return config;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/runtime/config/scenario.h"
+#include "components/runtime/terrain/source_of.h"
 
 namespace ensonify {
 
@@ -19,14 +19,10 @@ struct TerrainPagerConfig {
   int threads = 2;                     // that fetch
   double lsb_m = 0.0002;               // heights are whole multiples of this
   double corridor_half_deg = 65.0;     // holes matter within this angle either side of nadir along the runlines
-  std::string raster_crs;              // reference system of a raster that names none (or a wrong one)
-  int raster_band = 1;
-  std::optional<double> raster_nodata;  // mark for missing values of a raster that declares none
 
   // From the scenario.
   std::string scenario_file;
-  Site site;
-  Seabed seabed;
+  source::TerrainOptions terrain;
   Mission mission;
 
   static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);

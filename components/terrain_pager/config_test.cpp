@@ -20,7 +20,7 @@ TEST_CASE("default.yaml of the pager says what the struct says") {
   CHECK(read.threads == d.threads);
   CHECK(read.lsb_m == d.lsb_m);
   CHECK(read.corridor_half_deg == d.corridor_half_deg);
-  CHECK(read.raster_crs == d.raster_crs);
-  CHECK(read.raster_band == d.raster_band);
-  CHECK(read.raster_nodata == d.raster_nodata);
+  CHECK(read.terrain.raster_crs == d.terrain.raster_crs);
+  CHECK(read.terrain.raster_band == d.terrain.raster_band);
+  CHECK(read.terrain.raster_nodata == d.terrain.raster_nodata);
 }

@@ -3,10 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "components/terrain_pager/terrain_source.h"
+#include "components/runtime/terrain/terrain_source.h"
 #include "kernels/navigation/runline.h"
 
 namespace ensonify::pager {
+
+using frames::Vec2;
+using source::Extent;
+using source::TerrainSource;
 
 /// What must be known of the seabed along the runlines.
 struct CorridorRules {

@@ -4,8 +4,9 @@
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/log.h"
+#include "components/runtime/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
-#include "components/terrain_pager/source_of.h"
+#include "components/terrain_pager/tile_messages.h"
 
 namespace ensonify {
 namespace {
@@ -48,14 +49,14 @@ void check_memory(const TerrainPagerConfig& config, const pager::Margins& margin
 TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     : ports_(ports),
       events_(Rate{config.rate_hz, 1}),
-      terrain_(pager::source_of(config)),
-      grid_{Vec2::Zero(), pager::post_spacing_m(config, *terrain_), 1024, config.lsb_m},
+      terrain_(source::source_of(config.terrain)),
+      grid_{Vec2::Zero(), source::post_spacing_m(config.terrain, *terrain_), 1024, config.lsb_m},
       load_ahead_s_(config.load_ahead_s),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes})),
       releases_(ports.out<msg::TileRelease>("release")),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})) {
-  const auto holes =
-      config.seabed.kind == Seabed::Kind::kRaster ? config.seabed.raster.holes : RasterSeabed::Holes::kKeep;
+  const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
+                                                                         : RasterSeabed::Holes::kKeep;
   pager::check_corridors(*terrain_, config.mission.runlines,
                          {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse},
                          config.scenario_file);

@@ -32,7 +32,7 @@ class TerrainPagerNode {
 
   Ports& ports_;
   Periodic events_;
-  std::unique_ptr<pager::TerrainSource> terrain_;
+  std::unique_ptr<source::TerrainSource> terrain_;
   pager::TileGrid grid_;
   double load_ahead_s_;
   std::unique_ptr<pager::Paging> paging_;

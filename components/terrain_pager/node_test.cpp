@@ -13,10 +13,10 @@ namespace {
 /// 800 m x 800 m of slope with tiles of 102.4 m.
 TerrainPagerConfig small_slope() {
   TerrainPagerConfig config;
-  config.seabed.post_spacing_m = 0.1;
-  config.seabed.synthetic.reference_depth_m = 15.0;
-  config.seabed.synthetic.slope_rad = 0.01;
-  config.seabed.synthetic_size_m = {800.0, 800.0};
+  config.terrain.seabed.post_spacing_m = 0.1;
+  config.terrain.seabed.synthetic.reference_depth_m = 15.0;
+  config.terrain.seabed.synthetic.slope_rad = 0.01;
+  config.terrain.seabed.synthetic_size_m = {800.0, 800.0};
   config.feed_margin_m = 60.0;
   config.release_hysteresis_m = 20.0;
   return config;
@@ -96,7 +96,7 @@ TEST_CASE("outside the terrain nothing is published and health says so") {
 
 TEST_CASE("posts too fine for the depth are refused before the run") {
   auto config = small_slope();
-  config.seabed.post_spacing_m = 0.01;
+  config.terrain.seabed.post_spacing_m = 0.01;
   CHECK_THROWS_WITH(NodeUnderTest<TerrainPagerNode>(config), Catch::Contains("at most 64 are allowed"));
 }
 

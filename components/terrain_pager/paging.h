@@ -3,10 +3,12 @@
 #include <set>
 #include <vector>
 
-#include "components/terrain_pager/terrain_source.h"
+#include "components/runtime/terrain/terrain_source.h"
 
 namespace ensonify::pager {
 
+using frames::Vec2;
+using source::Extent;
 using terrain::TileGrid;
 using terrain::TileKey;
 

@@ -9,12 +9,14 @@
 #include <functional>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/terrain/raster_source.h"
+#include "components/runtime/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
-#include "components/terrain_pager/raster_source.h"
-#include "components/terrain_pager/source_of.h"
+#include "components/terrain_pager/tile_messages.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;
+using namespace ensonify::source;
 
 namespace {
 

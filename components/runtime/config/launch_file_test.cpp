@@ -224,7 +224,7 @@ TEST_CASE("mistakes in a launch file and its world are reported together") {
                                 "head.yaml", "haed.yaml"));
   CHECK(folder.problems({.args = {"rastr=x"}}) ==
         "--arg rastr: is not an argument of this launch file; did you mean raster?\n"
-        "world.yaml:3:16: seabed.kind: is \"sand\", not one of synthetic, raster\n"
+        "world.yaml:3:16: seabed.kind: is \"sand\", not one of synthetic, raster, tiles\n"
         "x.yaml:5:33: processes.auv.cpus[0]: is \"a\", not a number in [0, 4095]\n"
         "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (looked beside this file and in the "
         "data folders)\n"

@@ -190,12 +190,12 @@ void check_whole(ConfigReader& from, const Scenario& scenario) {
       from.problem("mission", "speed_mps is above what " + vehicle.name + " can do (fastest_mps)");
     }
   }
-  const bool raster = scenario.seabed.kind == Seabed::Kind::kRaster;
-  if (scenario.site.origin_from_raster && !raster) {
-    from.problem("site", "origin: raster needs seabed.kind: raster");
+  const bool generated = scenario.seabed.kind == Seabed::Kind::kSynthetic;
+  if (scenario.site.origin_from_raster && generated) {
+    from.problem("site", "origin: raster needs seabed.kind: raster or tiles");
   }
-  if (scenario.mission.auto_plan && !raster) {
-    from.problem("mission", "auto needs seabed.kind: raster");
+  if (scenario.mission.auto_plan && generated) {
+    from.problem("mission", "auto needs seabed.kind: raster or tiles");
   }
 }
 

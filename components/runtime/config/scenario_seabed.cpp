@@ -1,7 +1,9 @@
 #include "components/runtime/config/scenario_seabed.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "components/runtime/config/scalars.h"
 #include "components/runtime/config/scenario_sections.h"
@@ -172,22 +174,24 @@ void read_sediments(ConfigReader from, Seabed& seabed) {
 
 Seabed read_seabed(ConfigReader from) {
   Seabed seabed;
-  from.required_choice("kind", seabed.kind,
-                       {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}});
+  from.required_choice(
+      "kind", seabed.kind,
+      {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}, {"tiles", Seabed::Kind::kTiles}});
   from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
   if (const auto sediments = from.optional_section("sediments")) {
     read_sediments(*sediments, seabed);
   }
-  const bool synthetic = seabed.kind == Seabed::Kind::kSynthetic;
-  if (from.has(synthetic ? "raster" : "synthetic")) {
-    from.problem(synthetic ? "raster" : "synthetic", "is not used by this kind of seabed");
+  const std::array<std::pair<Seabed::Kind, const char*>, 3> sections = {
+      {{Seabed::Kind::kSynthetic, "synthetic"}, {Seabed::Kind::kRaster, "raster"}, {Seabed::Kind::kTiles, "tiles"}}};
+  for (const auto& [kind, key] : sections) {
+    if (kind != seabed.kind && from.has(key)) from.problem(key, "is not used by this kind of seabed");
   }
-  if (synthetic) {
-    if (auto section = from.optional_section("synthetic")) {
-      read_synthetic(*section, seabed);
-    }
-  } else {
-    seabed.raster = read_raster(from.section("raster"));
+  switch (seabed.kind) {
+    case Seabed::Kind::kSynthetic:
+      if (auto section = from.optional_section("synthetic")) read_synthetic(*section, seabed);
+      break;
+    case Seabed::Kind::kRaster: seabed.raster = read_raster(from.section("raster")); break;
+    case Seabed::Kind::kTiles: from.section("tiles").required_path("folder", seabed.tiles_folder); break;
   }
   return seabed;
 }

@@ -19,7 +19,7 @@ struct RasterSeabed {
 };
 
 struct Seabed {
-  enum class Kind { kSynthetic, kRaster };
+  enum class Kind { kSynthetic, kRaster, kTiles };
   Kind kind = Kind::kSynthetic;
   double post_spacing_m = 0.5;
   /// What the classes of posts are made of. Class 0 is always there (medium sand unless it is given); a class that is
@@ -29,6 +29,7 @@ struct Seabed {
   terrain::SyntheticSeabedParameters synthetic;
   std::array<double, 2> synthetic_size_m{600.0, 600.0};  // extent east and north, centred on the origin
   RasterSeabed raster;
+  std::string tiles_folder;  // a tile set (docs/tiles.md), as found on disk
 };
 
 }  // namespace ensonify

@@ -98,7 +98,7 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
   CHECK(problems_of(kBay, "2025-06-01", "2025-02-30") ==
         "bay.yaml:3:19: time.start_utc: \"2025-02-30T12:00:00Z\" is not a UTC time such as 2025-06-01T12:00:00Z");
   CHECK(problems_of(kBay, "kind: synthetic", "kind: sythetic") ==
-        "bay.yaml:7:9: seabed.kind: is \"sythetic\", not one of synthetic, raster");
+        "bay.yaml:7:9: seabed.kind: is \"sythetic\", not one of synthetic, raster, tiles");
   CHECK(problems_of(kBay, "boulders: {per_hectare: 9}", "boulders: {per_hectrae: 9}") ==
         "bay.yaml:8:108: seabed.synthetic.boulders.per_hectare: is missing; allowed: a number in [0, 10000]\n"
         "bay.yaml:8:109: seabed.synthetic.boulders.per_hectrae: is not a known key; did you mean per_hectare?");
@@ -108,9 +108,9 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
                     "runlines: [{from_m: [0, 0], to_m: [0, 0]}]") ==
         "bay.yaml:17:58: mission.runlines[0].to_m: is less than 1 m from from_m");
   CHECK(problems_of(kBay, "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}", "auto: {}") ==
-        "bay.yaml:17:10: mission: auto needs seabed.kind: raster");
+        "bay.yaml:17:10: mission: auto needs seabed.kind: raster or tiles");
   CHECK(problems_of(kBay, "latitude_deg: 42.5, longitude_deg: -70.5", "origin: raster") ==
-        "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster");
+        "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster or tiles");
   CHECK(
       problems_of(kBay, "kind: synthetic\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
       "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (looked beside this file and in the data "

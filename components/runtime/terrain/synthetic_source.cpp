@@ -1,10 +1,10 @@
-#include "components/terrain_pager/synthetic_source.h"
+#include "components/runtime/terrain/synthetic_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace ensonify::pager {
+namespace ensonify::source {
 
 SyntheticSource::SyntheticSource(const terrain::SyntheticSeabedParameters& parameters, const Extent& extent,
                                  const frames::Geodetic& origin, double post_spacing_m)
@@ -40,4 +40,4 @@ double SyntheticSource::height_m(const Vec2& place) const {
   return extent_.contains(place) ? seabed_.height_m(place.x(), place.y()) : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

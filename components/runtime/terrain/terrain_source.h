@@ -8,7 +8,7 @@
 #include "kernels/frames/local_projection.h"
 #include "kernels/terrain/tile.h"
 
-namespace ensonify::pager {
+namespace ensonify::source {
 
 using frames::Vec2;
 
@@ -59,4 +59,4 @@ class TerrainSource {
   virtual double height_m(const Vec2& place) const = 0;
 };
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

@@ -10,7 +10,7 @@
 class GDALDataset;
 class OGRSpatialReference;
 
-namespace ensonify::pager {
+namespace ensonify::source {
 
 /// How to read a raster file.
 struct RasterOptions {
@@ -78,4 +78,4 @@ class RasterFile {
   mutable std::mutex mutex_;  // GDAL's datasets are not for several threads at once
 };
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

@@ -4,12 +4,12 @@
 #include <mutex>
 #include <optional>
 
-#include "components/terrain_pager/raster_file.h"
-#include "components/terrain_pager/terrain_source.h"
+#include "components/runtime/terrain/raster_file.h"
+#include "components/runtime/terrain/terrain_source.h"
 
 class OGRCoordinateTransformation;
 
-namespace ensonify::pager {
+namespace ensonify::source {
 
 /// A raster file seen from the world: each post is looked up in the raster's own map and interpolated bilinearly
 /// between the four cells around it. Beyond the outermost cells' centres, and beside a hole, nothing is known.
@@ -50,4 +50,4 @@ class RasterSource : public TerrainSource {
   double native_spacing_m_ = 1.0;
 };
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

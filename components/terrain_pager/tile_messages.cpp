@@ -1,10 +1,8 @@
-#include "components/terrain_pager/source_of.h"
+#include "components/terrain_pager/tile_messages.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "components/terrain_pager/raster_source.h"
-#include "components/terrain_pager/synthetic_source.h"
+#include <vector>
 
 namespace ensonify::pager {
 namespace {
@@ -13,28 +11,7 @@ constexpr int kChartPosts = 256;
 
 }  // namespace
 
-std::unique_ptr<TerrainSource> source_of(const TerrainPagerConfig& config) {
-  const Seabed& seabed = config.seabed;
-  if (seabed.kind == Seabed::Kind::kSynthetic) {
-    const double east = seabed.synthetic_size_m[0] / 2, north = seabed.synthetic_size_m[1] / 2;
-    return std::make_unique<SyntheticSource>(seabed.synthetic, Extent{-east, -north, east, north}, config.site.origin,
-                                             seabed.post_spacing_m);
-  }
-  RasterOptions options;
-  options.path = seabed.raster.path;
-  options.band = config.raster_band;
-  options.crs = config.raster_crs;
-  options.values_are_depths = seabed.raster.values == RasterSeabed::Values::kDepth;
-  options.nodata = config.raster_nodata;
-  options.fill_holes = seabed.raster.holes == RasterSeabed::Holes::kFill;
-  std::optional<frames::Geodetic> origin;
-  if (!config.site.origin_from_raster) origin = config.site.origin;
-  return std::make_unique<RasterSource>(options, origin);
-}
-
-double post_spacing_m(const TerrainPagerConfig& config, const TerrainSource& terrain) {
-  return std::min(config.seabed.post_spacing_m, terrain.native_spacing_m());
-}
+using source::PostBlock;
 
 msg::Tile make_tile(const TerrainSource& terrain, const terrain::TileGrid& grid, const terrain::TileKey& key) {
   const int posts = grid.cells + 1;

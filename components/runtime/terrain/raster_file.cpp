@@ -1,4 +1,4 @@
-#include "components/terrain_pager/raster_file.h"
+#include "components/runtime/terrain/raster_file.h"
 
 #include <cpl_error.h>
 #include <gdal_alg.h>
@@ -13,7 +13,7 @@
 
 #include "components/runtime/config/config_error.h"
 
-namespace ensonify::pager {
+namespace ensonify::source {
 namespace {
 
 /// Numbers that files without a nodata entry use for "no value".
@@ -222,4 +222,4 @@ void RasterFile::check_values(bool declared_depths) {
   }
 }
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

@@ -1,4 +1,4 @@
-#include "components/terrain_pager/raster_source.h"
+#include "components/runtime/terrain/raster_source.h"
 
 #include <cpl_error.h>
 #include <ogr_spatialref.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace ensonify::pager {
+namespace ensonify::source {
 namespace {
 
 constexpr int kNodeEvery = 16;        // posts between exact transformations; divides a tile's cells
@@ -232,4 +232,4 @@ double RasterSource::height_m(const Vec2& place) const {
   return interpolate(*window, elevation_m, column[0], row[0]);
 }
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

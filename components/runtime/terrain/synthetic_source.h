@@ -1,9 +1,9 @@
 #pragma once
 
-#include "components/terrain_pager/terrain_source.h"
+#include "components/runtime/terrain/terrain_source.h"
 #include "kernels/terrain/synthetic_seabed.h"
 
-namespace ensonify::pager {
+namespace ensonify::source {
 
 /// The generated seabed of a scenario, cut off at a rectangle.
 class SyntheticSource : public TerrainSource {
@@ -28,4 +28,4 @@ class SyntheticSource : public TerrainSource {
   double highest_m_;
 };
 
-}  // namespace ensonify::pager
+}  // namespace ensonify::source

@@ -1,0 +1,72 @@
+#include "components/runtime/terrain/source_of.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/terrain/raster_source.h"
+#include "components/runtime/terrain/synthetic_source.h"
+#include "components/runtime/terrain/tile_set_source.h"
+
+namespace ensonify::source {
+namespace {
+
+std::string place_text(const frames::Geodetic& place) {
+  return fmt::format("{:.9f}, {:.9f} deg", place.latitude_deg, place.longitude_deg);
+}
+
+std::unique_ptr<TerrainSource> synthetic(const TerrainOptions& options) {
+  const Seabed& seabed = options.seabed;
+  const double east = seabed.synthetic_size_m[0] / 2, north = seabed.synthetic_size_m[1] / 2;
+  return std::make_unique<SyntheticSource>(seabed.synthetic, Extent{-east, -north, east, north}, options.site.origin,
+                                           seabed.post_spacing_m);
+}
+
+std::unique_ptr<TerrainSource> raster(const TerrainOptions& options) {
+  const RasterSeabed& seabed = options.seabed.raster;
+  RasterOptions raster;
+  raster.path = seabed.path;
+  raster.band = options.raster_band;
+  raster.crs = options.raster_crs;
+  raster.values_are_depths = seabed.values == RasterSeabed::Values::kDepth;
+  raster.nodata = options.raster_nodata;
+  raster.fill_holes = seabed.holes == RasterSeabed::Holes::kFill;
+  std::optional<frames::Geodetic> origin;
+  if (!options.site.origin_from_raster) origin = options.site.origin;
+  return std::make_unique<RasterSource>(raster, origin);
+}
+
+std::unique_ptr<TerrainSource> tile_set(const TerrainOptions& options) {
+  constexpr double kSame_deg = 1e-9;  // 0.1 mm
+  auto source = std::make_unique<TileSetSource>(options.seabed.tiles_folder);
+  const frames::Geodetic own = source->origin(), wanted = options.site.origin;
+  if (!options.site.origin_from_raster && (std::abs(own.latitude_deg - wanted.latitude_deg) > kSame_deg ||
+                                           std::abs(own.longitude_deg - wanted.longitude_deg) > kSame_deg)) {
+    throw ConfigError({ConfigProblem{{options.seabed.tiles_folder, 0, 0},
+                                     "origin",
+                                     "is " + place_text(own) + ", and the scenario's site is " + place_text(wanted) +
+                                         "; write site: { origin: raster } to take that of the tiles"}});
+  }
+  return source;
+}
+
+}  // namespace
+
+std::unique_ptr<TerrainSource> source_of(const TerrainOptions& options) {
+  switch (options.seabed.kind) {
+    case Seabed::Kind::kSynthetic: return synthetic(options);
+    case Seabed::Kind::kRaster: return raster(options);
+    case Seabed::Kind::kTiles: return tile_set(options);
+  }
+  return nullptr;
+}
+
+double post_spacing_m(const TerrainOptions& options, const TerrainSource& terrain) {
+  if (options.seabed.kind == Seabed::Kind::kTiles) return terrain.native_spacing_m();
+  return std::min(options.seabed.post_spacing_m, terrain.native_spacing_m());
+}
+
+}  // namespace ensonify::source

@@ -1,0 +1,105 @@
+#include "components/runtime/terrain/tile_set_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ensonify::source {
+namespace {
+
+constexpr std::size_t kKeptTiles = 8;  // 6 MB each at 1025 x 1025 posts
+
+}  // namespace
+
+TileSetSource::TileSetSource(const std::string& folder) : set_(tiles::open_tile_set(folder)) {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  extent_ = {kFar, kFar, -kFar, -kFar};
+  lowest_m_ = kFar;
+  highest_m_ = -kFar;
+  for (const auto& [key, facts] : set_.tiles) {
+    const Vec2 corner = set_.grid.origin_of(key);
+    extent_.west_m = std::min(extent_.west_m, corner.x());
+    extent_.south_m = std::min(extent_.south_m, corner.y());
+    extent_.east_m = std::max(extent_.east_m, corner.x() + set_.grid.side_m());
+    extent_.north_m = std::max(extent_.north_m, corner.y() + set_.grid.side_m());
+    lowest_m_ = std::min(lowest_m_, facts.lowest_m);
+    highest_m_ = std::max(highest_m_, facts.highest_m);
+  }
+}
+
+TileSetSource::TilePtr TileSetSource::tile_at(const terrain::TileKey& key) const {
+  if (!set_.tiles.contains(key)) return nullptr;
+  const auto kept = [&]() -> TilePtr {
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& k) { return k.key == key; });
+    if (found == kept_.end()) return nullptr;
+    kept_.splice(kept_.begin(), kept_, found);
+    return found->tile;
+  };
+  {
+    const std::scoped_lock lock(mutex_);
+    if (auto tile = kept()) return tile;
+  }
+  auto tile = std::make_shared<const terrain::Tile>(tiles::read_tile(set_, key));  // unlocked: threads decode together
+  const std::scoped_lock lock(mutex_);
+  if (auto other = kept()) return other;
+  kept_.push_front({key, tile});
+  if (kept_.size() > kKeptTiles) kept_.pop_back();
+  return tile;
+}
+
+void TileSetSource::sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
+  const bool own = posts.spacing_m == set_.grid.spacing_m;
+  terrain::TileKey held{std::numeric_limits<std::int32_t>::min(), 0};
+  TilePtr tile;
+  const auto hold = [&](const terrain::TileKey& key) {
+    if (key == held) return;
+    held = key;
+    tile = tile_at(key);
+  };
+  std::size_t k = 0;
+  for (int row = 0; row < posts.rows; ++row) {
+    for (int column = 0; column < posts.columns; ++column, ++k) {
+      height_m[k] = std::numeric_limits<float>::quiet_NaN();
+      sediment[k] = 0;
+      if (own) {
+        const std::int64_t cells = set_.grid.cells, east = posts.first_east + column, north = posts.first_north + row;
+        const auto tile_of = [cells](std::int64_t post) {
+          return static_cast<std::int32_t>((post >= 0 ? post : post - cells + 1) / cells);
+        };
+        // The last post of a tile is the first of the next, which may not exist.
+        terrain::TileKey key{tile_of(east), tile_of(north)};
+        if (!set_.tiles.contains(key) && east % cells == 0 && set_.tiles.contains({key.east - 1, key.north}))
+          --key.east;
+        if (!set_.tiles.contains(key) && north % cells == 0) {
+          if (set_.tiles.contains({key.east, key.north - 1})) --key.north;
+          else if (east % cells == 0 && set_.tiles.contains({key.east - 1, key.north - 1})) --key.east, --key.north;
+        }
+        hold(key);
+        if (!tile) continue;
+        const std::size_t post = tile->post(static_cast<std::int32_t>(east - key.east * cells),
+                                            static_cast<std::int32_t>(north - key.north * cells));
+        height_m[k] = tile->height_m[post];
+        sediment[k] = tile->sediment[post];
+      } else {
+        const Vec2 place(posts.east_m(column), posts.north_m(row));
+        hold(set_.grid.key_at(place));
+        if (!tile) continue;
+        if (const auto height = terrain::height_m(*tile, place)) height_m[k] = static_cast<float>(*height);
+        sediment[k] = terrain::sediment_at(*tile, place);
+      }
+    }
+  }
+}
+
+double TileSetSource::height_m(const Vec2& place) const {
+  const auto tile = tile_at(set_.grid.key_at(place));
+  const auto height = tile ? terrain::height_m(*tile, place) : std::nullopt;
+  return height ? *height : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::uint8_t TileSetSource::sediment(const Vec2& place) const {
+  const auto tile = tile_at(set_.grid.key_at(place));
+  return tile ? terrain::sediment_at(*tile, place) : std::uint8_t{0};
+}
+
+}  // namespace ensonify::source

@@ -1,0 +1,161 @@
+"""`ensonify terrain`: what it builds is what the scenario generates, GDAL reads it, and damage is found."""
+import csv
+import io
+import json
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import ensonify
+import numpy as np
+from support import BIN, SOURCE, SystemTest, bay
+
+SCENARIO = SOURCE / "scenarios" / "bay" / "scenario.yaml"
+LSB_M = 2e-4
+
+
+def terrain(*words, text=None):
+    return subprocess.run([BIN / "ensonify-terrain", *map(str, words)], capture_output=True, text=True, input=text, timeout=120)
+
+
+class Terrain(SystemTest):
+    def build(self, name="tiles", *options):
+        folder = self.folder / name
+        done = terrain("build", SCENARIO, folder, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return folder
+
+    def scenario_on(self, folder):
+        """The bay with its generator replaced by a tile set."""
+        text = SCENARIO.read_text(encoding="utf-8")
+        text = re.sub(r"^  kind: synthetic\n", f"  kind: tiles\n  tiles: {{ folder: {folder} }}\n", text, flags=re.M)
+        text = re.sub(r"^  synthetic:\n(    .*\n)+", "", text, flags=re.M)
+        path = self.folder / "on_tiles.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_a_survey_of_the_tiles_hears_what_a_survey_of_the_generator_hears(self):
+        launch = bay(3, topics="[bow/soundings]")
+        generated = self.run_launch(launch, out="generated", timeout=120)
+        self.assertEqual(generated.code, 0, generated.stderr)
+        on_tiles = launch.replace(str(SCENARIO), str(self.scenario_on(self.build())))
+        stored = self.run_launch(on_tiles, out="stored", timeout=120)
+        self.assertEqual(stored.code, 0, stored.stderr)
+        depths = []
+        for result in (generated, stored):
+            with ensonify.Record(result.out / "run.mcap") as record:
+                depths.append([np.asarray(s.position_enu_m) for _, _, s in record.messages("bow/soundings")])
+        self.assertGreater(len(depths[0]), 10)
+        self.assertEqual(len(depths[0]), len(depths[1]))
+        for a, b in zip(*depths):  # beyond the generator's end, tiles are holes in both
+            np.testing.assert_array_equal(a, b)
+
+    def test_gdal_reads_the_set_as_one_raster(self):
+        try:
+            from osgeo import gdal
+        except ImportError:
+            self.skipTest("GDAL's Python module is absent")
+        folder = self.build()
+        raster = gdal.Open(str(folder / "seabed.vrt"))
+        self.assertEqual((raster.RasterXSize, raster.RasterYSize), (2049, 4097))
+        heights = raster.ReadAsArray()
+        west, step, _, north, _, _ = raster.GetGeoTransform()
+        rng = np.random.default_rng(1)
+        column, row = rng.integers(100, 1900, 200), rng.integers(1000, 3000, 200)
+        places = [(west + (c + 0.5) * step, north - (r + 0.5) * step) for c, r in zip(column, row)]
+        points = self.folder / "points.csv"
+        points.write_text("east_m,north_m\n" + "".join(f"{x},{y}\n" for x, y in places))
+        done = terrain("sample", folder, "--points", points)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        sampled = [float(line["elevation_m"]) for line in csv.DictReader(io.StringIO(done.stdout))]
+        np.testing.assert_allclose(sampled, heights[row, column], atol=LSB_M / 2)
+
+    def test_sample_tells_class_and_slope_and_leaves_the_unknown_empty(self):
+        folder = self.build()
+        done = terrain("sample", folder, "--points", "-", text="-60, -40\n\n5000,0\n")
+        lines = list(csv.DictReader(io.StringIO(done.stdout)))
+        self.assertEqual(lines[0]["sediment"], "1")  # the ridge
+        self.assertEqual(lines[1]["elevation_m"], "")
+        self.assertLess(float(lines[0]["slope_deg"]), 60)
+        bad = terrain("sample", folder, "--points", "-", text="1,2\nhere\n")
+        self.assertEqual(bad.returncode, 2)
+
+    def test_info_and_verify(self):
+        folder = self.build()
+        facts = json.loads(terrain("info", folder, "--json").stdout)
+        self.assertEqual((facts["tiles"], facts["spacing_m"], facts["lsb_m"]), (8, 0.25, LSB_M))
+        self.assertEqual(terrain("verify", folder).returncode, 0)
+        tile = sorted((folder / "tiles").glob("*+0000.png"))[0]
+        data = bytearray(tile.read_bytes())
+        data[len(data) // 2] ^= 4
+        tile.write_bytes(data)
+        done = terrain("verify", folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(tile.name, done.stdout)
+
+    def test_the_same_tiles_by_one_thread_and_by_three(self):
+        one, three = self.build("one", "--threads", 1), self.build("three", "--threads", 3)
+        names = sorted(path.relative_to(one) for path in one.rglob("*") if path.is_file())
+        self.assertEqual(names, sorted(path.relative_to(three) for path in three.rglob("*") if path.is_file()))
+        for name in names:
+            self.assertEqual((one / name).read_bytes(), (three / name).read_bytes(), name)
+
+    def test_a_killed_build_goes_on_and_ends_as_if_it_had_not_been(self):
+        whole, broken = self.build("whole"), self.folder / "broken"
+        build = subprocess.Popen([BIN / "ensonify-terrain", "build", SCENARIO, broken, "--threads", "1"],
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while not list(broken.glob("tiles/*.yaml")) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        build.send_signal(signal.SIGKILL)
+        build.wait()
+        self.assertFalse((broken / "tileset.yaml").exists(), "the build was over before it was killed")
+        self.assertEqual(terrain("info", broken).returncode, 2)  # no half set passes for a whole one
+        kept = {path: path.stat().st_mtime_ns for path in broken.glob("tiles/*.yaml")}
+        done = terrain("build", SCENARIO, broken)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for path, time_ns in kept.items():
+            self.assertEqual(path.stat().st_mtime_ns, time_ns, "a finished tile was made again")
+        for path in whole.rglob("*.png"):
+            self.assertEqual(path.read_bytes(), (broken / path.relative_to(whole)).read_bytes())
+
+    def test_a_folder_with_another_seabed_is_left_alone(self):
+        folder = self.build()
+        done = terrain("build", SCENARIO, folder, "--lsb-m", 0.001)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("another seabed", done.stderr)
+
+    def test_a_step_too_fine_for_the_relief_is_refused_with_the_remedy(self):
+        done = terrain("build", SCENARIO, self.folder / "fine", "--lsb-m", 1e-5)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("use a larger lsb_m", done.stderr)
+
+    def test_a_full_disk_is_said_and_the_build_can_go_on(self):
+        mount = self.folder / "small"
+        mount.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1500k", "none", mount], capture_output=True).returncode != 0:
+            self.skipTest("no right to mount a small tmpfs")
+        try:
+            done = terrain("build", SCENARIO, mount / "tiles")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("cannot be written", done.stderr)
+            self.assertFalse(list(mount.rglob("*.part")))
+            subprocess.run(["mount", "-o", "remount,size=50m", mount], check=True)
+            self.assertEqual(terrain("build", SCENARIO, mount / "tiles").returncode, 0)
+            self.assertEqual(terrain("verify", mount / "tiles").returncode, 0)
+        finally:
+            subprocess.run(["umount", mount], check=True)
+
+    def test_tiles_of_another_place_are_refused(self):
+        scenario = self.scenario_on(self.build())
+        scenario.write_text(scenario.read_text().replace("latitude_deg: 42.25", "latitude_deg: 43.25"))
+        launch = bay(1).replace(str(SCENARIO), str(scenario))
+        result = self.run_launch(launch, out="elsewhere", timeout=60)
+        self.assertEqual(result.code, 2)
+        self.assertIn("origin: is 42.25", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
