@@ -39,7 +39,6 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"terrain", "seabeds on disk: build, info, verify, sample"},
     {"doctor", "look for what is wrong with this machine or installation"},
     {"plot", "pictures and summary of a survey"},
-    {"terrain", "import, make and show terrain"},
 };
 
 Programs programs_in(const std::string& folder) {
