@@ -19,7 +19,7 @@ struct LevelSeabed {
 using TwoWayPattern = std::function<double(double forward, double starboard, double down)>;
 
 /// A tone of this level and length, and where it goes.
-struct Transmission {
+struct Tone {
   double source_level_db = 220.0;
   double pulse_length_s = 100e-6;
   TwoWayPattern pattern;
@@ -32,7 +32,7 @@ struct Transmission {
 ///
 /// with dA = R dR dpsi in polar coordinates about the point below the head. No ray, no tube and no code of
 /// kernels/trace or kernels/echo in it. The rule in psi is exact for patterns of uniform lines but for 1e-3 of a dB.
-double mean_square_upa2(const LevelSeabed& seabed, const Transmission& transmission, double time_s);
+double mean_square_upa2(const LevelSeabed& seabed, const Tone& tone, double time_s);
 
 /// Power pattern of `elements` points `spacing_in_waves` apart, steered to a sine: (sin N x / N sin x)^2,
 /// x = pi spacing (sine - steer) [Lurton2010, ch. 5].

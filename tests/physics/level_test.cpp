@@ -42,7 +42,7 @@ TwoWayPattern starboard_pattern(const SidescanChannel& channel) {
   };
 }
 
-Transmission transmission_of(const SidescanChannel& channel) {
+Tone transmission_of(const SidescanChannel& channel) {
   return {channel.source_level_db, channel.pulse_length_s, starboard_pattern(channel),
           1.0 / array::length_in_waves_for(channel.horizontal_beamwidth_rad)};
 }
@@ -58,12 +58,12 @@ TEST_CASE("sidescan: the mean level of a level seabed is that of the area integr
     config.effects.speckle = false;
     const auto ping = sidescan_ping(config, seabed, {0.0, 0.0, -12.0});
     const LevelSeabed sand = medium_sand(frequency_hz, 10.0);
-    const Transmission transmission = transmission_of(config.channels[0]);
+    const Tone tone = transmission_of(config.channels[0]);
     for (const double range_m : {20.0, 30.0, 50.0, 70.0, 100.0}) {
       const Samples about = samples_about(ping, range_m, 0.5);
       double expected = 0.0;
       for (std::size_t k = about.first; k < about.end; ++k) {
-        expected += mean_square_upa2(sand, transmission, sample_time_s(ping, k));
+        expected += mean_square_upa2(sand, tone, sample_time_s(ping, k));
       }
       const double starboard = db(power_sum(ping, 1, about) / expected),
                    port = db(power_sum(ping, 0, about) / expected);
@@ -87,7 +87,7 @@ TEST_CASE("multibeam: the mean level of a level seabed is that of the area integ
     const echo::Image image = cross.hear(seabed, {}, sand.backscatter, sines);
     for (std::size_t b = 0; b < sines.size(); ++b) {
       const double sine = double(sines[b]), null = 1.0 / cross.length_in_waves();
-      const Transmission transmission{
+      const Tone tone{
           cross.source_level_db, cross.pulse_length_s,
           [&](double forward, double starboard, double) { return cross.two_way_power(forward, starboard, sine); },
           null};
@@ -99,7 +99,7 @@ TEST_CASE("multibeam: the mean level of a level seabed is that of the area integ
       double heard = 0.0, expected = 0.0, heard_at_axis = 0.0, expected_at_axis = 0.0;
       for (int k = first; k <= sample_at(sine + null) + 2; ++k) {
         const double p2 = double(image.row(int(b))[k].real());
-        const double integral = mean_square_upa2(sand, transmission, k * cross.sample_period_s);
+        const double integral = mean_square_upa2(sand, tone, k * cross.sample_period_s);
         heard += p2, expected += integral;
         if (std::abs(k - axis) <= 6) heard_at_axis += p2, expected_at_axis += integral;
       }
@@ -125,13 +125,13 @@ TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the
   double arc = 0.0, expected = 0.0, gap = 0.0, silence = 0.0;
   for (std::size_t b = 0; b + 1 < sines.size(); ++b) {
     const double sine = double(sines[b]);
-    const Transmission transmission{
+    const Tone tone{
         cross.source_level_db, cross.pulse_length_s,
         [&](double forward, double starboard, double) { return cross.two_way_power(forward, starboard, sine); },
         1.0 / cross.length_in_waves()};
     for (int k = first; k < first + pulse; ++k) {
       arc += double(image.row(int(b))[k].real());
-      expected += mean_square_upa2(sand, transmission, k * cross.sample_period_s);
+      expected += mean_square_upa2(sand, tone, k * cross.sample_period_s);
     }
     // Between the arc and the beam's own bottom, at 21.2 m (25 degrees: 22.1 m), the same beams hear less.
     const int later = static_cast<int>(42.4 / kSpeed_mps / cross.sample_period_s);
@@ -166,14 +166,14 @@ TEST_CASE("the range at which a sidescan's signal is as strong as its noise is t
     }
 
     const LevelSeabed sand = medium_sand(frequency_hz, 10.0);
-    const Transmission transmission = transmission_of(channel);
+    const Tone tone = transmission_of(channel);
     const double directivity_db =
         array::directivity_index_db(array::length_in_waves_for(channel.horizontal_beamwidth_rad),
                                     array::length_in_waves_for(channel.vertical_beamwidth_rad));
     const double noise_db =
         water::ambient_noise_level_db(frequency_hz, 0.0) + db(1.0 / channel.pulse_length_s) - directivity_db;
     double expected_m = 20.0;
-    while (db(mean_square_upa2(sand, transmission, expected_m / 750.0 + 0.5 * channel.pulse_length_s)) > noise_db) {
+    while (db(mean_square_upa2(sand, tone, expected_m / 750.0 + 0.5 * channel.pulse_length_s)) > noise_db) {
       expected_m += 0.1;
     }
     INFO(frequency_hz << " Hz: " << found_m << " m, expected " << expected_m << " m");
