@@ -22,13 +22,14 @@ constexpr double kDepth_m = 20.0, kAbsorption_dbpm = 0.07, kNoise_db = 35.0, kBa
 constexpr int kBinDegrees = 5;
 
 /// Signal to noise ratio at the axis of a beam of 1 x 1 degree, 100 us, by the sonar equation. The directivity is that
-/// of a uniform line of the same width; the head's shaded one has 0.4 dB more.
+/// of a uniform line of the same width (the head's shaded one has 0.4 dB more) and of a face that hears half of all
+/// directions.
 double snr_db(double source_level_db, double angle_rad) {
   const double range_m = kDepth_m / std::cos(angle_rad);
   const double area_m2 = sonar_equation::multibeam_area_m2(range_m, angle_rad, kDeg, kDeg, 1500.0, 100e-6);
   const double strength_db = kBackscatter_db + 20.0 * std::log10(std::cos(angle_rad));  // Lambert
   return sonar_equation::seabed_level_db(source_level_db, {range_m, kAbsorption_dbpm}, strength_db, area_m2) -
-         (kNoise_db + 10.0 * std::log10(1.0 / 100e-6) - 10.0 * std::log10(2.0 * 50.76));
+         (kNoise_db + 10.0 * std::log10(1.0 / 100e-6) - 10.0 * std::log10(2.0 * 2.0 * 50.76));
 }
 
 /// A transmit line's fan is not thin: what comes from the sine u fore or aft on the same receive cone comes from
