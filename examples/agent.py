@@ -5,8 +5,9 @@
 
 It sees beam time series and the navigation estimate, nothing else: no soundings, no truth. From the first strong echo of
 each beam it makes points on the seabed, lays a plane through those of the last pings, and steers along the plane's contour
-towards the wanted depth. Parameters (`config:` in the launch file): depth_m, speed_mps, and blind: true, which zeroes the
-pings before it looks at them: the control that shows that it needs them.
+towards the wanted depth. Parameters (`config:` in the launch file): depth_m, speed_mps, head_down_m (of the head, below the
+vehicle's reference point), and blind: true, which zeroes the pings before it looks at them: the control that shows that it
+needs them.
 """
 import collections
 
@@ -15,6 +16,7 @@ import numpy as np
 import ensonify
 
 SWATH_RAD = np.radians(45)  # farther out an echo says little about depth
+NEAREST_M = 2.0  # what comes back sooner is the surface above the head
 STRONG = 10.0  # times the median of its beam
 PINGS = 20  # that the plane is laid through
 LOOK_AHEAD_M = 15.0  # the larger, the gentler the approach
@@ -29,15 +31,18 @@ def rotation(wxyz) -> np.ndarray:
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
-def seabed_points(ping: ensonify.Ping, amplitude_upa: np.ndarray, pose: ensonify.Estimate) -> np.ndarray:
+def seabed_points(ping: ensonify.Ping, amplitude_upa: np.ndarray, pose: ensonify.Estimate, head_down_m: float) -> np.ndarray:
     """Where each beam's first strong echo came from: points x 3, world frame, metres."""
+    metres_per_sample = ping.sample_period_s * ping.sound_speed_mps / 2
+    nearest = max(0, int(np.ceil(NEAREST_M / metres_per_sample - ping.first_sample_s / ping.sample_period_s)))
+    amplitude_upa = amplitude_upa[:, nearest:]
     peak = amplitude_upa.max(axis=1)
     angle = ping.beam_angle_rad
     strong = (np.abs(angle) <= SWATH_RAD) & (peak > 0) & (peak > STRONG * np.median(amplitude_upa, axis=1))
     first = (amplitude_upa[strong] >= 0.5 * peak[strong, None]).argmax(axis=1)
-    range_m = (ping.first_sample_s + first * ping.sample_period_s) * ping.sound_speed_mps / 2
+    range_m = ping.first_sample_s * ping.sound_speed_mps / 2 + (nearest + first) * metres_per_sample
     along_beam = np.stack([np.zeros(range_m.size), np.sin(angle[strong]), np.cos(angle[strong])], axis=1)  # body, FRD
-    return np.array(pose.position_enu_m) + (along_beam * range_m[:, None]) @ rotation(pose.enu_from_body).T
+    return np.array(pose.position_enu_m) + (along_beam * range_m[:, None] + [0, 0, head_down_m]) @ rotation(pose.enu_from_body).T
 
 
 def plane_below(points: np.ndarray, place_enu_m) -> tuple:
@@ -59,6 +64,7 @@ def main() -> None:
     with ensonify.Participant() as me:
         wanted_m = me.config.get("depth_m", 18.0)
         speed_mps = me.config.get("speed_mps", 2.0)
+        head_down_m = me.config.get("head_down_m", 0.0)
         blind = me.config.get("blind", False)
         pings = me.subscribe("ping", ensonify.Ping)
         estimates = me.subscribe("estimate", ensonify.Estimate)
@@ -71,7 +77,7 @@ def main() -> None:
             for ping in pings:
                 pose = min(poses, key=lambda estimate: abs(estimate.stamp_ns - ping.stamp_ns))
                 amplitude_upa = np.zeros_like(ping.amplitude_upa) if blind else ping.amplitude_upa
-                seen.append(seabed_points(ping, amplitude_upa, pose))
+                seen.append(seabed_points(ping, amplitude_upa, pose, head_down_m))
             points = np.concatenate(seen) if seen else np.empty((0, 3))
             if len(seen) == PINGS and len(points) > 100:
                 depth_m, gradient = plane_below(points, poses[-1].position_enu_m)
