@@ -20,7 +20,7 @@ import ensonify  # noqa: E402  (found beside this script)
 SPEED_MPS = 1490.0  # of scenarios/bay
 RUNS = (("free: each on its own ping rate", ()),
         ("slave: the sidescan follows the multibeam", ("--arg", "side=slave")),
-        ("interleaved: in turns", ("--arg", "side=interleaved", "--arg", "bow_hz=5")))
+        ("interleaved: in turns", ("--arg", "side=interleaved", "--arg", "bow=interleaved")))
 
 
 def run(arguments):
