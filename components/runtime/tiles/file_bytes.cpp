@@ -1,5 +1,6 @@
 #include "components/runtime/tiles/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
