@@ -62,7 +62,7 @@ def judge(samples):
 
 def long_run(build, minutes):
     with tempfile.TemporaryDirectory(prefix="ensonify-soak-") as out:
-        seconds = int(minutes * 60 * 20)  # the launch file paces at 20 sim seconds per second
+        seconds = int(minutes * 60 * 10)  # the launch file paces at 10 sim seconds per second
         run = subprocess.Popen([str(build / "bin" / "ensonify-run"), str(ROOT / "bench/launch/soak.yaml"), "--quiet",
                                 "--out", out, "--arg", f"seconds={seconds}"], stderr=subprocess.PIPE, text=True)
         samples = []
