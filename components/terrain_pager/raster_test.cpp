@@ -140,6 +140,44 @@ TEST_CASE("a south-up raster is read as well as a north-up one") {
   CHECK(a.extent().north_m == Approx(b.extent().north_m).margin(1e-3));
 }
 
+TEST_CASE("a raster turned and sheared against its map stands where its geotransform says") {
+  MadeRaster raster;
+  raster.name = "turned.tif";
+  raster.height = [](double, double) { return -20.0; };
+  const double turned[6] = {360000.0, 1.9, 0.7, 4680000.0, 0.6, -2.3};
+  std::copy(std::begin(turned), std::end(turned), raster.geotransform);
+  const RasterSource source(options_for(raster), std::nullopt);
+  const auto at = [&](double column, double row) {  // where UTM and the world's map place the centre of a cell
+    const double c = column + 0.5, r = row + 0.5;
+    double latitude = 0, longitude = 0;
+    GeographicLib::UTMUPS::Reverse(19, true, turned[0] + c * turned[1] + r * turned[2],
+                                   turned[3] + c * turned[4] + r * turned[5], latitude, longitude);
+    return frames::LocalProjection(source.origin()).enu_of({latitude, longitude});
+  };
+  // A third of a cell inside and outside the corners' centres.
+  for (const auto& [column, row] : {std::pair{0.0, 0.0}, {199.0, 0.0}, {0.0, 119.0}, {199.0, 119.0}}) {
+    const double in = 1.0 / 3.0, to_c = column == 0.0 ? in : -in, to_r = row == 0.0 ? in : -in;
+    CHECK(source.height_m(at(column + to_c, row + to_r)) == Approx(-20.0));
+    CHECK(std::isnan(source.height_m(at(column - to_c, row + to_r))));
+    CHECK(std::isnan(source.height_m(at(column + to_c, row - to_r))));
+  }
+}
+
+TEST_CASE("a raster across the antimeridian is one seabed, by whichever longitudes it is written") {
+  for (const double west_deg : {179.999, -180.001}) {
+    MadeRaster raster;
+    raster.name = "antimeridian.tif";
+    raster.epsg = 4326;
+    const double degrees[6] = {west_deg, 1e-5, 0.0, -16.0, 0.0, -1e-5};
+    std::copy(std::begin(degrees), std::end(degrees), raster.geotransform);
+    raster.height = [&](double x, double) { return -20.0 + 1000.0 * (x - west_deg); };  // 2 m over 200 cells
+    const RasterSource source(options_for(raster), std::nullopt);
+    CHECK(source.extent().east_m - source.extent().west_m == Approx(199 * 1e-5 * 107036).epsilon(1e-3));
+    CHECK(source.height_m({-100, 0}) == Approx(-19.0 - 1000.0 * 100.0 / 107036).margin(1e-3));
+    CHECK(source.height_m({100, 0}) == Approx(-19.0 + 1000.0 * 100.0 / 107036).margin(1e-3));
+  }
+}
+
 TEST_CASE("holes stay holes, or are filled when asked") {
   MadeRaster raster;
   const auto plane = raster.height;
@@ -196,9 +234,10 @@ TEST_CASE("rasters that cannot be trusted are refused with cause and remedy") {
     options.crs = "EPSG:32619";
     CHECK(refusal(options) == "accepted");
   }
-  SECTION("rotated") {
-    raster.geotransform[2] = 0.5;
-    CHECK(refusal(options_for(raster)).find("is rotated against its map") == 0);
+  SECTION("squeezed to nothing") {
+    raster.geotransform[2] = -2.0;
+    raster.geotransform[4] = 2.5;
+    CHECK(refusal(options_for(raster)) == "has a geotransform that squeezes its cells to nothing");
   }
   SECTION("degrees over half a continent") {
     raster.epsg = 4326;

@@ -64,7 +64,15 @@ struct RasterSource::CellGrid {
 };
 
 RasterSource::RasterSource(RasterOptions options, std::optional<frames::Geodetic> origin, std::uint8_t sediment)
-    : file_(std::move(options)), sediment_(sediment), map_from_enu_(nullptr, destroy), enu_from_map_(nullptr, destroy) {
+    : RasterSource(std::make_shared<const RasterFile>(std::move(options)), origin, Between::kBilinear, sediment) {}
+
+RasterSource::RasterSource(std::shared_ptr<const RasterFile> file, std::optional<frames::Geodetic> origin,
+                           Between between, std::uint8_t sediment)
+    : file_(std::move(file)),
+      between_(between),
+      sediment_(sediment),
+      map_from_enu_(nullptr, destroy),
+      enu_from_map_(nullptr, destroy) {
   CPLPushErrorHandler(CPLQuietErrorHandler);
   struct Pop {
     ~Pop() { CPLPopErrorHandler(); }
@@ -78,21 +86,20 @@ RasterSource::~RasterSource() = default;
 
 frames::Geodetic RasterSource::centre() const {
   const OGRSpatialReference to = geodetic();
-  const Transformation geodetic_from_map(OGRCreateCoordinateTransformation(&file_.reference(), &to), destroy);
-  double x = file_.map_x((file_.columns() - 1) / 2.0);
-  double y = file_.map_y((file_.rows() - 1) / 2.0);
+  const Transformation geodetic_from_map(OGRCreateCoordinateTransformation(&file_->reference(), &to), destroy);
+  auto [x, y] = file_->map_of((file_->columns() - 1) / 2.0, (file_->rows() - 1) / 2.0);
   if (!geodetic_from_map || !geodetic_from_map->Transform(1, &x, &y)) {
-    file_.refuse(std::string("its reference system cannot be related to WGS 84: ") + CPLGetLastErrorMsg());
+    file_->refuse(std::string("its reference system cannot be related to WGS 84: ") + CPLGetLastErrorMsg());
   }
-  return {y, x};
+  return {y, std::remainder(x, 360.0)};
 }
 
 void RasterSource::connect_maps() {
   const OGRSpatialReference enu = enu_at(origin_);
-  map_from_enu_.reset(OGRCreateCoordinateTransformation(&enu, &file_.reference()));
-  enu_from_map_.reset(OGRCreateCoordinateTransformation(&file_.reference(), &enu));
+  map_from_enu_.reset(OGRCreateCoordinateTransformation(&enu, &file_->reference()));
+  enu_from_map_.reset(OGRCreateCoordinateTransformation(&file_->reference(), &enu));
   if (!map_from_enu_ || !enu_from_map_) {
-    file_.refuse(std::string("its reference system cannot be related to WGS 84: ") + CPLGetLastErrorMsg());
+    file_->refuse(std::string("its reference system cannot be related to WGS 84: ") + CPLGetLastErrorMsg());
   }
 }
 
@@ -100,36 +107,41 @@ void RasterSource::connect_maps() {
 void RasterSource::measure() {
   constexpr int kSteps = 32;
   std::vector<double> x, y;
+  const auto add = [&](double column, double row) {
+    const auto [map_x, map_y] = file_->map_of(column, row);
+    x.push_back(map_x), y.push_back(map_y);
+  };
   for (int k = 0; k <= kSteps; ++k) {
-    const double column = (file_.columns() - 1) * static_cast<double>(k) / kSteps;
-    const double row = (file_.rows() - 1) * static_cast<double>(k) / kSteps;
-    for (const double r : {0.0, file_.rows() - 1.0}) x.push_back(file_.map_x(column)), y.push_back(file_.map_y(r));
-    for (const double c : {0.0, file_.columns() - 1.0}) x.push_back(file_.map_x(c)), y.push_back(file_.map_y(row));
+    const double column = (file_->columns() - 1) * static_cast<double>(k) / kSteps;
+    const double row = (file_->rows() - 1) * static_cast<double>(k) / kSteps;
+    for (const double r : {0.0, file_->rows() - 1.0}) add(column, r);
+    for (const double c : {0.0, file_->columns() - 1.0}) add(c, row);
   }
   const auto count = static_cast<int>(x.size());
   const bool related = enu_from_map_->Transform(count, x.data(), y.data()) != 0 &&
                        std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
-  if (!related) file_.refuse("does not lie within reach of the world's origin; at most 200 km x 200 km are allowed");
+  if (!related) file_->refuse("does not lie within reach of the world's origin; at most 200 km x 200 km are allowed");
   const auto [west, east] = std::minmax_element(x.begin(), x.end());
   const auto [south, north] = std::minmax_element(y.begin(), y.end());
   extent_ = {*west, *south, *east, *north};
   const double width = extent_.east_m - extent_.west_m, height = extent_.north_m - extent_.south_m;
   if (width > kLargest_m || height > kLargest_m) {
-    file_.refuse("covers " + kilometres(width, height) +
-                 "; at most 200 km x 200 km are allowed: cut out the survey area first (gdal_translate -projwin)");
+    file_->refuse("covers " + kilometres(width, height) +
+                  "; at most 200 km x 200 km are allowed: cut out the survey area first (gdal_translate -projwin)");
   }
   const double far = std::max(
       {std::abs(extent_.west_m), std::abs(extent_.east_m), std::abs(extent_.south_m), std::abs(extent_.north_m)});
   if (far > 2 * kLargest_m) {
-    file_.refuse("lies " + std::to_string(static_cast<int>(far / 1e3)) +
-                 " km from the scenario's origin; allowed are 400 km, or `origin: raster` in the scenario's site");
+    file_->refuse("lies " + std::to_string(static_cast<int>(far / 1e3)) +
+                  " km from the scenario's origin; allowed are 400 km, or `origin: raster` in the scenario's site");
   }
   // A cell in the middle, from its centre to those of its neighbours east and south.
-  const int column = (file_.columns() - 1) / 2, row = (file_.rows() - 1) / 2;
-  double cx[3] = {file_.map_x(column), file_.map_x(column + 1), file_.map_x(column)};
-  double cy[3] = {file_.map_y(row), file_.map_y(row), file_.map_y(row + 1)};
-  enu_from_map_->Transform(3, cx, cy);
-  native_spacing_m_ = std::min(std::hypot(cx[1] - cx[0], cy[1] - cy[0]), std::hypot(cx[2] - cx[0], cy[2] - cy[0]));
+  const int column = (file_->columns() - 1) / 2, row = (file_->rows() - 1) / 2;
+  x.clear(), y.clear();
+  add(column, row), add(column + 1, row), add(column, row + 1);
+  enu_from_map_->Transform(3, x.data(), y.data());
+  native_spacing_m_ = std::min(std::hypot(x[1] - x[0], y[1] - y[0]), std::hypot(x[2] - x[0], y[2] - y[0]));
+  cell_area_m2_ = std::abs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]));
 }
 
 RasterSource::Transformation RasterSource::clone(const Transformation& transformation) const {
@@ -158,8 +170,10 @@ RasterSource::CellGrid RasterSource::cells_of(const PostBlock& posts) const {
   }
   const Transformation map_from_enu = clone(map_from_enu_);
   map_from_enu->Transform(static_cast<int>(cells.column.size()), cells.column.data(), cells.row.data());
-  for (double& x : cells.column) x = file_.column_of(x);
-  for (double& y : cells.row) y = file_.row_of(y);
+  for (std::size_t k = 0; k < cells.column.size(); ++k) {
+    const auto [column, row] = file_->cell_of(cells.column[k], cells.row[k]);
+    cells.column[k] = column, cells.row[k] = row;
+  }
   return cells;
 }
 
@@ -177,6 +191,13 @@ double interpolate(const CellWindow& window, const std::vector<float>& elevation
   const float* second = first + window.columns;
   const auto between = [](double a, double b, double t) { return t == 0.0 ? a : t == 1.0 ? b : (1.0 - t) * a + t * b; };
   return between(between(first[0], first[1], u), between(second[0], second[1], u), v);
+}
+
+/// The value of the nearest cell; NaN outside the window.
+double nearest(const CellWindow& window, const std::vector<float>& value, double column, double row) {
+  const double c = std::round(column - window.column), r = std::round(row - window.row);
+  if (!(c >= 0.0 && r >= 0.0 && c <= window.columns - 1 && r <= window.rows - 1)) return kNone;
+  return value[static_cast<std::size_t>(r) * static_cast<std::size_t>(window.columns) + static_cast<std::size_t>(c)];
 }
 
 /// The cells that some of these places need: at least 2 x 2, or none when all are outside.
@@ -206,16 +227,17 @@ void RasterSource::sample(const PostBlock& posts, std::span<float> height_m, std
   std::fill(height_m.begin(), height_m.end(), std::numeric_limits<float>::quiet_NaN());
   std::fill(sediment.begin(), sediment.end(), sediment_);
   const CellGrid cells = cells_of(posts);
-  const auto window = window_around(file_, cells.column, cells.row);
+  const auto window = window_around(*file_, cells.column, cells.row);
   if (!window) return;
   std::vector<float> elevation_m(static_cast<std::size_t>(window->columns) * static_cast<std::size_t>(window->rows));
-  file_.read(*window, elevation_m);
+  file_->read(*window, elevation_m);
+  const auto value_at = between_ == Between::kNearest ? nearest : interpolate;
   std::size_t k = 0;
   for (int j = 0; j < posts.rows; ++j) {
     for (int i = 0; i < posts.columns; ++i, ++k) {
       const std::int64_t east = posts.first_east + i, north = posts.first_north + j;
       height_m[k] = static_cast<float>(
-          interpolate(*window, elevation_m, cells.at(cells.column, east, north), cells.at(cells.row, east, north)));
+          value_at(*window, elevation_m, cells.at(cells.column, east, north), cells.at(cells.row, east, north)));
     }
   }
 }
@@ -224,12 +246,13 @@ double RasterSource::height_m(const Vec2& place) const {
   const std::scoped_lock lock(mutex_);
   double x = place.x(), y = place.y();
   if (!map_from_enu_->Transform(1, &x, &y)) return kNone;
-  const std::vector<double> column{file_.column_of(x)}, row{file_.row_of(y)};
-  const auto window = window_around(file_, column, row);
+  const auto cell = file_->cell_of(x, y);
+  const std::vector<double> column{cell[0]}, row{cell[1]};
+  const auto window = window_around(*file_, column, row);
   if (!window) return kNone;
   std::vector<float> elevation_m(static_cast<std::size_t>(window->columns) * static_cast<std::size_t>(window->rows));
-  file_.read(*window, elevation_m);
-  return interpolate(*window, elevation_m, column[0], row[0]);
+  file_->read(*window, elevation_m);
+  return (between_ == Between::kNearest ? nearest : interpolate)(*window, elevation_m, column[0], row[0]);
 }
 
 }  // namespace ensonify::source

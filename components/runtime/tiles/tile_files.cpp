@@ -1,17 +1,16 @@
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <memory>
+#include <span>
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/tiles/file_bytes.h"
+#include "components/runtime/tiles/sha256.h"
 #include "components/runtime/tiles/sidecar.h"
 #include "components/runtime/tiles/tile_set.h"
 
@@ -29,20 +28,12 @@ struct Planes {
 std::size_t post_of(const terrain::Tile& tile, int row, int column) { return tile.post(column, tile.rows - 1 - row); }
 
 std::string checksum(const Planes& planes) {
-  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
   const std::string head = fmt::format("{} {}\n", planes.height.side, planes.offset_steps);
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1 ||
-      EVP_DigestUpdate(context.get(), head.data(), head.size()) != 1 ||
-      EVP_DigestUpdate(context.get(), planes.height.value.data(), planes.height.value.size() * 2) != 1 ||
-      EVP_DigestUpdate(context.get(), planes.sediment.value.data(), planes.sediment.value.size()) != 1 ||
-      EVP_DigestFinal_ex(context.get(), digest.data(), &length) != 1) {
-    throw TileError("no SHA-256 in the cryptographic library");
-  }
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
-  return text;
+  Sha256 sum;
+  sum.add(std::as_bytes(std::span(head)));
+  sum.add(std::as_bytes(std::span(planes.height.value)));
+  sum.add(std::as_bytes(std::span(planes.sediment.value)));
+  return sum.digest();
 }
 
 struct Measured {
