@@ -190,8 +190,9 @@ struct Transmit {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("stamp_ns", "ns", "time of transmission, sim time", self.stamp_ns);
-    visit("ping", "1", "ping number of this head, from 0", self.ping);
+    visit("stamp_ns", "ns", "time of transmission, sim time; of a sector that is sent later in the ping, its own",
+          self.stamp_ns);
+    visit("ping", "1", "ping number of this head, from 0; the same of all sectors of a ping", self.ping);
     visit("frequency_hz", "Hz", "centre frequency", self.frequency_hz);
     visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);

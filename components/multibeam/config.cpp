@@ -46,6 +46,7 @@ void read_sectors(ConfigReader& from, MultibeamConfig& c) {
     section.optional("delay_s", sector.delay_s, 0, 0.1);
     c.sectors.push_back(sector);
   }
+  from.optional("sector_rejection_db", c.sector_rejection_db, 0, 200);
   if (c.sectors.size() > 16) from.problem("sectors", "are " + std::to_string(c.sectors.size()) + "; at most 16");
 }
 

@@ -49,6 +49,7 @@ struct MultibeamParameters {
   double back_loss_db = 40.0;                     // one-way, behind the face
   double electronic_noise_db = -200.0;            // of each element, as sound in the water, re 1 uPa^2/Hz
   std::vector<Sector> sectors;                    // from port to starboard; empty: one transmission over the swath
+  double sector_rejection_db = 80.0;              // by a sector's filter, of what lies outside its band
   double pulse_length_s = 100e-6;                 // rectangular CW
   double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m; the most that can be set
   bool roll_stabilised = true;                    // beams and sectors are steered against the measured roll

@@ -19,9 +19,10 @@ const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot,
   const auto samples = static_cast<std::size_t>(config_.samples(shot.range_m, settings.pulse_length_s));
   amplitude_upa_->resize(samples * steering.sin_beams.size());
   heard_.clear();
+  for (SectorEchoes& sector : sectors_) sector.send(shot, settings, steering, truth, seabed);
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     SectorEchoes& sector = sectors_[i];
-    sector.listen(shot, settings, steering, truth, seabed);
+    sector.hear(shot, settings, sectors_);
     const echo::Image& whole = sector.whole();
     const auto rows = std::span(*amplitude_upa_)
                           .subspan(samples * static_cast<std::size_t>(steering.sectors[i].first_beam),

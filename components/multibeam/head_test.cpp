@@ -207,6 +207,7 @@ TEST_CASE("each sector is sent at its own time and frequency, and heard by its o
 TEST_CASE("where two sectors meet each is sent with half its amplitude") {
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = config.effects.multipath = config.effects.speckle = false;
+  config.effects.interference = false;
   config.quality = 0.5;
   const Listened one = listened(config);
   config.sectors = {{.share = 10.0, .frequency_hz = 300e3}, {.share = 21.0, .frequency_hz = 300e3}};
@@ -225,4 +226,41 @@ TEST_CASE("where two sectors meet each is sent with half its amplitude") {
   const double edge_db = 10.0 * std::log10(energy(two, 10) / energy(one, 10));
   CHECK(edge_db < -3.0);
   CHECK(edge_db > -6.5);
+}
+
+TEST_CASE("a sector hears the others as its filter lets them through") {
+  MultibeamConfig config = small();
+  config.effects.noise = config.effects.volume = config.effects.multipath = false;
+  const auto cross_talk = [&](double frequency_hz, double rejection_db) {
+    config.sectors = {{.frequency_hz = 300e3}, {.frequency_hz = frequency_hz, .delay_s = 4e-3}};
+    config.sector_rejection_db = rejection_db;
+    MultibeamConfig apart = config;
+    apart.effects.interference = false;
+    return difference(listened(config).starboard, listened(apart).starboard);
+  };
+  // Beside the band: by the rejection, to the rounding of fields that are some hundred times louder.
+  const Field weaker = cross_talk(330e3, 40.0), loud = cross_talk(330e3, 20.0);
+  REQUIRE(largest(loud) > 0.0F);
+  Field scaled = weaker;
+  for (auto& value : scaled) value *= 10.0F;
+  CHECK(largest(difference(scaled, loud)) < 1e-3F * largest(loud));
+
+  // In the band: the beam beside the nadir, where both are sent alike, hears the bottom again 4 ms later.
+  config.effects.speckle = false;
+  config.sectors = {{.frequency_hz = 300e3}, {.frequency_hz = 300e3, .delay_s = 4e-3}};
+  const msg::Ping together = listened(config).ping;
+  const auto level_db = [&](const msg::Ping& of, double time_s) {  // the mean over a pulse
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const auto sample =
+          static_cast<std::size_t>(std::lround(time_s / of.sample_period_s)) + static_cast<std::size_t>(k);
+      sum += std::pow(static_cast<double>(of.amplitude_upa(15, sample)), 2);
+    }
+    return 10.0 * std::log10(sum);
+  };
+  constexpr double kBottom_s = 0.0267;
+  CHECK(level_db(together, kBottom_s + 4e-3) - level_db(together, kBottom_s) == Approx(0.0).margin(3.0));
+  config.effects.interference = false;
+  const msg::Ping apart = listened(config).ping;
+  CHECK(level_db(apart, kBottom_s) - level_db(apart, kBottom_s + 4e-3) > 10.0);
 }

@@ -73,7 +73,11 @@ void MultibeamNode::transmit(SimTime now) {
   const SimTime listening = from_seconds(config_.listening_s(settings.range_m, settings.pulse_length_s));
   std::vector<Transmission> sectors;
   for (const auto& sector : config_.all_sectors()) {
-    sectors.push_back({sector.frequency_hz, settings.pulse_length_s, listening, settings});
+    sectors.push_back({.frequency_hz = sector.frequency_hz,
+                       .pulse_length_s = settings.pulse_length_s,
+                       .listening = listening,
+                       .settings = settings,
+                       .delay = from_seconds(sector.delay_s)});
   }
   cycle_.transmit(now, std::move(sectors));
   steerings_.push_back(steer(config_, settings.swath_rad, belief(now)));

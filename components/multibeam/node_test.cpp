@@ -638,3 +638,21 @@ TEST_CASE("sectors of several frequencies, one after the other, see one flat sea
     CHECK(error.sd < 0.04);
   }
 }
+
+TEST_CASE("each sector's transmission is told with its own time and frequency, the earliest first") {
+  MultibeamConfig config = shallow();
+  config.sectors = {
+      {.frequency_hz = 280e3, .delay_s = 1e-3}, {.frequency_hz = 300e3, .delay_s = 2e-3}, {.frequency_hz = 320e3}};
+  Head head(config);
+  give_motion(head, {}, 300_ms);
+  head.give("tile", flat_tile(-20.0));
+  const auto told = head.step_until<msg::Transmit>("transmit", 250_ms);
+  REQUIRE(told.size() == 9);
+  const double frequencies_hz[] = {320e3, 280e3, 300e3};
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const auto ping = static_cast<std::int64_t>(i / 3);
+    CHECK(told[i].ping == ping);
+    CHECK(told[i].frequency_hz == frequencies_hz[i % 3]);
+    CHECK(told[i].stamp_ns == ping * 100'000'000 + static_cast<std::int64_t>(i % 3) * 1'000'000);
+  }
+}

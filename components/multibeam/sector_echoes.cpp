@@ -114,12 +114,24 @@ SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, doubl
           std::move(directions)};
 }
 
-void SectorEchoes::listen(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                          const frames::PoseHistory& truth, const trace::Scene& seabed) {
+void SectorEchoes::send(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+                        const frames::PoseHistory& truth, const trace::Scene& seabed) {
   prepare(shot, settings, truth);
   aim(steering);
   look(seabed);
   arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
+}
+
+void SectorEchoes::hear(const Shot& shot, const HeadSettings& settings, const std::deque<SectorEchoes>& all) {
+  for (const SectorEchoes& other : all) {
+    if (&other == this) continue;
+    echo::ForeignTransmission sent;
+    sent.time_s = other.delay_s_ - delay_s_;
+    sent.frequency_hz = other.frequency_hz_;
+    sent.duration_s = settings.pulse_length_s;
+    sent.rejection_db = config_.sector_rejection_db;
+    arrivals_.add_echoes_of(sent, other.arrivals_.echoes(), listening_->pulse);
+  }
   std::vector<echo::ForeignTransmission> foreign = shot.foreign;
   for (echo::ForeignTransmission& sound : foreign) sound.time_s -= delay_s_;
   const auto& arrivals = arrivals_.add_interference(foreign, listening_->pulse);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -21,18 +22,21 @@
 namespace ensonify {
 
 /// The acoustics of one transmit sector: what its beams hear of its transmission. Uses the true motion, the actual
-/// mounting and the true water, as the sea does. Other sectors are not heard: they differ in frequency, or have died
-/// away.
+/// mounting and the true water, as the sea does. Of other sectors it hears what its filter lets through, by its own
+/// beams' side lobes and where sectors meet.
 class SectorEchoes {
  public:
   SectorEchoes(const MultibeamConfig& config, std::size_t sector);
   SectorEchoes(const SectorEchoes&) = delete;
   SectorEchoes& operator=(const SectorEchoes&) = delete;
 
-  /// Rays from the true pose at transmission, echoes at the true poses at reception, noise at the array's elements. A
-  /// function of the shot, the settings, the steering, the poses and the tiles. `truth` has a pose.
-  void listen(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-              const frames::PoseHistory& truth, const trace::Scene& seabed);
+  /// Its transmission: rays from the true pose when it is sent, echoes at the true poses at reception. `truth` has a
+  /// pose.
+  void send(const Shot& shot, const HeadSettings& settings, const Steering& steering, const frames::PoseHistory& truth,
+            const trace::Scene& seabed);
+  /// What its beams hear when `all` sectors of the ping, itself among them, have been sent; with noise at the array's
+  /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
+  void hear(const Shot& shot, const HeadSettings& settings, const std::deque<SectorEchoes>& all);
 
   /// The sector's beams of the last ping, as all of the receive line hears them, and as its starboard and its port half
   /// do (empty without speckle: sums of mean squares have no phase). Times count from the sector's own transmission.

@@ -123,6 +123,7 @@ TEST_CASE("a slave hears its master in one place, and only there") {
   give_surroundings(head, 1_s);
   for (int n = 0; n < 9; ++n) {
     auto master = shot_of_other(n * 103_ms);
+    master.ping = n;
     master.next_ns = ((n + 1) * 103_ms).count();
     head.give("trigger", master);
     head.give("bow/transmit", master);

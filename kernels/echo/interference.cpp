@@ -8,6 +8,16 @@ namespace ensonify::echo {
 namespace {
 
 constexpr double kNearest_m = 0.1;  // spreading begins there
+constexpr double kGoldenRatio = 0.6180339887498949;
+
+std::complex<double> turned(double amplitude, double cycles) {
+  return std::polar(amplitude, 2.0 * std::numbers::pi * (cycles - std::floor(cycles)));
+}
+
+/// How many echoes of ours, one after another, last as long as what passes.
+long pulses_in(const Passed& passed, double length_s) {
+  return std::max(1L, std::lround(passed.duration_s / length_s));
+}
 
 /// Times within a sweep at which it passes a frequency; a tone (0 Hz) has all of its frequencies from its start on.
 double passes_at_s(double sweep_hz, double length_s, double offset_hz) {
@@ -39,6 +49,25 @@ Passed through_filter(const ForeignTransmission& foreign, const ReceiverBand& ba
   return {first_s, duration_s, std::min(1.0, energy_s / duration_s)};
 }
 
+void add_echoes_of(const ForeignTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
+                   const Pulse& pulse, std::vector<Arrival>& arrivals) {
+  const Passed passed = through_filter(other, band, pulse);
+  const double length_s = pulse.equivalent_length_s();
+  const auto places = pulses_in(passed, length_s);
+  const double mean_square = passed.power * static_cast<double>(places);
+  const auto scale = static_cast<float>(other.frequency_hz / band.frequency_hz);
+  double place = 0.0;  // 0..1, evenly, never twice the same
+  for (const Arrival& echo : echoes) {
+    const double after_s = std::floor(place * static_cast<double>(places)) * length_s;
+    place += kGoldenRatio - std::floor(place + kGoldenRatio);
+    const double time_s = other.time_s + echo.time_s + passed.start_s + after_s;
+    // Its phase is that at its own carrier, which began with its own transmission.
+    const double cycles = (other.frequency_hz - band.frequency_hz) * time_s - other.frequency_hz * other.time_s;
+    const auto pressure = band.sum == Sum::kPressure ? turned(std::sqrt(mean_square), cycles) : mean_square;
+    arrivals.push_back({time_s, echo.pressure_upa * std::complex<float>(pressure), scale * echo.direction_head});
+  }
+}
+
 void add_interference(std::span<const ForeignTransmission> transmissions, const ReceiverBand& band, const Pulse& pulse,
                       const Receivers& receivers, std::vector<Arrival>& arrivals) {
   const double length_s = pulse.equivalent_length_s();
@@ -50,13 +79,12 @@ void add_interference(std::span<const ForeignTransmission> transmissions, const 
     const double arrival_s = foreign.time_s + path_m / band.sound_speed_mps;
     const Eigen::Vector3f direction =
         receivers.at(arrival_s).head_from_enu * (foreign.source_enu_m / path_m).cast<float>();
-    const auto pulses = std::max(1L, std::lround(passed.duration_s / length_s));
+    const long pulses = pulses_in(passed, length_s);
     for (long i = 0; i < pulses; ++i) {
       const double time_s = arrival_s + passed.start_s + static_cast<double>(i) * length_s;
       // Our mixer turns it at the difference of frequencies; it left at phase 0 of its own.
       const double cycles = (foreign.frequency_hz - band.frequency_hz) * time_s - foreign.frequency_hz * arrival_s;
-      const double angle = 2.0 * std::numbers::pi * (cycles - std::floor(cycles));
-      const auto pressure = band.sum == Sum::kPressure ? std::polar(std::sqrt(mean_square), angle) : mean_square;
+      const auto pressure = band.sum == Sum::kPressure ? turned(std::sqrt(mean_square), cycles) : mean_square;
       arrivals.push_back({time_s, std::complex<float>(pressure), direction});
     }
   }

@@ -42,6 +42,14 @@ struct Passed {
 /// What lies outside the band is weakened by the rejection and keeps its length.
 Passed through_filter(const ForeignTransmission& foreign, const ReceiverBand& band, const Pulse& pulse);
 
+/// Echoes of another transmission of the same head, as its own receiver for that transmission meets them (`echoes`:
+/// times after `other`'s own start), appended as our filter hears them. What passes is spread over the time in which
+/// the filter lets it out: one arrival an echo, each at another place of that time, with all of its energy. The line's
+/// delays are made for our frequency: directions are scaled by the ratio of both, as the phase between elements is.
+/// Source and its level are the echoes' own and not looked at.
+void add_echoes_of(const ForeignTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
+                   const Pulse& pulse, std::vector<Arrival>& arrivals);
+
 /// Foreign transmissions as arrivals, appended: one after another, each an echo's length after the last, as long as
 /// what passes the filter lasts; their phase turns with the difference of frequencies. Level: source level - 20 log R -
 /// alpha R. It shows at the slant range c (time + R / c) / 2, the same in every ping while both heads keep time, and

@@ -167,3 +167,45 @@ TEST_CASE("without speckle an arrival holds the mean square") {
   add_interference(std::span(&foreign, 1), band, kPulse, receivers, arrivals);
   CHECK(10 * std::log10(arrivals[0].pressure_upa.real()) == Approx(180 - 20 * std::log10(3.0)).margin(1e-4));
 }
+
+TEST_CASE("another sector's echoes in our band are echoes of ours, at the difference of delays") {
+  const std::vector<Arrival> echoes{{0.02, {3.0F, 4.0F}, Eigen::Vector3f::UnitZ()},
+                                    {0.03, {1.0F, 0.0F}, Eigen::Vector3f::UnitY()}};
+  ForeignTransmission other = neighbour();
+  std::vector<Arrival> arrivals;
+  add_echoes_of(other, echoes, kBand, kPulse, arrivals);
+  other.time_s = 2e-3;  // 600 periods
+  add_echoes_of(other, echoes, kBand, kPulse, arrivals);
+  other.frequency_hz = 330e3;
+  add_echoes_of(other, echoes, kBand, kPulse, arrivals);
+  REQUIRE(arrivals.size() == 6);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(arrivals[i].time_s == echoes[i].time_s);
+    CHECK(arrivals[i].pressure_upa == echoes[i].pressure_upa);
+    CHECK(arrivals[i].direction_head == echoes[i].direction_head);
+    CHECK(arrivals[2 + i].time_s == Approx(echoes[i].time_s + 2e-3));
+    CHECK(std::abs(arrivals[2 + i].pressure_upa - echoes[i].pressure_upa) < 1e-4F);
+    CHECK(std::abs(arrivals[4 + i].pressure_upa) == Approx(1e-4 * std::abs(echoes[i].pressure_upa)));  // 80 dB
+    CHECK((arrivals[4 + i].direction_head - 1.1F * echoes[i].direction_head).norm() < 1e-6F);
+  }
+}
+
+TEST_CASE("other echoes behind a chirp's filter have the energy that passes, spread over its time") {
+  const Pulse chirp = compressed_chirp(2e-3, 50e3);
+  ForeignTransmission other = neighbour();
+  other.duration_s = 200e-6;
+  const Passed passed = through_filter(other, kBand, chirp);
+  const std::vector<Arrival> echoes(10'000, {0.02, {1.0F, 0.0F}, Eigen::Vector3f::UnitZ()});
+  std::vector<Arrival> arrivals;
+  add_echoes_of(other, echoes, kBand, chirp, arrivals);
+  double energy_s = 0.0, mean_s = 0.0, last_s = 0.0;
+  for (const Arrival& arrival : arrivals) {
+    energy_s += static_cast<double>(std::norm(arrival.pressure_upa)) * chirp.equivalent_length_s() / 1e4;
+    mean_s += (arrival.time_s - 0.02) / 1e4;
+    last_s = std::max(last_s, arrival.time_s - 0.02);
+  }
+  // The time is cut into whole echoes, 20 us of some 2 ms.
+  CHECK(energy_s == Approx(passed.power * passed.duration_s).epsilon(0.01));
+  CHECK(mean_s == Approx(passed.start_s + 0.5 * passed.duration_s).margin(2e-5));
+  CHECK(last_s == Approx(passed.start_s + passed.duration_s).margin(4e-5));
+}

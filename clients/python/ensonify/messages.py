@@ -423,8 +423,8 @@ class BottomTrack(Message):
 class Transmit(Message):
     """A head transmitted: other heads may hear it.
 
-    stamp_ns [ns]: time of transmission, sim time
-    ping [1]: ping number of this head, from 0
+    stamp_ns [ns]: time of transmission, sim time; of a sector that is sent later in the ping, its own
+    ping [1]: ping number of this head, from 0; the same of all sectors of a ping
     frequency_hz [Hz]: centre frequency
     pulse_length_s [s]: pulse length
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw

@@ -45,15 +45,20 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
     surface.rms_height_m = environment_.rms_wave_height_m();
     echo::add_multipath(carrier, head, surface, {}, pose, found, receivers_, arrivals_);
   }
+  echoes_ = arrivals_.size();
+  return arrivals_;
+}
+
+const std::vector<echo::Arrival>& Arrivals::add_echoes_of(const echo::ForeignTransmission& other,
+                                                          std::span<const echo::Arrival> echoes,
+                                                          const echo::Pulse& pulse) {
+  if (effects_.interference) echo::add_echoes_of(other, echoes, band(), pulse, arrivals_);
   return arrivals_;
 }
 
 const std::vector<echo::Arrival>& Arrivals::add_interference(std::span<const echo::ForeignTransmission> foreign,
                                                              const echo::Pulse& pulse) {
-  if (effects_.interference) {
-    echo::add_interference(foreign, {frequency_hz_, sound_speed_mps(), absorption_dbpm_, sum()}, pulse, receivers_,
-                           arrivals_);
-  }
+  if (effects_.interference) echo::add_interference(foreign, band(), pulse, receivers_, arrivals_);
   return arrivals_;
 }
 

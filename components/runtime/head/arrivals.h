@@ -44,6 +44,13 @@ class Arrivals {
   const std::vector<echo::Arrival>& listen(double source_level_db, echo::Scatterers& scatterers,
                                            std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
 
+  /// What the last call of listen() gave, without what was added since.
+  std::span<const echo::Arrival> echoes() const { return std::span(arrivals_).first(echoes_); }
+
+  /// The same and another sector's echoes: `other` tells what was sent.
+  const std::vector<echo::Arrival>& add_echoes_of(const echo::ForeignTransmission& other,
+                                                  std::span<const echo::Arrival> echoes, const echo::Pulse& pulse);
+
   /// The same and what other heads send meanwhile, as the filter of this pulse hears it.
   const std::vector<echo::Arrival>& add_interference(std::span<const echo::ForeignTransmission> foreign,
                                                      const echo::Pulse& pulse);
@@ -67,6 +74,7 @@ class Arrivals {
   }
 
  private:
+  echo::ReceiverBand band() const { return {frequency_hz_, sound_speed_mps(), absorption_dbpm_, sum()}; }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
   void light(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
   double sent_db(double source_level_db) const;
@@ -82,6 +90,7 @@ class Arrivals {
   std::vector<frames::HeadPose> poses_;
   std::vector<float> source_upa2m2_, backscatter_;
   std::vector<echo::Arrival> arrivals_;
+  std::size_t echoes_ = 0;  // the first of them
   std::vector<float> volume_upa2_;
   double seabed_depth_m_ = 0.0;  // mean over the hits
   double absorption_dbpm_ = 0.0;

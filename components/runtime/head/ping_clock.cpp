@@ -73,8 +73,9 @@ void PingClock::advance() {
 
 void PingClock::follow(const msg::Transmit& master) {
   const SimTime at{master.stamp_ns};
-  if (at <= followed_) return;  // another frequency of the same ping
+  if (at <= followed_ || master.ping == followed_ping_) return;  // another frequency or sector of the same ping
   followed_ = at;
+  followed_ping_ = master.ping;
   to_follow_.push_back(at + from_seconds(trigger_.offset_s));
   expected_.reset();
   if (master.next_ns > master.stamp_ns) look_ = *(expected_ = SimTime{master.next_ns});

@@ -63,7 +63,8 @@ class PingClock {
   std::deque<SimTime> to_follow_;    // own transmissions that the master has asked for
   SimTime look_{0};                  // for the master's next
   std::optional<SimTime> expected_;  // of the master, by its own word
-  SimTime followed_{-1};             // the master's last transmission
+  SimTime followed_{-1};             // the master's last transmission: of its ping's first
+  std::int64_t followed_ping_ = -1;
 };
 
 }  // namespace ensonify

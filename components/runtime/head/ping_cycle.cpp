@@ -35,9 +35,13 @@ void PingCycle::transmit(SimTime now, std::vector<Transmission> channels) {
   for (const Transmission& channel : channels) listening = std::max(listening, channel.listening);
   clock_.set_rate(rate_of(channels.front().settings.ping_rate_hz));
   clock_.transmitted(now, listening);
-  for (const Transmission& channel : channels) {
+  std::vector<const Transmission*> in_time;
+  for (const Transmission& channel : channels) in_time.push_back(&channel);
+  std::ranges::stable_sort(in_time, {}, [](const Transmission* channel) { return channel->delay; });
+  for (const Transmission* sent : in_time) {
+    const Transmission& channel = *sent;
     msg::Transmit transmit;
-    transmit.stamp_ns = now.count();
+    transmit.stamp_ns = (now + channel.delay).count();
     transmit.ping = pings_;
     transmit.frequency_hz = channel.frequency_hz;
     transmit.pulse_length_s = channel.pulse_length_s;

@@ -18,16 +18,17 @@ namespace ensonify {
 struct Transmission {
   double frequency_hz = 0.0;
   double pulse_length_s = 0.0;
-  SimTime listening{0};  // from transmission to the end of the last echo
+  SimTime listening{0};  // from the ping's time of transmission to the end of the last echo
   HeadSettings settings;
   double bandwidth_hz = 0.0;  // that a chirp sweeps
+  SimTime delay{0};           // after the ping's time of transmission
 };
 
 /// A ping from its transmission to the end of its processing: what was fixed when it was sent.
 struct PingUnderWay {
   std::int64_t ping = 0;
   SimTime transmit{0};
-  std::vector<Transmission> channels;  // of one head, sent at once
+  std::vector<Transmission> channels;  // of one head
   double sound_speed_mps = 0.0;        // as the head knew it
   SimTime ready{0};                    // its last echo has come and is processed, every pose that it needs is known
 
@@ -49,7 +50,8 @@ class PingCycle {
   /// Whether to transmit now. A beat at which something stands in the way passes, and health says what it is.
   bool may_transmit(SimTime now);
 
-  /// The next ping goes out, all its channels at once. The first channel's settings tell the ping rate.
+  /// The next ping goes out. Each channel is told in transmit/1 now, with its own time, the earliest first. The first
+  /// channel's settings tell the ping rate.
   void transmit(SimTime now, std::vector<Transmission> channels);
 
   /// A ping was published. Health tells `trouble`, or if there is none, whether the ping lacks its track.

@@ -42,8 +42,15 @@ class Driven {
   void master(SimTime at, SimTime next = 0_ms, SimTime late = 0_ms) {
     msg::Transmit transmit;
     transmit.stamp_ns = at.count();
+    transmit.ping = masters_told_++;
     transmit.next_ns = next.count();
     masters_.emplace_back(transmit, at + late);
+  }
+  /// A further sector of its last ping: heard of with the first.
+  void sector_of_master(SimTime after) {
+    auto [transmit, heard] = masters_.back();
+    transmit.stamp_ns += after.count();
+    masters_.emplace_back(transmit, heard);
   }
 
   PingClock& clock() { return clock_; }
@@ -67,6 +74,7 @@ class Driven {
   Ports ports_;
   PingClock clock_;
   std::deque<std::pair<msg::Transmit, SimTime>> masters_;
+  std::int64_t masters_told_ = 0;
   std::vector<SimTime> sent_;
   msg::Health health_;
 };
@@ -112,6 +120,20 @@ TEST_CASE("a slave transmits a fixed time after its master, to the nanosecond") 
     head.run(wanted.back(), 20_ms);
     CHECK(head.sent() == wanted);
   }
+}
+
+TEST_CASE("a slave follows a ping once, however many sectors it has") {
+  Driven head(slave(0.01));
+  Times wanted;
+  for (int n = 0; n < 10; ++n) {
+    head.master(n * 100_ms, (n + 1) * 100_ms);
+    head.sector_of_master(1_ms);
+    head.sector_of_master(2_ms);
+    wanted.push_back(n * 100_ms + 10_ms);
+  }
+  head.run(wanted.back(), 5_ms);
+  CHECK(head.sent() == wanted);
+  CHECK(head.counted("triggers_missed") == 0);
 }
 
 TEST_CASE("a master that does not say when it goes on is followed exactly too, if the offset leaves time to look") {
