@@ -21,12 +21,13 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   read_head(from, scenario, process, kFastest_hz, c);
+  read_sound_speed(from, c);
   return c;
 }
 
 bool EchosounderConfig::operator==(const EchosounderConfig& o) const {
-  return same_parameters(*this, o) && frequency_hz == o.frequency_hz && face == o.face &&
-         beamwidth_rad == o.beamwidth_rad && source_level_db == o.source_level_db &&
+  return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
+         face == o.face && beamwidth_rad == o.beamwidth_rad && source_level_db == o.source_level_db &&
          pulse_length_s == o.pulse_length_s && range_m == o.range_m && electronic_noise_db == o.electronic_noise_db &&
          bottom_threshold_db == o.bottom_threshold_db;
 }

@@ -46,12 +46,13 @@ ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const Scenar
   read_pulse(from, c);
   read_ranges(from, c);
   read_head(from, scenario, process, kFastest_hz, c);
+  read_sound_speed(from, c);
   return c;
 }
 
 bool ForwardLookingConfig::operator==(const ForwardLookingConfig& o) const {
-  return same_parameters(*this, o) && frequency_hz == o.frequency_hz && beams == o.beams &&
-         aperture_rad == o.aperture_rad && beamwidth_rad == o.beamwidth_rad &&
+  return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
+         beams == o.beams && aperture_rad == o.aperture_rad && beamwidth_rad == o.beamwidth_rad &&
          transmit_vertical_rad == o.transmit_vertical_rad && receive_vertical_rad == o.receive_vertical_rad &&
          tilt_rad == o.tilt_rad && pulse == o.pulse && source_level_db == o.source_level_db && range_m == o.range_m &&
          longest_range_m == o.longest_range_m && electronic_noise_db == o.electronic_noise_db;

@@ -4,17 +4,16 @@
 #include <cmath>
 
 #include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/effects.h"
 #include "components/runtime/head/environment.h"
-#include "components/runtime/head/head_motion.h"
 
 namespace ensonify {
 namespace {
 
-constexpr FileUnit kDecibelsPerKilometre{1e-3};
+constexpr double kFastest_hz = 100.0;
 constexpr double kMostSamples = 20000;  // per beam: 20 MB of ping with 256 beams
 constexpr double kLongestPulse_s = 10e-3;
-constexpr double kWeakest_db = 40.0;  // below the highest source level, that can be set
+constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
+constexpr double kChirpTail = 2.0;   // inverse bandwidths after a point's echo in which it is still heard
 constexpr double kNarrowestSwath_rad = 1.0 * MultibeamConfig::kDegree;
 constexpr double kWidestSwath_rad = 170.0 * MultibeamConfig::kDegree;
 constexpr int kMostSoundings = 2048;
@@ -51,7 +50,10 @@ void read_sectors(ConfigReader& from, MultibeamConfig& c) {
 }
 
 void read_ping(ConfigReader& from, MultibeamConfig& c) {
+  from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
+  from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
+  read_window(from, c.window);
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional("roll_stabilised", c.roll_stabilised);
   from.optional("pitch_stabilised", c.pitch_stabilised);
@@ -60,18 +62,10 @@ void read_ping(ConfigReader& from, MultibeamConfig& c) {
   from.optional("attitude_latency_s", c.attitude_latency_s, 0, 1);
   from.optional("auto_range", c.auto_range);
   from.optional("range_m", c.range_m, 1, 2000);
-  from.optional("ping_rate_hz", c.ping_rate_hz, 0.01, 100);
-  from.optional("dead_time_s", c.dead_time_s, 0, 1);
-  from.optional("processing_latency_s", c.processing_latency_s, 0, 10);
   from.optional("sample_rate_hz", c.sample_rate_hz, 1e3, 1e6);
 }
 
 void read_receiver(ConfigReader& from, MultibeamConfig& c) {
-  from.optional("gain_spreading_db", c.gain_spreading_db, 0, 80);
-  from.optional("gain_absorption_db_per_km", c.gain_absorption_dbpm, 0, 2000, kDecibelsPerKilometre);
-  from.optional("gain_offset_db", c.gain_offset_db, -200, 200);
-  read_converter(from, c.converter);
-  read_quality(from, c.quality);
   from.optional("detection_threshold_db", c.detection_threshold_db, 0, 60);
   from.optional("least_range_m", c.least_range_m, 0, 2000);
   from.optional_choice("mode", c.mode, {{"bathymetry", "bathymetry"}, {"water_column", "water_column"}});
@@ -84,16 +78,25 @@ void read_receiver(ConfigReader& from, MultibeamConfig& c) {
     image->optional("oblique_strength_db", c.image.oblique_strength_db, -80, 20);
     image->optional("crossover_deg", c.image.crossover_rad, 1, 60, kDegrees);
   }
-  read_trigger(from, c.trigger);
-  read_effects(from, c.effects);
+}
+
+void check_pulse(ConfigReader& from, const MultibeamConfig& c) {
+  if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
+  if (c.chirp && c.bandwidth_hz * c.pulse_length_s < kLeastSweep) {
+    from.problem("bandwidth_hz", "times pulse_length_s is " + std::to_string(c.bandwidth_hz * c.pulse_length_s) +
+                                     ": a chirp needs at least 4");
+    return;
+  }
+  // The narrowest envelope that a tone leaves is as long as the tone: two samples of it, or echoes fall between.
+  const double least_hz = 2.0 / c.resolved_s(c.pulse_length_s);
+  if (c.sample_rate_hz < 0.9995 * least_hz) {
+    from.problem("sample_rate_hz", std::to_string(c.sample_rate_hz) + " is below two samples per " +
+                                       (c.chirp ? "1 / bandwidth, " : "pulse, ") + std::to_string(least_hz) + " Hz");
+  }
 }
 
 void check(ConfigReader& from, const MultibeamConfig& c) {
-  // The narrowest envelope that a pulse leaves is as long as the pulse: two samples of it, or echoes fall between.
-  if (c.sample_rate_hz * c.pulse_length_s < 1.999) {
-    from.problem("sample_rate_hz", std::to_string(c.sample_rate_hz) + " is below two samples per pulse, " +
-                                       std::to_string(2.0 / c.pulse_length_s) + " Hz");
-  }
+  check_pulse(from, c);
   if (c.samples(c.range_m, c.pulse_length_s) > kMostSamples) {
     from.problem("range_m", "makes " + std::to_string(c.samples(c.range_m, c.pulse_length_s)) +
                                 " samples per beam; at most " + std::to_string(static_cast<int>(kMostSamples)) +
@@ -113,41 +116,32 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
   read_ping(from, c);
   read_receiver(from, c);
 
-  c.interference = read_interference(from, scenario, process, c.processing_latency_s);
-  c.world = scenario;
-  c.process = process;
-  c.mounting = read_mounting(from, scenario, process);
+  read_head(from, scenario, process, kFastest_hz, c);
   c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
   check(from, c);
   return c;
 }
 
+/// The gain's settings stand whether it is applied or not: soundings use the absorption.
 HeadSettings MultibeamConfig::start() const {
-  HeadSettings start;
+  HeadSettings start = start_at(range_m, source_level_db);
   start.auto_range = auto_range;
-  start.range_m = range_m;
-  start.source_level_db = source_level_db;
   start.pulse_length_s = pulse_length_s;
   start.gain_spreading_db = gain_spreading_db;
   start.gain_absorption_dbpm = gain_absorption_dbpm;
-  start.gain_offset_db = gain_offset_db;
   start.swath_rad = swath_rad;
-  start.ping_rate_hz = ping_rate_hz;
   start.mode = mode;
   return start;
 }
 
 SettingLimits MultibeamConfig::limits() const {
-  SettingLimits limits;
+  SettingLimits limits = limits_up_to(1.0, range_m, source_level_db);
   limits.auto_range = true;
-  limits.range_m = {1.0, range_m};
-  limits.source_level_db = {source_level_db - kWeakest_db, source_level_db};
-  limits.pulse_length_s = {2.0 / sample_rate_hz, kLongestPulse_s};
+  // A tone has two samples or more; a chirp's length changes neither resolution nor samples.
+  limits.pulse_length_s = {chirp ? kLeastSweep / bandwidth_hz : 2.0 / sample_rate_hz, kLongestPulse_s};
   limits.gain_spreading_db = {0.0, 80.0};
   limits.gain_absorption_dbpm = {0.0, 2.0};
-  limits.gain_offset_db = {-200.0, 200.0};
   limits.swath_rad = {kNarrowestSwath_rad, kWidestSwath_rad};
-  limits.ping_rate_hz = {0.01, ping_rate_hz};
   limits.modes = {"bathymetry", "water_column"};
   return limits;
 }
@@ -156,14 +150,23 @@ std::vector<MultibeamConfig::Sector> MultibeamConfig::all_sectors() const {
   return sectors.empty() ? std::vector{Sector{.frequency_hz = frequency_hz}} : sectors;
 }
 
-double MultibeamConfig::listening_s(double of_range_m, double of_pulse_length_s) const {
+echo::Pulse MultibeamConfig::pulse(double of_length_s) const {
+  return chirp ? echo::compressed_chirp(of_length_s, bandwidth_hz, window) : echo::rectangular_pulse(of_length_s);
+}
+
+double MultibeamConfig::last_start_s(double of_range_m) const {
   double delay_s = 0.0;
   for (const Sector& sector : sectors) delay_s = std::max(delay_s, sector.delay_s);
-  return delay_s + 2.0 * of_range_m / sound_speed_mps + of_pulse_length_s;
+  return delay_s + 2.0 * of_range_m / sound_speed_mps;
+}
+
+double MultibeamConfig::listening_s(double of_range_m, double of_pulse_length_s) const {
+  return last_start_s(of_range_m) + of_pulse_length_s;
 }
 
 int MultibeamConfig::samples(double of_range_m, double of_pulse_length_s) const {
-  return static_cast<int>(std::ceil(listening_s(of_range_m, of_pulse_length_s) * sample_rate_hz));
+  const double tail_s = (chirp ? kChirpTail : 1.0) * resolved_s(of_pulse_length_s);
+  return static_cast<int>(std::ceil((last_start_s(of_range_m) + tail_s) * sample_rate_hz));
 }
 
 double MultibeamConfig::longest_listening_s() const {

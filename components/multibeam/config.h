@@ -3,18 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/head/effects.h"
-#include "components/runtime/head/ping_timing.h"
-#include "components/runtime/head/samples.h"
-#include "components/runtime/head/settings.h"
-#include "components/runtime/sim_time.h"
+#include "components/runtime/head/head_config.h"
+#include "kernels/echo/pulse.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// What default.yaml lists.
+/// What default.yaml lists besides the parameters of all heads.
 struct MultibeamParameters {
   enum class Spacing { kEquiangle, kEquidistant, kHighDensity };
 
@@ -50,68 +46,67 @@ struct MultibeamParameters {
   double electronic_noise_db = -200.0;            // of each element, as sound in the water, re 1 uPa^2/Hz
   std::vector<Sector> sectors;                    // from port to starboard; empty: one transmission over the swath
   double sector_rejection_db = 80.0;              // by a sector's filter, of what lies outside its band
-  double pulse_length_s = 100e-6;                 // rectangular CW
-  double source_level_db = 215.0;                 // rms during the pulse, re 1 uPa at 1 m; the most that can be set
-  bool roll_stabilised = true;                    // beams and sectors are steered against the measured roll
-  bool pitch_stabilised = true;                   // fans are steered against the measured pitch
-  bool yaw_stabilised = false;                    // and against the measured heading, from its mean
-  double heading_mean_s = 20.0;                   // time constant of that mean
-  double attitude_latency_s = 0.0;                // of the motion sensor
-  bool auto_range = true;                         // else range_m, to start with
-  double range_m = 200.0;                         // the longest range that is listened to
-  double ping_rate_hz = 10.0;                     // at most; the interval is never less than 2 R / c + dead time
-  double dead_time_s = 0.5e-3;
-  double processing_latency_s = 20e-3;  // from the last echo to the published ping
-  double sample_rate_hz = 20e3;         // of the complex envelope, at least 2 / pulse length
-  double gain_spreading_db = 30.0;      // gain S log10(R) + 2 A R + O at range R: S,
-  double gain_absorption_dbpm = 0.07;   // A, the operator's absorption: soundings and images are made with it too,
-  double gain_offset_db = 0.0;          // O
-  Converter converter;
-  double quality = 0.25;                 // of the rays (trace::RaySettings)
-  double detection_threshold_db = 13.0;  // signal to noise ratio of a sounding, at least
-  double least_range_m = 2.0;            // nearer, nothing is taken for the seabed
-  std::string mode = "bathymetry";       // or water_column: every ping with amplitude and phase
-  int amplitude_every = 1;               // ping/1 is published for every n-th ping; soundings for all
-  int phase_every = 0;                   // and has the phase in every n-th ping; 0: never
-  bool snippets = false;                 // snippets/1 of every ping
+  bool chirp = false;                             // a linear sweep and its matched filter; else a tone
+  double pulse_length_s = 100e-6;
+  double bandwidth_hz = 0.0;                     // that a chirp sweeps
+  echo::Window window = echo::Window::kHamming;  // of its matched filter
+  double source_level_db = 215.0;                // rms during the pulse, re 1 uPa at 1 m; the most that can be set
+  bool roll_stabilised = true;                   // beams and sectors are steered against the measured roll
+  bool pitch_stabilised = true;                  // fans are steered against the measured pitch
+  bool yaw_stabilised = false;                   // and against the measured heading, from its mean
+  double heading_mean_s = 20.0;                  // time constant of that mean
+  double attitude_latency_s = 0.0;               // of the motion sensor
+  bool auto_range = true;                        // else range_m, to start with
+  double range_m = 200.0;                        // the longest range that is listened to
+  double sample_rate_hz = 20e3;                  // of the complex envelope, at least two for what a pulse resolves
+  double detection_threshold_db = 13.0;          // signal to noise ratio of a sounding, at least
+  double least_range_m = 2.0;                    // nearer, nothing is taken for the seabed
+  std::string mode = "bathymetry";               // or water_column: every ping with amplitude and phase
+  int amplitude_every = 1;                       // ping/1 is published for every n-th ping; soundings for all
+  int phase_every = 0;                           // and has the phase in every n-th ping; 0: never
+  bool snippets = false;                         // snippets/1 of every ping
   Image image;
-  Trigger trigger;
-  std::vector<OtherHead> interference;  // whom it hears
-  Effects effects;
 
   bool operator==(const MultibeamParameters&) const = default;
 
   static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 };
 
-/// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis.
-struct MultibeamConfig : MultibeamParameters {
-  // From the scenario.
-  Scenario world;
-  std::string process;
-  HeadMounting mounting;
-  double sound_speed_mps = 1500.0;  // at the mission's depth as the instrument knows it: it turns range into time
-
+/// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis. Its
+/// sound speed is that at the mission's depth as the instrument knows it: it turns range into time. The absorption of
+/// its gain is the operator's: soundings and images are made with it too.
+struct MultibeamConfig : HeadConfig, MultibeamParameters {
+  MultibeamConfig() {  // what it has other defaults for than heads in general
+    dead_time_s = 0.5e-3;
+    gain_absorption_dbpm = 0.07;
+    quality = 0.25;
+  }
   static MultibeamConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
   /// Parameters only.
-  bool operator==(const MultibeamConfig& other) const { return MultibeamParameters::operator==(other); }
+  bool operator==(const MultibeamConfig& other) const {
+    return same_parameters(*this, other) && MultibeamParameters::operator==(other);
+  }
 
   /// Settings that it starts with, and what a command can make of them.
   HeadSettings start() const;
   SettingLimits limits() const;
-  PingTiming timing() const {
-    return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
-            interference};
-  }
 
   /// The sectors as given, or the one that a head without sectors has.
   std::vector<Sector> all_sectors() const;
+
+  /// What the receiver's filter makes of the echo of one point.
+  echo::Pulse pulse(double of_length_s) const;
+  /// Of a point's echo: of a tone its length, of a chirp 1 / bandwidth. Range resolution is half of it times c.
+  double resolved_s(double of_pulse_length_s) const { return chirp ? 1.0 / bandwidth_hz : of_pulse_length_s; }
   /// From transmission to the end of the last echo.
   double listening_s(double of_range_m, double of_pulse_length_s) const;
   int samples(double of_range_m, double of_pulse_length_s) const;
   /// With the longest range and pulse that can be set.
   double longest_listening_s() const;
   int most_samples() const;
+
+ private:
+  double last_start_s(double of_range_m) const;  // of the last echo
 };
 
 }  // namespace ensonify

@@ -38,6 +38,10 @@ TEST_CASE("a head outside its limits is refused with place and limits") {
   CHECK(problems("frequency_hz: 5000") == "head.yaml:1:15: frequency_hz: 5000 is outside [50000, 1e+06]");
   CHECK(problems("quality: 0") == "head.yaml:1:10: quality: 0 is outside [0.05, 10]");
   CHECK(problems("pulse_length_s: 0.00005").find("is below two samples per pulse, 40000") != std::string::npos);
+  CHECK(problems("pulse: chirp\npulse_length_s: 0.0005\nbandwidth_hz: 20000")
+            .find("is below two samples per 1 / bandwidth, 40000") != std::string::npos);
+  CHECK(problems("pulse: chirp\nbandwidth_hz: 10000").find("a chirp needs at least 4") != std::string::npos);
+  CHECK(problems("bandwidth_hz: 10000").find("only a chirp sweeps") != std::string::npos);
   CHECK(problems("range_m: 1900").find("at most 20000 are allowed") != std::string::npos);
 }
 

@@ -33,8 +33,11 @@ const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot,
       echo::amplitude_upa(whole, part_);
       std::ranges::copy(part_, rows.begin());
     }
-    heard_.push_back({{whole.beams, whole.samples, sector.sampling().start_s, sector.sampling().period_s, rows},
-                      {sector.starboard().envelope_upa, sector.port().envelope_upa}});
+    const double echo_s = config_.chirp ? sector.pulse().equivalent_length_s() : settings.pulse_length_s;
+    const double start_s = sector.sampling().start_s + (config_.chirp ? 0.5 * echo_s : 0.0);
+    heard_.push_back({{whole.beams, whole.samples, start_s, sector.sampling().period_s, rows},
+                      {sector.starboard().envelope_upa, sector.port().envelope_upa},
+                      echo_s});
   }
   return heard_;
 }
@@ -93,6 +96,8 @@ msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const HeadSettings
   if (!config_.effects.tvg) applied.gain_spreading_db = applied.gain_absorption_dbpm = 0.0;
   applied.range_m = shot.range_m;
   applied.frequency_hz = config_.frequency_hz;
+  applied.pulse = config_.chirp ? "fm_up" : "cw";
+  applied.bandwidth_hz = config_.bandwidth_hz;
   applied.transmit_beamwidth_rad = config_.transmit_beamwidth_rad;
   applied.receive_beamwidth_rad = config_.receive_beamwidth_rad;
   applied.roll_stabilised = steering.roll_stabilised;
@@ -102,7 +107,9 @@ msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const HeadSettings
   for (std::size_t i = 0; i < config_.sectors.size(); ++i) {
     msg::TransmitSector sector;
     sector.frequency_hz = config_.sectors[i].frequency_hz;
+    sector.pulse = applied.pulse;
     sector.pulse_length_s = settings.pulse_length_s;
+    sector.bandwidth_hz = config_.bandwidth_hz;
     sector.source_level_db = settings.source_level_db;
     sector.tilt_rad = std::asin(std::clamp(steering.sectors[i].sin_transmit, -1.0, 1.0));
     sector.delay_s = config_.sectors[i].delay_s;

@@ -77,6 +77,7 @@ void MultibeamNode::transmit(SimTime now) {
                        .pulse_length_s = settings.pulse_length_s,
                        .listening = listening,
                        .settings = settings,
+                       .bandwidth_hz = config_.bandwidth_hz,
                        .delay = from_seconds(sector.delay_s)});
   }
   cycle_.transmit(now, std::move(sectors));
@@ -135,7 +136,7 @@ void MultibeamNode::publish_images(const HeadSettings& settings, const Steering&
   snippets.applied = soundings.applied;
   if (snippets_out_) snippets_out_->send(snippets);
   if (!image_out_) return;
-  msg::SeabedImage image = seabed_image_of(config_, settings, steering, snippets, soundings);
+  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front().echo_s, snippets, soundings);
   image.applied = soundings.applied;
   image_out_->send(image);
 }

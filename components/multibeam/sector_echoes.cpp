@@ -19,7 +19,7 @@ constexpr double kVolumeStep_beamwidths = 0.25;
 double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
 double range_resolution_m(const MultibeamConfig& c, double pulse_length_s) {
-  return 0.5 * c.sound_speed_mps * pulse_length_s;
+  return 0.5 * c.sound_speed_mps * c.resolved_s(pulse_length_s);
 }
 
 /// The first sector's names are those of a head without sectors.
@@ -82,7 +82,7 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, std::size_t sector)
 
 SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, double swath_rad) {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
-  const echo::Pulse pulse = echo::rectangular_pulse(pulse_length_s);
+  const echo::Pulse pulse = config_.pulse(pulse_length_s);
   const echo::SampledPulse sampled(pulse, 1.0 / config_.sample_rate_hz);
   std::vector<echo::VolumeDirections> directions;
   if (arrivals_.water_scatters()) {
@@ -128,6 +128,7 @@ void SectorEchoes::hear(const Shot& shot, const HeadSettings& settings, const st
     echo::ForeignTransmission sent;
     sent.time_s = other.delay_s_ - delay_s_;
     sent.frequency_hz = other.frequency_hz_;
+    sent.sweep_hz = config_.chirp ? config_.bandwidth_hz : 0.0;
     sent.duration_s = settings.pulse_length_s;
     sent.rejection_db = config_.sector_rejection_db;
     arrivals_.add_echoes_of(sent, other.arrivals_.echoes(), listening_->pulse);
@@ -168,7 +169,8 @@ void SectorEchoes::aim(const Steering& steering) {
 
 void SectorEchoes::look(const trace::Scene& seabed) {
   // The window is set by the head's sound speed; sound travels by the true one.
-  const double window_s = sampling_.start_s + sampling_.count * sampling_.period_s - listening_->pulse_length_s;
+  const double window_s =
+      sampling_.start_s + sampling_.count * sampling_.period_s - config_.resolved_s(listening_->pulse_length_s);
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * window_s;
   arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
   listening_->rays.fill(arrivals_.transmit_pose(), hits_, static_cast<float>(reach_m), rays_);

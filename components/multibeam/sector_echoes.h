@@ -44,6 +44,8 @@ class SectorEchoes {
   const echo::Image& starboard() const { return images_[1]; }
   const echo::Image& port() const { return images_[2]; }
   const echo::Sampling& sampling() const { return sampling_; }
+  /// What a point's echo is in them.
+  const echo::Pulse& pulse() const { return listening_->pulse; }
 
   /// What the last ping met.
   Sight sight(double range_m, const trace::Scene& seabed) const { return arrivals_.sight(range_m, seabed); }

@@ -113,7 +113,7 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& setting
 
 void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard) {
   const Steering& steering = ping.steering;
-  settings_.pulse_length_s = ping.settings.pulse_length_s;
+  settings_.pulse_length_s = heard.front().echo_s;
   settings_.absorption_dbpm = ping.settings.gain_absorption_dbpm;
   settings_.sound_speed_mps = steering.sound_speed_mps;
   settings_.seabed_tilt_rad =
@@ -199,7 +199,7 @@ void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_p
   const detect::Detection& detection = echoes_[entry].heard;
   const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
   const HeadSettings& settings = ping.settings;
-  const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings.pulse_length_s);
+  const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings_.pulse_length_s);
   const double range_m = 0.5 * detection.two_way_s * ping.steering.sound_speed_mps;
   const double area_m2 = detect::beam_area_m2(range_m, std::sin(static_cast<double>(soundings.beam_angle_rad[entry])),
                                               sector.transmit_length_in_waves, sector.receive_length_in_waves);

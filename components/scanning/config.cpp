@@ -37,11 +37,12 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   }
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   read_head(from, scenario, process, kFastest_hz, c);
+  read_sound_speed(from, c);
   return c;
 }
 
 bool ScanningConfig::operator==(const ScanningConfig& o) const {
-  return same_parameters(*this, o) && frequency_hz == o.frequency_hz &&
+  return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
          horizontal_beamwidth_rad == o.horizontal_beamwidth_rad && vertical_beamwidth_rad == o.vertical_beamwidth_rad &&
          tilt_rad == o.tilt_rad && scan == o.scan && pulse == o.pulse && source_level_db == o.source_level_db &&
          range_m == o.range_m && longest_range_m == o.longest_range_m && electronic_noise_db == o.electronic_noise_db;

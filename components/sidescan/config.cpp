@@ -61,6 +61,7 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
   }
   if (c.channels.empty()) from.problem("channels", "needs at least one channel");
   read_head(from, scenario, process, kFastest_hz, c);
+  read_sound_speed(from, c);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   for (const SidescanChannel& channel : c.channels) {
     const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
@@ -73,7 +74,8 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
 }
 
 bool SidescanConfig::operator==(const SidescanConfig& o) const {
-  return same_parameters(*this, o) && channels == o.channels && bottom_threshold_db == o.bottom_threshold_db;
+  return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && channels == o.channels &&
+         bottom_threshold_db == o.bottom_threshold_db;
 }
 
 HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {

@@ -198,7 +198,7 @@ TEST_CASE("other echoes behind a chirp's filter have the energy that passes, spr
   const std::vector<Arrival> echoes(10'000, {0.02, {1.0F, 0.0F}, Eigen::Vector3f::UnitZ()});
   std::vector<Arrival> arrivals;
   add_echoes_of(other, echoes, kBand, chirp, arrivals);
-  double energy_s = 0.0, mean_s = 0.0, last_s = 0.0;
+  double energy_s = 0.0, mean_s = 0.0, last_s = -1.0;
   for (const Arrival& arrival : arrivals) {
     energy_s += static_cast<double>(std::norm(arrival.pressure_upa)) * chirp.equivalent_length_s() / 1e4;
     mean_s += (arrival.time_s - 0.02) / 1e4;

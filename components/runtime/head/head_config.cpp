@@ -18,7 +18,6 @@ void read_head(ConfigReader& from, const Scenario& scenario, const std::string& 
   from.optional("ping_rate_hz", config.ping_rate_hz, kSlowest_hz, fastest_hz);
   from.optional("dead_time_s", config.dead_time_s, 0, 1);
   from.optional("processing_latency_s", config.processing_latency_s, 0, 10);
-  from.optional("sound_speed_mps", config.sound_speed_mps, 1300, 1700);
   from.optional("gain_spreading_db", config.gain_spreading_db, kSpreading_db.least, kSpreading_db.most);
   from.optional("gain_absorption_db_per_km", config.gain_absorption_dbpm, 1e3 * kAbsorption_dbpm.least,
                 1e3 * kAbsorption_dbpm.most, kDecibelsPerKilometre);
@@ -33,12 +32,25 @@ void read_head(ConfigReader& from, const Scenario& scenario, const std::string& 
   config.mounting = read_mounting(from, scenario, process);
 }
 
+void read_sound_speed(ConfigReader& from, HeadConfig& config) {
+  from.optional("sound_speed_mps", config.sound_speed_mps, 1300, 1700);
+}
+
+void read_window(ConfigReader& from, echo::Window& window) {
+  using echo::Window;
+  from.optional_choice("window", window,
+                       {{"none", Window::kNone},
+                        {"hann", Window::kHann},
+                        {"hamming", Window::kHamming},
+                        {"blackman", Window::kBlackman}});
+}
+
 bool same_parameters(const HeadConfig& a, const HeadConfig& b) {
   return a.ping_rate_hz == b.ping_rate_hz && a.dead_time_s == b.dead_time_s &&
-         a.processing_latency_s == b.processing_latency_s && a.sound_speed_mps == b.sound_speed_mps &&
-         a.gain_spreading_db == b.gain_spreading_db && a.gain_absorption_dbpm == b.gain_absorption_dbpm &&
-         a.gain_offset_db == b.gain_offset_db && a.converter == b.converter && a.quality == b.quality &&
-         a.trigger == b.trigger && a.interference == b.interference && a.effects == b.effects;
+         a.processing_latency_s == b.processing_latency_s && a.gain_spreading_db == b.gain_spreading_db &&
+         a.gain_absorption_dbpm == b.gain_absorption_dbpm && a.gain_offset_db == b.gain_offset_db &&
+         a.converter == b.converter && a.quality == b.quality && a.trigger == b.trigger &&
+         a.interference == b.interference && a.effects == b.effects;
 }
 
 HeadSettings HeadConfig::start_at(double range_m, double source_level_db) const {

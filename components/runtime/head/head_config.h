@@ -9,6 +9,7 @@
 #include "components/runtime/head/samples.h"
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
+#include "kernels/echo/pulse.h"
 
 namespace ensonify {
 
@@ -20,7 +21,7 @@ struct HeadConfig {
   double ping_rate_hz = 10.0;  // at most; the interval is never less than 2 R / c + dead time
   double dead_time_s = 1e-3;
   double processing_latency_s = 20e-3;  // from the last echo to the published ping
-  double sound_speed_mps = 1500.0;      // by which it takes time for range, until a probe at the face tells
+  double sound_speed_mps = 1500.0;      // by which it takes time for range: the head's to read or to find
   double gain_spreading_db = 30.0;      // gain S log10(R) + 2 A R + O at range R: S,
   double gain_absorption_dbpm = 0.0;    // A,
   double gain_offset_db = 0.0;          // O
@@ -46,11 +47,17 @@ struct HeadConfig {
   SettingLimits limits_up_to(double nearest_m, double range_m, double source_level_db) const;
 };
 
-/// Reads all of it; ping_rate_hz up to `fastest_hz`.
+/// Reads all of it but the sound speed; ping_rate_hz up to `fastest_hz`.
 void read_head(ConfigReader& from, const Scenario& scenario, const std::string& process, double fastest_hz,
                HeadConfig& config);
 
-/// Equal parameters, wherever in the world the heads are.
+/// Reads the sound speed of a head that is told one.
+void read_sound_speed(ConfigReader& from, HeadConfig& config);
+
+/// Reads the weighting of a chirp's matched filter: none, hann, hamming or blackman.
+void read_window(ConfigReader& from, echo::Window& window);
+
+/// Equal parameters, wherever in the world the heads are, but for the sound speed.
 bool same_parameters(const HeadConfig& a, const HeadConfig& b);
 
 }  // namespace ensonify
