@@ -7,13 +7,18 @@ namespace ensonify::refraction {
 
 // Functions over their argument, 1 at zero; series where digits would be lost, neglected terms below 1e-13.
 
+// The series, which nearly every leg takes, are small enough to be compiled into their callers.
+
+[[gnu::noinline]] inline double asin_over_large(double v) { return std::asin(std::clamp(v, -1.0, 1.0)) / v; }
+[[gnu::noinline]] inline double asinh_over_large(double u) { return std::asinh(u) / u; }
+
 inline double asin_over(double v) {
   const double v2 = v * v;
-  return v2 < 1e-4 ? 1.0 + v2 * (1.0 / 6 + v2 * (3.0 / 40)) : std::asin(std::clamp(v, -1.0, 1.0)) / v;
+  return v2 < 1e-4 ? 1.0 + v2 * (1.0 / 6 + v2 * (3.0 / 40)) : asin_over_large(v);
 }
 inline double asinh_over(double u) {
   const double u2 = u * u;
-  return u2 < 1e-4 ? 1.0 - u2 * (1.0 / 6 - u2 * (3.0 / 40)) : std::asinh(u) / u;
+  return u2 < 1e-4 ? 1.0 - u2 * (1.0 / 6 - u2 * (3.0 / 40)) : asinh_over_large(u);
 }
 inline double sinh_over(double u) { return std::abs(u) < 1e-3 ? 1.0 + u * u / 6 : std::sinh(u) / u; }
 

@@ -70,20 +70,22 @@ void PathTable::build(const SoundSpeedProfile& profile, double source_depth_m, d
   profile_ = profile;
   source_depth_m_ = source_depth_m;
   level_m_ = level_m;
-  source_speed_mps_ = profile.speed_mps(source_depth_m);
+  const double source_speed_mps = profile.speed_mps(source_depth_m);
+  source_slowness_spm_ = 1.0 / source_speed_mps;
   intervals_.clear();
   if (!(level_m > source_depth_m)) return;
 
-  edges_.assign(1, {source_depth_m, source_speed_mps_});
+  edges_.assign(1, {source_depth_m, source_speed_mps});
   for (const Knot& knot : profile.knots()) {
     if (knot.depth_m > source_depth_m && knot.depth_m < level_m) edges_.push_back(knot);
   }
   edges_.push_back({level_m, profile.speed_mps(level_m)});
   fastest_mps_ = std::ranges::max(edges_, {}, &Knot::speed_mps).speed_mps;
-  fall_from_source_ = (fastest_mps_ / source_speed_mps_) * (fastest_mps_ / source_speed_mps_) - 1.0;
+  fall_from_source_ = (fastest_mps_ / source_speed_mps) * (fastest_mps_ / source_speed_mps) - 1.0;
   const double level_ratio = edges_.back().speed_mps / fastest_mps_;
   rise_to_level_ = (1.0 - level_ratio) * (1.0 + level_ratio);
   at_level_ = {.depth_m = level_m, .speed_mps = edges_.back().speed_mps, .layer = profile.layer_at(level_m)};
+  level_gradient_per_s_ = profile.layer_gradient_per_s(at_level_.layer);
 
   const auto cubic = [](double from, double slope_from, double to, double slope_to, double width) {
     const double m1 = slope_from * width, m2 = slope_to * width, rise = to - from;
@@ -112,7 +114,7 @@ Path PathTable::path(double sine, double cosine) const {
   const double u = (w - in.low) * in.per_width;
 
   PathPoint point = at_level_;
-  const double source_slowness = 1.0 / source_speed_mps_, p = cosine * source_slowness, p2 = p * p;
+  const double p = cosine * source_slowness_spm_, p2 = p * p;
   const double cosine2_fastest = p2 * fastest_mps_ * fastest_mps_;
   point.sine = std::sqrt(w2 + cosine2_fastest * rise_to_level_);
   point.cosine = p * point.speed_mps;
@@ -122,10 +124,9 @@ Path PathTable::path(double sine, double cosine) const {
   // dx/dp = reach + p d(reach)/dp, and the width from it and its slope beyond the level (see path.cpp)
   const double reach_per_w = per_w * (in.per_width * in.reach.slope(u) - point.reach_m2ps);
   const double spread = point.reach_m2ps - cosine2_fastest * per_w * reach_per_w;
-  const double gradient = profile_.layer_gradient_per_s(point.layer);
-  point.width_m = spread * point.sine * sine * source_slowness;
-  point.width_slowness = (sine * source_slowness - point.width_m * p2 * gradient) / point.sine;
-  return Path(profile_, p, source_slowness, point);
+  point.width_m = spread * point.sine * sine * source_slowness_spm_;
+  point.width_slowness = (sine * source_slowness_spm_ - point.width_m * p2 * level_gradient_per_s_) / point.sine;
+  return Path(profile_, p, source_slowness_spm_, point);
 }
 
 std::optional<PathEnd> PathTable::at(double depression_rad, double depth_m) const {

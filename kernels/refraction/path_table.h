@@ -50,11 +50,12 @@ class PathTable {
   SoundSpeedProfile profile_ = SoundSpeedProfile::uniform(1500.0);
   double source_depth_m_ = 0.0;
   double level_m_ = 0.0;
-  double source_speed_mps_ = 1500.0;
+  double source_slowness_spm_ = 1.0 / 1500.0;
   double fastest_mps_ = 1500.0;
-  double fall_from_source_ = 0.0;  // (fastest / source speed)^2 - 1
-  double rise_to_level_ = 0.0;     // 1 - (level speed / fastest)^2
-  PathPoint at_level_;             // depth, speed, layer
+  double fall_from_source_ = 0.0;      // (fastest / source speed)^2 - 1
+  double rise_to_level_ = 0.0;         // 1 - (level speed / fastest)^2
+  PathPoint at_level_;                 // depth, speed, layer
+  double level_gradient_per_s_ = 0.0;  // of that layer
   std::vector<Knot> edges_;
   std::vector<Interval> intervals_;
 };

@@ -14,6 +14,7 @@ using frames::Vec2;
 using frames::Vec3;
 using refraction::Leg;
 using refraction::Path;
+using refraction::PathPoint;
 
 constexpr double kOffArc_m = 0.8e-3;  // a chord is nowhere farther from its arc
 constexpr double kMargin_m = 0.01;    // around the geometry's heights
@@ -42,9 +43,9 @@ struct Lane {
     return {start.x() + reach * slowness_spm.x(), start.y() + reach * slowness_spm.y(),
             start.z() + source_depth_m - path.at().depth_m};
   }
-  Vec3 arrival() const {
-    const double speed = path.at().speed_mps;
-    return {speed * slowness_spm.x(), speed * slowness_spm.y(), -path.at().sine};
+  /// Direction of travel at a place on the path.
+  Vec3 direction(const PathPoint& point) const {
+    return {point.speed_mps * slowness_spm.x(), point.speed_mps * slowness_spm.y(), -point.sine};
   }
   Vec3 chord() const {
     const double speed = leg.mean_scale * (path.at().speed_mps + leg.end_speed_mps);  // chord_cosine / invariant
@@ -59,10 +60,16 @@ struct Lane {
       if (depth > band.top_m || (depth == band.top_m && path.heads_down())) {
         return depth < band.bottom_m || (depth == band.bottom_m && !path.heads_down());
       }
-      const Leg above = path.leg_within(-std::numeric_limits<double>::infinity(), band.top_m);
-      if (above.endless()) return false;
-      path.take(above);
+      if (!approach(band.top_m)) return false;
     }
+  }
+
+  /// One leg further, at most down to this depth; false when the path never ends it. Few rays need it.
+  [[gnu::noinline]] bool approach(double top_m) {
+    const Leg above = path.leg_within(-std::numeric_limits<double>::infinity(), top_m);
+    if (above.endless()) return false;
+    path.take(above);
+    return true;
   }
 
   void next_chord(const Band& band, double max_length_m) {
@@ -86,13 +93,12 @@ struct Lane {
   }
 };
 
-Hit hit_of(const Packet& packet, std::size_t lane_index, Lane& lane, const Vec3& chord_start_enu_m,
+Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const Vec3& chord_start_enu_m,
            const Vec3& head_enu_m) {
   const double along = packet.rays.ray.tfar[lane_index];
   const Vec3 chord = lane.chord();
-  lane.path.take(lane.path.leg_of_length(along));
-  const refraction::PathPoint& end = lane.path.at();
-  const Vec3 arrival = lane.arrival(), normal = packet.normal(lane_index);
+  const PathPoint end = lane.path.end_of(lane.path.leg_of_length(along));
+  const Vec3 arrival = lane.direction(end), normal = packet.normal(lane_index);
   Hit hit;
   hit.position_enu_m = chord_start_enu_m + along * chord;
   hit.normal_enu = (normal.dot(chord) > 0.0 ? Vec3(-normal) : normal).cast<float>();
@@ -100,7 +106,7 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, Lane& lane, const Vec3&
   hit.range_m = static_cast<float>((hit.position_enu_m - head_enu_m).norm());
   hit.travel_time_s = static_cast<float>(end.time_s);
   hit.path_length_m = static_cast<float>(end.length_m);
-  hit.tube_m2 = static_cast<float>(lane.path.tube_m2());
+  hit.tube_m2 = static_cast<float>(lane.path.tube_m2(end));
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
   hit.facet_m = static_cast<float>(packet.met[lane_index]->spacing_m);
   hit.sediment = terrain::sediment_at(*packet.met[lane_index], hit.position_enu_m.head<2>());
