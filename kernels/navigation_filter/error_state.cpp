@@ -1,0 +1,221 @@
+#include "kernels/navigation_filter/error_state.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace ensonify::navigation_filter {
+namespace {
+
+using Eigen::Matrix3d;
+using inertial::meridian_radius_m;
+using inertial::prime_vertical_radius_m;
+
+constexpr double kCovarianceStep_s = 0.1;
+
+Matrix3d cross(const Vec3& v) {
+  Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+double squared(double x) { return x * x; }
+
+/// Variance of one axis's bias at the start: of switching on and of wandering.
+double first_bias_variance(const inertial::TriadErrors& errors) {
+  return squared(errors.turn_on_bias) + squared(errors.bias_sigma);
+}
+
+/// Spectral density of what drives one axis's bias.
+double bias_drive(const inertial::TriadErrors& errors) {
+  return 2.0 * squared(errors.bias_sigma) / errors.bias_time_s + squared(errors.rate_random_walk);
+}
+
+}  // namespace
+
+NavigationFilter::NavigationFilter(const NavigationState& start, const StartErrors& errors, const FilterModel& model,
+                                   const inertial::Earth& earth)
+    : earth_(earth), model_(model), state_(start) {
+  const double gravity = inertial::gravity_mps2(earth, start.latitude_rad, start.height_m);
+  Eigen::Matrix<double, kErrorCount, 1> variance;
+  variance.segment<3>(kPosition) << squared(errors.position_m), squared(errors.position_m), squared(errors.height_m);
+  variance.segment<3>(kVelocity).setConstant(squared(errors.velocity_mps));
+  variance.segment<3>(kRotation) << squared(errors.tilt_rad), squared(errors.tilt_rad), squared(errors.heading_rad);
+  const inertial::TriadErrors &gyro = model.imu.gyro, &accelerometer = model.imu.accelerometer;
+  variance.segment<3>(kGyroBias).setConstant(first_bias_variance(gyro));
+  variance.segment<9>(kGyroMatrix).setConstant(squared(gyro.misalignment_rad));
+  for (const int axis : {0, 1, 2}) variance[kGyroMatrix + 4 * axis] = squared(gyro.scale_factor);
+  // What gravity leaks into each accelerometer: crosstalk into the level ones, scale of the upright one.
+  const Vec3 leak =
+      gravity * Vec3(accelerometer.misalignment_rad, accelerometer.misalignment_rad, accelerometer.scale_factor);
+  variance.segment<3>(kForceBias) = leak.cwiseAbs2().array() + first_bias_variance(accelerometer);
+  const double wander = squared(model.fix_wander_horizontal_m);
+  variance.segment<3>(kFixError) << wander, wander, squared(model.fix_wander_vertical_m);
+  variance[kLogScale] = squared(model.log_scale);
+  covariance_.diagonal() = variance;
+}
+
+void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s) {
+  const inertial::Inertial corrected{measured.rate_radps - gyro_bias_ - gyro_matrix_ * measured.rate_radps,
+                                     measured.force_mps2 - force_bias_};
+  const frames::Quaternion before = state_.ned_from_body;
+  state_ = inertial::advance(state_, corrected, dt_s, earth_);
+  rate_radps_ =
+      corrected.rate_radps - state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
+  pending_velocity_ned_ += dt_s * (before.slerp(0.5, state_.ned_from_body) * corrected.force_mps2);
+  pending_s_ += dt_s;
+  fix_error_ *= std::exp(-dt_s / model_.fix_wander_s);
+  if (pending_s_ > kCovarianceStep_s - 1e-9) propagate_covariance();
+}
+
+/// F of dx/dt = F x: [Groves2013, sec. 14.2.4] with the signs of truth less estimate.
+Covariance NavigationFilter::error_rates(const Vec3& force_ned) const {
+  const double latitude = state_.latitude_rad;
+  const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
+  const double east_m = prime_vertical_radius_m(earth_, latitude) + state_.height_m;
+  const Matrix3d ned_from_body = state_.ned_from_body.toRotationMatrix();
+  const Vec3 earth_rate = inertial::earth_rate_ned_radps(state_, earth_);
+  const Vec3 transport = inertial::transport_rate_ned_radps(state_, earth_);
+
+  Covariance f = Covariance::Zero();
+  f.block<3, 3>(kPosition, kVelocity).setIdentity();
+  f.block<3, 3>(kVelocity, kVelocity) = -cross(2.0 * earth_rate + transport);
+  f.block<3, 3>(kVelocity, kRotation) = -cross(force_ned);
+  f.block<3, 3>(kVelocity, kForceBias) = -ned_from_body;
+  f(kVelocity + 2, kPosition + 2) =
+      2.0 * inertial::gravity_mps2(earth_, latitude, state_.height_m) / earth_.equatorial_radius_m;
+
+  f.block<3, 3>(kRotation, kRotation) = -cross(earth_rate + transport);
+  f.block<3, 3>(kRotation, kGyroBias) = -ned_from_body;
+  for (int row = 0; row < 3; ++row) {
+    f.block<3, 3>(kRotation, kGyroMatrix + 3 * row) = -ned_from_body.col(row) * rate_radps_.transpose();
+  }
+  f(kRotation, kVelocity + 1) = -1.0 / east_m;
+  f(kRotation + 1, kVelocity) = 1.0 / north_m;
+  f(kRotation + 2, kVelocity + 1) = std::tan(latitude) / east_m;
+  f(kRotation, kPosition) = earth_.rate_radps * std::sin(latitude) / north_m;
+  f(kRotation + 2, kPosition) =
+      (earth_.rate_radps * std::cos(latitude) + state_.velocity_ned_mps.y() / (east_m * squared(std::cos(latitude)))) /
+      north_m;
+  f.block<3, 3>(kFixError, kFixError) = -Matrix3d::Identity() / model_.fix_wander_s;
+  return f;
+}
+
+void NavigationFilter::propagate_covariance() {
+  if (pending_s_ <= 0.0) return;
+  const double t = pending_s_;
+  const Covariance ft = t * error_rates(pending_velocity_ned_ / t);
+  const Covariance transition = Covariance::Identity() + ft + 0.5 * ft * ft;
+
+  Eigen::Matrix<double, kErrorCount, 1> noise = Eigen::Matrix<double, kErrorCount, 1>::Zero();
+  noise.segment<3>(kVelocity).setConstant(squared(model_.imu.accelerometer.random_walk));
+  noise.segment<3>(kRotation).setConstant(squared(model_.imu.gyro.random_walk));
+  noise.segment<3>(kGyroBias).setConstant(bias_drive(model_.imu.gyro));
+  noise.segment<3>(kForceBias).setConstant(bias_drive(model_.imu.accelerometer));
+  const double drive = 2.0 / model_.fix_wander_s;
+  noise.segment<3>(kFixError) << drive * squared(model_.fix_wander_horizontal_m),
+      drive * squared(model_.fix_wander_horizontal_m), drive * squared(model_.fix_wander_vertical_m);
+
+  // Noise of the step by the trapezoidal rule: half of it enters before the transition, half after.
+  covariance_.diagonal() += 0.5 * t * noise;
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  covariance_.diagonal() += 0.5 * t * noise;
+  pending_s_ = 0.0;
+  pending_velocity_ned_.setZero();
+}
+
+template <int N>
+Innovation NavigationFilter::correct(const Eigen::Matrix<double, N, 1>& residual, const Observation<N>& observation,
+                                     const Eigen::Matrix<double, N, 1>& sigma) {
+  using Square = Eigen::Matrix<double, N, N>;
+  const Square noise = sigma.cwiseAbs2().asDiagonal();
+  const Eigen::Matrix<double, kErrorCount, N> cross_covariance = covariance_ * observation.transpose();
+  const Eigen::LDLT<Square> expected(observation * cross_covariance + noise);
+  Innovation innovation{residual.dot(expected.solve(residual))};
+  innovation.accepted = innovation.normalised_squared <= gate * gate + N;
+  if (!innovation.accepted) return innovation;
+
+  const Eigen::Matrix<double, kErrorCount, N> gain = expected.solve(cross_covariance.transpose()).transpose();
+  const Covariance kept = Covariance::Identity() - gain * observation;
+  covariance_ = (kept * covariance_ * kept.transpose() + gain * noise * gain.transpose()).eval();  // Joseph's form
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  add(gain * residual);
+  return innovation;
+}
+
+void NavigationFilter::add(const Eigen::Matrix<double, kErrorCount, 1>& errors) {
+  const double latitude = state_.latitude_rad;
+  state_.latitude_rad += errors[kPosition] / (meridian_radius_m(earth_, latitude) + state_.height_m);
+  state_.longitude_rad +=
+      errors[kPosition + 1] / ((prime_vertical_radius_m(earth_, latitude) + state_.height_m) * std::cos(latitude));
+  state_.height_m -= errors[kPosition + 2];
+  state_.velocity_ned_mps += errors.segment<3>(kVelocity);
+  const Vec3 rotation = errors.segment<3>(kRotation);
+  const double angle = rotation.norm();
+  if (angle > 0.0) {
+    state_.ned_from_body =
+        (frames::Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) * state_.ned_from_body).normalized();
+  }
+  gyro_bias_ += errors.segment<3>(kGyroBias);
+  force_bias_ += errors.segment<3>(kForceBias);
+  fix_error_ += errors.segment<3>(kFixError);
+  log_scale_ += errors[kLogScale];
+  for (int row = 0; row < 3; ++row) gyro_matrix_.row(row) += errors.segment<3>(kGyroMatrix + 3 * row).transpose();
+}
+
+Vec3 NavigationFilter::turn_rate_radps() const {
+  return rate_radps_ - state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
+}
+
+Innovation NavigationFilter::correct_position(const Fix& fix) {
+  propagate_covariance();
+  const double latitude = state_.latitude_rad;
+  const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
+  const double east_m = (prime_vertical_radius_m(earth_, latitude) + state_.height_m) * std::cos(latitude);
+  const Vec3 lever_ned = state_.ned_from_body * fix.lever_body_m;
+  const Vec3 apart((fix.latitude_rad - latitude) * north_m,
+                   std::remainder(fix.longitude_rad - state_.longitude_rad, 2.0 * std::acos(-1.0)) * east_m,
+                   state_.height_m - fix.height_m);
+
+  Observation<3> h = Observation<3>::Zero();
+  h.block<3, 3>(0, kPosition).setIdentity();
+  h.block<3, 3>(0, kRotation) = -cross(lever_ned);
+  if (!fix.wanders) return correct<3>(apart - lever_ned, h, fix.sigma_ned_m);
+  h.block<3, 3>(0, kFixError).setIdentity();
+  return correct<3>(apart - lever_ned - fix_error_, h, fix.sigma_ned_m);
+}
+
+Innovation NavigationFilter::correct_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m,
+                                              const Vec3& sigma_body_mps) {
+  propagate_covariance();
+  const Matrix3d body_from_ned = state_.ned_from_body.conjugate().toRotationMatrix();
+  const Vec3 own = body_from_ned * state_.velocity_ned_mps + turn_rate_radps().cross(lever_body_m);
+  const double scale = 1.0 + log_scale_;
+  Observation<3> h = Observation<3>::Zero();
+  h.block<3, 3>(0, kVelocity) = scale * body_from_ned;
+  h.block<3, 3>(0, kRotation) = scale * body_from_ned * cross(state_.velocity_ned_mps);
+  h.col(kLogScale) = own;
+  return correct<3>(velocity_body_mps - scale * own, h, sigma_body_mps);
+}
+
+Innovation NavigationFilter::correct_height(double height_m, const Vec3& lever_body_m, double sigma_m) {
+  propagate_covariance();
+  const Vec3 lever_ned = state_.ned_from_body * lever_body_m;
+  Observation<1> h = Observation<1>::Zero();
+  h(0, kPosition + 2) = 1.0;
+  h.block<1, 3>(0, kRotation) = -cross(lever_ned).row(2);
+  return correct<1>(Eigen::Matrix<double, 1, 1>(state_.height_m - height_m - lever_ned.z()), h,
+                    Eigen::Matrix<double, 1, 1>(sigma_m));
+}
+
+Innovation NavigationFilter::correct_heading(double heading_rad, double sigma_rad) {
+  propagate_covariance();
+  const Vec3 forward = state_.ned_from_body * Vec3::UnitX();
+  const double level2 = squared(forward.x()) + squared(forward.y());
+  if (level2 < 0.01) return {0.0, false};  // within 6 degrees of up or down
+  Observation<1> h = Observation<1>::Zero();
+  h.block<1, 3>(0, kRotation) << -forward.z() * forward.x() / level2, -forward.z() * forward.y() / level2, 1.0;
+  const double off = frames::wrap_pi(heading_rad - std::atan2(forward.y(), forward.x()));
+  return correct<1>(Eigen::Matrix<double, 1, 1>(off), h, Eigen::Matrix<double, 1, 1>(sigma_rad));
+}
+
+}  // namespace ensonify::navigation_filter

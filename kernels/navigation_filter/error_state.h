@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kernels/inertial/imu.h"
+#include "kernels/inertial/strapdown.h"
+
+/// Where a vehicle is, from all that it carries: an inertial system corrected by whatever else has something to say.
+namespace ensonify::navigation_filter {
+
+using frames::Vec3;
+using inertial::NavigationState;
+
+/// Places of the errors in covariances. Each is truth less estimate; rotations are small angles about north, east,
+/// down.
+enum ErrorIndex : int {
+  kPosition = 0,     // m, north, east, down
+  kVelocity = 3,     // m/s, north, east, down
+  kRotation = 6,     // rad: true = exp(rotation) estimated attitude
+  kGyroBias = 9,     // rad/s, body
+  kForceBias = 12,   // m/s^2, body
+  kFixError = 15,    // m, north, east, down: the slowly changing error of position fixes
+  kLogScale = 18,    // 1, scale error of the velocity log
+  kGyroMatrix = 19,  // 1, scale (diagonal) and crosstalk of the gyros, row by row
+  kErrorCount = 28,
+};
+using Covariance = Eigen::Matrix<double, kErrorCount, kErrorCount>;
+
+/// What the filter believes of its sensors: standard deviations, as in the sensors' own error models.
+struct FilterModel {
+  inertial::ImuErrors imu;  // of accelerometers, scale and misalignment count as part of the bias: gravity is steady
+  double fix_wander_horizontal_m = 0.0;  // Gauss-Markov errors of position fixes, each axis
+  double fix_wander_vertical_m = 0.0;
+  double fix_wander_s = 300.0;  // their correlation time, > 0
+  double log_scale = 0.0;       // of the velocity log
+};
+
+/// How wrong the first state may be: standard deviations, each axis.
+struct StartErrors {
+  double position_m = 10.0;
+  double height_m = 10.0;
+  double velocity_mps = 0.5;
+  double tilt_rad = 0.01;
+  double heading_rad = 0.05;
+};
+
+/// What a correction found. The normalised innovation squared is distributed as chi-square of as many degrees of
+/// freedom as there were numbers, if the filter and the sensor are as they say.
+struct Innovation {
+  double normalised_squared = 0.0;
+  bool accepted = true;
+};
+
+/// Error-state Kalman filter around a strapdown inertial system [Groves2013, chs 3, 14; Sola2017]. The state is the
+/// inertial system's own; the filter keeps the covariance of 28 errors of it and of the sensors, and adds the estimated
+/// errors to the state at once, so that they are zero between corrections.
+///
+/// Biases are believed to walk at random as fast as the sensors' Gauss-Markov biases start to, which is right for times
+/// below their correlation time and careful beyond. Outliers beyond `gate` standard deviations are refused. Latitudes
+/// as for NavigationState.
+class NavigationFilter {
+ public:
+  NavigationFilter(const NavigationState& start, const StartErrors& errors, const FilterModel& model,
+                   const inertial::Earth& earth = {});
+
+  /// The state dt later, from the mean readings of an inertial measurement unit at the body's origin. The covariance
+  /// follows at least every 0.1 s, and before each correction.
+  void propagate(const inertial::Inertial& measured, double dt_s);
+
+  struct Fix {
+    double latitude_rad = 0.0;
+    double longitude_rad = 0.0;
+    double height_m = 0.0;
+    Vec3 lever_body_m = Vec3::Zero();  // of the antenna or transponder, from the body's origin
+    Vec3 sigma_ned_m = Vec3::Ones();   // white noise
+    bool wanders = true;               // has the model's Gauss-Markov errors
+  };
+  Innovation correct_position(const Fix& fix);
+
+  /// Velocity of the point `lever` over ground, along body axes, by a Doppler log or another whose scale is in doubt.
+  Innovation correct_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m, const Vec3& sigma_body_mps);
+
+  /// Height of the point `lever` above the ellipsoid, of a pressure sensor once its level is known.
+  Innovation correct_height(double height_m, const Vec3& lever_body_m, double sigma_m);
+
+  /// True heading of the body's forward axis; refused when it points nearly up or down.
+  Innovation correct_heading(double heading_rad, double sigma_rad);
+
+  const NavigationState& state() const { return state_; }
+  const Covariance& covariance() const { return covariance_; }
+  Vec3 gyro_bias_radps() const { return gyro_bias_; }
+  Vec3 force_bias_mps2() const { return force_bias_; }
+  /// Of the body against the turning Earth, along its axes, as last measured and corrected.
+  Vec3 turn_rate_radps() const;
+  Vec3 fix_error_ned_m() const { return fix_error_; }
+  double log_scale() const { return log_scale_; }
+
+  double gate = 6.0;
+
+ private:
+  template <int N>
+  using Observation = Eigen::Matrix<double, N, kErrorCount>;
+  template <int N>
+  Innovation correct(const Eigen::Matrix<double, N, 1>& residual, const Observation<N>& observation,
+                     const Eigen::Matrix<double, N, 1>& sigma);
+  void add(const Eigen::Matrix<double, kErrorCount, 1>& errors);
+  void propagate_covariance();
+  Covariance error_rates(const Vec3& force_ned) const;
+
+  inertial::Earth earth_;
+  FilterModel model_;
+  NavigationState state_;
+  Covariance covariance_ = Covariance::Zero();
+  Vec3 gyro_bias_ = Vec3::Zero(), force_bias_ = Vec3::Zero(), fix_error_ = Vec3::Zero();
+  double log_scale_ = 0.0;
+  Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero();
+  Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, last
+  Vec3 pending_velocity_ned_ = Vec3::Zero();  // of specific force, since the covariance was last propagated
+  double pending_s_ = 0.0;
+};
+
+}  // namespace ensonify::navigation_filter

@@ -1,0 +1,140 @@
+#include "kernels/navigation_filter/error_state.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/inertial/drift.h"
+
+using namespace ensonify;
+using namespace ensonify::navigation_filter;
+using inertial::Earth;
+using inertial::Inertial;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const inertial::SchulerSphere kSphere;
+const Earth kResting = Earth::resting_sphere(kSphere.radius_m, kSphere.gravity_mps2);
+const StartErrors kNone{0, 0, 0, 0, 0};
+const Inertial kLevelAtRest{Vec3::Zero(), {0, 0, -kSphere.gravity_mps2}};
+
+/// Standard deviation of the place east after drifting at rest.
+double sigma_east_m(const StartErrors& errors, const FilterModel& model, double time_s) {
+  NavigationFilter filter({}, errors, model, kResting);
+  for (int i = 0; i < 10 * time_s; ++i) filter.propagate(kLevelAtRest, 0.1);
+  return std::sqrt(filter.covariance()(kPosition + 1, kPosition + 1));
+}
+
+double sigma(const NavigationFilter& filter, int i) { return std::sqrt(filter.covariance()(i, i)); }
+
+}  // namespace
+
+TEST_CASE("what the filter expects of each error alone is what it leads to, within 0.1 %") {
+  for (const double t : {60.0, 600.0, 3000.0}) {
+    CAPTURE(t);
+    FilterModel model;
+    model.imu.accelerometer.turn_on_bias = 1e-3;
+    CHECK(sigma_east_m(kNone, model, t) ==
+          Approx(inertial::accelerometer_bias_drift_m(kSphere, 1e-3, t)).epsilon(1e-3));
+    model = {};
+    model.imu.gyro.turn_on_bias = 1e-7;
+    CHECK(sigma_east_m(kNone, model, t) == Approx(inertial::gyro_bias_drift_m(kSphere, 1e-7, t)).epsilon(1e-3));
+    model = {};
+    model.imu.accelerometer.random_walk = 1e-3;
+    CHECK(sigma_east_m(kNone, model, t) ==
+          Approx(inertial::velocity_random_walk_drift_m(kSphere, 1e-3, t)).epsilon(1e-3));
+    model = {};
+    model.imu.gyro.random_walk = 1e-6;
+    CHECK(sigma_east_m(kNone, model, t) == Approx(inertial::angle_random_walk_drift_m(kSphere, 1e-6, t)).epsilon(1e-3));
+    CHECK(sigma_east_m({0, 0, 0, 1e-4, 0}, {}, t) == Approx(inertial::tilt_drift_m(kSphere, 1e-4, t)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("observations point the right way: what is measured exactly is taken over") {
+  // The vehicle points north-east and up, rolled, its sensors off its origin. The estimate starts wrong in one
+  // respect, and is told the truth by the sensor that sees it.
+  const Vec3 lever(3, -1, 2);
+  NavigationState truth{44 * kDegree, -63 * kDegree, -20.0};
+  truth.velocity_ned_mps = {1.0, 2.0, -0.3};
+  truth.ned_from_body = Eigen::AngleAxisd(0.7, Vec3::UnitZ()) * Eigen::AngleAxisd(0.2, Vec3::UnitY()) *
+                        Eigen::AngleAxisd(-0.3, Vec3::UnitX());
+  const Earth earth;
+  const Vec3 lever_ned = truth.ned_from_body * lever;
+  const double north_m = meridian_radius_m(earth, truth.latitude_rad) + truth.height_m;
+  const double east_m =
+      (prime_vertical_radius_m(earth, truth.latitude_rad) + truth.height_m) * std::cos(truth.latitude_rad);
+
+  SECTION("a heading") {
+    NavigationState wrong = truth;
+    wrong.ned_from_body = Eigen::AngleAxisd(0.01, Vec3::UnitZ()) * truth.ned_from_body;
+    NavigationFilter filter(wrong, {0, 0, 0, 0, 0.02}, {});
+    const Vec3 forward = truth.ned_from_body * Vec3::UnitX();
+    filter.correct_heading(std::atan2(forward.y(), forward.x()), 1e-6);
+    CHECK(filter.state().ned_from_body.angularDistance(truth.ned_from_body) < 1e-6);
+  }
+  SECTION("a heading from a place far away") {
+    NavigationState wrong = truth;
+    wrong.ned_from_body = Eigen::AngleAxisd(0.01, Vec3::UnitZ()) * truth.ned_from_body;
+    NavigationFilter filter(wrong, {0, 0, 0, 0, 0.02}, {});
+    filter.correct_velocity(truth.ned_from_body.conjugate() * truth.velocity_ned_mps, Vec3::Zero(),
+                            Vec3::Constant(1e-3));
+    CHECK(filter.state().ned_from_body.angularDistance(truth.ned_from_body) < 1e-4);  // second order: 0.01^2
+  }
+  SECTION("tilt, by a lever") {
+    NavigationState wrong = truth;
+    wrong.ned_from_body = Eigen::AngleAxisd(0.002, Vec3::UnitX()) * truth.ned_from_body;
+    NavigationFilter filter(wrong, {0, 0, 0, 0.01, 0}, {});
+    filter.correct_height(truth.height_m - lever_ned.z(), lever, 1e-7);
+    const Vec3 seen = filter.state().ned_from_body * lever;
+    CHECK(seen.z() == Approx(lever_ned.z()).margin(1e-5));
+    CHECK(sigma(filter, kRotation) < 0.01);
+  }
+  SECTION("a place, velocity and scale") {
+    NavigationState wrong = truth;
+    wrong.latitude_rad += 4.0 / north_m;
+    wrong.longitude_rad -= 3.0 / east_m;
+    wrong.height_m += 2.0;
+    NavigationFilter filter(wrong, {10, 10, 0, 0, 0}, {});
+    NavigationFilter::Fix fix{truth.latitude_rad + lever_ned.x() / north_m,
+                              truth.longitude_rad + lever_ned.y() / east_m, truth.height_m - lever_ned.z(), lever,
+                              Vec3::Constant(1e-4)};
+    CHECK(filter.correct_position(fix).normalised_squared == Approx((16 + 9 + 4) / 100.0).epsilon(1e-3));
+    CHECK((filter.state().latitude_rad - truth.latitude_rad) * north_m == Approx(0).margin(1e-3));
+    CHECK((filter.state().longitude_rad - truth.longitude_rad) * east_m == Approx(0).margin(1e-3));
+    CHECK(filter.state().height_m == Approx(truth.height_m).margin(1e-3));
+
+    FilterModel model;
+    model.log_scale = 0.01;
+    NavigationFilter scaled(truth, kNone, model);
+    scaled.correct_velocity(1.004 * (truth.ned_from_body.conjugate() * truth.velocity_ned_mps), Vec3::Zero(),
+                            Vec3::Constant(1e-6));
+    CHECK(scaled.log_scale() == Approx(0.004).epsilon(1e-3));
+    model = {};
+    model.fix_wander_horizontal_m = 5.0;
+    NavigationFilter wandering(truth, kNone, model);
+    fix.latitude_rad += 2.0 / north_m;
+    wandering.correct_position(fix);
+    CHECK(wandering.fix_error_ned_m().x() == Approx(2.0).epsilon(1e-3));
+    CHECK((wandering.state().latitude_rad - truth.latitude_rad) * north_m == Approx(0).margin(1e-3));
+  }
+}
+
+TEST_CASE("a fix far beyond belief is refused, and changes nothing") {
+  NavigationFilter filter({}, {1, 1, 0.1, 0.01, 0.01}, {}, kResting);
+  const auto before = filter.covariance();
+  NavigationFilter::Fix fix;
+  fix.height_m = 100.0;
+  CHECK(!filter.correct_position(fix).accepted);
+  CHECK(filter.covariance() == before);
+  CHECK(filter.state().height_m == 0.0);
+  fix.height_m = 1.0;
+  CHECK(filter.correct_position(fix).accepted);
+}
+
+TEST_CASE("a heading is refused when the bow points up") {
+  NavigationState steep;
+  steep.ned_from_body = Eigen::AngleAxisd(89 * kDegree, Vec3::UnitY());
+  NavigationFilter filter(steep, {}, {});
+  CHECK(!filter.correct_heading(0.0, 0.01).accepted);
+}
