@@ -39,6 +39,7 @@ struct RasterOptions {
   bool fill_holes = false;           // interpolate over them
   double fill_distance_cells = 100;  // how far
   bool judge_values = true;          // refuse what cannot be a seabed's heights in metres
+  std::string cutting = "first (gdal_translate -projwin)";         // how a part of it is cut out
   std::string crs_setting = "the pager's `raster_crs: EPSG:...`";  // what sets `crs`, as its user knows it
 };
 
@@ -77,6 +78,7 @@ class RasterFile {
   double highest_m() const { return highest_m_; }
   const std::string& name() const { return options_.called.empty() ? options_.path : options_.called; }
   const RasterHints& hints() const { return hints_; }
+  const RasterOptions& options() const { return options_; }
   /// The files that the raster stands in, those beside it that belong to it included; none for what is in memory.
   std::vector<std::string> files() const;
 

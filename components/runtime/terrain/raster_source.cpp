@@ -127,7 +127,7 @@ void RasterSource::measure() {
   const double width = extent_.east_m - extent_.west_m, height = extent_.north_m - extent_.south_m;
   if (width > kLargest_m || height > kLargest_m) {
     file_->refuse("covers " + kilometres(width, height) +
-                  "; at most 200 km x 200 km are allowed: cut out the survey area first (gdal_translate -projwin)");
+                  "; at most 200 km x 200 km are allowed: cut out the survey area " + file_->options().cutting);
   }
   const double far = std::max(
       {std::abs(extent_.west_m), std::abs(extent_.east_m), std::abs(extent_.south_m), std::abs(extent_.north_m)});

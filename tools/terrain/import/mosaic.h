@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/runtime/terrain/terrain_source.h"
+#include "kernels/survey_grid/holes.h"
+#include "tools/terrain/import/survey_file.h"
+
+namespace ensonify::terrain_import {
+
+/// What one file gave to the whole.
+struct Share {
+  double cell_m = 0.0;             // the shorter side of its cells in the world
+  double surveyed_m2 = 0.0;        // its cells that hold a value
+  double known_m2 = 0.0;           // posts whose height it knows, by their own area
+  double used_m2 = 0.0;            // posts that took it
+  std::int64_t without_datum = 0;  // posts lost because the raster of its datum has no value there
+  std::int64_t overlap = 0;        // posts that an earlier file decided and it knows as well
+  double overlap_mean_m = 0.0;     // its height there less the one that was taken
+  double overlap_rms_m = 0.0;
+};
+
+/// All files on one lattice of posts about one origin.
+class Mosaic : public source::TerrainSource {
+ public:
+  /// Throws UserError when posts are too many or when no file knows any.
+  Mosaic(std::vector<SurveyFile>& files, const ImportOptions& options);
+
+  source::Extent extent() const override;
+  double lowest_m() const override { return lowest_m_; }
+  double highest_m() const override { return highest_m_; }
+  frames::Geodetic origin() const override { return origin_; }
+  double native_spacing_m() const override { return tile_.spacing_m; }
+  void sample(const source::PostBlock& posts, std::span<float> height_m,
+              std::span<std::uint8_t> sediment) const override;
+  double height_m(const frames::Vec2& place) const override;
+
+  const std::vector<Share>& shares() const { return shares_; }
+  /// The posts, as a tile that holds them all; heights and classes may be changed.
+  terrain::Tile& tile() { return tile_; }
+  const terrain::Tile& tile() const { return tile_; }
+  /// The tile's first post, counted from the origin.
+  std::int64_t first_east() const { return first_east_; }
+  std::int64_t first_north() const { return first_north_; }
+  source::PostBlock rows(int first, int count) const;
+
+ private:
+  void place_origin(const std::vector<SurveyFile>& files, const ImportOptions& options);
+  void lay_posts(const std::vector<SurveyFile>& files, double spacing_m);
+  void add(const SurveyFile& file, Share& share);
+  void measure();
+
+  frames::Geodetic origin_;
+  source::Extent surveyed_;
+  terrain::Tile tile_;
+  std::int64_t first_east_ = 0, first_north_ = 0;
+  double lowest_m_ = 0.0, highest_m_ = 0.0;
+  std::vector<Share> shares_;
+};
+
+}  // namespace ensonify::terrain_import
