@@ -5,6 +5,7 @@
 
 #include "components/echosounder/node.h"
 #include "components/runtime/config/default_yaml.h"
+#include "components/runtime/head/test_config.h"
 #include "components/runtime/head/test_seabed.h"
 #include "components/runtime/testing.h"
 #include "kernels/array/aperture.h"
@@ -61,19 +62,10 @@ msg::Tile flat() {
   return tile_of(128, 1.0, [](double, double) { return -22.0; });
 }
 
-Scenario with_head(const std::string& name) {
-  Scenario scenario;
-  Vehicle boat;
-  boat.name = "boat";
-  boat.mountings[name] = {};
-  scenario.vehicles = {boat};
-  return scenario;
-}
-
 }  // namespace
 
 TEST_CASE("echosounder/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<EchosounderConfig>("echosounder", with_head("echosounder")) == "");
+  CHECK(default_yaml_fault<EchosounderConfig>("echosounder", world_with("echosounder")) == "");
 }
 
 TEST_CASE("the depth below the piston is found to a sample, also when the boat rolls within the beam") {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "components/multibeam/node.h"
@@ -78,6 +80,31 @@ inline std::vector<msg::Soundings> survey(const MultibeamConfig& config, const T
   give_motion(head, track, until);
   head.give("tile", flat_tile(-20.0));
   return head.step_until<msg::Soundings>("soundings", until);
+}
+
+inline int valid_count(const msg::Soundings& s) {
+  return std::accumulate(s.valid.flat().begin(), s.valid.flat().end(), 0);
+}
+
+struct Spread {
+  double mean = 0.0, sd = 0.0;
+  int count = 0;
+};
+
+/// Depth minus 20 m of the soundings whose beam lies between two angles (to either side).
+inline Spread depth_error(const std::vector<msg::Soundings>& pings, double from_deg, double to_deg) {
+  double sum = 0.0, squares = 0.0;
+  int n = 0;
+  for (const auto& s : pings) {
+    for (std::size_t beam = 0; beam < s.valid.size(); ++beam) {
+      const double angle_deg = std::abs(s.beam_angle_rad[beam]) / MultibeamConfig::kDegree;
+      if (s.valid[beam] == 0 || angle_deg < from_deg || angle_deg > to_deg) continue;
+      const double error = -s.position_enu_m(beam, 2) - 20.0;
+      sum += error, squares += error * error, ++n;
+    }
+  }
+  if (n == 0) return {};
+  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * sum / n)), n};
 }
 
 }  // namespace ensonify

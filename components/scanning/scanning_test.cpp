@@ -3,6 +3,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/config/default_yaml.h"
+#include "components/runtime/head/test_config.h"
 #include "components/runtime/testing.h"
 #include "components/scanning/node.h"
 #include "kernels/array/line.h"
@@ -16,26 +17,6 @@ namespace {
 
 constexpr double kDeg = Scan::kDegree;
 constexpr double kSpeed_mps = 1500.0;
-
-Scenario with_head(const std::string& name) {
-  Scenario scenario;
-  Vehicle auv;
-  auv.name = "auv";
-  auv.mountings[name] = {};
-  scenario.vehicles = {auv};
-  return scenario;
-}
-
-std::string problems(const std::string& yaml) {
-  auto from = ConfigReader::from_text(yaml, "head.yaml");
-  ScanningConfig::read(from, with_head("eye"), "eye");
-  try {
-    from.finish();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::vector<double> angles_deg(const Scan& scan, int pings) {
   std::vector<double> angles;
@@ -76,14 +57,14 @@ double range_of(const msg::Ping& ping, std::size_t sample) {
 }  // namespace
 
 TEST_CASE("scanning/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<ScanningConfig>("scanning", with_head("scanning")) == "");
+  CHECK(default_yaml_fault<ScanningConfig>("scanning", world_with("scanning")) == "");
 }
 
 TEST_CASE("a scan outside its limits is refused with place and limits") {
-  CHECK(problems("steps_per_ping: 0") == "head.yaml:1:17: steps_per_ping: 0 is outside [1, 100]");
-  CHECK(problems("{sector_width_deg: 5, steps_per_ping: 10}").find("is less than what the head turns") !=
-        std::string::npos);
-  CHECK(problems("{sector_width_deg: 90, turning: reversing}").empty());
+  CHECK(problems_of<ScanningConfig>("steps_per_ping: 0") == "head.yaml:1:17: steps_per_ping: 0 is outside [1, 100]");
+  CHECK(problems_of<ScanningConfig>("{sector_width_deg: 5, steps_per_ping: 10}")
+            .find("is less than what the head turns") != std::string::npos);
+  CHECK(problems_of<ScanningConfig>("{sector_width_deg: 90, turning: reversing}").empty());
 }
 
 TEST_CASE("a full turn goes round without a double place") {

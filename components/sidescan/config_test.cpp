@@ -3,56 +3,36 @@
 #include <catch2/catch.hpp>
 
 #include "components/runtime/config/default_yaml.h"
+#include "components/runtime/head/test_config.h"
 
 using namespace ensonify;
 
-namespace {
-
-Scenario with_head(const std::string& name) {
-  Scenario scenario;
-  Vehicle fish;
-  fish.name = "fish";
-  fish.mountings[name] = {};
-  scenario.vehicles = {fish};
-  return scenario;
-}
-
-std::string problems(const std::string& yaml) {
-  auto from = ConfigReader::from_text(yaml, "head.yaml");
-  SidescanConfig::read(from, with_head("towed"), "towed");
-  try {
-    from.finish();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
-
 TEST_CASE("sidescan/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<SidescanConfig>("sidescan", with_head("sidescan")) == "");
+  CHECK(default_yaml_fault<SidescanConfig>("sidescan", world_with("sidescan")) == "");
 }
 
 TEST_CASE("a sidescan outside its limits is refused with place and limits") {
-  CHECK(problems("{channels: [{name: low, frequency_hz: 5000}]}") ==
+  CHECK(problems_of<SidescanConfig>("{channels: [{name: low, frequency_hz: 5000}]}") ==
         "head.yaml:1:39: channels[0].frequency_hz: 5000 is outside [50000, 1e+06]");
-  CHECK_THAT(problems("channels: []"), Catch::Contains("channels: needs at least one channel"));
-  CHECK_THAT(problems("{channels: [{name: a, frequency_hz: 100e3}, {name: a, frequency_hz: 500e3}]}"),
-             Catch::Contains("is taken by another channel"));
-  CHECK_THAT(problems("{channels: [{name: a, frequency_hz: 100e3, pulse: chirp, bandwidth_hz: 1000}]}"),
-             Catch::Contains("a chirp needs at least 4"));
-  CHECK_THAT(problems("{channels: [{name: a, frequency_hz: 100e3, bandwidth_hz: 1000}]}"),
+  CHECK_THAT(problems_of<SidescanConfig>("channels: []"), Catch::Contains("channels: needs at least one channel"));
+  CHECK_THAT(
+      problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3}, {name: a, frequency_hz: 500e3}]}"),
+      Catch::Contains("is taken by another channel"));
+  CHECK_THAT(
+      problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, pulse: chirp, bandwidth_hz: 1000}]}"),
+      Catch::Contains("a chirp needs at least 4"));
+  CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, bandwidth_hz: 1000}]}"),
              Catch::Contains("only a chirp sweeps"));
-  CHECK_THAT(problems("{channels: [{name: a, frequency_hz: 100e3, range_m: 1000, pulse_length_s: 1e-5}]}"),
-             Catch::Contains("at most 100000 are allowed"));
+  CHECK_THAT(
+      problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, range_m: 1000, pulse_length_s: 1e-5}]}"),
+      Catch::Contains("at most 100000 are allowed"));
 }
 
 TEST_CASE("a two-way beam width makes a line that is wider one-way") {
   auto from = ConfigReader::from_text(
       "{channels: [{name: a, frequency_hz: 100e3, horizontal_beamwidth_deg: 1, horizontal_beamwidth_is: two_way}]}",
       "head.yaml");
-  const auto config = SidescanConfig::read(from, with_head("towed"), "towed");
+  const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
   from.finish();
   CHECK(config.channels.at(0).horizontal_beamwidth_rad / SidescanChannel::kDegree == Approx(50.76 / 36.55));
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/test_config.h"
 #include "components/runtime/testing.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -11,16 +11,6 @@
 
 /// Heads as a launch runs them: configured by YAML, fed and heard through their ports.
 namespace ensonify::physics {
-
-/// A world whose one vehicle carries a head of this name.
-inline Scenario world_with(const std::string& head) {
-  Scenario scenario;
-  Vehicle vehicle;
-  vehicle.name = "auv";
-  vehicle.mountings[head] = {};
-  scenario.vehicles = {vehicle};
-  return scenario;
-}
 
 /// Throws ConfigError when the head's reader refuses the text.
 template <class Node>

@@ -3,27 +3,19 @@
 
     docs/physics/draw/detection.py build/dev/tests/detect_test
 """
-import subprocess
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from values import columns, save
+from values import save, table
 
 LENGTH = 50.76  # waves: 1 degree
 DEPTH_M, SPEED_MPS, PULSE_S = 20.0, 1500.0, 100e-6
 
 
-def table(tag):
-    """The columns that a hidden test prints."""
-    done = subprocess.run([sys.argv[1], f"[.{tag}]"], capture_output=True, text=True, check=True)
-    lines = [line for line in done.stdout.splitlines() if "," in line and not line.startswith("Filters")]
-    return columns("\n".join(lines))
-
-
 def draw_accuracy():
-    data = table("accuracy-csv")
+    data = table(sys.argv[1], "accuracy-csv")
     print("predicted over measured:", np.round(data["predicted_sd"] / data["sd"], 2))
     figure, axes = plt.subplots(3, 1, figsize=(9, 11), constrained_layout=True, sharex=True)
     for axis, snr_db in zip(axes, (20, 10)):
@@ -48,7 +40,7 @@ def draw_accuracy():
 
 
 def draw_ramps():
-    data = table("ramp-csv")
+    data = table(sys.argv[1], "ramp-csv")
     angles = np.unique(np.round(data["angle_deg"]))
     figure, axes = plt.subplots(len(angles), 1, figsize=(9, 11), constrained_layout=True)
     for axis, angle_deg in zip(axes, angles):
@@ -88,7 +80,7 @@ def lambert_peak_db(angle_rad):
 
 
 def draw_seabed_image():
-    data = table("seabed-image-csv")
+    data = table(sys.argv[1], "seabed-image-csv")
     angle = np.degrees(np.arccos(DEPTH_M / data["range_m"]))
     figure, axes = plt.subplots(3, 1, figsize=(9, 11), constrained_layout=True, sharex=True)
     axes[0].plot(angle, data["lambert_db"], label="no excess at normal incidence")

@@ -3,21 +3,14 @@
 
     docs/physics/draw/echo.py build/dev/tests/echo_test
 """
-import subprocess
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from values import columns, save
+from values import save, table
 
 SPEED_MPS, PULSE_S = 1500.0, 100e-6
-
-
-def table(tag):
-    """The columns that a hidden test prints."""
-    done = subprocess.run([sys.argv[1], f"[.{tag}]"], capture_output=True, text=True, check=True)
-    return columns("\n".join(line for line in done.stdout.splitlines() if "," in line and "Filters" not in line))
 
 
 def finish(figure, name):
@@ -52,7 +45,7 @@ def sidescan_db(range_m, depth_m=10.0, alpha=0.1):
 
 
 def draw_levels():
-    data = table("echo-levels-csv")
+    data = table(sys.argv[1], "echo-levels-csv")
     figure, axes = plt.subplots(2, 2, figsize=(10, 7), constrained_layout=True, height_ratios=[3, 1], sharex="col")
     for column, (head, name, reference) in enumerate(((0, "beam angle, degrees", multibeam_peak_db),
                                                       (1, "slant range, m", sidescan_db))):
@@ -69,7 +62,7 @@ def draw_levels():
 
 
 def draw_speckle():
-    data = table("echo-speckle-csv")
+    data = table(sys.argv[1], "echo-speckle-csv")
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     moved, coherence = data["x"][data["kind"] == 0], data["y"][data["kind"] == 0]
     axes[0].plot(moved, np.clip(1 - 2 * moved, 0, None), "C2", label="1 - 2d/L")
@@ -83,7 +76,7 @@ def draw_speckle():
 
 
 def draw_pattern():
-    data = table("echo-pattern-csv")
+    data = table(sys.argv[1], "echo-pattern-csv")
     figure, axis = plt.subplots(figsize=(10, 4.5), constrained_layout=True)
     for name, label in (("uniform", "uniform, 100 elements"), ("shaded", "Taylor 30 dB"),
                         ("error", "uniform, FFT less direct sum")):
@@ -94,7 +87,7 @@ def draw_pattern():
 
 
 def draw_pulses():
-    data = table("echo-pulse-csv")
+    data = table(sys.argv[1], "echo-pulse-csv")
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     time_us = 1e6 * data["time_s"]
     axes[0].plot(time_us, data["tone"], label="tone, 100 µs")
@@ -113,7 +106,7 @@ def draw_pulses():
 
 
 def draw_multipath():
-    data = table("echo-multipath-csv")
+    data = table(sys.argv[1], "echo-multipath-csv")
     x, H, D, d, alpha = np.linspace(0, 80, 400), 20.0, 24.0, 4.0, 0.05
     R1, bounce, second = np.hypot(x, H), np.hypot(x, D + d), np.hypot(x, H + 2 * D)
     figure, axes = plt.subplots(2, 1, figsize=(9, 8), constrained_layout=True, sharex=True)
@@ -130,7 +123,7 @@ def draw_multipath():
 
 
 def draw_gain():
-    data = table("echo-gain-csv")
+    data = table(sys.argv[1], "echo-gain-csv")
     figure, axes = plt.subplots(2, 1, figsize=(9, 8), constrained_layout=True, sharex=True)
     R = data["range_m"]
     axes[0].plot(R, data["right_gain_db"], label="30 log R + 2 · 0.07 R - 60")

@@ -114,6 +114,30 @@ def chart(record, axes):
     return drawn, "depth of the soundings (m), 1 m cells; hillshade x8"
 
 
+def strength(record, axes):
+    """Backscattering strength of a multibeam's soundings along the middle of its line, before any processing."""
+    found = [message.content for message in record.messages(the(record, ensonify.Soundings))]
+    places = np.concatenate([soundings.position_enu_m[soundings.valid == 1] for soundings in found])
+    strength_db = np.concatenate([soundings.backscatter_strength_db[soundings.valid == 1] for soundings in found])
+    middle = np.abs(places[:, 1]) < 30
+    east_m, north_m = places[middle, 0], places[middle, 1]
+    frame = grid.frame_around(east_m, north_m, 1.0)
+    mean_db = 10 * np.log10(grid.Gridder(frame, east_m, north_m).mean(np.power(10.0, strength_db[middle] / 10)))
+    drawn = axes.imshow(mean_db, extent=frame.extent_m, origin="lower", cmap="gray", interpolation="nearest")
+    axes.set(xlabel="east (m)", ylabel="north (m)")
+    return drawn, "backscattering strength of the soundings (dB), 1 m cells"
+
+
+def section(record, axes):
+    """The fan of a multibeam's ping, as deep as the bottom."""
+    heard = choose_ping(record, the(record, ensonify.Ping))
+    gain = gain_for("auto", heard.ping, Gain(30.0))
+    fan = fan_image(heard, gain, 26.0)
+    drawn = axes.imshow(fan.level_db, extent=fan.extent_m, aspect="equal", cmap=ECHOES, interpolation="nearest")
+    axes.set(xlabel="starboard of the head (m)", ylabel="below the head (m)")
+    return drawn, gain.label()
+
+
 def ahead(record, axes):
     """A forward-looking image as the sea lies ahead."""
     heard = choose_ping(record, the(record, ensonify.Ping))
@@ -128,6 +152,8 @@ FISH = "mission.depth_m=5"  # 15 m above the bed
 NO_SURFACE = "side.effects.multipath=false"  # where its echoes would distract
 CAST = "water.profile=[{depth_m: 0, sound_speed_mps: 1500}, {depth_m: 6, sound_speed_mps: 1500}, {depth_m: 10, sound_speed_mps: 1475}]"
 THREE_LINES = "mission={speed_mps: 4, run_in_m: 10, lawnmower: {centre_m: [0, 0], heading_deg: 0, length_m: 60, spacing_m: 40, count: 3}}"
+STILL = "mission.runlines=[{from_m: [0, -6], to_m: [0, 6]}]"
+SECTORS = "bow.sectors=[{frequency_hz: 290e3}, {frequency_hz: 300e3}, {frequency_hz: 310e3}]"
 
 ARTEFACTS = (
     Artefact("nadir_gap", "sidescan", ground, ("as it is: dark below the fish", "directivity switched off"),
@@ -149,6 +175,10 @@ ARTEFACTS = (
              always=("mission.depth_m=14", "seabed.synthetic.boulders={per_hectare: 25, smallest_radius_m: 1, largest_radius_m: 2}",
                      "seabed.sediments={0: {lambert_mu_db: -40}, 2: {lambert_mu_db: -10}}"),
              off=("eye.effects.side_lobes=false",), limits=(105, 165), size_in=(10.0, 4.0)),
+    Artefact("water_column_arc", "multibeam", section, ("line shaded to -30 dB: a bow at the nadir's range", "side lobes switched off (-60 dB)"),
+             always=(STILL, "bow.mode=water_column"), off=("bow.effects.side_lobes=false",), limits=(85, 165)),
+    Artefact("sector_edges", "multibeam", strength, ("three sectors", "one sector"),
+             on=(SECTORS,), percentiles=(1, 99)),
     Artefact("layover", "sidescan", slant, ("steep ridge: its top answers before its foot", "the same height on a gentle slope"),
              always=(FISH, NO_SURFACE), limits=(105, 165),
              on=("seabed.synthetic.ridge={from_m: [14, -38], to_m: [14, -18], height_m: 6, width_m: 3}",),

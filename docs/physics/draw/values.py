@@ -27,6 +27,12 @@ def columns(text):
     return found
 
 
+def table(program, tag):
+    """The columns that a hidden test prints."""
+    done = subprocess.run([program, f"[.{tag}]"], capture_output=True, text=True, check=True)
+    return columns("\n".join(line for line in done.stdout.splitlines() if "," in line and not line.startswith("Filters")))
+
+
 def physics(*words):
     """The columns of one call of `ensonify physics`, which is the script's first argument."""
     if len(sys.argv) != 2:
