@@ -34,10 +34,11 @@ int run_to_end(const Command& command) {
   return ours ? ending.exit_code : int{kExitDied};
 }
 
-int run_after(const Launch& launch, const RunPlaces& places) {
+int run_after(const Launch& launch, const RunPlaces& places, bool output_to_error) {
   std::vector<Command> commands;
   for (const auto& step : launch.after) {
     commands.push_back(after_command(step, places));
+    commands.back().output_to_error = output_to_error;
   }
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (const int code = run_to_end(commands[i]); code != kExitOk) {

@@ -131,7 +131,7 @@ Child::Child(const Command& command) {
   for (const int cpu : command.cpus) {
     CPU_SET(static_cast<std::size_t>(cpu), &cpus);
   }
-  const int log_fd = open_log(command.log_file);
+  const int log_fd = command.output_to_error ? ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0) : open_log(command.log_file);
   const int error_fd = command.error_file.empty() ? log_fd : open_log(command.error_file);
   int pipe_fds[2];
   if (::pipe2(pipe_fds, O_CLOEXEC) != 0) {

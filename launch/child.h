@@ -18,6 +18,7 @@ struct Command {
   std::vector<int> cpus;                   // empty: any
   std::string log_file;                    // standard output and error; "": ours
   std::string error_file;                  // standard error apart; "": together with the output
+  bool output_to_error = false;            // without a log file: standard output goes where our standard error goes
   int keep_fd = -1;                        // a descriptor that the child inherits
 };
 

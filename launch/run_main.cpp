@@ -131,7 +131,7 @@ int run(Options& options) {
     if (!options.quiet) {
       summarize(report, out);
     }
-    report.code = run_after(launch, {program_folder(), "", out});
+    report.code = run_after(launch, {program_folder(), "", out}, options.json);
   }
   if (options.json) {
     fmt::print("{}", json_text(report));

@@ -74,8 +74,11 @@ class Workplace {
 /// A program under test.
 class Program {
  public:
-  Program(const Workplace& place, std::vector<std::string> words, const std::string& log = "log.txt")
-      : log_(place.file(log)), child_(command(std::move(words))) {}
+  Program(const Workplace& place, std::vector<std::string> words, const std::string& log = "log.txt",
+          const std::string& error_log = "")
+      : log_(place.file(log)),
+        error_log_(error_log.empty() ? "" : place.file(error_log)),
+        child_(command(std::move(words))) {}
 
   /// Waits for its end; the exit code, or minus the signal.
   int wait() {
@@ -91,9 +94,10 @@ class Program {
     words[0] = std::string(std::getenv("ENSONIFY_BUILD")) + "/bin/" + words[0];
     command.argv = std::move(words);
     command.log_file = log_;
+    command.error_file = error_log_;
     return command;
   }
-  std::string log_;
+  std::string log_, error_log_;
   Child child_;
 };
 
@@ -228,6 +232,16 @@ TEST_CASE("steps after the run see the output folder, and the first that fails d
   CHECK(contents(place.file("out/after")) == "done");
   CHECK_FALSE(fs::exists(place.file("out/never")));
   CHECK(result.said.find("after: `sh -c exit 5` ended with exit code 5") != std::string::npos);
+}
+
+TEST_CASE("with --json standard output holds the result alone, whatever the steps after the run print") {
+  const Workplace place;
+  place.two_stubs("duration_s: 0.5\nafter: [[sh, -c, 'echo done']]\n");
+  Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out"), "--json"}, "said",
+                  "errors");
+  CHECK(program.wait() == 0);
+  CHECK(nlohmann::json::parse(program.said()).at("exit_code") == 0);
+  CHECK(contents(place.file("errors")).find("done\n") != std::string::npos);
 }
 
 TEST_CASE("the dispatcher finds the nearest verb") {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "components/runtime/exit_error.h"
@@ -89,34 +90,35 @@ std::vector<std::string> Verb::columns() const {
   return columns;
 }
 
-void Verb::print_row(const std::vector<std::string>& columns, bool first) {
+std::string Verb::row_text(const std::vector<std::string>& columns, bool first) {
   std::vector<std::string> cells;
   for (const Choice& choice : choices_) cells.push_back(json_ ? '"' + choice.given + '"' : choice.given);
   const auto add = [&](double value) { cells.push_back(json_ ? json_of(value) : text_of(value)); };
   for (const Number& number : numbers_) add(*number.value);
   for (const double result : compute_()) add(result);
   if (!json_) {
-    fmt::print("{}\n", fmt::join(cells, ","));
-    return;
+    return fmt::format("{}\n", fmt::join(cells, ","));
   }
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = fmt::format("\"{}\": {}", columns[i], cells[i]);
-  fmt::print("{}{{{}}}", first ? "[\n  " : ",\n  ", fmt::join(cells, ", "));
+  return fmt::format("{}{{{}}}", first ? "[\n  " : ",\n  ", fmt::join(cells, ", "));
 }
 
 void Verb::print() try {
   read_input();
   const std::vector<std::string> columns = this->columns();
-  if (!json_) fmt::print("{}\n", fmt::join(columns, ","));
+  std::string text;  // nothing is printed unless the kernel takes every row
+  if (!json_) text = fmt::format("{}\n", fmt::join(columns, ","));
 
   std::vector<std::size_t> at(numbers_.size(), 0);  // an odometer over the sweeps
   for (bool first = true, more = true; more; first = false) {
     for (std::size_t i = 0; i < at.size(); ++i) *numbers_[i].value = numbers_[i].sweep[at[i]];
-    print_row(columns, first);
+    text += row_text(columns, first);
     std::size_t turned = at.size();
     while (turned > 0 && ++at[turned - 1] == numbers_[turned - 1].sweep.size()) at[--turned] = 0;
     more = turned > 0;
   }
-  if (json_) fmt::print("\n]\n");
+  if (json_) text += "\n]\n";
+  std::fwrite(text.data(), 1, text.size(), stdout);
 } catch (const std::invalid_argument& error) {
   throw UserError(error.what());
 }

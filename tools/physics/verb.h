@@ -49,7 +49,8 @@ class Verb {
 
   bool asked_for() const;
 
-  /// Prints all rows: as CSV with a header, or with --json as a list of objects. ExitError for wrong input.
+  /// Prints all rows: as CSV with a header, or with --json as a list of objects. ExitError for wrong input, and then
+  /// nothing is printed.
   void print();
 
  private:
@@ -74,7 +75,7 @@ class Verb {
                   const std::string& about);
   void read_input();
   std::vector<std::string> columns() const;
-  void print_row(const std::vector<std::string>& columns, bool first);
+  std::string row_text(const std::vector<std::string>& columns, bool first);
 
   CLI::App* app_;
   bool json_ = false;
