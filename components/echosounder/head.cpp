@@ -29,6 +29,7 @@ AperturePattern pattern_of(const EchosounderConfig& c) {
   if (!c.effects.directivity) return [](const Eigen::Vector3f&) { return 1.0F; };
   const double size = size_in_waves(c);
   const bool round = circular(c);
+  const array::Face face(0.0, kBackLoss_db);
   const auto table = std::make_shared<array::PatternTable>(
       [=](double sine) { return round ? array::piston_amplitude(size, sine) : array::line_amplitude(size, sine); },
       0.5 * size);
@@ -37,8 +38,8 @@ AperturePattern pattern_of(const EchosounderConfig& c) {
     return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
   };
   return [=](const Eigen::Vector3f& d) {
-    const double face = array::face_amplitude({0.0, kBackLoss_db}, static_cast<double>(d.z()));
-    return static_cast<float>(face) * (round ? along(d.head<2>().norm()) : along(d.x()) * along(d.y()));
+    const auto weight = static_cast<float>(face.amplitude(static_cast<double>(d.z())));
+    return weight * (round ? along(d.head<2>().norm()) : along(d.x()) * along(d.y()));
   };
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
 
 namespace ensonify {
@@ -16,14 +15,12 @@ array::PatternTable line_pattern(double length_in_waves) {
 }
 
 /// cos^q is -3 dB at half the aperture.
-double cosine_power(double aperture_rad) { return std::log(std::sqrt(0.5)) / std::log(std::cos(0.5 * aperture_rad)); }
+float cosine_power(double aperture_rad) {
+  return static_cast<float>(std::log(std::sqrt(0.5)) / std::log(std::cos(0.5 * aperture_rad)));
+}
 
 Eigen::Vector3f in_vertical_plane(double down_rad) {
   return {static_cast<float>(std::cos(down_rad)), 0.0F, static_cast<float>(std::sin(down_rad))};
-}
-
-double face(const Eigen::Vector3f& axis, const Eigen::Vector3f& direction) {
-  return array::face_amplitude({0.0, kBackLoss_db}, static_cast<double>(axis.dot(direction)));
 }
 
 }  // namespace
@@ -32,6 +29,7 @@ ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in
     : directivity_(config.effects.directivity),
       axis_head_(in_vertical_plane(config.tilt_rad)),
       up_the_face_head_(in_vertical_plane(config.tilt_rad - 0.5 * std::numbers::pi)),
+      face_(0.0, kBackLoss_db),
       cosine_power_(cosine_power(config.aperture_rad)),
       transmit_vertical_(line_pattern(array::length_in_waves_for(config.transmit_vertical_rad))),
       receive_vertical_(line_pattern(array::length_in_waves_for(config.receive_vertical_rad))),
@@ -39,9 +37,9 @@ ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in
 
 double ForwardFaces::transmitted_power(const Eigen::Vector3f& direction) const {
   if (!directivity_) return 1.0;
-  const double u = static_cast<double>(direction.y()), back = face(axis_head_, direction);
-  const double across = std::pow(std::max(0.0, 1.0 - u * u), cosine_power_);
-  return across * back * back *
+  const float u = direction.y(), across = std::pow(std::max(0.0F, (1.0F - u) * (1.0F + u)), cosine_power_);
+  const double face = face_.amplitude(static_cast<double>(axis_head_.dot(direction)));
+  return static_cast<double>(across) * face * face *
          static_cast<double>(transmit_vertical_.power(static_cast<double>(up_the_face_head_.dot(direction))));
 }
 
@@ -49,7 +47,7 @@ float ForwardFaces::element_amplitude(const Eigen::Vector3f& direction) const {
   if (!directivity_) return 1.0F;
   return element_.amplitude(static_cast<double>(direction.y())).real() *
          receive_vertical_.amplitude(static_cast<double>(up_the_face_head_.dot(direction))).real() *
-         static_cast<float>(face(axis_head_, direction));
+         static_cast<float>(face_.amplitude(static_cast<double>(axis_head_.dot(direction))));
 }
 
 double ForwardFaces::noise_share() const {

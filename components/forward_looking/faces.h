@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "components/forward_looking/config.h"
+#include "kernels/array/aperture.h"
 #include "kernels/array/pattern_table.h"
 
 namespace ensonify {
@@ -28,7 +29,8 @@ class ForwardFaces {
  private:
   bool directivity_;
   Eigen::Vector3f axis_head_, up_the_face_head_;
-  double cosine_power_;
+  array::Face face_;
+  float cosine_power_;  // of the transmission in azimuth
   array::PatternTable transmit_vertical_, receive_vertical_, element_;
 };
 

@@ -165,11 +165,7 @@ echo::Background ForwardLookingHead::background(const Shot& shot, double source_
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void ForwardLookingHead::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
-  gain_.resize(arrivals.size());
-  for (std::size_t i = 0; i < arrivals.size(); ++i) {
-    const float amplitude = faces_.element_amplitude(arrivals[i].direction_head);
-    gain_[i] = config_.effects.speckle ? amplitude : amplitude * amplitude;
-  }
+  arrivals_.gains([this](const Eigen::Vector3f& direction) { return faces_.element_amplitude(direction); }, gain_);
   const echo::Sampling& sampling = listening_->ranged.sampling;
   const std::vector<std::vector<float>> weights{weights_};
   if (config_.effects.speckle) {

@@ -198,11 +198,7 @@ echo::Background SectorEchoes::background(std::int64_t ping, double source_level
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void SectorEchoes::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
-  gain_.resize(arrivals.size());
-  for (std::size_t i = 0; i < arrivals.size(); ++i) {
-    const float amplitude = pattern_.element_amplitude(arrivals[i].direction_head);
-    gain_[i] = config_.effects.speckle ? amplitude : amplitude * amplitude;
-  }
+  arrivals_.gains([this](const Eigen::Vector3f& direction) { return pattern_.element_amplitude(direction); }, gain_);
   if (config_.effects.speckle) {
     receiver_.form({arrivals, gain_, listening_->sampled, sampling_, background}, sin_beams_, weights_, images_);
     return;

@@ -65,13 +65,13 @@ AperturePattern scanning_pattern(const ScanningConfig& config) {
              sine = static_cast<float>(std::sin(config.tilt_rad));
   const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);
   const bool directivity = config.effects.directivity;
+  const array::Face face(0.0, kBackLoss_db);
   return [=](const Eigen::Vector3f& direction) {
     if (std::abs(direction.y()) >= first_null) return 0.0F;
     const float narrow = across->amplitude(static_cast<double>(direction.y())).real();
     if (!directivity) return narrow;
-    const double face = array::face_amplitude({0.0, kBackLoss_db}, static_cast<double>(axis.dot(direction)));
     return narrow * vertical->amplitude(static_cast<double>(up_the_face.dot(direction))).real() *
-           static_cast<float>(face);
+           static_cast<float>(face.amplitude(static_cast<double>(axis.dot(direction))));
   };
 }
 

@@ -65,7 +65,7 @@ detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
 std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const Effects& effects) {
   const auto along = line_pattern(lines_in_waves(channel), effects.side_lobes);
   const auto across = line_pattern(face_in_waves(channel), true);
-  const array::Face face{0.0, channel.back_loss_db};
+  const array::Face face(0.0, channel.back_loss_db);
   const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
   const auto sine = static_cast<float>(std::sin(channel.depression_rad));
   std::vector<AperturePattern> sides;
@@ -76,7 +76,7 @@ std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const
       continue;
     }
     sides.push_back([=](const Eigen::Vector3f& d) {
-      const double weight = array::face_amplitude(face, static_cast<double>(normal.dot(d)));
+      const double weight = face.amplitude(static_cast<double>(normal.dot(d)));
       return along(d.x()) * across(up_the_face.dot(d)) * static_cast<float>(weight);
     });
   }

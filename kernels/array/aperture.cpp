@@ -5,16 +5,11 @@
 
 namespace ensonify::array {
 
-double face_amplitude(const Face& face, double cos_normal) {
-  const double front = std::pow(std::abs(cos_normal), face.cosine_power);
-  return cos_normal >= 0.0 ? front : front * std::pow(10.0, -face.back_loss_db / 20.0);
-}
-
 std::complex<double> amplitude(const PlanarArray& array, double wavelength_m, const frames::Vec3& direction_head,
                                double sin_steer_x, double sin_steer_y) {
   return amplitude(array.along_x, wavelength_m, direction_head.x(), sin_steer_x) *
          amplitude(array.along_y, wavelength_m, direction_head.y(), sin_steer_y) *
-         face_amplitude(array.face, direction_head.z());
+         array.face.amplitude(direction_head.z());
 }
 
 double piston_amplitude(double diameter_in_waves, double sin_off_axis) {

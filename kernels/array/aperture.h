@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
 
 #include "kernels/array/line_array.h"
@@ -9,13 +10,25 @@
 namespace ensonify::array {
 
 /// How the face of a head weighs directions, besides the interference of its elements.
-struct Face {
-  double cosine_power = 0.0;  // amplitude falls as cos^q of the angle from the normal; 0: not at all, 1: soft baffle
-  double back_loss_db = 0.0;  // less amplitude behind the face (a baffle), positive; 0: as much as in front
-};
+class Face {
+ public:
+  /// All directions alike.
+  Face() = default;
+  /// cosine_power: amplitude falls as cos^q of the angle from the normal; 0: not at all, 1: soft baffle.
+  /// back_loss_db: less amplitude behind the face (a baffle), positive; 0: as much as in front.
+  Face(double cosine_power, double back_loss_db)
+      : cosine_power_(cosine_power), behind_(std::pow(10.0, -back_loss_db / 20.0)) {}
 
-/// Amplitude in a direction whose cosine from the outward normal is `cos_normal`; negative is behind the face.
-double face_amplitude(const Face& face, double cos_normal);
+  /// Amplitude in a direction whose cosine from the outward normal is `cos_normal`; negative is behind the face.
+  double amplitude(double cos_normal) const {
+    const double front = cosine_power_ == 0.0 ? 1.0 : std::pow(std::abs(cos_normal), cosine_power_);
+    return cos_normal >= 0.0 ? front : front * behind_;
+  }
+
+ private:
+  double cosine_power_ = 0.0;
+  double behind_ = 1.0;
+};
 
 /// Elements in rows and columns whose weights are products, in the plane of the head's x and y axes.
 struct PlanarArray {

@@ -64,11 +64,11 @@ TEST_CASE("a plane array is the product of its lines in both direction cosines")
 }
 
 TEST_CASE("the face takes directions off its normal down, and those behind it by the baffle's loss") {
-  CHECK(face_amplitude({}, 0.3) == 1.0);
-  CHECK(face_amplitude({}, -0.3) == 1.0);
-  const Face soft{.cosine_power = 1.0, .back_loss_db = 20.0};
-  CHECK(face_amplitude(soft, 1.0) == 1.0);
-  CHECK(face_amplitude(soft, 0.5) == Approx(0.5));
-  CHECK(db(face_amplitude(soft, -0.5)) == Approx(db(0.5) - 20.0));
-  CHECK(face_amplitude(soft, 0.0) == 0.0);
+  CHECK(Face().amplitude(0.3) == 1.0);
+  CHECK(Face().amplitude(-0.3) == 1.0);
+  const Face soft(1.0, 20.0);
+  CHECK(soft.amplitude(1.0) == 1.0);
+  CHECK(soft.amplitude(0.5) == Approx(0.5));
+  CHECK(db(soft.amplitude(-0.5)) == Approx(db(0.5) - 20.0));
+  CHECK(soft.amplitude(0.0) == 0.0);
 }

@@ -14,7 +14,6 @@ namespace {
 using frames::Vec3;
 
 constexpr std::size_t kPerTask = 2048;
-constexpr double kPerDb = 0.1 * std::numbers::ln10;  // 10^(x / 10) = e^(kPerDb x)
 
 Arrival direct_echo(const Carrier& carrier, const Vec3& source_enu_m, const Scatterer& scatterer,
                     const Receivers& receivers) {
@@ -26,7 +25,7 @@ Arrival direct_echo(const Carrier& carrier, const Vec3& source_enu_m, const Scat
 
   Arrival arrival;
   arrival.time_s = out_s + back_m * scatterer.slowness_spm;
-  const double loss = std::exp(-kPerDb * carrier.absorption_dbpm * scatterer.stretch * (out_m + back_m));
+  const double loss = power_ratio(-carrier.absorption_dbpm * scatterer.stretch * (out_m + back_m));
   const double mean_square = scatterer.scattered_upa2m2 * loss / (scatterer.spreading * back_m * back_m);
   arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, scatterer.response);
   const Eigen::Vector3f direction_enu = (back / back_m).cast<float>() + scatterer.bend_enu;

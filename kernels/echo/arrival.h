@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,9 @@
 #include "kernels/frames/pose.h"
 
 namespace ensonify::echo {
+
+/// 10^(db / 10).
+inline double power_ratio(double db) { return std::exp(0.1 * std::numbers::ln10 * db); }
 
 /// A plane wave that comes to the receiver: one scatterer by one path, or another source.
 struct Arrival {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kBlock = TimeIndex::kBlock;
 constexpr int kWidth = Spreading::kWidth;
+constexpr double kUnheard = 1e-16;     // of electronic to isotropic noise: float's rounding hides it
 constexpr int kLeft = kWidth / 2 - 1;  // points of a tap before the one that holds the number
 
 /// Number k of a sample draws from counter (sample << 24) + k / 2: arrays of up to 2^25 cells do not overlap.
@@ -70,7 +71,7 @@ ElementLine power_line(const ElementLine& line) {
 
 LineReceiver::LineReceiver(const ElementLine& line)
     : line_(line),
-      cells_(fft::Transform::good_size(std::max(2 * line.elements, 2 * kWidth))),
+      cells_(fft::Transform::fast_size(std::max(2 * line.elements, 2 * kWidth))),
       stride_(cells_ + kWidth),
       to_elements_(cells_, fft::Transform::Sign::kPlus),
       to_beams_(cells_, fft::Transform::Sign::kMinus),
@@ -145,6 +146,7 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
   for (Memory& memory : memory_) {
     memory.grid.resize(kBlock * row);
     memory.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
+    memory.spectrum.resize(row);
     memory.field.resize(row);
     if (input.background.volume_upa2.empty()) continue;
     memory.sum.resize(row);
@@ -227,22 +229,23 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Memory
   std::complex<float>* grid = row + kLeft;
   for (int i = 0; i < kLeft; ++i) row[i + cells_] += row[i];
   for (int i = kLeft; i < kWidth; ++i) row[i] += row[i + cells_];
-  to_elements_(grid);
+  std::complex<float>* spectrum = memory.spectrum.data();
+  to_elements_(grid, spectrum);
 
   const int M = line_.elements;
   std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
-  for (int m = 0; m < M; ++m) elements[m] = grid[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
+  for (int m = 0; m < M; ++m) elements[m] = spectrum[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
   const Background& background = input.background;
   if ((background.isotropic_upa2 > 0.0 && !white_) || !background.volume_upa2.empty()) {
     draw_field(input, block, sample, memory);
-    to_elements_(memory.field.data());
-    for (int m = 0; m < M; ++m) elements[m] += memory.field[static_cast<std::size_t>(harmonic(m))];
+    to_elements_(memory.field.data(), spectrum);
+    for (int m = 0; m < M; ++m) elements[m] += spectrum[harmonic(m)];
   }
   if (background.isotropic_upa2 > 0.0 && white_) {
     random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
                          component_sd(background.isotropic_upa2), std::span(elements, static_cast<std::size_t>(M)));
   }
-  if (background.electronic_upa2 > 0.0) {
+  if (background.electronic_upa2 > kUnheard * background.isotropic_upa2) {
     random::add_gaussian(*background.electronic, background.ping, counter_of(sample),
                          component_sd(background.electronic_upa2), std::span(elements, static_cast<std::size_t>(M)));
   }
@@ -251,15 +254,16 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Memory
 /// Element signals of a block, weighted, onto the grid that beams read.
 void LineReceiver::to_beam_grid(int samples, std::span<const float> weights, Memory& memory) const {
   const int M = line_.elements;
+  std::complex<float>* spectrum = memory.spectrum.data();
+  std::fill_n(spectrum, cells_, std::complex<float>{});  // and so it stays between the elements' harmonics
   for (int r = 0; r < samples; ++r) {
     std::complex<float>* row = memory.grid.data() + static_cast<std::ptrdiff_t>(r) * stride_;
     const std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
-    std::fill_n(row, stride_, std::complex<float>{});
     for (int m = 0; m < M; ++m) {
       const auto i = static_cast<std::size_t>(m);
-      row[kLeft + harmonic(m)] = elements[m] * (weights[i] * unspread_[i]);
+      spectrum[harmonic(m)] = elements[m] * (weights[i] * unspread_[i]);
     }
-    to_beams_(row + kLeft);
+    to_beams_(spectrum, row + kLeft);
     for (int i = 0; i < kLeft; ++i) row[i] = row[i + cells_];
     for (int i = kLeft; i < kWidth; ++i) row[i + cells_] = row[i];
   }

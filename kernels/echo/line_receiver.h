@@ -42,7 +42,7 @@ struct Background {
   std::uint64_t ping = 0;
   double isotropic_upa2 = 0.0;  // ambient noise at one element, in the receiver's band, equal from all directions
   const random::Stream* isotropic = nullptr;
-  double electronic_upa2 = 0.0;  // of each element's own electronics, as sound
+  double electronic_upa2 = 0.0;  // of each element's own electronics, as sound; 160 dB below the isotropic: not drawn
   const random::Stream* electronic = nullptr;
   /// Volume reverberation (volume.h): sample by cell of the receiver's sine grid; coloured in time by the pulse.
   std::span<const float> volume_upa2;
@@ -95,7 +95,7 @@ class LineReceiver {
     Spreading::Taps taps;
   };
   struct Memory {  // of one thread
-    std::vector<std::complex<float>> grid, elements, field, sum, draws;
+    std::vector<std::complex<float>> grid, elements, spectrum, field, sum, draws;
   };
 
   void check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const;

@@ -20,8 +20,6 @@ constexpr double kLeastReflection = 1e-5;
 
 Vec3 mirrored(const Vec3& point, double level_m) { return {point.x(), point.y(), 2.0 * level_m - point.z()}; }
 
-double ratio(double db) { return std::pow(10.0, 0.1 * db); }
-
 /// What all paths of one ping share.
 struct Paths {
   const Carrier& carrier;
@@ -29,11 +27,13 @@ struct Paths {
   const SurfaceMirror& surface;
   const frames::HeadPose& pose;
   const Receivers& receivers;
+  double source_upa2m2 = power_ratio(head.source_level_db);  // on the axis
+  double bottom_mirror = std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
 
   /// Mean-square pressure at 1 m that leaves towards a point or an image, uPa^2 m^2.
   double source_towards(const Vec3& target) const {
     const Vec3 direction = pose.enu_from_head.conjugate() * (target - pose.position_enu_m).normalized();
-    return ratio(head.source_level_db) * head.transmit(direction.cast<float>());
+    return source_upa2m2 * head.transmit(direction.cast<float>());
   }
 
   /// The arrival that left a scatterer (or its image) at `from` with mean square `at_1m`, after `out_m` of path, with
@@ -44,7 +44,7 @@ struct Paths {
     const Vec3 back = from - receiver.position_enu_m;
     const double back_m = std::max(back.norm(), 1e-3), total_m = out_m + back_m;
     const double mean_square =
-        at_1m * reflected * reflected * ratio(-carrier.absorption_dbpm * total_m) / (back_m * back_m);
+        at_1m * reflected * reflected * power_ratio(-carrier.absorption_dbpm * total_m) / (back_m * back_m);
     Arrival arrival;
     arrival.time_s = total_m / surface.sound_speed_mps;
     arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -response : response);
@@ -74,7 +74,7 @@ struct Paths {
     // Seen from the head, the scatterer mirrored at the surface and then at the seabed's level.
     const Vec3 image = mirrored(mirrored(place, surface.level_enu_m), place.z());
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
-    const double V = reflection(pose.position_enu_m, image) * std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
+    const double V = reflection(pose.position_enu_m, image) * bottom_mirror;
     const double lit = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
     return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
             arrive(lit, V, bounced_m, place, scatterer.response)};
@@ -87,8 +87,8 @@ struct Paths {
     const Receivers::At receiver = receivers.at(whole_m / surface.sound_speed_mps);
     const Vec3 back = image - receiver.position_enu_m;
     const double path_m = std::max(back.norm(), 1e-3);
-    const double mean_square =
-        source_towards(target) * reflected * reflected * ratio(-carrier.absorption_dbpm * path_m) / (path_m * path_m);
+    const double mean_square = source_towards(target) * reflected * reflected *
+                               power_ratio(-carrier.absorption_dbpm * path_m) / (path_m * path_m);
     Arrival arrival;
     arrival.time_s = path_m / surface.sound_speed_mps;
     arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -1.0F : 1.0F);
@@ -156,7 +156,7 @@ void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const 
   if (place.z() >= surface.level_enu_m || place.z() <= bottom_level_enu_m) return;
   const Paths paths{carrier, head, surface, pose, receivers};
   const double V = surface_reflection(surface, carrier.frequency_hz, 1.0);
-  const double B = std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
+  const double B = paths.bottom_mirror;
   const auto bottom = [&](const Vec3& point) { return mirrored(point, bottom_level_enu_m); };
   const auto top = [&](const Vec3& point) { return mirrored(point, surface.level_enu_m); };
   const Vec3 down_up = top(bottom(place)), up_down = bottom(top(place)), twice = bottom(down_up);

@@ -14,10 +14,14 @@ TEST_CASE("a wave becomes one line, where its sign says") {
   std::vector<std::complex<float>> numbers;
   for (int i = 0; i < size; ++i)
     numbers.emplace_back(std::polar(1.0F, static_cast<float>(2 * std::numbers::pi * wave * i / size)));
+  auto apart = numbers;
+  Transform(size, Transform::Sign::kMinus)(numbers.data(), apart.data());
+  CHECK(std::abs(numbers[1] - std::polar(1.0F, static_cast<float>(2 * std::numbers::pi * wave / size))) < 1e-6F);
   Transform(size, Transform::Sign::kMinus)(numbers.data());
   for (int i = 0; i < size; ++i) {
     INFO("line " << i);  // float's rounding grows as the root of log2(size): below 1e-5 of 30
     CHECK(std::abs(numbers[static_cast<std::size_t>(i)]) == Approx(i == wave ? size : 0.0).margin(1e-4));
+    CHECK(std::abs(apart[static_cast<std::size_t>(i)]) == Approx(i == wave ? size : 0.0).margin(1e-4));
   }
 }
 
@@ -44,4 +48,12 @@ TEST_CASE("good sizes are even, without large prime factors, and not below what 
   CHECK(Transform::good_size(7) == 8);
   CHECK(Transform::good_size(127) == 128);
   CHECK(Transform::good_size(241) == 250);
+}
+
+TEST_CASE("fast sizes are multiples of 8 with one factor 3 at most") {
+  CHECK(Transform::fast_size(1) == 8);
+  CHECK(Transform::fast_size(200) == 200);
+  CHECK(Transform::fast_size(201) == 240);
+  CHECK(Transform::fast_size(241) == 256);
+  CHECK(Transform::fast_size(257) == 320);
 }

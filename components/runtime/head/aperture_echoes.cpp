@@ -78,11 +78,7 @@ void ApertureEchoes::hear(std::span<const echo::Arrival> arrivals, const echo::S
                           const echo::Sampling& sampling) {
   std::vector<std::span<const float>> rows;
   for (std::size_t row = 0; row < gains_.size(); ++row) {
-    gains_[row].resize(arrivals.size());
-    for (std::size_t i = 0; i < arrivals.size(); ++i) {
-      const float gain = apertures_.patterns[row](arrivals[i].direction_head);
-      gains_[row][i] = effects_.speckle ? gain : gain * gain;
-    }
+    arrivals_.gains(apertures_.patterns[row], gains_[row]);
     rows.push_back(gains_[row]);
   }
   receiver_.form(arrivals, rows, effects_.speckle ? pulse : pulse.squared(), sampling, image_);

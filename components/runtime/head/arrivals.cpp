@@ -1,5 +1,8 @@
 #include "components/runtime/head/arrivals.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <cmath>
 
 #include "components/runtime/head/head_motion.h"
@@ -9,6 +12,13 @@ namespace ensonify {
 namespace {
 
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
+constexpr std::size_t kRaysPerTask = 4096;
+
+/// What rays met.
+struct Met {
+  int hits = 0, in_lobe = 0;
+  double height_m = 0.0;  // sum of z
+};
 
 double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
@@ -67,19 +77,27 @@ void Arrivals::light(double source_level_db, std::span<const trace::Ray> rays, s
   const double source = power_of(sent_db(source_level_db));
   source_upa2m2_.resize(rays.size());
   backscatter_.resize(rays.size());
-  rays_that_hit_ = rays_in_lobe_ = 0;
-  double height_m = 0.0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!hits[i].hit()) continue;
-    const double transmitted = transmitted_(rays[i].direction_head);
-    ++rays_that_hit_;
-    rays_in_lobe_ += transmitted > kInLobe ? 1 : 0;
-    height_m += hits[i].position_enu_m.z();
-    source_upa2m2_[i] = static_cast<float>(source * transmitted);
-    backscatter_[i] = environment_.backscatter()(hits[i].sediment, hits[i].sin_grazing);
-  }
+  const Met met = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), Met{},
+      [&](const auto& range, Met so_far) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (!hits[i].hit()) continue;
+          const double transmitted = transmitted_(rays[i].direction_head);
+          ++so_far.hits;
+          so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
+          so_far.height_m += hits[i].position_enu_m.z();
+          source_upa2m2_[i] = static_cast<float>(source * transmitted);
+          backscatter_[i] = environment_.backscatter()(hits[i].sediment, hits[i].sin_grazing);
+        }
+        return so_far;
+      },
+      [](const Met& a, const Met& b) {
+        return Met{a.hits + b.hits, a.in_lobe + b.in_lobe, a.height_m + b.height_m};
+      });
+  rays_that_hit_ = met.hits;
+  rays_in_lobe_ = met.in_lobe;
   const double head_depth_m = -transmit_pose().position_enu_m.z();
-  seabed_depth_m_ = rays_that_hit_ > 0 ? -height_m / rays_that_hit_ : head_depth_m;
+  seabed_depth_m_ = met.hits > 0 ? -met.height_m / met.hits : head_depth_m;
   absorption_dbpm_ = effects_.absorption ? environment_.absorption_dbpm(head_depth_m, seabed_depth_m_) : 0.0;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/parallel_for.h>
+
 #include <functional>
 #include <span>
 #include <vector>
@@ -21,7 +23,7 @@ namespace ensonify {
 /// the tiles. What the head hears of it by its receive patterns, and the noise, are the head's.
 class Arrivals {
  public:
-  /// Power of the transmission in a direction (unit vector, head frame), 1 on its axis.
+  /// Power of the transmission in a direction (unit vector, head frame), 1 on its axis. Called from several threads.
   using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head)>;
 
   Arrivals(const Environment& environment, double frequency_hz, const Effects& effects, TransmittedPower transmitted);
@@ -64,6 +66,23 @@ class Arrivals {
   const std::vector<float>& reverberation_upa2(double source_level_db,
                                                std::span<const echo::VolumeDirections> listeners,
                                                const echo::Pulse& pulse, const echo::Sampling& sampling);
+
+  /// What a receive pattern (amplitude by direction in the head's frame) gives each arrival: that amplitude, or with
+  /// speckle switched off its square.
+  template <class Pattern>
+  void gains(const Pattern& pattern, std::vector<float>& gains) const {
+    constexpr std::size_t kPerTask = 4096;
+    gains.resize(arrivals_.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),
+        [&](const auto& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const float amplitude = pattern(arrivals_[i].direction_head);
+            gains[i] = effects_.speckle ? amplitude : amplitude * amplitude;
+          }
+        },
+        tbb::simple_partitioner());
+  }
 
   const Environment& environment() const { return environment_; }
   /// How many rays of the last ping met the seabed.
