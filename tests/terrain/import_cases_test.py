@@ -2,6 +2,8 @@
 with place, cause and remedy; and imports that are stopped."""
 import json
 import math
+import os
+import re
 import shutil
 import signal
 import subprocess
@@ -10,7 +12,12 @@ import unittest
 
 import numpy as np
 from importing import Import, gdal, osr, terrain
-from support import BIN
+from support import BIN, SOURCE
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
 
 UTM = 32619
 CORNER = (360000.0, 4680000.0)
@@ -169,6 +176,38 @@ class Cases(Import):
         self.assertLess(np.nanstd(heights), 0.09)
         self.assertAlmostEqual(report["sources"][0]["band"]["removed_below_cells"], 10, delta=0.1)
 
+    @unittest.skipUnless(h5py, "h5py is absent")
+    def test_a_bag_of_variable_resolution_whose_overview_is_two_by_two(self):
+        cell, posts = 64.0, {(0, 0): 32, (0, 1): 16, (1, 0): 8, (1, 1): 32}  # row from the south, column: nodes a side
+        overview = self.made("overview.tif", (CORNER[0], cell, 0, CORNER[1], 0, -cell), (2, 2))
+        path = self.folder / "variable.bag"
+        gdal.Translate(str(path), str(overview), format="BAG")
+        nodes, index = [], np.zeros((2, 2), dtype=[("index", "<u4"), ("dimensions_x", "<u4"), ("dimensions_y", "<u4"),
+                                                   ("resolution_x", "<f4"), ("resolution_y", "<f4"), ("sw_corner_x", "<f4"),
+                                                   ("sw_corner_y", "<f4")])
+        for (row, column), n in posts.items():
+            step = cell / n
+            x = CORNER[0] + column * cell + (np.arange(n) + 0.5) * step
+            y = CORNER[1] - 2 * cell + row * cell + (np.arange(n) + 0.5) * step
+            index[row, column] = (len(nodes), n, n, step, step, step / 2, step / 2)
+            nodes += [(z, 0.1) for z in sea(*np.meshgrid(x, y)).ravel()]
+        with h5py.File(path, "a") as bag:
+            root = bag["BAG_root"]
+            root.create_dataset("varres_metadata", data=index)
+            for name, value in (("resolution", (2.0, 8.0)), ("dimensions", (8, 32))):
+                for axis in "xy":
+                    root["varres_metadata"].attrs[f"min_{name}_{axis}"] = np.dtype("f4" if name == "resolution" else "u4").type(value[0])
+                    root["varres_metadata"].attrs[f"max_{name}_{axis}"] = np.dtype("f4" if name == "resolution" else "u4").type(value[1])
+            root.create_dataset("varres_refinements", data=np.array([nodes], dtype=[("depth", "<f4"), ("depth_uncrt", "<f4")]))
+        folder, report = self.run_import(path)
+        self.assertAlmostEqual(report["spacing_m"], 2.0, delta=0.01)
+        whole = self.made("whole.tif", (CORNER[0], 2.0, 0, CORNER[1], 0, -2.0), (64, 64))
+        ours, gdals = self.warped(whole, folder, report)
+        both = np.isfinite(ours) & np.isfinite(gdals)
+        self.assertGreater(np.count_nonzero(both), 60 * 60)
+        # a node of 8 m stands for 4 m to each side; the slope is 2 / 90 at most along north
+        self.assertLess(np.abs(ours - gdals)[both].max(), 4 * 2 / 90 + 4 * 0.004 + 0.01)
+
     # What is refused
 
     def test_rasters_without_a_seabed_are_refused(self):
@@ -273,6 +312,15 @@ class Cases(Import):
             self.assertEqual(terrain("verify", mount / "tiles").returncode, 0)
         finally:
             subprocess.run(["umount", mount], check=True)
+
+    @unittest.skipUnless(shutil.which("gdal_create"), "gdal_create is absent")
+    def test_the_example_of_the_page(self):
+        page = (SOURCE / "docs/import.md").read_text(encoding="utf-8")
+        (box,) = re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S)
+        done = subprocess.run(["bash", "-e", "-c", box], cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(json.loads((self.folder / "bay/import.json").read_text())["lowest_m"], -80 * 0.3048, places=3)
 
     def test_gdal_and_qgis_open_the_set(self):
         folder, report = self.run_import(self.made())

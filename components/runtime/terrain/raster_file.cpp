@@ -49,6 +49,7 @@ RasterFile::RasterFile(RasterOptions options)
   read_reference();
   read_hints();
   if (options_.box) cut(*options_.box);
+  if (refined_) held_ = read_refinements();
   if (options_.fill_holes) {
     std::vector<float> cells = read_all();
     const std::string fault = source::fill_holes(cells, columns_, rows_, options_.fill_distance_cells);
@@ -94,23 +95,74 @@ void RasterFile::open() {
   }
 }
 
-/// A BAG of variable resolution shows its overview, a few large cells; its refinements are read on one fine grid.
+/// A BAG of variable resolution shows its overview, a few large cells; its refinements are read on the finest grid.
 void RasterFile::open_finest() {
   const char* refined = dataset_->GetMetadataItem("HAS_SUPERGRIDS");
   if (refined == nullptr || !EQUAL(refined, "TRUE")) return;
+  refined_ = true;
+  constexpr double kAny = 1e9;
+  dataset_ = refinements(0.0, kAny, 0.0);
+  if (!dataset_) refuse(std::string("its refinements cannot be read: ") + CPLGetLastErrorMsg());
+}
+
+/// The refinements of cells larger than `from_m` and no larger than `to_m`, on a grid of `cell_m` (0: of their finest),
+/// each of its cells the mean of theirs within it; nothing where there are none.
+std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> RasterFile::refinements(double from_m, double to_m,
+                                                                             double cell_m) const {
+  constexpr double kRounding = 1.001;  // cell sizes in the file are floats
   CPLStringList how;
   how.SetNameValue("MODE", "RESAMPLED_GRID");
-  if (options_.finest_m > 0.0) {
-    how.SetNameValue("RESX", std::to_string(options_.finest_m).c_str());
-    how.SetNameValue("RESY", std::to_string(options_.finest_m).c_str());
-    how.SetNameValue("VALUE_POPULATION", "MEAN");
+  how.SetNameValue("VALUE_POPULATION", "MEAN");
+  how.SetNameValue("RES_FILTER_MIN", number(kRounding * from_m).c_str());
+  how.SetNameValue("RES_FILTER_MAX", number(kRounding * to_m).c_str());
+  if (cell_m > 0.0) {
+    how.SetNameValue("RESX", std::to_string(cell_m).c_str());
+    how.SetNameValue("RESY", std::to_string(cell_m).c_str());
   } else {
     how.SetNameValue("RES_STRATEGY", "MIN");
   }
   CPLErrorReset();
-  dataset_.reset(GDALDataset::Open(options_.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                   nullptr, how.List()));
-  if (!dataset_) refuse(std::string("its refinements cannot be read: ") + CPLGetLastErrorMsg());
+  return {GDALDataset::Open(options_.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, how.List()), close};
+}
+
+/// GDAL puts each node of a refinement into one cell of its grid, so coarse ones would leave gaps in a fine grid. They
+/// are read on grids of twice the cell size and so on, and stand for the fine cells that lie in theirs.
+std::vector<float> RasterFile::read_refinements() const {
+  constexpr int kMostLevels = 20;
+  constexpr double kMostCells = 4e8;
+  if (static_cast<double>(columns_) * rows_ > kMostCells)
+    refuse("has " + number(columns_) + " x " + number(rows_) + " cells at its finest; at most " + number(kMostCells) +
+           " are allowed: cut out the survey area " + options_.cutting);
+  std::vector<float> cells(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+                           std::numeric_limits<float>::quiet_NaN());
+  double below_m = 0.0;
+  for (double cell_m = std::abs(map_from_cell_[1]); cell_m < std::ldexp(std::abs(map_from_cell_[1]), kMostLevels);
+       below_m = cell_m, cell_m *= 2.0) {
+    const auto level = refinements(below_m, cell_m, cell_m);
+    double geotransform[6];
+    if (!level || level->GetGeoTransform(geotransform) != CE_None) continue;
+    GDALRasterBand* band = level->GetRasterBand(options_.band);
+    const auto nodata = static_cast<float>(band->GetNoDataValue());
+    std::vector<float> line(static_cast<std::size_t>(level->GetRasterXSize()));
+    int read_row = -1;
+    for (int row = 0; row < rows_; ++row) {
+      const int from_row = static_cast<int>(std::floor((map_of(0, row)[1] - geotransform[3]) / geotransform[5]));
+      if (from_row < 0 || from_row >= level->GetRasterYSize()) continue;
+      if (from_row != read_row && band->RasterIO(GF_Read, 0, from_row, level->GetRasterXSize(), 1, line.data(),
+                                                 level->GetRasterXSize(), 1, GDT_Float32, 0, 0, nullptr) != CE_None)
+        refuse(std::string("its refinements cannot be read: ") + CPLGetLastErrorMsg());
+      read_row = from_row;
+      for (int column = 0; column < columns_; ++column) {
+        const int from = static_cast<int>(std::floor((map_of(column, row)[0] - geotransform[0]) / geotransform[1]));
+        float& cell = cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                            static_cast<std::size_t>(column)];
+        if (from < 0 || from >= level->GetRasterXSize() || !std::isnan(cell)) continue;
+        const float value = line[static_cast<std::size_t>(from)];
+        if (std::isfinite(value) && value != nodata) cell = options_.values_are_depths ? -value : value;
+      }
+    }
+  }
+  return cells;
 }
 
 void RasterFile::read_geotransform() {

@@ -32,13 +32,12 @@ struct RasterOptions {
   /// with the raster's middle at `plane_origin`.
   std::string crs;
   std::optional<frames::Geodetic> plane_origin;
-  std::optional<GeodeticBox> box;    // only the cells that it touches
-  double finest_m = 0.0;             // cells of a BAG of variable resolution; 0: as fine as its finest part
-  bool values_are_depths = false;    // positive down; else elevations, positive up
-  std::optional<double> nodata;      // used instead of the file's own
-  bool fill_holes = false;           // interpolate over them
-  double fill_distance_cells = 100;  // how far
-  bool judge_values = true;          // refuse what cannot be a seabed's heights in metres
+  std::optional<GeodeticBox> box;                                  // only the cells that it touches
+  bool values_are_depths = false;                                  // positive down; else elevations, positive up
+  std::optional<double> nodata;                                    // used instead of the file's own
+  bool fill_holes = false;                                         // interpolate over them
+  double fill_distance_cells = 100;                                // how far
+  bool judge_values = true;                                        // refuse what cannot be a seabed's heights in metres
   std::string cutting = "first (gdal_translate -projwin)";         // how a part of it is cut out
   std::string crs_setting = "the pager's `raster_crs: EPSG:...`";  // what sets `crs`, as its user knows it
 };
@@ -100,6 +99,8 @@ class RasterFile {
  private:
   void open();
   void open_finest();
+  std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> refinements(double from_m, double to_m, double cell_m) const;
+  std::vector<float> read_refinements() const;
   void read_geotransform();
   void invert_geotransform();
   void read_reference();
@@ -112,6 +113,7 @@ class RasterFile {
   std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> dataset_;
   std::unique_ptr<OGRSpatialReference, void (*)(OGRSpatialReference*)> reference_;
   RasterHints hints_;
+  bool refined_ = false;  // a BAG of variable resolution; dataset_ is the grid of its finest cells
   std::array<double, 6> map_from_cell_{0, 1, 0, 0, 0, 1};  // GDAL's geotransform: of cells' corners
   std::array<double, 6> cell_from_map_{};
   double turn_ = 0.0;  // what longitudes repeat by; 0 on a projected map
