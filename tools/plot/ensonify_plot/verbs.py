@@ -8,6 +8,7 @@ from ensonify_plot.forward_looking import forward_looking_picture
 from ensonify_plot.heard import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
                                  soundings_of)
 from ensonify_plot.level import Gain
+from ensonify_plot.navigation import navigation_picture
 from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.results import open_record, save_picture
 
@@ -40,6 +41,9 @@ def add_verbs(verbs) -> None:
     _add_waterfall(verbs)
     _add_water_column(verbs)
     _add_angular_response(verbs)
+    _verb(verbs, "navigation", plot_navigation,
+          "How good the navigation was: error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
+          "Allan deviation of the inertial sensors, spectra of the motion.")
 
 
 def _add_waterfall(verbs) -> None:
@@ -246,4 +250,11 @@ def plot_angular_response(options) -> int:
     response = angular_response.read(record, options.topic, options.ping, options.t, absorption_dbpm)
     figure = angular_response.angular_response_picture(response, options.class_deg)
     save_picture(record, options.out, "angular_response.png", figure)
+    return 0
+
+
+def plot_navigation(options) -> int:
+    """`ensonify plot navigation`."""
+    record = open_record(options.record)
+    save_picture(record, options.out, "navigation.png", navigation_picture(record))
     return 0

@@ -1,0 +1,112 @@
+"""`ensonify plot navigation`: its numbers against closed forms, its picture from a record made here."""
+import contextlib
+import io
+import os
+import tempfile
+import unittest
+
+import numpy as np
+from PIL import Image
+
+import ensonify
+from ensonify_plot import navigation
+from ensonify_plot.main import main
+
+try:
+    from mcap.writer import CompressionType, Writer
+
+    from ensonify import wire
+except ImportError:
+    Writer = None
+
+STEP_S, OFF_M, SIGMA_M = 0.1, np.array([0.3, -0.2, 0.1]), 0.25
+
+
+def pose_at(t_s):
+    """North at 2 m/s, heaving 0.5 m in 8 s."""
+    return np.array([0.0, 2.0 * t_s, 0.5 * np.sin(2 * np.pi * t_s / 8)])
+
+
+def write(file, with_truth=True):
+    """Sixty seconds of truth, an estimate beside it, and increments of white noise."""
+    random = np.random.default_rng(1)
+    north = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
+    covariance = tuple((SIGMA_M**2 * np.eye(3)).ravel())
+    with open(file, "wb") as stream:
+        writer = Writer(stream, compression=CompressionType.NONE)
+        writer.start(profile="x-ensonify/1", library="test")
+        channels = {}
+
+        def put(topic, message):
+            if topic not in channels:
+                schema = writer.register_schema(message.TYPE, "jsonschema", b"{}")
+                channels[topic] = writer.register_channel(topic, "msgpack", schema)
+            t_ns = message.stamp_ns
+            writer.add_message(channels[topic], t_ns, wire.encode_inline(message.to_map()), t_ns, 0)
+
+        for n in range(600):
+            t_s = n * STEP_S
+            stamp_ns = round(t_s * 1e9)
+            if with_truth:
+                put("boat/pose", ensonify.Pose(stamp_ns=stamp_ns, position_enu_m=tuple(pose_at(t_s)), enu_from_body=north))
+            put("nav/estimate", ensonify.Estimate(stamp_ns=stamp_ns, position_enu_m=tuple(pose_at(t_s) + OFF_M),
+                                                  enu_from_body=north, position_covariance_enu_m2=covariance,
+                                                  rotation_covariance_enu_rad2=covariance))
+            if with_truth:
+                put("nav/imu", ensonify.InertialIncrements(stamp_ns=stamp_ns, interval_s=STEP_S,
+                                                           angle_rad=tuple(1e-4 * random.standard_normal(3)),
+                                                           velocity_mps=tuple(1e-3 * random.standard_normal(3))))
+        writer.finish()
+
+
+class Numbers(unittest.TestCase):
+    def test_white_noise_falls_as_one_over_the_root_of_time(self):
+        readings = np.random.default_rng(2).standard_normal(1 << 16)
+        t_s, deviation = navigation.allan_deviation(readings, 0.01)
+        near = t_s < 1.0  # 650 means and more: 3 %, four times that is allowed
+        np.testing.assert_allclose(deviation[near], 0.1 / np.sqrt(t_s[near]), rtol=0.12)
+
+    def test_a_spectrum_sums_to_the_variance_and_peaks_where_the_swell_is(self):
+        t_s = np.arange(0, 800, 0.1)
+        f_hz, density = navigation.spectrum(0.5 * np.sin(2 * np.pi * t_s / 8), 0.1)
+        self.assertAlmostEqual(np.sum(density) * f_hz[0], 0.125, delta=0.002)
+        self.assertAlmostEqual(f_hz[np.argmax(density)], 1 / 8, delta=f_hz[0])
+
+    def test_angles_are_those_of_sailors(self):
+        heading = np.radians(30)  # level: [w, x, y, z] of NED turned about down, in ENU
+        q = np.array([[0.0, np.cos(np.pi / 4 - heading / 2), np.sin(np.pi / 4 - heading / 2), 0.0]])
+        nan = np.full((1, 3), np.nan)
+        track = navigation.Track(np.zeros(1), np.zeros((1, 3)), q, nan, nan[:, 0])
+        np.testing.assert_allclose(track.angles_rad(), [[heading, 0, 0]], atol=1e-12)
+
+
+@unittest.skipIf(Writer is None, "needs the package mcap")
+class Picture(unittest.TestCase):
+    def test_the_planted_error_is_found_and_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "nav.mcap")
+            write(file)
+            record = ensonify.Record(file)
+            estimate = navigation.read_track(record, ensonify.Estimate)
+            _, t_s, error_m, heading_rad = navigation.errors_of(estimate, navigation.read_track(record, ensonify.Pose))
+            self.assertEqual(len(t_s), 600)
+            np.testing.assert_allclose(error_m, np.tile(OFF_M, (600, 1)), atol=1e-9)
+            np.testing.assert_allclose(heading_rad, 0, atol=1e-12)
+            np.testing.assert_allclose(estimate.sigma_m, SIGMA_M)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(main(["navigation", file, "--out", folder]), 0)
+            with Image.open(os.path.join(folder, "navigation.png")) as picture:
+                self.assertGreater(picture.size[0], 1000)
+
+    def test_without_truth_there_is_nothing_to_judge_by(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "nav.mcap")
+            write(file, with_truth=False)
+            said = io.StringIO()
+            with contextlib.redirect_stderr(said):
+                self.assertEqual(main(["navigation", file]), 2)
+            self.assertIn("neither pose/1 nor inertial_increments/1 was recorded", said.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()
