@@ -33,6 +33,8 @@ struct Position {
   double longitude_deg = 0.0;
   double sigma_horizontal_m = 0.0;
   double sigma_vertical_m = 0.0;
+  std::int64_t quality = 0;
+  double hdop = 0.0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -42,6 +44,9 @@ struct Position {
     visit("longitude_deg", "deg", "longitude of the same point, WGS 84, positive east", self.longitude_deg);
     visit("sigma_horizontal_m", "m", "stated standard deviation, each horizontal axis", self.sigma_horizontal_m);
     visit("sigma_vertical_m", "m", "stated standard deviation, up", self.sigma_vertical_m);
+    visit("quality", "1", "as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told",
+          self.quality);
+    visit("hdop", "1", "horizontal dilution of precision; 0 not told", self.hdop);
   }
 };
 
@@ -66,6 +71,9 @@ struct Estimate {
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_body{1, 0, 0, 0};
   std::array<double, 3> velocity_enu_mps{};
+  std::array<double, 9> position_covariance_enu_m2{};
+  std::array<double, 9> velocity_covariance_enu_m2ps2{};
+  std::array<double, 9> rotation_covariance_enu_rad2{};
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -74,6 +82,107 @@ struct Estimate {
     visit("enu_from_body", "1", "estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU",
           self.enu_from_body);
     visit("velocity_enu_mps", "m/s", "estimated velocity of the body origin", self.velocity_enu_mps);
+    visit("position_covariance_enu_m2", "m2", "covariance of the position's error, row by row; all zero: not told",
+          self.position_covariance_enu_m2);
+    visit("velocity_covariance_enu_m2ps2", "m2/s2", "the same of the velocity", self.velocity_covariance_enu_m2ps2);
+    visit("rotation_covariance_enu_rad2", "rad2",
+          "the same of the attitude: of the small rotation about east, north, up from estimate to truth",
+          self.rotation_covariance_enu_rad2);
+  }
+};
+
+struct DelayedHeave {
+  static constexpr const char* kType = "delayed_heave/1";
+  static constexpr const char* kAbout = "What the motion sensor reports of heave once it knows what came after.";
+  std::int64_t stamp_ns = 0;
+  double heave_m = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of the heave, long before the message", self.stamp_ns);
+    visit("heave_m", "m", "vertical displacement from the mean level, positive up", self.heave_m);
+  }
+};
+
+struct Heading {
+  static constexpr const char* kType = "heading/1";
+  static constexpr const char* kAbout = "What a compass reports.";
+  std::int64_t stamp_ns = 0;
+  double heading_true_rad = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("heading_true_rad", "rad", "heading, clockwise from true north", self.heading_true_rad);
+  }
+};
+
+struct InertialIncrements {
+  static constexpr const char* kType = "inertial_increments/1";
+  static constexpr const char* kAbout = "What an inertial measurement unit reports: integrals of what it senses.";
+  std::int64_t stamp_ns = 0;
+  double interval_s = 0.0;
+  std::array<double, 3> angle_rad{};
+  std::array<double, 3> velocity_mps{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "end of the interval, sim time", self.stamp_ns);
+    visit("interval_s", "s", "over which is integrated", self.interval_s);
+    visit("angle_rad", "rad", "turn rate against inertial space, integrated, along the unit's axes", self.angle_rad);
+    visit("velocity_mps", "m/s", "specific force, integrated, along the unit's axes", self.velocity_mps);
+  }
+};
+
+struct VelocityLog {
+  static constexpr const char* kType = "velocity_log/1";
+  static constexpr const char* kAbout = "What a Doppler log reports.";
+  std::int64_t stamp_ns = 0;
+  bool bottom_lock = false;
+  std::array<double, 3> velocity_body_mps{};
+  std::array<double, 3> sigma_body_mps{};
+  std::array<double, 4> range_m{};
+  double altitude_m = 0.0;
+  double error_velocity_mps = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("bottom_lock", "", "whether velocity is known over ground; else it is zero", self.bottom_lock);
+    visit("velocity_body_mps", "m/s",
+          "of the transducer over ground, turned to the body's axes as mounting was measured", self.velocity_body_mps);
+    visit("sigma_body_mps", "m/s", "stated standard deviation of each", self.sigma_body_mps);
+    visit("range_m", "m", "along each beam to the bottom; 0: no lock", self.range_m);
+    visit("altitude_m", "m", "of the transducer above the bottom; 0: no beam has lock", self.altitude_m);
+    visit("error_velocity_mps", "m/s", "what four beams disagree about", self.error_velocity_mps);
+  }
+};
+
+struct Depth {
+  static constexpr const char* kType = "depth/1";
+  static constexpr const char* kAbout = "What a pressure sensor makes of its depth.";
+  std::int64_t stamp_ns = 0;
+  double depth_m = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("depth_m", "m", "of the sensor below the water level", self.depth_m);
+  }
+};
+
+struct Altitude {
+  static constexpr const char* kType = "altitude/1";
+  static constexpr const char* kAbout = "What an altimeter hears of the bottom.";
+  std::int64_t stamp_ns = 0;
+  bool valid = false;
+  double range_m = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("valid", "", "whether anything answered", self.valid);
+    visit("range_m", "m", "along the beam to the bottom; 0: no answer", self.range_m);
   }
 };
 

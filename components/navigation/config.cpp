@@ -27,6 +27,7 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   from.optional("sigma_sound_speed_mps", probe.sigma_mps, 0, 10);
   from.optional("sound_speed_latency_s", probe.latency_s, 0, 10);
 
+  config.instruments = read_instruments(from);
   own_vehicle(from, scenario, process);  // the pose is wired; the name is checked for the user's sake
   config.seed = scenario.seed;
   config.process = process;

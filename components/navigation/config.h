@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "components/navigation/instrument_config.h"
 #include "components/runtime/config/scenario.h"
 #include "kernels/refraction/profile.h"
 
@@ -12,7 +13,8 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// Standard deviations of white noise, each sample and axis on its own.
+/// The simplest instruments, in place of those that are not listed: truth and white noise. Standard deviations, each
+/// sample and axis on its own.
 struct NavigationErrors {
   static constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
 
@@ -45,6 +47,7 @@ struct NavigationConfig {
   double motion_latency_s = 0.0;  // age of attitude and velocity at their stamp: a sensor that does not tell its own
   NavigationErrors sigma;
   SoundSpeedProbe probe;
+  Instruments instruments;
 
   // From the scenario.
   std::uint64_t seed = 1;
@@ -54,7 +57,7 @@ struct NavigationConfig {
   refraction::SoundSpeedProfile water = refraction::SoundSpeedProfile::uniform(1500.0);  // the true one
 
   static NavigationConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
-  /// The parameters of its own, which default.yaml lists.
+  /// The parameters that have a default in default.yaml.
   bool operator==(const NavigationConfig& other) const {
     return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&
            position_gain == other.position_gain && motion_latency_s == other.motion_latency_s && sigma == other.sigma &&

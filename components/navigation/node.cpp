@@ -9,21 +9,45 @@ namespace {
 
 std::array<double, 3> plain(const frames::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+Rate attitude_rate(const NavigationConfig& config) {
+  const auto& sensor = config.instruments.motion_sensor;
+  return sensor ? rate_of(sensor->instrument.rate_hz) : Rate{config.attitude_rate_hz, 1};
+}
+
+Rate position_rate(const NavigationConfig& config) {
+  const auto& gnss = config.instruments.gnss;
+  return gnss ? rate_of(gnss->instrument.rate_hz) : Rate{config.position_rate_hz, 1};
+}
+
 }  // namespace
 
 NavigationNode::NavigationNode(const Config& config, Ports& ports)
     : sensors_(config),
       filter_(config.position_gain),
-      attitude_due_(Rate{config.attitude_rate_hz, 1}),
+      imu_due_(rate_of(config.instruments.imu ? config.instruments.imu->instrument.rate_hz : 1.0)),
+      attitude_due_(attitude_rate(config)),
       position_due_(Rate{config.position_rate_hz, 1}),
       sound_speed_due_(Rate{config.probe.rate_hz, 1}),
       motion_latency_(from_seconds(config.motion_latency_s)),
       sound_speed_latency_(from_seconds(config.probe.latency_s)),
-      attitudes_(ports.out<msg::Attitude>("attitude", {.rate = Rate{config.attitude_rate_hz, 1}})),
-      positions_(ports.out<msg::Position>("position", {.rate = Rate{config.position_rate_hz, 1}})),
+      attitudes_(ports.out<msg::Attitude>("attitude", {.rate = attitude_rate(config)})),
+      positions_(ports.out<msg::Position>("position", {.rate = position_rate(config)})),
       sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = Rate{config.probe.rate_hz, 1}})),
-      estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{config.attitude_rate_hz, 1}})) {
+      estimates_(ports.out<msg::Estimate>("estimate", {.rate = attitude_rate(config)})),
+      carried_(config.instruments),
+      suite_(config.instruments, config.seed, config.process, ports,
+             [this](const msg::Position& position) { take_fix(position); }) {
   if (config.origin) world_.emplace(*config.origin);
+  if (carried_.imu) {
+    estimator_.emplace(carried_, config.seed, config.process);
+    increments_ = ports.out<msg::InertialIncrements>("imu", {.rate = rate_of(carried_.imu->instrument.rate_hz)});
+  }
+  if (carried_.motion_sensor) {
+    motion_sensor_.emplace(*carried_.motion_sensor, config.seed, config.process);
+    if (carried_.motion_sensor->delayed_heave_s > 0.0) {
+      delayed_heaves_ = ports.out<msg::DelayedHeave>("delayed_heave");
+    }
+  }
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
     truth_ = pose;
     recent_.push_back(pose);
@@ -40,17 +64,26 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
 SimTime NavigationNode::step(SimTime now) {
   const std::int64_t sample = attitude_due_.count(), fix = position_due_.count();
   const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
+  const bool inertial = estimator_ && imu_due_.due(now);
+  if (truth_ && world_ && inertial) {
+    if (const auto increments = estimator_->advance(*truth_, *world_)) increments_->send(*increments);
+  }
+  suite_.step(now, truth_, world_, believed_, estimator_);
   if (truth_ && world_) {
-    if (attitude) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(moved(), sample));
-    if (position) measure_position(fix);
-    if (attitude) estimate(sensors_.attitude(moved(), sample));
+    if (attitude && !estimator_) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(moved(), sample));
+    if (position && !carried_.gnss) measure_position(fix);
+    if (attitude) measure_attitude(now, sample);
   }
   const std::int64_t dip = sound_speed_due_.count();
   if (sound_speed_due_.due(now) && truth_) {
     sound_speeds_under_way_.emplace_back(now + sound_speed_latency_, sensors_.sound_speed(*truth_, dip));
   }
   report_sound_speed(now);
-  const SimTime next = std::min({attitude_due_.next(), position_due_.next(), sound_speed_due_.next()});
+  outbox_.send_due(now);
+  suite_.send_due(now);
+  SimTime next =
+      std::min({attitude_due_.next(), position_due_.next(), sound_speed_due_.next(), suite_.next(), outbox_.next()});
+  if (estimator_) next = std::min(next, imu_due_.next());
   return sound_speeds_under_way_.empty() ? next : std::min(next, sound_speeds_under_way_.front().first);
 }
 
@@ -70,14 +103,48 @@ void NavigationNode::report_sound_speed(SimTime now) {
 
 void NavigationNode::measure_position(std::int64_t n) {
   const msg::Position position = sensors_.position(*truth_, n, *world_);
-  positions_.send(position);
-  const auto& fix = position.position_enu_m;
   filter_.predict(SimTime{position.stamp_ns}, filter_.velocity_enu_mps());
+  take_fix(position);
+}
+
+void NavigationNode::take_fix(const msg::Position& position) {
+  positions_.send(position);
+  if (estimator_) return;  // it has had the antenna's place
+  const auto& fix = position.position_enu_m;
   filter_.correct({fix[0], fix[1], fix[2]});
 }
 
+void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
+  msg::Attitude attitude = sensors_.attitude(moved(), n);
+  const frames::Vec2 place(truth_->position_enu_m[0], truth_->position_enu_m[1]);
+  if (const auto heading = suite_.heading_rad()) {
+    attitude.heading_grid_rad = frames::wrap_two_pi(*heading - world_->convergence_rad(place));
+  }
+  if (motion_sensor_) {
+    const msg::Attitude sensed = motion_sensor_->measure(moved());
+    attitude.roll_rad = sensed.roll_rad;
+    attitude.pitch_rad = sensed.pitch_rad;
+    attitude.heave_m = sensed.heave_m;
+    if (const auto delayed = motion_sensor_->delayed_heave()) delayed_heaves_->send(*delayed);
+  }
+  believed_ = frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
+  estimate(attitude);
+  if (!motion_sensor_) return attitudes_.send(attitude);
+
+  const Instrument& instrument = carried_.motion_sensor->instrument;
+  const double t_s = seconds(SimTime{attitude.stamp_ns});
+  if (instrument.out_at(t_s)) return;
+  attitude.stamp_ns = from_seconds(instrument.clock.stamp_s(t_s, instrument.latency_s, instrument.stamping)).count();
+  outbox_.at(now + from_seconds(instrument.latency_s), [this, attitude] { attitudes_.send(attitude); });
+}
+
 void NavigationNode::estimate(const msg::Attitude& attitude) {
-  attitudes_.send(attitude);
+  if (estimator_) {
+    if (!estimator_->ready()) return;
+    const msg::Estimate estimate = estimator_->estimate(*world_);
+    believed_ = frames::quaternion_of(estimate.enu_from_body);
+    return estimates_.send(estimate);
+  }
   if (!filter_.ready()) return;
   msg::Estimate estimate;
   estimate.stamp_ns = attitude.stamp_ns;

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "components/navigation/dead_reckoning.h"
+#include "components/navigation/estimator.h"
+#include "components/navigation/motion_sensor.h"
 #include "components/navigation/sensors.h"
+#include "components/navigation/suite.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {
@@ -22,21 +25,31 @@ class NavigationNode {
  private:
   msg::Pose moved() const;
   void measure_position(std::int64_t n);
+  void take_fix(const msg::Position& position);
+  void measure_attitude(SimTime now, std::int64_t n);
   void report_sound_speed(SimTime now);
   void estimate(const msg::Attitude& attitude);
 
   NavigationSensors sensors_;
   DeadReckoning filter_;
-  Periodic attitude_due_, position_due_, sound_speed_due_;
+  Periodic imu_due_, attitude_due_, position_due_, sound_speed_due_;
   SimTime motion_latency_, sound_speed_latency_;
   std::deque<std::pair<SimTime, msg::SoundSpeed>> sound_speeds_under_way_;
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;
   std::deque<msg::Pose> recent_;  // the newest pose that is as old as the motion sensor's latency, and all after it
+  frames::Quaternion believed_ = frames::enu_from_ned();  // attitude, as last measured or estimated
+  Outbox outbox_;
   Ports::Out<msg::Attitude> attitudes_;
   Ports::Out<msg::Position> positions_;
   Ports::Out<msg::SoundSpeed> sound_speeds_;
   Ports::Out<msg::Estimate> estimates_;
+  std::optional<Ports::Out<msg::InertialIncrements>> increments_;
+  std::optional<Ports::Out<msg::DelayedHeave>> delayed_heaves_;
+  Instruments carried_;
+  std::optional<MotionSensor> motion_sensor_;
+  std::optional<Estimator> estimator_;
+  Suite suite_;
 };
 
 }  // namespace ensonify

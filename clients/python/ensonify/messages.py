@@ -20,6 +20,12 @@ __all__ = [
     "Position",
     "SoundSpeed",
     "Estimate",
+    "DelayedHeave",
+    "Heading",
+    "InertialIncrements",
+    "VelocityLog",
+    "Depth",
+    "Altitude",
     "TransmitSector",
     "AppliedSettings",
     "HeadTrack",
@@ -194,6 +200,8 @@ class Position(Message):
     longitude_deg [deg]: longitude of the same point, WGS 84, positive east
     sigma_horizontal_m [m]: stated standard deviation, each horizontal axis
     sigma_vertical_m [m]: stated standard deviation, up
+    quality [1]: as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told
+    hdop [1]: horizontal dilution of precision; 0 not told
     """
 
     TYPE = "position/1"
@@ -203,6 +211,8 @@ class Position(Message):
     longitude_deg: float = 0.0
     sigma_horizontal_m: float = 0.0
     sigma_vertical_m: float = 0.0
+    quality: int = 0
+    hdop: float = 0.0
 
 
 @dataclass(eq=False)
@@ -226,6 +236,9 @@ class Estimate(Message):
     position_enu_m [m]: estimated body origin in the world frame: east, north, up
     enu_from_body [1]: estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU
     velocity_enu_mps [m/s]: estimated velocity of the body origin
+    position_covariance_enu_m2 [m2]: covariance of the position's error, row by row; all zero: not told
+    velocity_covariance_enu_m2ps2 [m2/s2]: the same of the velocity
+    rotation_covariance_enu_rad2 [rad2]: the same of the attitude: of the small rotation about east, north, up from estimate to truth
     """
 
     TYPE = "estimate/1"
@@ -233,6 +246,103 @@ class Estimate(Message):
     position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
     enu_from_body: tuple = fixed(1.0, 0.0, 0.0, 0.0)
     velocity_enu_mps: tuple = fixed(0.0, 0.0, 0.0)
+    position_covariance_enu_m2: tuple = fixed(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    velocity_covariance_enu_m2ps2: tuple = fixed(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    rotation_covariance_enu_rad2: tuple = fixed(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(eq=False)
+class DelayedHeave(Message):
+    """What the motion sensor reports of heave once it knows what came after.
+
+    stamp_ns [ns]: time of the heave, long before the message
+    heave_m [m]: vertical displacement from the mean level, positive up
+    """
+
+    TYPE = "delayed_heave/1"
+    stamp_ns: int = 0
+    heave_m: float = 0.0
+
+
+@dataclass(eq=False)
+class Heading(Message):
+    """What a compass reports.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    heading_true_rad [rad]: heading, clockwise from true north
+    """
+
+    TYPE = "heading/1"
+    stamp_ns: int = 0
+    heading_true_rad: float = 0.0
+
+
+@dataclass(eq=False)
+class InertialIncrements(Message):
+    """What an inertial measurement unit reports: integrals of what it senses.
+
+    stamp_ns [ns]: end of the interval, sim time
+    interval_s [s]: over which is integrated
+    angle_rad [rad]: turn rate against inertial space, integrated, along the unit's axes
+    velocity_mps [m/s]: specific force, integrated, along the unit's axes
+    """
+
+    TYPE = "inertial_increments/1"
+    stamp_ns: int = 0
+    interval_s: float = 0.0
+    angle_rad: tuple = fixed(0.0, 0.0, 0.0)
+    velocity_mps: tuple = fixed(0.0, 0.0, 0.0)
+
+
+@dataclass(eq=False)
+class VelocityLog(Message):
+    """What a Doppler log reports.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    bottom_lock: whether velocity is known over ground; else it is zero
+    velocity_body_mps [m/s]: of the transducer over ground, turned to the body's axes as mounting was measured
+    sigma_body_mps [m/s]: stated standard deviation of each
+    range_m [m]: along each beam to the bottom; 0: no lock
+    altitude_m [m]: of the transducer above the bottom; 0: no beam has lock
+    error_velocity_mps [m/s]: what four beams disagree about
+    """
+
+    TYPE = "velocity_log/1"
+    stamp_ns: int = 0
+    bottom_lock: bool = False
+    velocity_body_mps: tuple = fixed(0.0, 0.0, 0.0)
+    sigma_body_mps: tuple = fixed(0.0, 0.0, 0.0)
+    range_m: tuple = fixed(0.0, 0.0, 0.0, 0.0)
+    altitude_m: float = 0.0
+    error_velocity_mps: float = 0.0
+
+
+@dataclass(eq=False)
+class Depth(Message):
+    """What a pressure sensor makes of its depth.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    depth_m [m]: of the sensor below the water level
+    """
+
+    TYPE = "depth/1"
+    stamp_ns: int = 0
+    depth_m: float = 0.0
+
+
+@dataclass(eq=False)
+class Altitude(Message):
+    """What an altimeter hears of the bottom.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    valid: whether anything answered
+    range_m [m]: along the beam to the bottom; 0: no answer
+    """
+
+    TYPE = "altitude/1"
+    stamp_ns: int = 0
+    valid: bool = False
+    range_m: float = 0.0
 
 
 @dataclass(eq=False)
@@ -775,6 +885,12 @@ TYPES = {cls.TYPE: cls for cls in (
     Position,
     SoundSpeed,
     Estimate,
+    DelayedHeave,
+    Heading,
+    InertialIncrements,
+    VelocityLog,
+    Depth,
+    Altitude,
     Ping,
     BottomTrack,
     Transmit,

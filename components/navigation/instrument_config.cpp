@@ -1,0 +1,273 @@
+#include "components/navigation/instrument_config.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/data_paths.h"
+
+namespace ensonify {
+namespace {
+
+constexpr FileUnit kPerHour{kDegrees.si / 3600.0};    // of a gyro's bias, deg/h
+constexpr FileUnit kPerRootHour{kDegrees.si / 60.0};  // of its random walk, deg/sqrt(h)
+constexpr FileUnit kMicroG{9.80665e-6};               // of an accelerometer's bias, and of its noise per sqrt(Hz)
+constexpr FileUnit kPpm{1e-6};
+constexpr FileUnit kPercent{0.01};
+constexpr const char* kGrades = "components/navigation/grades";
+
+frames::Vec3 vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+std::string known_grades(const std::string& kind) {
+  std::vector<std::string> names;
+  for (const std::string& root : data_roots()) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(root + "/" + kGrades, error)) {
+      const std::string name = entry.path().stem().string();
+      if (name.starts_with(kind + "_")) names.push_back(name.substr(kind.size() + 1));
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Reads the errors of a section: first from the file of its grade, then from the section itself.
+void read_graded(ConfigReader& from, const std::string& kind, const std::function<void(ConfigReader&)>& read) {
+  std::string grade;
+  from.optional("grade", grade);
+  if (!grade.empty()) {
+    std::string path = find_data(std::string(kGrades) + "/" + kind + "_" + grade + ".yaml", {});
+    if (path.empty() && grade.ends_with(".yaml")) path = find_data(grade, {"."});
+    if (path.empty()) {
+      from.problem("grade", "\"" + grade + "\" is no grade of this instrument; allowed: " + known_grades(kind) +
+                                ", or a file *.yaml");
+    } else {
+      try {
+        ConfigReader file = from.also(parse_config_file(path));
+        read(file);
+      } catch (const ConfigError& error) {
+        from.add(error);
+      }
+    }
+  }
+  read(from);
+}
+
+std::vector<sensors::Span> read_spans(ConfigReader& from, const char* key) {
+  std::vector<double> ends;
+  from.optional(key, ends, 0, 1e9);
+  std::vector<sensors::Span> spans;
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2) spans.push_back({ends[i], ends[i + 1]});
+  const bool rising = std::all_of(spans.begin(), spans.end(), [](const auto& s) { return s.from_s < s.to_s; });
+  if (ends.size() % 2 != 0 || !rising) {
+    from.problem(key, "is not [from, to, from, to, ...] with from before to, in seconds");
+  }
+  return spans;
+}
+
+void read_clock(ConfigReader from, sensors::InstrumentClock& clock) {
+  from.optional("offset_s", clock.offset_s, -86400, 86400);
+  from.optional("drift_ppm", clock.drift_ppm, -1000, 1000);
+  from.optional("locked", clock.locked);
+  from.optional("residual_s", clock.residual_s, -1, 1);
+  clock.unlocked = read_spans(from, "unlocked_s");
+}
+
+frames::Quaternion body_from(const std::array<double, 3>& roll_pitch_heading) {
+  const auto& [roll, pitch, heading] = roll_pitch_heading;
+  return frames::canonical(frames::enu_from_ned().conjugate() *
+                           frames::enu_from_body(frames::Attitude{heading, pitch, roll}));
+}
+
+Instrument read_instrument(ConfigReader& from, const frames::Vec3& centre_body_m, double usual_rate_hz) {
+  Instrument instrument;
+  instrument.rate_hz = usual_rate_hz;
+  from.optional("rate_hz", instrument.rate_hz, 0.01, 1000);
+  from.optional("latency_s", instrument.latency_s, 0, 10);
+  from.optional_choice("stamped_at", instrument.stamping,
+                       {{"measurement", sensors::Stamping::kMeasurement}, {"output", sensors::Stamping::kOutput}});
+  if (const auto clock = from.optional_section("clock")) read_clock(*clock, instrument.clock);
+  instrument.outages = read_spans(from, "outages_s");
+
+  std::array<double, 3> place{}, turn{};
+  from.optional("position_m", place, -500, 500);
+  from.optional("rotation_deg", turn, -180, 180, kDegrees);  // roll, pitch, heading
+  instrument.actual = {centre_body_m + vec3(place), body_from(turn)};
+  from.optional("measured_position_m", place, -500, 500);  // left out: as it is
+  from.optional("measured_rotation_deg", turn, -180, 180, kDegrees);
+  instrument.measured = {centre_body_m + vec3(place), body_from(turn)};
+  return instrument;
+}
+
+void read_scalar(const std::optional<ConfigReader>& section, sensors::ScalarErrors& errors, const std::string& unit,
+                 double most, FileUnit si = kSi) {
+  if (!section) return;
+  ConfigReader from = *section;
+  from.optional("bias_" + unit, errors.bias, -most, most, si);
+  from.optional("bias_sigma_" + unit, errors.bias_sigma, 0, most, si);
+  from.optional("scale_percent", errors.scale, 0, 100, kPercent);
+  from.optional("wander_" + unit, errors.wander, 0, most, si);
+  from.optional("wander_time_s", errors.wander_s, 0.1, 1e6);
+  from.optional("white_" + unit, errors.white, 0, most, si);
+  from.optional("resolution_" + unit, errors.resolution, 0, most, si);
+  from.optional("lag_s", errors.lag_s, 0, 100);
+}
+
+void read_fix(ConfigReader from, sensors::FixErrors& errors) {
+  from.optional("horizontal_m", errors.horizontal_m, 0, 100);
+  from.optional("vertical_m", errors.vertical_m, 0, 100);
+  from.optional("wander_horizontal_m", errors.wander_horizontal_m, 0, 100);
+  from.optional("wander_vertical_m", errors.wander_vertical_m, 0, 100);
+}
+
+void read_gnss(ConfigReader& from, sensors::GnssErrors& errors) {
+  using Quality = sensors::FixQuality;
+  const ConfigReader::Choices<Quality> qualities{{"single", Quality::kSingle},
+                                                 {"differential", Quality::kDifferential},
+                                                 {"rtk_float", Quality::kRtkFloat},
+                                                 {"rtk_fixed", Quality::kRtkFixed}};
+  from.optional_choice("quality", errors.best, qualities);
+  from.optional_choice("degraded_quality", errors.while_degraded, qualities);
+  if (const auto fix = from.optional_section("fix")) read_fix(*fix, errors.fix);
+  if (const auto fix = from.optional_section("degraded_fix")) read_fix(*fix, errors.degraded);
+  from.optional("wander_time_s", errors.wander_s, 1, 1e6);
+  from.optional("first_fix_s", errors.first_fix_s, 0, 3600);
+  from.optional("converge_s", errors.converge_s, 0, 36000);
+  from.optional("hdop", errors.hdop, 0.5, 50);
+  from.optional("hdop_wander", errors.hdop_wander, 0, 1);
+  from.optional("washed_depth_m", errors.washed_depth_m, -10, 10);
+}
+
+void read_gyro(ConfigReader from, inertial::TriadErrors& gyro) {
+  from.optional("bias_degph", gyro.turn_on_bias, 0, 1e5, kPerHour);
+  from.optional("stability_degph", gyro.bias_sigma, 0, 1e5, kPerHour);
+  from.optional("stability_time_s", gyro.bias_time_s, 1, 1e6);
+  from.optional("random_walk_deg_per_sqrt_h", gyro.random_walk, 0, 100, kPerRootHour);
+  from.optional("rate_random_walk_radps_per_sqrt_s", gyro.rate_random_walk, 0, 1);
+  from.optional("scale_ppm", gyro.scale_factor, 0, 1e5, kPpm);
+  from.optional("misalignment_deg", gyro.misalignment_rad, 0, 5, kDegrees);
+  from.optional("quantum_deg", gyro.quantum, 0, 1, kDegrees);
+}
+
+void read_accelerometer(ConfigReader from, inertial::TriadErrors& accelerometer) {
+  from.optional("bias_ug", accelerometer.turn_on_bias, 0, 1e6, kMicroG);
+  from.optional("stability_ug", accelerometer.bias_sigma, 0, 1e6, kMicroG);
+  from.optional("stability_time_s", accelerometer.bias_time_s, 1, 1e6);
+  from.optional("random_walk_ug_per_sqrt_hz", accelerometer.random_walk, 0, 1e5, kMicroG);
+  from.optional("rate_random_walk_mps2_per_sqrt_s", accelerometer.rate_random_walk, 0, 1);
+  from.optional("scale_ppm", accelerometer.scale_factor, 0, 1e5, kPpm);
+  from.optional("misalignment_deg", accelerometer.misalignment_rad, 0, 5, kDegrees);
+  from.optional("quantum_mps", accelerometer.quantum, 0, 1);
+}
+
+void read_imu(ConfigReader& from, ImuConfig& imu) {
+  if (const auto gyro = from.optional_section("gyro")) read_gyro(*gyro, imu.errors.gyro);
+  if (const auto a = from.optional_section("accelerometer")) read_accelerometer(*a, imu.errors.accelerometer);
+  if (const auto section = from.optional_section("alignment")) {
+    ConfigReader alignment = *section;
+    alignment.optional("position_m", imu.alignment.position_m, 0, 1e5);
+    alignment.optional("height_m", imu.alignment.height_m, 0, 1e4);
+    alignment.optional("velocity_mps", imu.alignment.velocity_mps, 0, 10);
+    alignment.optional("tilt_deg", imu.alignment.tilt_rad, 0, 10, kDegrees);
+    alignment.optional("heading_deg", imu.alignment.heading_rad, 0, 30, kDegrees);
+  }
+}
+
+MotionSensorConfig read_motion_sensor(ConfigReader& from, const frames::Vec3& centre) {
+  MotionSensorConfig sensor;
+  sensor.instrument = read_instrument(from, centre, 100.0);
+  sensor.heave.cutoff_s = 100.0;
+  read_graded(from, "motion_sensor", [&](ConfigReader& errors) {
+    read_scalar(errors.optional_section("angle"), sensor.angle, "deg", 30, kDegrees);
+    read_scalar(errors.optional_section("heave"), sensor.heave_error, "m", 5);
+    errors.optional("heave_cutoff_s", sensor.heave.cutoff_s, 1, 1000);
+    errors.optional("heave_damping", sensor.heave.damping, 0.1, 10);
+    errors.optional("level_time_s", sensor.level.time_s, 0.1, 1e4);
+    errors.optional("level_aided", sensor.level.aided_share, 0, 1);
+    errors.optional("delayed_heave_s", sensor.delayed_heave_s, 0, 600);
+  });
+  std::array<double, 3> point{};
+  from.optional("heave_point_m", point, -500, 500);
+  sensor.heave_point_body_m = centre + vec3(point);
+  return sensor;
+}
+
+HeadingConfig read_heading(ConfigReader& from, const frames::Vec3& centre) {
+  HeadingConfig heading;
+  heading.instrument = read_instrument(from, centre, 10.0);
+  read_graded(from, "heading", [&](ConfigReader& section) {
+    sensors::HeadingErrors& errors = heading.errors;
+    section.optional_choice("kind", errors.kind,
+                            {{"gyro", sensors::HeadingKind::kGyro}, {"magnetic", sensors::HeadingKind::kMagnetic}});
+    read_scalar(section.optional_section("errors"), errors.common, "deg", 30, kDegrees);
+    section.optional("speed_corrected", errors.speed_corrected);
+    section.optional("variation_error_deg", errors.variation_error_rad, -180, 180, kDegrees);
+    std::array<double, 5> d{errors.deviation.a_rad, errors.deviation.b_rad, errors.deviation.c_rad,
+                            errors.deviation.d_rad, errors.deviation.e_rad};
+    section.optional("deviation_deg", d, -90, 90, kDegrees);
+    errors.deviation = {d[0], d[1], d[2], d[3], d[4]};
+  });
+  return heading;
+}
+
+DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centre) {
+  DopplerLogConfig log;
+  log.instrument = read_instrument(from, centre, 5.0);
+  read_graded(from, "velocity_log", [&](ConfigReader& errors) {
+    errors.optional("slant_deg", log.geometry.slant_rad, 5, 60, kDegrees);
+    errors.optional("first_azimuth_deg", log.geometry.first_azimuth_rad, -180, 180, kDegrees);
+    errors.optional("beam_white_mps", log.errors.beam_white_mps, 0, 5);
+    errors.optional("beam_white_percent", log.errors.beam_white_share, 0, 100, kPercent);
+    errors.optional("scale_percent", log.errors.scale, 0, 20, kPercent);
+    errors.optional("dropout", log.errors.dropout, 0, 1);
+    errors.optional("shortest_m", log.errors.shortest_m, 0, 100);
+    errors.optional("longest_m", log.errors.longest_m, 0.1, 2000);
+  });
+  return log;
+}
+
+}  // namespace
+
+Instruments read_instruments(ConfigReader& from) {
+  std::array<double, 3> centre_m{};
+  from.optional("centre_of_rotation_m", centre_m, -500, 500);
+  const frames::Vec3 centre = vec3(centre_m);
+  Instruments carried;
+  if (auto section = from.optional_section("gnss")) {
+    carried.gnss.emplace();
+    carried.gnss->instrument = read_instrument(*section, centre, 5.0);
+    read_graded(*section, "gnss", [&](ConfigReader& errors) { read_gnss(errors, carried.gnss->errors); });
+  }
+  if (auto section = from.optional_section("imu")) {
+    carried.imu.emplace();
+    carried.imu->instrument = read_instrument(*section, centre, 100.0);
+    read_graded(*section, "imu", [&](ConfigReader& errors) { read_imu(errors, *carried.imu); });
+  }
+  if (auto section = from.optional_section("motion_sensor"))
+    carried.motion_sensor = read_motion_sensor(*section, centre);
+  if (auto section = from.optional_section("heading")) carried.heading = read_heading(*section, centre);
+  if (auto section = from.optional_section("velocity_log")) carried.velocity_log = read_velocity_log(*section, centre);
+  if (auto section = from.optional_section("depth")) {
+    carried.depth.emplace();
+    carried.depth->instrument = read_instrument(*section, centre, 10.0);
+    read_graded(*section, "depth", [&](ConfigReader& errors) {
+      read_scalar(errors.optional_section("errors"), carried.depth->errors, "m", 100);
+    });
+  }
+  if (auto section = from.optional_section("altimeter")) {
+    carried.altimeter.emplace();
+    carried.altimeter->instrument = read_instrument(*section, centre, 5.0);
+    sensors::RangeErrors& range = carried.altimeter->errors;
+    read_scalar(section->optional_section("errors"), range.range, "m", 10);
+    section->optional("shortest_m", range.shortest_m, 0, 100);
+    section->optional("longest_m", range.longest_m, 0.1, 2000);
+    section->optional("dropout", range.dropout, 0, 1);
+  }
+  return carried;
+}
+
+}  // namespace ensonify

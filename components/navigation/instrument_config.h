@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernels/frames/pose.h"
+#include "kernels/inertial/imu.h"
+#include "kernels/navigation_filter/error_state.h"
+#include "kernels/sensors/doppler_log.h"
+#include "kernels/sensors/gnss.h"
+#include "kernels/sensors/heading.h"
+#include "kernels/sensors/heave.h"
+#include "kernels/sensors/instrument_clock.h"
+#include "kernels/sensors/level.h"
+#include "kernels/sensors/range_sensor.h"
+#include "kernels/sensors/scalar_sensor.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// What every instrument has: its place, its pace and its clock.
+struct Instrument {
+  double rate_hz = 1.0;
+  double latency_s = 0.0;  // from the measurement to its message
+  sensors::Stamping stamping = sensors::Stamping::kMeasurement;
+  sensors::InstrumentClock clock;
+  std::vector<sensors::Span> outages;  // sim time; nothing is reported
+  frames::Mounting actual, measured;   // in the body's frame
+
+  bool out_at(double t_s) const { return sensors::within(outages, t_s); }
+};
+
+struct GnssConfig {
+  Instrument instrument;
+  sensors::GnssErrors errors;
+};
+
+struct ImuConfig {
+  Instrument instrument;
+  inertial::ImuErrors errors;
+  navigation_filter::StartErrors alignment;  // how well the system knows itself when the run starts
+};
+
+struct MotionSensorConfig {
+  Instrument instrument;
+  sensors::ScalarErrors angle;        // rad, of roll and pitch each
+  sensors::ScalarErrors heave_error;  // m
+  sensors::HeaveSettings heave;
+  sensors::LevelSettings level;
+  double delayed_heave_s = 0.0;  // half width of the window; 0: there is no delayed heave
+  frames::Vec3 heave_point_body_m = frames::Vec3::Zero();
+};
+
+struct HeadingConfig {
+  Instrument instrument;
+  sensors::HeadingErrors errors;
+};
+
+struct DopplerLogConfig {
+  Instrument instrument;
+  sensors::JanusGeometry geometry;
+  sensors::DopplerErrors errors;
+};
+
+struct DepthConfig {
+  Instrument instrument;
+  sensors::ScalarErrors errors;  // m
+};
+
+struct AltimeterConfig {
+  Instrument instrument;
+  sensors::RangeErrors errors;
+};
+
+/// What the vehicle carries; what is not given it does not.
+struct Instruments {
+  std::optional<GnssConfig> gnss;
+  std::optional<ImuConfig> imu;
+  std::optional<MotionSensorConfig> motion_sensor;
+  std::optional<HeadingConfig> heading;
+  std::optional<DopplerLogConfig> velocity_log;
+  std::optional<DepthConfig> depth;
+  std::optional<AltimeterConfig> altimeter;
+
+  bool need_seabed() const { return velocity_log || altimeter; }
+};
+
+/// Reads the sections gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter. `grade` in a section names a
+/// file of the folder grades, or one of the user's; keys beside it go before those of the file. Positions count from
+/// `centre_of_rotation_m` of the body.
+Instruments read_instruments(ConfigReader& from);
+
+}  // namespace ensonify

@@ -1,0 +1,217 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "components/navigation/node.h"
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/test_seabed.h"
+#include "components/runtime/testing.h"
+
+using namespace ensonify;
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180.0;
+
+namespace {
+
+NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 1) {
+  ConfigReader from = ConfigReader::from_text(yaml, "nav.yaml");
+  NavigationConfig config;
+  config.instruments = read_instruments(from);
+  from.finish();
+  config.process = "nav";
+  config.seed = seed;
+  config.origin = frames::Geodetic{44.0, -63.0};
+  return config;
+}
+
+std::string faults_of(const std::string& yaml) {
+  try {
+    config_of(yaml);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A circle of 100 m at 2 m/s, rolling 5 degrees in 6 s, at `height(t)`.
+template <class Height>
+msg::Pose circling(SimTime at, const Height& height) {
+  const double t = seconds(at), turn = 2.0 / 100.0, heading = turn * t;
+  const double roll = 5 * kDegree * std::sin(2 * kPi * t / 6),
+               roll_rate = 5 * kDegree * 2 * kPi / 6 * std::cos(2 * kPi * t / 6);
+  msg::Pose pose;
+  pose.stamp_ns = at.count();
+  pose.position_enu_m = {100.0 - 100.0 * std::cos(heading), 100.0 * std::sin(heading), height(t)};
+  pose.velocity_enu_mps = {2.0 * std::sin(heading), 2.0 * std::cos(heading),
+                           (height(t + 1e-3) - height(t - 1e-3)) / 2e-3};
+  pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{heading, 0.0, roll}));
+  const frames::Vec3 rates = frames::body_rates_radps({heading, 0.0, roll}, {turn, 0.0, roll_rate});
+  pose.rate_body_radps = {rates.x(), rates.y(), rates.z()};
+  return pose;
+}
+
+constexpr auto kLevel = [](double) { return -1.0; };
+
+template <class Height>
+void sail(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
+  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", circling(i * 10_ms, height));
+}
+
+template <class Height>
+frames::Vec3 off_m(const msg::Estimate& estimate, const Height& height) {
+  const msg::Pose truth = circling(SimTime{estimate.stamp_ns}, height);
+  return {estimate.position_enu_m[0] - truth.position_enu_m[0], estimate.position_enu_m[1] - truth.position_enu_m[1],
+          estimate.position_enu_m[2] - truth.position_enu_m[2]};
+}
+
+}  // namespace
+
+TEST_CASE("every grade reads, and names its kind") {
+  const std::string folder = std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/navigation/grades";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().stem().string();
+    const std::size_t split = name.starts_with("motion_sensor") || name.starts_with("velocity_log")
+                                  ? name.find('_', name.find('_') + 1)
+                                  : name.find('_');
+    INFO(name);
+    CHECK(faults_of(name.substr(0, split) + ": { grade: " + name.substr(split + 1) + " }") == "");
+    ++count;
+  }
+  CHECK(count == 15);
+  CHECK(config_of("imu: { grade: fog }").instruments.imu->errors.gyro.turn_on_bias == Approx(0.02 * kDegree / 3600));
+  CHECK(config_of("imu: { grade: fog, gyro: { bias_degph: 0.5 } }").instruments.imu->errors.gyro.turn_on_bias ==
+        Approx(0.5 * kDegree / 3600));
+}
+
+TEST_CASE("impossible instruments are refused with place and cause") {
+  CHECK(faults_of("gnss: { rate_hz: -5 }").find("nav.yaml:1:18: gnss.rate_hz: -5 is outside [0.01, 1000]") !=
+        std::string::npos);
+  CHECK(faults_of("imu: { grade: quantum }")
+            .find("nav.yaml:1:15: imu.grade: \"quantum\" is no grade of this "
+                  "instrument; allowed: fog, mems, rlg, tactical, or a file *.yaml") != std::string::npos);
+  CHECK(faults_of("depth: { errors: { white_m: .nan } }").find("depth.errors.white_m") != std::string::npos);
+  CHECK(faults_of("gnss: { outages_s: [10, 5] }").find("gnss.outages_s: is not [from, to, from, to, ...]") !=
+        std::string::npos);
+  CHECK(faults_of("velocity_log: { dropout: 2 }").find("dropout: 2 is outside [0, 1]") != std::string::npos);
+  CHECK(faults_of("heading: { kind: psychic }").find("heading.kind") != std::string::npos);
+}
+
+TEST_CASE("FOG and RTK: the estimate is within centimetres and as uncertain as it says") {
+  NodeUnderTest<NavigationNode> navigation(
+      config_of("imu: { grade: fog, position_m: [0.3, 0.1, -0.5] }\ngnss: { grade: rtk, position_m: [-1, 0, -3] }"));
+  sail(navigation, 60, kLevel);
+  const auto estimates = navigation.step_until<msg::Estimate>("estimate", 60_s);
+  const auto increments = navigation.step_until<msg::InertialIncrements>("imu", 60_s);
+  CHECK(estimates.size() == 6001);
+  CHECK(increments.size() == 6000);
+  CHECK(increments.back().velocity_mps[2] / increments.back().interval_s == Approx(-9.8).margin(0.3));
+  for (std::size_t i = 3000; i < estimates.size(); i += 500) {
+    const frames::Vec3 off = off_m(estimates[i], kLevel);
+    const double sigma = std::sqrt(estimates[i].position_covariance_enu_m2[0]);
+    REQUIRE(sigma > 0.0);
+    REQUIRE(sigma < 0.1);
+    // Six numbers of 3 components; five sigma leave no doubt, three would fail once in twenty seeds.
+    REQUIRE(std::abs(off.x()) < 5 * sigma);
+    REQUIRE(std::abs(off.y()) < 5 * std::sqrt(estimates[i].position_covariance_enu_m2[4]));
+    REQUIRE(std::abs(off.z()) < 5 * std::sqrt(estimates[i].position_covariance_enu_m2[8]));
+    const msg::Pose truth = circling(SimTime{estimates[i].stamp_ns}, kLevel);
+    CHECK(
+        frames::quaternion_of(estimates[i].enu_from_body).angularDistance(frames::quaternion_of(truth.enu_from_body)) <
+        0.3 * kDegree);
+    CHECK(estimates[i].velocity_enu_mps[0] == Approx(truth.velocity_enu_mps[0]).margin(0.1));
+  }
+}
+
+TEST_CASE("a dive: no fixes under water; log and depth hold the estimate; the seabed gives the lock") {
+  // 5 m down from 20 s on, over a bottom at 20 m; without depth and log the inertial system alone drifts off.
+  const auto dive = [](double t) { return t < 20 ? -0.2 : t < 30 ? -0.2 - 0.5 * (t - 20) : -5.2; };
+  const std::string carried =
+      "imu: { grade: tactical }\ngnss: { grade: rtk, position_m: [0, 0, -1] }\n"
+      "velocity_log: { grade: performance, position_m: [0, 0, 0.5] }\ndepth: { grade: quartz }\naltimeter: {}\n";
+  NodeUnderTest<NavigationNode> navigation(config_of(carried));
+  navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
+  sail(navigation, 90, dive);
+  const auto positions = navigation.step_until<msg::Position>("position", 90_s);
+  REQUIRE(!positions.empty());
+  CHECK(positions.back().stamp_ns < 23'000'000'000);  // the antenna goes under at 21.6 s
+  CHECK(positions.front().quality == 4);
+
+  const auto logs = navigation.step_until<msg::VelocityLog>("velocity_log", 90_s);
+  REQUIRE(logs.size() == 451);
+  int locked = 0;
+  for (const auto& log : logs) {
+    if (!log.bottom_lock) continue;
+    ++locked;
+    REQUIRE(log.velocity_body_mps[0] == Approx(2.0).margin(0.1));
+  }
+  CHECK(locked > 440);
+  CHECK(logs.back().altitude_m == Approx(20.0 - 5.7).margin(0.3));
+  CHECK(navigation.step_until<msg::Depth>("depth", 90_s).back().depth_m == Approx(5.2).margin(0.3));
+  const auto altitudes = navigation.step_until<msg::Altitude>("altitude", 90_s);
+  CHECK(altitudes.back().valid);
+  const auto estimates = navigation.step_until<msg::Estimate>("estimate", 90_s);
+  CHECK(off_m(estimates.back(), dive).norm() < 1.5);  // 140 m under water; one degree and a per cent
+  CHECK(std::sqrt(estimates.back().position_covariance_enu_m2[0]) >
+        std::sqrt(estimates[2000].position_covariance_enu_m2[0]));
+
+  NodeUnderTest<NavigationNode> blind(config_of(carried));
+  sail(blind, 2, dive);
+  CHECK(!blind.step_until<msg::VelocityLog>("velocity_log", 2_s).back().bottom_lock);
+}
+
+TEST_CASE("outages silence an instrument, latency delays it, its clock stamps it") {
+  NodeUnderTest<NavigationNode> navigation(
+      config_of("gnss: { position_m: [0, 0, -3], rate_hz: 1, outages_s: [3, 6], latency_s: 0.25, clock: { locked: "
+                "false, offset_s: 0.1 } }\n"
+                "depth: { rate_hz: 1, latency_s: 0.5, stamped_at: output }"));
+  sail(navigation, 8, kLevel);
+  CHECK(navigation.step_until<msg::Position>("position", 2.24_s).size() == 2);
+  CHECK(navigation.step_until<msg::Position>("position", 2.25_s).size() == 1);
+  const auto later = navigation.step_until<msg::Position>("position", 8_s);
+  // The outage ends at 6 s, the receiver needs 5 s more.
+  CHECK(later.empty());
+  const auto depths = navigation.step_until<msg::Depth>("depth", 8_s);
+  REQUIRE(depths.size() == 8);
+  CHECK(depths[2].stamp_ns == 2'500'000'000);
+  NodeUnderTest<NavigationNode> again(
+      config_of("gnss: { position_m: [0, 0, -3], rate_hz: 1, clock: { locked: false, offset_s: 0.1 } }"));
+  sail(again, 2, kLevel);
+  CHECK(again.step_until<msg::Position>("position", 2_s).back().stamp_ns == 2'100'000'000);
+}
+
+TEST_CASE("heave has no draught in it; delayed heave is right a window later") {
+  const auto waves = [](double t) { return -3.0 + 0.5 * std::sin(2 * kPi * t / 8); };
+  NodeUnderTest<NavigationNode> navigation(
+      config_of("motion_sensor: { rate_hz: 10, heave_cutoff_s: 30, delayed_heave_s: 75 }"));
+  sail(navigation, 300, waves);
+  const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 300_s);
+  double mean = 0.0;
+  for (std::size_t i = 2000; i < 2800; ++i) mean += attitudes[i].heave_m / 800;  // ten periods
+  CHECK(mean == Approx(0.0).margin(0.01));
+  const auto delayed = navigation.step_until<msg::DelayedHeave>("delayed_heave", 300_s);
+  REQUIRE(!delayed.empty());
+  CHECK(delayed.back().stamp_ns == 225'000'000'000);
+  for (const auto& heave : delayed) {
+    REQUIRE(heave.heave_m ==
+            Approx(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(heave.stamp_ns) / 8)).margin(0.01));
+  }
+}
+
+TEST_CASE("the same seed gives the same estimate, another one another") {
+  const auto last = [](std::uint64_t seed) {
+    NodeUnderTest<NavigationNode> navigation(config_of("imu: { grade: mems }\ngnss: { grade: dgps }", seed));
+    sail(navigation, 2, kLevel);
+    return navigation.step_until<msg::Estimate>("estimate", 2_s).back().position_enu_m;
+  };
+  CHECK(last(1) == last(1));
+  CHECK(last(1) != last(2));
+}
+
+TEST_CASE("a compass gives the heading of attitude, clockwise from grid north") {
+  NodeUnderTest<NavigationNode> navigation(config_of("heading: { errors: { bias_deg: 2 } }"));
+  sail(navigation, 1, kLevel);
+  const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 1_s);
+  CHECK(attitudes.back().heading_grid_rad == Approx(0.02 + 2 * kDegree).margin(1e-5));
+}

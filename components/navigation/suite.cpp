@@ -1,0 +1,241 @@
+#include "components/navigation/suite.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "components/navigation/world_frame.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+template <class V>
+std::array<double, 3> plain(const V& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+/// Truth at one event, and who wants to know of it.
+struct Suite::Moment {
+  SimTime now;
+  double t_s;  // of the truth
+  frames::MovingPose truth;
+  const frames::LocalProjection& world;
+  const frames::Quaternion& believed;
+  Estimator* estimator;
+
+  inertial::NavigationState at(const frames::Mounting& mounting) const {
+    return geodetic_state(truth, mounting, world);
+  }
+  double stamp_s(const Instrument& i) const { return i.clock.stamp_s(t_s, i.latency_s, i.stamping); }
+};
+
+Suite::Suite(const Instruments& carried, std::uint64_t seed, const std::string& process, Ports& ports,
+             std::function<void(const msg::Position&)> positions)
+    : positions_(std::move(positions)) {
+  const auto stream = [&](const char* name) { return random::Stream(seed, process + "/" + name); };
+  const auto rate = [](const Instrument& instrument) { return OutOptions{.rate = rate_of(instrument.rate_hz)}; };
+  if (const auto& c = carried.gnss) {
+    gnss_.emplace(*c, sensors::Gnss(c->errors, stream("gnss")));
+  }
+  if (const auto& c = carried.heading) {
+    heading_.emplace(*c, sensors::HeadingSensor(c->errors, stream("heading")));
+    headings_out_ = ports.out<msg::Heading>("heading", rate(c->instrument));
+  }
+  if (const auto& c = carried.velocity_log) {
+    log_.emplace(*c, sensors::DopplerLog(c->geometry, c->errors, stream("velocity_log")));
+    velocities_out_ = ports.out<msg::VelocityLog>("velocity_log", rate(c->instrument));
+  }
+  if (const auto& c = carried.depth) {
+    depth_.emplace(*c, sensors::ScalarSensor(c->errors, stream("depth")));
+    depths_out_ = ports.out<msg::Depth>("depth", rate(c->instrument));
+  }
+  if (const auto& c = carried.altimeter) {
+    altimeter_.emplace(*c, sensors::RangeSensor(c->errors, stream("altimeter")));
+    altitudes_out_ = ports.out<msg::Altitude>("altitude", rate(c->instrument));
+  }
+  if (carried.need_seabed()) {
+    ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { seabed_.insert(tile); });
+    ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& tile) { seabed_.release(tile); });
+  }
+}
+
+SimTime Suite::next() const {
+  SimTime next = outbox_.next();
+  if (gnss_) next = std::min(next, gnss_->due.next());
+  if (heading_) next = std::min(next, heading_->due.next());
+  if (log_) next = std::min(next, log_->due.next());
+  if (depth_) next = std::min(next, depth_->due.next());
+  if (altimeter_) next = std::min(next, altimeter_->due.next());
+  return next;
+}
+
+void Suite::step(SimTime now, const std::optional<msg::Pose>& truth,
+                 const std::optional<frames::LocalProjection>& world, const frames::Quaternion& believed,
+                 std::optional<Estimator>& estimator) {
+  const auto n = static_cast<std::uint64_t>(log_ ? log_->due.count() : 0);
+  const bool heading = heading_ && heading_->due.due(now), fix = gnss_ && gnss_->due.due(now);
+  const bool velocity = log_ && log_->due.due(now), depth = depth_ && depth_->due.due(now);
+  const bool altitude = altimeter_ && altimeter_->due.due(now);
+  if (!truth || !world) return;
+  const Moment moment{now,      seconds(SimTime{truth->stamp_ns}), moving_pose(*truth), *world,
+                      believed, estimator ? &*estimator : nullptr};
+  if (heading) measure_heading(moment);
+  if (fix) measure_fix(moment);
+  if (velocity) measure_velocity(moment, n);
+  if (depth) measure_depth(moment);
+  if (altitude) measure_altitude(moment);
+}
+
+template <class Message>
+void Suite::publish(std::optional<Ports::Out<Message>>& out, Message message, const Instrument& instrument,
+                    const Moment& moment) {
+  message.stamp_ns = from_seconds(moment.stamp_s(instrument)).count();
+  outbox_.at(moment.now + from_seconds(instrument.latency_s), [&out, message] { out->send(message); });
+}
+
+void Suite::measure_fix(const Moment& moment) {
+  const Instrument& instrument = gnss_->config.instrument;
+  const frames::Vec3 antenna_enu_m = frames::enu_from_body(moment.truth.pose, instrument.actual.position_body_m);
+  const sensors::GnssReading reading =
+      gnss_->sensor.measure(antenna_enu_m.z(), instrument.out_at(moment.t_s), gnss_->since(moment.t_s));
+  if (reading.quality == sensors::FixQuality::kNone) return;
+
+  const frames::Vec3 measured_enu_m = antenna_enu_m + reading.error_enu_m;
+  const double stamp_s = moment.stamp_s(instrument);
+  const frames::Vec3& lever = instrument.measured.position_body_m;
+  if (moment.estimator != nullptr) {
+    const frames::Geodetic place = moment.world.geodetic_of(measured_enu_m.head<2>());
+    const sensors::FixErrors& white =
+        reading.quality == gnss_->config.errors.best ? gnss_->config.errors.fix : gnss_->config.errors.degraded;
+    Estimator::Filter::Fix fix;
+    fix.latitude_rad = place.latitude_deg * kDegree;
+    fix.longitude_rad = place.longitude_deg * kDegree;
+    fix.height_m = measured_enu_m.z();
+    fix.lever_body_m = moment.estimator->lever_of(lever);
+    const double floor_m = 1e-3;  // what no receiver resolves
+    fix.sigma_ned_m =
+        reading.hdop * frames::Vec3(std::max(white.horizontal_m, floor_m), std::max(white.horizontal_m, floor_m),
+                                    std::max(white.vertical_m, floor_m));
+    moment.estimator->correct(stamp_s, [fix](Estimator::Filter& filter) { filter.correct_position(fix); });
+  }
+
+  const frames::Vec3 origin_enu_m = measured_enu_m - moment.believed * lever;
+  const frames::Geodetic place = moment.world.geodetic_of(origin_enu_m.head<2>());
+  msg::Position position;
+  position.stamp_ns = from_seconds(stamp_s).count();
+  position.position_enu_m = plain(origin_enu_m);
+  position.latitude_deg = place.latitude_deg;
+  position.longitude_deg = place.longitude_deg;
+  position.sigma_horizontal_m = reading.sigma_enu_m.x();
+  position.sigma_vertical_m = reading.sigma_enu_m.z();
+  position.quality = static_cast<std::int64_t>(reading.quality);
+  position.hdop = reading.hdop;
+  outbox_.at(moment.now + from_seconds(instrument.latency_s), [this, position] { positions_(position); });
+}
+
+void Suite::measure_heading(const Moment& moment) {
+  const Instrument& instrument = heading_->config.instrument;
+  const double dt_s = heading_->since(moment.t_s);
+  const inertial::NavigationState compass = moment.at(instrument.actual);
+  const frames::Quaternion believed = compass.ned_from_body * instrument.measured.body_from_head.conjugate();
+  const frames::Vec3 forward = believed * frames::Vec3::UnitX();
+  const double true_rad = std::atan2(forward.y(), forward.x());
+  const double reading = heading_->sensor.measure(true_rad, compass.velocity_ned_mps.x(), compass.latitude_rad, dt_s);
+  if (instrument.out_at(moment.t_s)) return;
+  heading_rad_ = reading;
+  msg::Heading heading;
+  heading.heading_true_rad = reading;
+  publish(headings_out_, heading, instrument, moment);
+  if (moment.estimator != nullptr) {
+    const sensors::ScalarErrors& e = heading_->config.errors.common;
+    // The filter takes all that a compass errs by for white noise, slow parts too, so they are given more weight.
+    const sensors::Deviation& d = heading_->config.errors.deviation;
+    const double deviation = std::sqrt(
+        d.a_rad * d.a_rad + 0.5 * (d.b_rad * d.b_rad + d.c_rad * d.c_rad + d.d_rad * d.d_rad + d.e_rad * d.e_rad));
+    const double slow = std::hypot(e.bias_sigma, e.wander, deviation);
+    const double sigma_rad = std::max(1e-4, std::hypot(e.white, slow * std::sqrt(instrument.rate_hz * e.wander_s)));
+    const double unit_rad = reading + moment.estimator->unit_heading_rad();
+    moment.estimator->correct(moment.stamp_s(instrument), [unit_rad, sigma_rad](Estimator::Filter& filter) {
+      filter.correct_heading(unit_rad, sigma_rad);
+    });
+  }
+}
+
+std::optional<double> Suite::distance_m(const frames::HeadPose& from, const frames::Vec3& direction,
+                                        double longest_m) const {
+  if (seabed_.scene().empty()) return std::nullopt;
+  const std::vector<trace::Ray> ray{{direction.cast<float>(), 0.0F}};
+  std::vector<trace::Hit> hit;
+  seabed_.scene().trace(from, ray, static_cast<float>(longest_m), hit);
+  if (!hit[0].hit()) return std::nullopt;
+  return hit[0].range_m;
+}
+
+void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
+  const Instrument& instrument = log_->config.instrument;
+  if (instrument.out_at(moment.t_s)) return;
+  const frames::HeadPose head = frames::head_pose(moment.truth.pose, instrument.actual);
+  std::array<std::optional<double>, 4> ranges;
+  for (std::size_t beam = 0; beam < 4; ++beam) {
+    ranges[beam] = distance_m(head, log_->sensor.directions()[beam], log_->config.errors.longest_m);
+  }
+  const inertial::NavigationState transducer = moment.at(instrument.actual);
+  const auto reading =
+      log_->sensor.bottom_track(transducer.ned_from_body.conjugate() * transducer.velocity_ned_mps, ranges, n);
+
+  const Eigen::Matrix3d body_from_log = instrument.measured.body_from_head.toRotationMatrix();
+  const frames::Vec3 velocity = body_from_log * reading.velocity_mps;
+  const frames::Vec3 sigma = (body_from_log.cwiseAbs2() * reading.sigma_mps.cwiseAbs2()).cwiseSqrt();
+  msg::VelocityLog message;
+  message.bottom_lock = reading.valid;
+  message.velocity_body_mps = plain(velocity);
+  message.sigma_body_mps = plain(sigma);
+  for (std::size_t beam = 0; beam < 4; ++beam) message.range_m[beam] = reading.range_m[beam].value_or(0.0);
+  message.altitude_m = reading.altitude_m.value_or(0.0);
+  message.error_velocity_mps = reading.error_velocity_mps;
+  publish(velocities_out_, message, instrument, moment);
+  if (moment.estimator != nullptr && reading.valid) {
+    const Estimator& e = *moment.estimator;
+    const frames::Vec3 unit_velocity = e.along_unit(velocity), lever = e.lever_of(instrument.measured.position_body_m);
+    const frames::Vec3 unit_sigma = sigma.cwiseMax(1e-3);
+    moment.estimator->correct(moment.stamp_s(instrument), [=](Estimator::Filter& filter) {
+      filter.correct_velocity(unit_velocity, lever, unit_sigma);
+    });
+  }
+}
+
+void Suite::measure_depth(const Moment& moment) {
+  const Instrument& instrument = depth_->config.instrument;
+  const double true_m = -frames::enu_from_body(moment.truth.pose, instrument.actual.position_body_m).z();
+  const double reading = depth_->sensor.measure(true_m, depth_->since(moment.t_s));
+  if (instrument.out_at(moment.t_s)) return;
+  msg::Depth depth;
+  depth.depth_m = reading;
+  publish(depths_out_, depth, instrument, moment);
+  if (moment.estimator != nullptr) {
+    const sensors::ScalarErrors& e = depth_->config.errors;
+    const double sigma_m = std::max(1e-3, std::hypot(e.white, e.bias_sigma, e.wander));
+    const frames::Vec3 lever = moment.estimator->lever_of(instrument.measured.position_body_m);
+    moment.estimator->correct(moment.stamp_s(instrument),
+                              [=](Estimator::Filter& filter) { filter.correct_height(-reading, lever, sigma_m); });
+  }
+}
+
+void Suite::measure_altitude(const Moment& moment) {
+  const Instrument& instrument = altimeter_->config.instrument;
+  const double dt_s = altimeter_->since(moment.t_s);
+  if (instrument.out_at(moment.t_s)) return;
+  const frames::HeadPose head = frames::head_pose(moment.truth.pose, instrument.actual);
+  const auto reading =
+      altimeter_->sensor.measure(distance_m(head, frames::Vec3::UnitZ(), altimeter_->config.errors.longest_m), dt_s);
+  msg::Altitude altitude;
+  altitude.valid = reading.has_value();
+  altitude.range_m = reading.value_or(0.0);
+  publish(altitudes_out_, altitude, instrument, moment);
+}
+
+}  // namespace ensonify

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernels/frames/local_projection.h"
+#include "kernels/frames/pose.h"
+#include "kernels/inertial/strapdown.h"
+#include "messages/motion.h"
+
+namespace ensonify {
+
+/// True rotation from north-east-down at a place of the world to the world's axes: down is down, and grid north is
+/// turned from true north by the map's convergence.
+frames::Quaternion enu_from_true_ned(const frames::LocalProjection& world, const frames::Vec2& place_enu_m);
+
+/// State of an instrument on a body, on the ellipsoid. Heights count from chart datum.
+inertial::NavigationState geodetic_state(const frames::MovingPose& body, const frames::Mounting& mounting,
+                                         const frames::LocalProjection& world);
+
+frames::MovingPose moving_pose(const msg::Pose& pose);
+
+}  // namespace ensonify
