@@ -22,7 +22,7 @@ class Transform {
   static int good_size(int least);
 
   /// The least size >= `least` of a transform that is fast for its size: a multiple of 8 with at most one factor 3 and
-  /// none above 5. FFTW's estimate takes 205 ns for 240 numbers and 500 ns for 216 (8 x 27), 250 or 208 (16 x 13).
+  /// none above 5. FFTW's estimate takes 205 ns for 240 numbers and 500 ns for 216 (8 x 27) or 250.
   static int fast_size(int least);
 
  private:
