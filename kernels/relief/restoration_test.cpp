@@ -17,18 +17,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Mean difference of two spectra in a band, dB.
-double difference_db(const RadialSpectrum& a, const RadialSpectrum& b, double low, double high) {
-  double sum = 0.0;
-  int bins = 0;
-  for (std::size_t i = 0; i < a.density_m4.size(); ++i) {
-    if (a.wave_number_radpm[i] < low || a.wave_number_radpm[i] > high) continue;
-    sum += 10 * std::log10(a.density_m4[i] / b.density_m4[i]);
-    ++bins;
-  }
-  return sum / bins;
-}
-
 }  // namespace
 
 TEST_CASE("exact relief, thinned eight times and rebuilt, has its spectrum again; the smooth surface alone has not") {

@@ -93,4 +93,17 @@ PowerLaw fit_power_law(const RadialSpectrum& spectrum, double low_radpm, double 
   return {-line.slope, std::exp(line.at_zero)};
 }
 
+double difference_db(const RadialSpectrum& a, const RadialSpectrum& b, double low_radpm, double high_radpm) {
+  if (a.wave_number_radpm != b.wave_number_radpm) throw std::invalid_argument("spectra to compare have other bins");
+  double sum = 0.0;
+  int bins = 0;
+  for (std::size_t i = 0; i < a.density_m4.size(); ++i) {
+    if (a.wave_number_radpm[i] < low_radpm || a.wave_number_radpm[i] > high_radpm) continue;
+    sum += 10.0 * std::log10(a.density_m4[i] / b.density_m4[i]);
+    ++bins;
+  }
+  if (bins == 0) throw std::invalid_argument("no bin of the spectra lies in the band");
+  return sum / bins;
+}
+
 }  // namespace ensonify::relief_statistics

@@ -18,6 +18,10 @@ struct RadialSpectrum {
 /// to Nyquist's. Empty if no window is whole. Throws std::invalid_argument for windows of odd size or below 16 posts.
 RadialSpectrum radial_spectrum(const Surface& surface, int window_cells);
 
+/// Mean of 10 log10(a / b) over the bins of a band of wave numbers, dB. Throws std::invalid_argument for spectra of
+/// different bins, or a band without any.
+double difference_db(const RadialSpectrum& a, const RadialSpectrum& b, double low_radpm, double high_radpm);
+
 /// W = strength K^-exponent
 struct PowerLaw {
   double exponent = 0.0;

@@ -76,3 +76,12 @@ TEST_CASE("windows with holes are left out, and none left means no spectrum") {
   CHECK_FALSE(radial_spectrum(surface, 16).density_m4.empty());
   CHECK_THROWS_WITH(radial_spectrum(surface, 15), "window_cells is 15, allowed: even, 16 or more");
 }
+
+TEST_CASE("the difference of two spectra is that of a band's bins") {
+  const RadialSpectrum quiet{{1.0, 2.0, 4.0}, {1.0, 1.0, 1.0}, {9, 9, 9}},
+      loud{{1.0, 2.0, 4.0}, {10.0, 100.0, 1.0}, {9, 9, 9}};
+  CHECK(difference_db(loud, quiet, 0.5, 3.0) == Approx(15.0));
+  CHECK(difference_db(quiet, loud, 1.5, 5.0) == Approx(-10.0));
+  CHECK_THROWS_WITH(difference_db(loud, quiet, 5.0, 6.0), "no bin of the spectra lies in the band");
+  CHECK_THROWS_WITH(difference_db(loud, {}, 0.5, 3.0), "spectra to compare have other bins");
+}

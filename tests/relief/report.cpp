@@ -21,18 +21,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Mean of 10 log10(a / b) over the bins of a band.
-double difference_db(const RadialSpectrum& a, const RadialSpectrum& b, double low, double high) {
-  double sum = 0.0;
-  int bins = 0;
-  for (std::size_t i = 0; i < a.density_m4.size(); ++i) {
-    if (a.wave_number_radpm[i] < low || a.wave_number_radpm[i] > high) continue;
-    sum += 10 * std::log10(a.density_m4[i] / b.density_m4[i]);
-    ++bins;
-  }
-  return sum / bins;
-}
-
 void print_restoration(const Surface& original, int thin) {
   Raster guide{original.columns / thin, original.rows / thin, original.spacing_m * thin, {0, 0}, {}};
   for (int j = 0; j < guide.rows; ++j) {
