@@ -15,6 +15,8 @@ struct Pose {
   std::array<double, 4> enu_from_body{1, 0, 0, 0};
   std::array<double, 3> velocity_enu_mps{};
   std::array<double, 3> rate_body_radps{};
+  std::array<double, 3> acceleration_enu_mps2{};
+  std::array<double, 3> angular_acceleration_body_radps2{};
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -25,6 +27,12 @@ struct Pose {
           self.enu_from_body);
     visit("velocity_enu_mps", "m/s", "velocity of the body origin in the world frame", self.velocity_enu_mps);
     visit("rate_body_radps", "rad/s", "angular rate in the body frame, FRD", self.rate_body_radps);
+    visit("acceleration_enu_mps2", "m/s^2",
+          "acceleration of the body origin in the world frame; less gravity, turned to the body, it is the specific "
+          "force",
+          self.acceleration_enu_mps2);
+    visit("angular_acceleration_body_radps2", "rad/s^2", "rate of the angular rate, body frame",
+          self.angular_acceleration_body_radps2);
   }
 };
 

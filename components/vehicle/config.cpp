@@ -13,6 +13,17 @@ VehicleConfig VehicleConfig::read(ConfigReader& from, const Scenario& scenario, 
   config.limits = vehicle.limits;
   config.fastest_mps = vehicle.fastest_mps;
   config.waves = vehicle.waves;
+  config.disturbance = vehicle.disturbance;
+  config.seed = scenario.seed;
+  config.name = vehicle.name;
+  config.water = {scenario.vertical.tide, scenario.current, vehicle.floats};
+  if (!vehicle.dynamics_file.empty()) {
+    try {
+      config.hydrodynamics = read_dynamics(vehicle.dynamics_file);
+    } catch (const ConfigError& error) {
+      from.add(error);
+    }
+  }
   config.start = vehicle.start;
   config.plan = MissionPlan::of(scenario, vehicle);
   if (!config.start && !config.plan.needs_chart()) {

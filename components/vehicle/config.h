@@ -4,10 +4,18 @@
 #include <string>
 
 #include "components/runtime/mission/auto_plan.h"
+#include "components/vehicle/hydrodynamic/dynamics_file.h"
 
 namespace ensonify {
 
 class ConfigReader;
+
+/// The water that a vehicle is in.
+struct VehicleWater {
+  vertical::Tide tide;
+  motion::Current current;
+  std::optional<vertical::Loading> floats;  // not given: it holds its depth below the water level
+};
 
 struct VehicleConfig {
   int pose_rate_hz = 100;
@@ -16,7 +24,12 @@ struct VehicleConfig {
   motion::Limits limits;
   double fastest_mps = 10.0;
   motion::Waves waves;
-  std::optional<motion::State> start;  // not given: at the first line's run-in
+  motion::DisturbanceParameters disturbance;
+  std::uint64_t seed = 1;
+  std::string name;  // of the vehicle
+  VehicleWater water;
+  std::optional<HydrodynamicVehicle> hydrodynamics;  // not given: kinematic
+  std::optional<motion::State> start;                // not given: at the first line's run-in
   MissionPlan plan;
 
   static VehicleConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);

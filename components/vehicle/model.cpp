@@ -2,30 +2,35 @@
 
 #include <algorithm>
 
-#include "kernels/frames/attitude.h"
+#include "components/vehicle/hydrodynamic/hydrodynamic.h"
+#include "components/vehicle/kinematic/kinematic.h"
 
 namespace ensonify {
 
+std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motion::State& start, SimTime now) {
+  if (config.hydrodynamics) return std::make_unique<HydrodynamicDynamics>(config, start, now);
+  return std::make_unique<KinematicDynamics>(config, start, now);
+}
+
 VehicleModel::VehicleModel(const VehicleConfig& config, const motion::State& start, SimTime now)
-    : limits_(config.limits),
+    : dynamics_(make_dynamics(config, start, now)),
       fastest_mps_(config.fastest_mps),
       waves_(config.waves),
-      state_(start),
-      command_{start.heading_rad, start.speed_mps, start.position_enu_m.z()},
+      disturbance_(config.disturbance, random::Stream(config.seed, "vehicle/" + config.name + "/disturbance")),
       now_(now) {}
 
 void VehicleModel::advance(SimTime now) {
-  state_ = motion::advance(state_, command_, seconds(now - now_), limits_);
+  dynamics_->advance(now);
   now_ = now;
 }
 
 void VehicleModel::command(const msg::Guidance& guidance) {
-  command_.heading_rad = guidance.heading_grid_rad;
-  command_.speed_mps = std::clamp(guidance.speed_mps, 0.0, fastest_mps_);
+  dynamics_->command(guidance.heading_grid_rad, std::clamp(guidance.speed_mps, 0.0, fastest_mps_));
 }
 
 msg::Pose VehicleModel::pose() const {
-  const auto moving = motion::moving_pose(state_, command_, waves_, seconds(now_), limits_);
+  const double t_s = seconds(now_);
+  const auto moving = motion::superimpose(dynamics_->moving(), waves_.at(t_s) + disturbance_.at(t_s));
   const auto plain = [](const frames::Vec3& v) { return std::array{v.x(), v.y(), v.z()}; };
   msg::Pose pose;
   pose.stamp_ns = now_.count();
@@ -33,6 +38,8 @@ msg::Pose VehicleModel::pose() const {
   pose.enu_from_body = frames::wxyz_of(moving.pose.enu_from_body);
   pose.velocity_enu_mps = plain(moving.velocity_enu_mps);
   pose.rate_body_radps = plain(moving.angular_rate_body_radps);
+  pose.acceleration_enu_mps2 = plain(moving.acceleration_enu_mps2);
+  pose.angular_acceleration_body_radps2 = plain(moving.angular_acceleration_body_radps2);
   return pose;
 }
 

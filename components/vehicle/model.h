@@ -1,13 +1,15 @@
 #pragma once
 
+#include <memory>
+
 #include "components/runtime/sim_time.h"
 #include "components/vehicle/config.h"
+#include "components/vehicle/dynamics.h"
 #include "messages/motion.h"
 
 namespace ensonify {
 
-/// A vehicle that obeys heading and speed at once, within its acceleration and turning circle, and rolls and heaves in
-/// waves. It holds its depth.
+/// A vehicle: its dynamics, and what waves add to them.
 class VehicleModel {
  public:
   /// At sim time `now`, going on straight ahead until told otherwise.
@@ -21,11 +23,10 @@ class VehicleModel {
   msg::Pose pose() const;
 
  private:
-  motion::Limits limits_;
+  std::unique_ptr<Dynamics> dynamics_;
   double fastest_mps_;
   motion::Waves waves_;
-  motion::State state_;
-  motion::Command command_;
+  motion::Disturbance disturbance_;
   SimTime now_;
 };
 

@@ -14,11 +14,13 @@ struct Pose {
   Quaternion enu_from_body = enu_from_ned();  // level, bow to north
 };
 
-/// A pose and how it changes.
+/// A pose and how it changes: the velocity and acceleration of the reference point, and how the body turns.
 struct MovingPose {
   Pose pose;
   Vec3 velocity_enu_mps = Vec3::Zero();
   Vec3 angular_rate_body_radps = Vec3::Zero();
+  Vec3 acceleration_enu_mps2 = Vec3::Zero();
+  Vec3 angular_acceleration_body_radps2 = Vec3::Zero();
 };
 
 /// Where a head's transducer sits on the body and how it is turned. Actual and measured mountings are two of these.

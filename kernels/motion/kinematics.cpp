@@ -3,34 +3,40 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "kernels/motion/climb.h"
 
 namespace ensonify::motion {
 namespace {
 
-frames::Vec3 forward(double heading_rad) { return {std::sin(heading_rad), std::cos(heading_rad), 0.0}; }
+using frames::Vec3;
+
+Vec3 forward(double heading_rad) { return {std::sin(heading_rad), std::cos(heading_rad), 0.0}; }
+Vec3 starboard(double heading_rad) { return {std::cos(heading_rad), -std::sin(heading_rad), 0.0}; }
 
 double turn_to_go_rad(const State& state, const Command& command) {
   return frames::wrap_pi(command.heading_rad - state.heading_rad);  // positive to starboard
 }
 
-double phase_at(const Sinusoid& wave, double t_s) {
-  return 2.0 * std::numbers::pi * t_s / wave.period_s + wave.phase_rad;
+double speed_rate_mps2(double speed_mps, double target_mps, const Limits& limits) {
+  return target_mps >= speed_mps ? limits.acceleration_mps2 : -limits.deceleration_mps2;
 }
 
-}  // namespace
+/// The speed from which on the turn rate limits a turn, not the radius.
+double limiting_speed_mps(const Limits& limits) { return limits.turn_rate_radps * limits.turning_radius_m; }
 
-Ramp speed_ramp(double speed_mps, double target_mps, double dt_s, const Limits& limits) {
-  const double rate = target_mps >= speed_mps ? limits.acceleration_mps2 : -limits.deceleration_mps2;
-  const double ramp_s = std::min(dt_s, (target_mps - speed_mps) / rate);
-  const double reached_mps = ramp_s < dt_s ? target_mps : speed_mps + rate * ramp_s;
-  return {reached_mps, (speed_mps + 0.5 * rate * ramp_s) * ramp_s + reached_mps * (dt_s - ramp_s)};
+/// When within dt the speed meets a speed that it has not now, or nothing.
+std::optional<double> time_of_speed(double speed_mps, double target_mps, double met_mps, double dt_s,
+                                    const Limits& limits) {
+  const bool between = (met_mps - speed_mps) * (met_mps - target_mps) < 0.0 || met_mps == target_mps;
+  if (!between || met_mps == speed_mps) return std::nullopt;
+  const double t_s = (met_mps - speed_mps) / speed_rate_mps2(speed_mps, target_mps, limits);
+  return t_s < dt_s ? std::optional(t_s) : std::nullopt;
 }
 
-double stopping_distance_m(double speed_mps, const Limits& limits) {
-  return speed_mps * speed_mps / (2.0 * limits.deceleration_mps2);
-}
-
-State advance(const State& state, const Command& command, double dt_s, const Limits& limits) {
+/// A turn that the radius limits: an arc and a straight line, whatever the speed does.
+State turn_on_circle(const State& state, const Command& command, double dt_s, const Limits& limits) {
   const Ramp ramp = speed_ramp(state.speed_mps, command.speed_mps, dt_s, limits);
   const double radius_m = limits.turning_radius_m;
   const double to_go_rad = turn_to_go_rad(state, command);
@@ -47,36 +53,119 @@ State advance(const State& state, const Command& command, double dt_s, const Lim
   const double chord_m = 2.0 * radius_m * std::sin(half_turn_rad);
   next.position_enu_m += chord_m * forward(state.heading_rad + side * half_turn_rad) +
                          (ramp.distance_m - arc_m) * forward(next.heading_rad);
-
-  const double climb_m = command.height_m - state.position_enu_m.z();
-  const double reach_m = limits.vertical_speed_mps * dt_s;
-  next.position_enu_m.z() =
-      std::abs(climb_m) <= reach_m ? command.height_m : state.position_enu_m.z() + std::copysign(reach_m, climb_m);
   return next;
 }
 
-double Sinusoid::value(double t_s) const { return amplitude * std::sin(phase_at(*this, t_s)); }
+/// A turn at the highest rate while the speed changes uniformly, and a straight line after it.
+State turn_at_rate(const State& state, const Command& command, double dt_s, const Limits& limits) {
+  const double to_go_rad = turn_to_go_rad(state, command);
+  const double rate = std::copysign(limits.turn_rate_radps, to_go_rad == 0.0 ? 1.0 : to_go_rad);
+  const double turn_s = std::min(dt_s, to_go_rad / rate);
+  const double a =
+      state.speed_mps == command.speed_mps ? 0.0 : speed_rate_mps2(state.speed_mps, command.speed_mps, limits);
+  const double turned_mps = state.speed_mps + a * turn_s;
+  const double heading_rad =
+      turn_s < dt_s || to_go_rad == 0.0 ? command.heading_rad : state.heading_rad + rate * turn_s;
 
-double Sinusoid::rate(double t_s) const {
-  return amplitude * (2.0 * std::numbers::pi / period_s) * std::cos(phase_at(*this, t_s));
+  // The integral of (v + a t) forward(heading + rate t), by parts; forward' = starboard, starboard' = -forward.
+  State next = state;
+  next.position_enu_m += (state.speed_mps * starboard(state.heading_rad) - turned_mps * starboard(heading_rad)) / rate +
+                         a / (rate * rate) * (forward(heading_rad) - forward(state.heading_rad));
+  const double straight_s = dt_s - turn_s;
+  next.position_enu_m += (turned_mps + 0.5 * a * straight_s) * straight_s * forward(heading_rad);
+  next.heading_rad = frames::wrap_two_pi(heading_rad);
+  next.speed_mps = state.speed_mps + a * dt_s;
+  return next;
 }
 
-frames::MovingPose moving_pose(const State& state, const Command& command, const Waves& waves, double t_s,
-                               const Limits& limits) {
+/// East and north, heading and speed. Split where the speed meets the limiting speed, and for the faster turn also
+/// where it meets the commanded one, so that each part is of one kind.
+State advance_level(const State& state, const Command& command, double dt_s, const Limits& limits) {
+  const auto split = [&](double t_s, double speed_mps) {
+    State part = advance_level(state, command, t_s, limits);
+    part.speed_mps = speed_mps;
+    return advance_level(part, command, dt_s - t_s, limits);
+  };
+  const double limiting_mps = limiting_speed_mps(limits), v = state.speed_mps, target = command.speed_mps;
+  if (const auto t_s = time_of_speed(v, target, limiting_mps, dt_s, limits)) return split(*t_s, limiting_mps);
+  if (std::max(v, speed_ramp(v, target, dt_s, limits).speed_mps) <= limiting_mps) {
+    return turn_on_circle(state, command, dt_s, limits);
+  }
+  if (const auto t_s = time_of_speed(v, target, target, dt_s, limits)) return split(*t_s, target);
+  return turn_at_rate(state, command, dt_s, limits);
+}
+
+}  // namespace
+
+Ramp speed_ramp(double speed_mps, double target_mps, double dt_s, const Limits& limits) {
+  const double rate = speed_rate_mps2(speed_mps, target_mps, limits);
+  const double ramp_s = std::min(dt_s, (target_mps - speed_mps) / rate);
+  const double reached_mps = ramp_s < dt_s ? target_mps : speed_mps + rate * ramp_s;
+  return {reached_mps, (speed_mps + 0.5 * rate * ramp_s) * ramp_s + reached_mps * (dt_s - ramp_s)};
+}
+
+double stopping_distance_m(double speed_mps, const Limits& limits) {
+  return speed_mps * speed_mps / (2.0 * limits.deceleration_mps2);
+}
+
+double turn_rate_radps(double speed_mps, const Limits& limits) {
+  return std::min(speed_mps / limits.turning_radius_m, limits.turn_rate_radps);
+}
+
+double turning_circle_m(double speed_mps, const Limits& limits) {
+  return std::max(limits.turning_radius_m, speed_mps / limits.turn_rate_radps);
+}
+
+State advance(const State& state, const Command& command, double dt_s, const Limits& limits) {
+  State next = advance_level(state, command, dt_s, limits);
+  const Climb up = climb({state.position_enu_m.z(), state.climb_mps, 0.0}, command.height_m, dt_s,
+                         limits.vertical_speed_mps, limits.vertical_acceleration_mps2);
+  next.position_enu_m.z() = up.height_m;
+  next.climb_mps = up.speed_mps;
+  return next;
+}
+
+frames::MovingPose moving_pose(const State& state, const Command& command, const Limits& limits) {
   const double to_go_rad = turn_to_go_rad(state, command);
   const double side = to_go_rad == 0.0 ? 0.0 : std::copysign(1.0, to_go_rad);
-  const double climb_m = command.height_m - state.position_enu_m.z();
-  const double climb = climb_m == 0.0 ? 0.0 : std::copysign(limits.vertical_speed_mps, climb_m);
+  const double turn_rate = side * turn_rate_radps(state.speed_mps, limits);
+  const double along =
+      state.speed_mps == command.speed_mps ? 0.0 : speed_rate_mps2(state.speed_mps, command.speed_mps, limits);
+  const bool by_radius = state.speed_mps < limiting_speed_mps(limits);
 
-  const frames::Attitude attitude{state.heading_rad, 0.0, waves.roll_rad.value(t_s)};
-  const frames::Attitude rates{side * state.speed_mps / limits.turning_radius_m, 0.0, waves.roll_rad.rate(t_s)};
+  double climb_mps = state.climb_mps, climb_mps2 = 0.0;
+  const double way_up_m = command.height_m - state.position_enu_m.z();
+  if (std::isinf(limits.vertical_acceleration_mps2)) {
+    climb_mps = way_up_m == 0.0 ? 0.0 : std::copysign(limits.vertical_speed_mps, way_up_m);
+  } else {
+    climb_mps2 = climb({state.position_enu_m.z(), climb_mps, 0.0}, command.height_m, 0.0, limits.vertical_speed_mps,
+                       limits.vertical_acceleration_mps2)
+                     .acceleration_mps2;
+  }
+
   frames::MovingPose moving;
-  moving.pose.position_enu_m = state.position_enu_m + waves.heave_m.value(t_s) * frames::Vec3::UnitZ();
-  moving.pose.enu_from_body = frames::enu_from_body(attitude);
-  moving.velocity_enu_mps =
-      state.speed_mps * forward(state.heading_rad) + (climb + waves.heave_m.rate(t_s)) * frames::Vec3::UnitZ();
-  moving.angular_rate_body_radps = frames::body_rates_radps(attitude, rates);
+  moving.pose.position_enu_m = state.position_enu_m;
+  moving.pose.enu_from_body = frames::enu_from_body({state.heading_rad, 0.0, 0.0});
+  moving.velocity_enu_mps = state.speed_mps * forward(state.heading_rad) + climb_mps * Vec3::UnitZ();
+  moving.acceleration_enu_mps2 = along * forward(state.heading_rad) +
+                                 state.speed_mps * turn_rate * starboard(state.heading_rad) +
+                                 climb_mps2 * Vec3::UnitZ();
+  moving.angular_rate_body_radps = turn_rate * Vec3::UnitZ();
+  if (by_radius) moving.angular_acceleration_body_radps2 = side * along / limits.turning_radius_m * Vec3::UnitZ();
   return moving;
+}
+
+Moving Sinusoid::at(double t_s) const {
+  const double omega = 2.0 * std::numbers::pi / period_s, phase = omega * t_s + phase_rad;
+  const double value = amplitude * std::sin(phase);
+  return {value, amplitude * omega * std::cos(phase), -omega * omega * value};
+}
+
+Excursion Waves::at(double t_s) const {
+  Excursion off;
+  off.roll_rad = roll_rad.at(t_s);
+  off.heave_m = heave_m.at(t_s);
+  return off;
 }
 
 }  // namespace ensonify::motion

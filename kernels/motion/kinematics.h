@@ -1,28 +1,35 @@
 #pragma once
 
-#include "kernels/frames/pose.h"
+#include <limits>
 
-/// Motion of a vehicle that obeys its commands as well as its limits allow: uniform acceleration along the path (the
-/// SUVAT equations of school physics) and a turning circle of fixed radius. No forces, no slip, no current.
+#include "kernels/motion/excursion.h"
+
+/// Motion of a vehicle that obeys its commands as well as its limits allow: uniform acceleration along the path and in
+/// the vertical (the SUVAT equations of school physics), and a turning circle of fixed radius. No forces, no slip.
 namespace ensonify::motion {
 
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 struct Limits {
-  double acceleration_mps2 = 0.2;   // > 0, speeding up
-  double deceleration_mps2 = 0.2;   // > 0, slowing down
-  double turning_radius_m = 10.0;   // > 0; turn rate = speed / radius
-  double vertical_speed_mps = 0.5;  // > 0, up and down
+  double acceleration_mps2 = 0.2;                  // > 0, speeding up
+  double deceleration_mps2 = 0.2;                  // > 0, slowing down
+  double turning_radius_m = 10.0;                  // > 0; turn rate = speed / radius, but
+  double turn_rate_radps = kUnlimited;             // > 0, not more than this: fast vehicles turn on a wider circle
+  double vertical_speed_mps = 0.5;                 // > 0, up and down
+  double vertical_acceleration_mps2 = kUnlimited;  // > 0; unlimited: climbs and dives begin and end at once
 };
 
 struct Command {
   double heading_rad = 0.0;  // grid
-  double speed_mps = 0.0;    // >= 0, over ground
+  double speed_mps = 0.0;    // >= 0, through the water
   double height_m = 0.0;     // of the reference point, ENU z (depth below the world's zero is -height)
 };
 
 struct State {
   frames::Vec3 position_enu_m = frames::Vec3::Zero();
   double heading_rad = 0.0;  // grid, [0, 2 pi)
-  double speed_mps = 0.0;    // along the heading
+  double speed_mps = 0.0;    // along the heading, through the water
+  double climb_mps = 0.0;    // up; stays 0 where the vertical acceleration is unlimited
 };
 
 struct Ramp {
@@ -36,28 +43,34 @@ Ramp speed_ramp(double speed_mps, double target_mps, double dt_s, const Limits& 
 /// Distance to a stop, v^2 / (2 a).
 double stopping_distance_m(double speed_mps, const Limits& limits);
 
-/// The state after dt under a constant command. Exact: the path is an arc of the turning circle, the shorter way (to
-/// starboard when the command is dead astern), then a straight line; its length is speed_ramp's distance whatever the
-/// speed did. So one step of dt equals any number of steps that sum to dt. At rest the heading stays.
+/// Rate of turn at a speed, speed / radius up to the limit, and the radius of the circle that this makes.
+double turn_rate_radps(double speed_mps, const Limits& limits);
+double turning_circle_m(double speed_mps, const Limits& limits);
+
+/// The state after dt under a constant command. Exact: where the radius limits the turn, the path is an arc of the
+/// turning circle; where the turn rate does, heading and speed are linear in time and the path is their integral in
+/// closed form; then a straight line. The shorter way round is taken, to starboard when the command is dead astern. The
+/// vertical is the quickest way to the commanded height at rest. So one step of dt equals any number of steps that sum
+/// to dt. At rest the heading stays.
 State advance(const State& state, const Command& command, double dt_s, const Limits& limits);
 
-/// A motion superimposed by waves: amplitude * sin(2 pi t / period + phase). A zero amplitude is no motion.
+/// Pose, velocity, acceleration and turn rates of a vehicle under way, level.
+frames::MovingPose moving_pose(const State& state, const Command& command, const Limits& limits);
+
+/// A regular wave: amplitude * sin(2 pi t / period + phase). A zero amplitude is no motion.
 struct Sinusoid {
   double amplitude = 0.0;  // rad for roll, m for heave
   double period_s = 1.0;   // > 0
   double phase_rad = 0.0;
 
-  double value(double t_s) const;
-  double rate(double t_s) const;  // d value / dt
+  Moving at(double t_s) const;
 };
 
 struct Waves {
   Sinusoid roll_rad;  // starboard down
   Sinusoid heave_m;   // up
-};
 
-/// Pose, velocity and turn rate at sim time t of a vehicle under way in waves. Pitch is zero.
-frames::MovingPose moving_pose(const State& state, const Command& command, const Waves& waves, double t_s,
-                               const Limits& limits);
+  Excursion at(double t_s) const;
+};
 
 }  // namespace ensonify::motion

@@ -54,22 +54,64 @@ TEST_CASE("at rest nothing turns") {
   CHECK(still.position_enu_m == Vec3::Zero());
 }
 
-TEST_CASE("velocity and turn rate are the derivatives of the pose") {
+namespace {
+
+const Limits kSlowTurner{.acceleration_mps2 = 0.5,
+                         .deceleration_mps2 = 0.25,
+                         .turning_radius_m = 20,
+                         .turn_rate_radps = 0.1,  // binds above 2 m/s
+                         .vertical_speed_mps = 0.5,
+                         .vertical_acceleration_mps2 = 0.2};
+
+}  // namespace
+
+TEST_CASE("a limited turn rate widens the circle to v/omega") {
+  CHECK(turn_rate_radps(1.0, kSlowTurner) == Approx(0.05));
+  CHECK(turn_rate_radps(5.0, kSlowTurner) == Approx(0.1));
+  CHECK(turning_circle_m(1.0, kSlowTurner) == 20.0);
+  CHECK(turning_circle_m(5.0, kSlowTurner) == Approx(50.0));
+  const State end = advance({Vec3::Zero(), 0.0, 5.0}, {kPi, 5.0, 0.0}, kPi / 0.1, kSlowTurner);
+  CHECK((end.position_enu_m - Vec3(100, 0, 0)).norm() < 1e-9);
+}
+
+TEST_CASE("steps add up where both limits and a ramp take turns") {
+  const State start{Vec3(1, 2, -3), 0.4, 0.2};
+  const Command command{3.3, 4.7, -9.0};
+  for (const double until_s : {2.0, 6.0, 40.0}) {
+    const State once = advance(start, command, until_s, kSlowTurner);
+    State often = start;
+    for (int i = 0; i < 1000; ++i) often = advance(often, command, until_s / 1000.0, kSlowTurner);
+    CHECK((once.position_enu_m - often.position_enu_m).norm() < 1e-9);
+    CHECK(once.heading_rad == Approx(often.heading_rad).margin(1e-12));
+    CHECK(once.speed_mps == Approx(often.speed_mps).margin(1e-12));
+    CHECK(once.climb_mps == Approx(often.climb_mps).margin(1e-9));
+  }
+}
+
+TEST_CASE("velocity, acceleration and turn rates are the derivatives of the pose") {
   const Waves waves{{0.1, 8.0, 0.3}, {0.5, 6.0, 1.0}};
-  const Command command{2.0, 2.0, 4.0};
-  const State state{Vec3(0, 0, 0), 0.5, 2.0};
-  const double t = 12.3, h = 1e-5;
-  const auto now = moving_pose(state, command, waves, t, kLimits);
-  const auto later = moving_pose(advance(state, command, h, kLimits), command, waves, t + h, kLimits);
-  const Vec3 velocity = (later.pose.position_enu_m - now.pose.position_enu_m) / h;
-  CHECK((velocity - now.velocity_enu_mps).norm() < 1e-4);
-  const Eigen::AngleAxisd turn(now.pose.enu_from_body.conjugate() * later.pose.enu_from_body);
-  CHECK((turn.axis() * turn.angle() / h - now.angular_rate_body_radps).norm() < 1e-4);
+  const Command command{2.0, 3.0, 4.0};
+  for (const double speed_mps : {1.5, 2.5}) {  // the radius limits the turn, the rate does
+    const State state{Vec3(0, 0, 0), 0.5, speed_mps, 0.1};
+    const double t = 12.3, h = 1e-3;
+    const auto at = [&](double dt) {
+      return superimpose(moving_pose(advance(state, command, dt, kSlowTurner), command, kSlowTurner), waves.at(t + dt));
+    };
+    // Differences over 2 h = 2 ms: their error is the third derivative times h^2 / 6, of the order of 1e-7.
+    const auto before = at(0.0), now = at(h), later = at(2.0 * h);
+    const Vec3 velocity = (later.pose.position_enu_m - before.pose.position_enu_m) / (2.0 * h);
+    CHECK((velocity - now.velocity_enu_mps).norm() < 1e-6);
+    const Vec3 acceleration = (later.velocity_enu_mps - before.velocity_enu_mps) / (2.0 * h);
+    CHECK((acceleration - now.acceleration_enu_mps2).norm() < 1e-6);
+    const Eigen::AngleAxisd turn(before.pose.enu_from_body.conjugate() * later.pose.enu_from_body);
+    CHECK((turn.axis() * turn.angle() / (2.0 * h) - now.angular_rate_body_radps).norm() < 1e-6);
+    const Vec3 spin = (later.angular_rate_body_radps - before.angular_rate_body_radps) / (2.0 * h);
+    CHECK((spin - now.angular_acceleration_body_radps2).norm() < 1e-6);
+  }
 }
 
 TEST_CASE("waves roll to their amplitude and no further") {
   const Waves waves{{0.1, 8.0, 0.0}, {0.5, 6.0, 0.0}};
-  const auto crest = moving_pose({}, {}, waves, 2.0, kLimits);
-  CHECK(attitude_of(crest.pose.enu_from_body).roll_rad == Approx(0.1));
-  CHECK(moving_pose({}, {}, waves, 1.5, kLimits).pose.position_enu_m.z() == Approx(0.5));
+  CHECK(attitude_of(superimpose({}, waves.at(2.0)).pose.enu_from_body).roll_rad == Approx(0.1));
+  CHECK(superimpose({}, waves.at(1.5)).pose.position_enu_m.z() == Approx(0.5));
 }

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   physics::Verbs verbs;
   physics::add_absorption(app, verbs);
   physics::add_backscatter(app, verbs);
+  physics::add_disturbance(app, verbs);
   physics::add_level(app, verbs);
   physics::add_material(app, verbs);
   physics::add_noise(app, verbs);
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);
   physics::add_surface(app, verbs);
+  physics::add_tide(app, verbs);
   return tool_main(app, argc, argv, [&] {
     for (physics::Verb& verb : verbs) {
       if (verb.asked_for()) verb.print();

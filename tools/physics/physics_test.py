@@ -60,6 +60,10 @@ near(value("pressure_bar", "sound-speed", "--depth-m", "7321.45", "--latitude-de
 for law, wanted, margin in (("francois-garrison", 73.1, 0.05), ("ainslie-mccolm", 73.1, 7.3)):
     near(value("absorption_db_per_km", "absorption", "--law", law, "--frequency-hz", "300e3"), wanted, margin)
 near(value("absorption_db_per_km", "absorption", "--frequency-hz", "200e3", "--temperature-degc", "0"), 40.6, 0.05)
+near(value("level_m", "tide", "--t-h", "0"), 4.0, 1e-9)
+near(value("level_m", "tide", "--t-h", "6.2103", "--s2-m", "0"), 0.5, 1e-6)   # half a period of M2
+near(value("heave_m", "disturbance", "--preset", "auv", "--t-s", "5"),
+     value("heave_m", "disturbance", "--preset", "auv", "--t-s", "5", "--seed", "1"), 1e-12)
 near(value("thermal_db", "noise", "--frequency-hz", "100e3"), 25, 1e-9)
 near(value("wind_db", "noise", "--frequency-hz", "1e3", "--wind-speed-mps", "2.5722"), 51.0, 1e-3)
 near(value("received_db", "noise", "--wind-speed-mps", "0", "--bandwidth-hz", "1e4", "--directivity-index-db", "30"),

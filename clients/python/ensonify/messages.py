@@ -125,6 +125,8 @@ class Pose(Message):
     enu_from_body [1]: attitude quaternion w, x, y, z (w >= 0) from body FRD to world ENU
     velocity_enu_mps [m/s]: velocity of the body origin in the world frame
     rate_body_radps [rad/s]: angular rate in the body frame, FRD
+    acceleration_enu_mps2 [m/s^2]: acceleration of the body origin in the world frame; less gravity, turned to the body, it is the specific force
+    angular_acceleration_body_radps2 [rad/s^2]: rate of the angular rate, body frame
     """
 
     TYPE = "pose/1"
@@ -133,6 +135,8 @@ class Pose(Message):
     enu_from_body: tuple = fixed(1.0, 0.0, 0.0, 0.0)
     velocity_enu_mps: tuple = fixed(0.0, 0.0, 0.0)
     rate_body_radps: tuple = fixed(0.0, 0.0, 0.0)
+    acceleration_enu_mps2: tuple = fixed(0.0, 0.0, 0.0)
+    angular_acceleration_body_radps2: tuple = fixed(0.0, 0.0, 0.0)
 
 
 @dataclass(eq=False)

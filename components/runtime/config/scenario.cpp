@@ -1,11 +1,14 @@
 #include "components/runtime/config/scenario.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <set>
 #include <stdexcept>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/scenario_motion.h"
 #include "components/runtime/config/scenario_sections.h"
 
 namespace ensonify {
@@ -86,18 +89,31 @@ void read_start(ConfigReader& from, Vehicle& vehicle) {
 Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
   Vehicle vehicle;
   vehicle.name = name;
-  int kind = 0;
-  from.optional_choice("kind", kind, {{"kinematic", 0}});
+  bool by_forces = false;
+  from.optional_choice("kind", by_forces, {{"kinematic", false}, {"hydrodynamic", true}});
+  if (by_forces) {
+    from.required_path("dynamics", vehicle.dynamics_file);
+  } else if (from.has("dynamics")) {
+    from.problem("dynamics", "needs kind: hydrodynamic");
+  }
   from.optional("acceleration_mps2", vehicle.limits.acceleration_mps2, 1e-3, 20);
   from.optional("deceleration_mps2", vehicle.limits.deceleration_mps2, 1e-3, 20);
   from.optional("turning_radius_m", vehicle.limits.turning_radius_m, 0.1, 1000);
+  from.optional("turn_rate_dps", vehicle.limits.turn_rate_radps, 0.01, 360, kDegrees);
   from.optional("vertical_speed_mps", vehicle.limits.vertical_speed_mps, 1e-3, 20);
+  from.optional("vertical_acceleration_mps2", vehicle.limits.vertical_acceleration_mps2, 1e-3, 20);
   from.optional("fastest_mps", vehicle.fastest_mps, 0.01, 30);
   if (const auto roll = from.optional_section("roll")) {
     vehicle.waves.roll_rad = read_sinusoid(*roll, "amplitude_deg", 60, kDegrees);
   }
   if (const auto heave = from.optional_section("heave")) {
     vehicle.waves.heave_m = read_sinusoid(*heave, "amplitude_m", 20, kSi);
+  }
+  if (const auto disturbance = from.optional_section("disturbance")) {
+    vehicle.disturbance = read_disturbance(*disturbance);
+  }
+  if (const auto floats = from.optional_section("floats")) {
+    vehicle.floats = read_loading(*floats);
   }
   read_start(from, vehicle);
   for (auto& [head, mounting] : from.named_sections("mountings")) {
@@ -178,7 +194,24 @@ void read_time(ConfigReader from, Scenario& scenario) {
   }
 }
 
+/// A tide must be known from the start for as long as the lines take at the least.
+void check_tide(ConfigReader& from, const Scenario& scenario) {
+  const Mission& mission = scenario.mission;
+  double way_m = 0.0;
+  for (const auto& line : mission.runlines) way_m += mission.run_in_m + navigation::length_m(line);
+  const double least_s = way_m / mission.speed_mps;
+  const vertical::Tide& tide = scenario.vertical.tide;
+  if (tide.first_s() > 0.0) {
+    from.problem("vertical", fmt::format("the tide's first reading is {:.0f} s after the start", tide.first_s()));
+  } else if (tide.last_s() < least_s) {
+    from.problem("vertical", fmt::format("the tide's last reading is {:.0f} s after the start, and the mission's lines "
+                                         "take {:.0f} s without their turns",
+                                         tide.last_s(), least_s));
+  }
+}
+
 void check_whole(ConfigReader& from, const Scenario& scenario) {
+  if (from.good()) check_tide(from, scenario);
   std::set<std::string> heads;
   for (const auto& vehicle : scenario.vehicles) {
     for (const auto& [head, mounting] : vehicle.mountings) {
@@ -220,6 +253,13 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
   from.optional("seed", scenario.seed);
   if (const auto water = from.optional_section("water")) {
     scenario.water = read_water(*water);
+  }
+  const double start_unix_s = static_cast<double>(scenario.start_unix_ns) * 1e-9;
+  if (const auto vertical = from.optional_section("vertical")) {
+    scenario.vertical = read_vertical(*vertical, start_unix_s);
+  }
+  if (const auto current = from.optional_section("current")) {
+    scenario.current = read_current(*current, start_unix_s);
   }
   scenario.seabed = read_seabed(from.section("seabed"));
   for (auto& [name, vehicle] : from.named_sections("vehicles")) {

@@ -10,11 +10,15 @@
 
 #include "components/runtime/config/config_node.h"
 #include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/config/scenario_vertical.h"
 #include "components/runtime/config/scenario_water.h"
 #include "kernels/frames/local_projection.h"
 #include "kernels/frames/pose.h"
+#include "kernels/motion/current.h"
+#include "kernels/motion/disturbance.h"
 #include "kernels/motion/kinematics.h"
 #include "kernels/navigation/runline.h"
+#include "kernels/vertical/draught.h"
 
 namespace ensonify {
 
@@ -36,9 +40,15 @@ struct HeadMounting {
 
 struct Vehicle {
   std::string name;
+  /// Given: the vehicle moves by its forces, as this file says; the limits below are what its planners count on.
+  std::string dynamics_file;
   motion::Limits limits;
   double fastest_mps = 10.0;
   motion::Waves waves;
+  motion::DisturbanceParameters disturbance;
+  /// Given: it floats on the water level, this much deeper than its reference point. Not given: as deep as the mission
+  /// says below the water level.
+  std::optional<vertical::Loading> floats;
   /// Not given: at the start of the first runline, at its heading, at mission speed.
   std::optional<motion::State> start;
   std::map<std::string, HeadMounting> mountings;  // by the head's process name
@@ -56,7 +66,7 @@ struct AutoPlan {
 
 struct Mission {
   double speed_mps = 2.0;
-  double depth_m = 0.0;  // of the vehicle's reference point below datum
+  double depth_m = 0.0;  // of the vehicle's reference point below the water level
   double run_in_m = 10.0;
   std::vector<navigation::Runline> runlines;  // in order; lawnmowers are already laid out
   std::optional<AutoPlan> auto_plan;          // set: `runlines` is empty until it has been resolved
@@ -70,6 +80,8 @@ struct Scenario {
   std::int64_t start_unix_ns = 1748736000000000000;
   std::uint64_t seed = 1;
   Water water;
+  Vertical vertical;
+  motion::Current current;
   Seabed seabed;
   std::vector<Vehicle> vehicles;  // in the order of the file
   Mission mission;

@@ -1,0 +1,148 @@
+#include "components/runtime/config/scenario_vertical.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "components/runtime/config/config_reader.h"
+#include "components/runtime/config/scalars.h"
+#include "components/runtime/config/scenario.h"
+#include "components/runtime/config/scenario_motion.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kHighest_m = 20.0;         // of a tide
+constexpr double kFarthestApart_m = 200.0;  // of two datums
+
+[[noreturn]] void refuse(const std::string& path, int line, const std::string& message) {
+  throw ConfigError({{{path, line, line > 0 ? 1 : 0}, "", message}});
+}
+
+std::ifstream opened(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) refuse(path, 0, "cannot be read");
+  return in;
+}
+
+vertical::HarmonicTide read_harmonic(ConfigReader& from, double start_unix_s) {
+  vertical::HarmonicTide tide;
+  from.optional("mean_m", tide.mean_m, -kHighest_m, kHighest_m);
+  for (auto& item : from.list("constituents")) {
+    vertical::Constituent constituent;
+    constituent.speed_radps = read_constituent_radps(item);
+    item.required("amplitude_m", constituent.amplitude_m, 0, kHighest_m);
+    item.optional("phase_deg", constituent.phase_rad, -360, 360, kDegrees);
+    constituent.phase_rad = phase_at_start_rad(item, constituent.phase_rad, constituent.speed_radps, start_unix_s);
+    tide.constituents.push_back(constituent);
+  }
+  return tide;
+}
+
+vertical::Tide read_tide(ConfigReader from, double start_unix_s) {
+  const int kinds = int{from.has("constant_m")} + int{from.has("constituents")} + int{from.has("gauge")};
+  if (kinds != 1) {
+    from.problem("", std::string(kinds == 0 ? "says nothing" : "says several things") +
+                         "; give one of constant_m, constituents, gauge");
+  }
+  if (from.has("constituents")) return vertical::Tide(read_harmonic(from, start_unix_s));
+  double constant_m = 0.0;
+  from.optional("constant_m", constant_m, -kHighest_m, kHighest_m);
+  std::string path;
+  from.optional_path("gauge", path);
+  if (path.empty()) return vertical::Tide(constant_m);
+  try {
+    return vertical::Tide(read_gauge(path, start_unix_s));
+  } catch (const ConfigError& error) {
+    from.add(error);
+    return {};
+  }
+}
+
+/// A number of metres, or the path of a grid.
+vertical::Separation read_separation_of(ConfigReader& from, const char* metres, const char* grid) {
+  double constant_m = 0.0;
+  std::string path;
+  from.optional(metres, constant_m, -kFarthestApart_m, kFarthestApart_m);
+  from.optional_path(grid, path);
+  if (path.empty()) return vertical::Separation(constant_m);
+  if (from.has(metres)) from.problem(grid, std::string("stands beside ") + metres + "; give one or the other");
+  try {
+    return read_separation(path);
+  } catch (const ConfigError& error) {
+    from.add(error);
+    return {};
+  }
+}
+
+}  // namespace
+
+Vertical read_vertical(ConfigReader from, double start_unix_s) {
+  Vertical result;
+  if (const auto tide = from.optional_section("tide")) result.tide = read_tide(*tide, start_unix_s);
+  result.datums.geoid_above_ellipsoid =
+      read_separation_of(from, "geoid_above_ellipsoid_m", "geoid_above_ellipsoid_grid");
+  result.datums.datum_above_geoid = read_separation_of(from, "datum_above_geoid_m", "datum_above_geoid_grid");
+  return result;
+}
+
+vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s) {
+  std::ifstream in = opened(path);
+  vertical::GaugeReadings readings;
+  auto& read = readings.time_s_and_height_m;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    const std::size_t comma = std::min(line.find_first_of(",;\t"), line.size());
+    const auto time_ns = parse_utc_ns(line.substr(0, comma));
+    if (!time_ns && read.empty() && number == 1) continue;  // names of the columns
+    if (!time_ns) refuse(path, number, "does not begin with a UTC time such as 2025-06-01T12:00:00Z");
+    const auto height_m = parse_number(comma < line.size() ? line.substr(comma + 1) : "");
+    if (!height_m || std::abs(*height_m) > kHighest_m) {
+      refuse(path, number, fmt::format("has no height in [{}, {}] m after its time", -kHighest_m, kHighest_m));
+    }
+    const double time_s = static_cast<double>(*time_ns) * 1e-9 - start_unix_s;
+    if (!read.empty() && time_s <= read.back().first) refuse(path, number, "is not later than the reading before");
+    read.emplace_back(time_s, *height_m);
+  }
+  if (read.empty()) refuse(path, 0, "holds no reading");
+  return readings;
+}
+
+vertical::Separation read_separation(const std::string& path) {
+  std::ifstream in = opened(path);
+  std::map<std::string, double> head{{"ncols", 0}, {"nrows", 0}, {"xllcorner", 0}, {"yllcorner", 0}, {"cellsize", 0}};
+  for (int line = 1; line <= 5; ++line) {
+    std::string key;
+    double value = 0.0;
+    if (!(in >> key >> value) || !head.contains(key)) {
+      refuse(path, line, "is not one of ncols, nrows, xllcorner, yllcorner, cellsize with a number");
+    }
+    head[key] = value;
+  }
+  if (!(head["ncols"] >= 2 && head["nrows"] >= 2 && head["ncols"] * head["nrows"] <= 1e7)) {
+    refuse(path, 1, "has fewer than 2 x 2 or more than ten million cells");
+  }
+  const auto columns = static_cast<std::size_t>(head["ncols"]), rows = static_cast<std::size_t>(head["nrows"]);
+  std::vector<double> values(columns * rows);
+  for (std::size_t row = rows; row-- > 0;) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (!(in >> values[row * columns + column]) || std::abs(values[row * columns + column]) > kFarthestApart_m) {
+        refuse(path, static_cast<int>(5 + rows - row),
+               fmt::format("lacks a value in [{}, {}] m", -kFarthestApart_m, kFarthestApart_m));
+      }
+    }
+  }
+  const double cell = head["cellsize"];
+  try {
+    return {{head["xllcorner"] + 0.5 * cell, head["yllcorner"] + 0.5 * cell}, cell, columns, rows, std::move(values)};
+  } catch (const std::invalid_argument& error) {
+    refuse(path, 1, error.what());
+  }
+}
+
+}  // namespace ensonify

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "components/runtime/sim_time.h"
+#include "components/vehicle/config.h"
+#include "kernels/frames/pose.h"
+
+namespace ensonify {
+
+/// What moves a vehicle. One folder each: kinematic, hydrodynamic.
+class Dynamics {
+ public:
+  virtual ~Dynamics() = default;
+
+  /// Moves on to `now` under the command in force.
+  virtual void advance(SimTime now) = 0;
+  /// Puts a command in force from now on. Speed is through the water, >= 0.
+  virtual void command(double heading_rad, double speed_mps) = 0;
+  /// Where the vehicle is and how it moves, without waves.
+  virtual frames::MovingPose moving() const = 0;
+};
+
+/// The dynamics that the configuration names. At sim time `now` the vehicle is at `start`, whose height counts from the
+/// water level, and goes straight ahead until told otherwise.
+std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motion::State& start, SimTime now);
+
+}  // namespace ensonify

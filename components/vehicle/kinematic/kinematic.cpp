@@ -1,0 +1,51 @@
+#include "components/vehicle/kinematic/kinematic.h"
+
+namespace ensonify {
+
+KinematicDynamics::KinematicDynamics(const VehicleConfig& config, const motion::State& start, SimTime now)
+    : limits_(config.limits),
+      water_(config.water),
+      state_(start),
+      command_{start.heading_rad, start.speed_mps, start.position_enu_m.z()},
+      now_(now) {}
+
+double KinematicDynamics::depth_below_datum_m() const {
+  return -(water_.tide.at(seconds(now_)).height_m + state_.position_enu_m.z());
+}
+
+void KinematicDynamics::advance(SimTime now) {
+  const double dt_s = seconds(now - now_);
+  if (!water_.current.none()) {
+    state_.position_enu_m.head<2>() += water_.current.drift_enu_m(depth_below_datum_m(), seconds(now_), dt_s);
+  }
+  state_ = motion::advance(state_, command_, dt_s, limits_);
+  now_ = now;
+}
+
+void KinematicDynamics::command(double heading_rad, double speed_mps) {
+  command_.heading_rad = heading_rad;
+  command_.speed_mps = speed_mps;
+}
+
+frames::MovingPose KinematicDynamics::moving() const {
+  const double t_s = seconds(now_);
+  frames::MovingPose moving = motion::moving_pose(state_, command_, limits_);
+  const frames::Vec3 ahead = moving.pose.enu_from_body * frames::Vec3::UnitX();
+  const double speed_rate_mps2 = ahead.dot(moving.acceleration_enu_mps2);
+
+  vertical::Level level = water_.tide.at(t_s);
+  if (water_.floats) {
+    level.height_m -= vertical::sinkage_m(*water_.floats, state_.speed_mps, t_s);
+    level.rate_mps -=
+        vertical::sinkage_per_speed_s(*water_.floats, state_.speed_mps) * speed_rate_mps2 + water_.floats->rate_mps;
+  }
+  moving.pose.position_enu_m.z() += level.height_m;
+  moving.velocity_enu_mps.z() += level.rate_mps;
+  if (!water_.current.none()) {
+    moving.velocity_enu_mps.head<2>() += water_.current.velocity_enu_mps(depth_below_datum_m(), t_s);
+    moving.acceleration_enu_mps2.head<2>() += water_.current.acceleration_enu_mps2(t_s);
+  }
+  return moving;
+}
+
+}  // namespace ensonify

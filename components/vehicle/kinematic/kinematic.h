@@ -1,0 +1,27 @@
+#pragma once
+
+#include "components/vehicle/dynamics.h"
+
+namespace ensonify {
+
+/// A vehicle that obeys heading and speed at once, within its limits, and holds its depth below the water level, or
+/// floats on it. The current carries it.
+class KinematicDynamics : public Dynamics {
+ public:
+  KinematicDynamics(const VehicleConfig& config, const motion::State& start, SimTime now);
+
+  void advance(SimTime now) override;
+  void command(double heading_rad, double speed_mps) override;
+  frames::MovingPose moving() const override;
+
+ private:
+  double depth_below_datum_m() const;
+
+  motion::Limits limits_;
+  VehicleWater water_;
+  motion::State state_;  // its height counts from the water level
+  motion::Command command_;
+  SimTime now_;
+};
+
+}  // namespace ensonify

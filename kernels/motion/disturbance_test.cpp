@@ -1,0 +1,210 @@
+#include "kernels/motion/disturbance.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "kernels/motion/disturbance_presets.h"
+
+using namespace ensonify::motion;
+using ensonify::frames::MovingPose;
+using ensonify::frames::Quaternion;
+using ensonify::frames::Vec3;
+using ensonify::random::Stream;
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
+
+namespace {
+
+/// All six axes, both parts, at once.
+DisturbanceParameters rough_sea() {
+  DisturbanceParameters p;
+  p.surge = {.oscillation_sd = 0.3, .period_s = 9, .wander_sd = 0.5, .hurst = 0.7};
+  p.sway = {.oscillation_sd = 0.4, .period_s = 8, .wander_sd = 0.5, .hurst = 0.7};
+  p.heave = {
+      .oscillation_sd = 1.12, .period_s = 10.7, .jitter = 0.24, .coherence = 1.0, .wander_sd = 0.02, .hurst = 0.3};
+  p.roll = {.oscillation_sd = 4 * kDegree, .period_s = 6, .coherence = 0.54, .wander_sd = 0.5 * kDegree};
+  p.pitch = {.oscillation_sd = 1.86 * kDegree, .period_s = 9.1, .jitter = 0.25, .coherence = 0.87, .lead_rad = 1.6};
+  p.heading = {.oscillation_sd = 0.5 * kDegree, .period_s = 11, .wander_sd = 1 * kDegree, .hurst = 0.6};
+  return p;
+}
+
+/// A quarter of a Welch estimate: Fourier sums of Hann-windowed segments that overlap by half.
+std::vector<std::vector<std::complex<double>>> segments(const std::vector<double>& x, int length, int frequencies) {
+  std::vector<std::vector<std::complex<double>>> all;
+  for (std::size_t start = 0; start + length <= x.size(); start += length / 2) {
+    std::vector<std::complex<double>> sums(frequencies);
+    for (int i = 0; i < length; ++i) {
+      const double windowed = x[start + i] * (0.5 - 0.5 * std::cos(2 * kPi * i / length));
+      for (int k = 0; k < frequencies; ++k) sums[k] += windowed * std::polar(1.0, -2 * kPi * k * i / length);
+    }
+    all.push_back(sums);
+  }
+  return all;
+}
+
+/// Sum over segments of a conj(b) at frequency k.
+std::complex<double> cross(const std::vector<std::vector<std::complex<double>>>& a,
+                           const std::vector<std::vector<std::complex<double>>>& b, int k) {
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i][k] * std::conj(b[i][k]);
+  return sum;
+}
+
+}  // namespace
+
+// What the research ship's motion sensor measured; 10 % is asked for.
+TEST_CASE("four hours of the research ship have her standard deviations, peak periods and coherence") {
+  const Disturbance sea(*disturbance_preset("research_ship"), Stream{7, "sea"});
+  std::vector<double> heave, pitch, roll, heading;
+  for (int t_s = 0; t_s < 4 * 3600; ++t_s) {
+    const Excursion off = sea.at(t_s);
+    heave.push_back(off.heave_m.value);
+    pitch.push_back(off.pitch_rad.value / kDegree);
+    roll.push_back(off.roll_rad.value / kDegree);
+    heading.push_back(off.heading_rad.value / kDegree);
+  }
+  const auto sd = [](const std::vector<double>& x) {
+    double sum = 0.0;
+    for (const double value : x) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(x.size()));
+  };
+  // Each band's wave is seen for many times its own period, so the mean square is the sum of the bands' to 1 %.
+  CHECK(sd(heave) == Approx(1.12).epsilon(0.02));
+  CHECK(sd(pitch) == Approx(1.86).epsilon(0.02));
+  CHECK(sd(roll) == Approx(0.58).epsilon(0.02));
+  CHECK(sd(heading) == Approx(0.66).epsilon(0.05));  // its wander is slow: fewer periods
+
+  // 128 s segments: 224 of them, lines 1/128 Hz apart. The centroid of a peak is known better than a line.
+  constexpr int kLength = 128, kLines = 30;
+  const auto h = segments(heave, kLength, kLines), p = segments(pitch, kLength, kLines),
+             r = segments(roll, kLength, kLines);
+  const auto period_s = [&](const auto& x) {
+    double power = 0.0, moment = 0.0;
+    for (int k = 2; k < kLines; ++k) {
+      power += cross(x, x, k).real();
+      moment += cross(x, x, k).real() * k / kLength;
+    }
+    return power / moment;
+  };
+  CHECK(period_s(h) == Approx(10.7).epsilon(0.05));
+  CHECK(period_s(p) == Approx(9.1).epsilon(0.05));
+  CHECK(period_s(r) == Approx(12.8).epsilon(0.05));
+
+  // At the common peak (k = 13, 9.8 s) the coherence is 1 * 0.87 and pitch leads by a quarter of a period.
+  const auto between = cross(p, h, 13);
+  CHECK(std::abs(between) / std::sqrt(cross(p, p, 13).real() * cross(h, h, 13).real()) == Approx(0.87).margin(0.06));
+  CHECK(std::arg(between) == Approx(0.5 * kPi).margin(0.15));
+}
+
+TEST_CASE("the fractional part has the slope -(2H + 1) above its corner") {
+  DisturbanceParameters p;
+  p.sway = {.wander_sd = 1.0, .hurst = 0.7, .return_s = 60};
+  const Disturbance wander(p, Stream{3, "wander"});
+  std::vector<double> x;
+  for (int i = 0; i < 40000; ++i) x.push_back(wander.at(0.25 * i).sway_m.value);
+  constexpr int kLength = 400, kLines = 110;  // 100 s: lines 0.01 Hz apart
+  const auto sums = segments(x, kLength, kLines);
+  const auto band = [&](int from, int to) {
+    double power = 0.0;
+    for (int k = from; k < to; ++k) power += cross(sums, sums, k).real();
+    return power / (to - from);
+  };
+  // From 0.07 to 0.7 Hz; each band averages ten lines and about 100 segments, so 0.1 is many standard deviations.
+  CHECK(std::log10(band(60, 80) / band(6, 8)) == Approx(-(2 * 0.7 + 1)).margin(0.1));
+}
+
+TEST_CASE("an oscillation is confined to below the highest frequency") {
+  // With all waves below 0.5 Hz, samples at 1 Hz tell the motion between them: the mean of rate^2 is bounded.
+  DisturbanceParameters p;
+  p.roll = {.wander_sd = 1.0, .hurst = 0.05};
+  p.highest_hz = 0.5;
+  const Disturbance roll(p, Stream{5, "roll"});
+  double rate_squared = 0.0, squared = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const Moving m = roll.at(0.37 * i).roll_rad;
+    rate_squared += m.rate * m.rate;
+    squared += m.value * m.value;
+  }
+  CHECK(rate_squared < squared * kPi * kPi);  // (2 pi 0.5 Hz)^2
+}
+
+TEST_CASE("600 s of specific force and turn rate integrate to the pose") {
+  const Disturbance sea(rough_sea(), Stream{11, "imu"});
+  const Vec3 gravity(0, 0, -9.81);
+  MovingPose mean;  // under way in a steady turn: 2 m/s on a circle of 100 m
+  mean.angular_rate_body_radps = {0, 0, 0.02};
+  const auto truth = [&](double t_s) {
+    const double heading = 0.02 * t_s;
+    mean.pose.position_enu_m = {100 - 100 * std::cos(heading), 100 * std::sin(heading), -3};
+    mean.pose.enu_from_body = ensonify::frames::enu_from_body({heading, 0, 0});
+    mean.velocity_enu_mps = {2 * std::sin(heading), 2 * std::cos(heading), 0};
+    mean.acceleration_enu_mps2 = {0.04 * std::cos(heading), -0.04 * std::sin(heading), 0};
+    return superimpose(mean, sea.at(t_s));
+  };
+  struct Imu {
+    Vec3 rate, force;
+  };
+  const auto imu = [&](double t_s) {
+    const MovingPose m = truth(t_s);
+    return Imu{m.angular_rate_body_radps, m.pose.enu_from_body.conjugate() * (m.acceleration_enu_mps2 - gravity)};
+  };
+  // A strapdown by Runge and Kutta at 50 Hz, knowing nothing but the start and the two sensors.
+  struct Nav {
+    Vec3 position, velocity;
+    Eigen::Vector4d q;
+  };
+  const auto slope = [&](const Nav& n, const Imu& s) {
+    const Quaternion q(n.q);
+    const Quaternion spin(0.0, s.rate.x(), s.rate.y(), s.rate.z());
+    return Nav{n.velocity, q.normalized() * s.force + gravity, 0.5 * (q * spin).coeffs()};
+  };
+  const auto moved = [](const Nav& n, const Nav& d, double h) {
+    return Nav{n.position + h * d.position, n.velocity + h * d.velocity, n.q + h * d.q};
+  };
+  const MovingPose start = truth(0.0);
+  Nav nav{start.pose.position_enu_m, start.velocity_enu_mps, start.pose.enu_from_body.coeffs()};
+  const double h = 0.02;
+  Imu first = imu(0.0);
+  for (int i = 0; i < 30000; ++i) {
+    const double t = i * h;
+    const Imu middle = imu(t + 0.5 * h), last = imu(t + h);
+    const Nav k1 = slope(nav, first), k2 = slope(moved(nav, k1, 0.5 * h), middle);
+    const Nav k3 = slope(moved(nav, k2, 0.5 * h), middle), k4 = slope(moved(nav, k3, h), last);
+    nav = moved(moved(moved(moved(nav, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
+    nav.q.normalize();
+    first = last;
+  }
+  const MovingPose end = truth(600.0);
+  CHECK((nav.position - end.pose.position_enu_m).norm() < 1e-3);
+  CHECK(Quaternion(nav.q).angularDistance(end.pose.enu_from_body) < 1e-3 * kDegree);
+}
+
+TEST_CASE("changing one axis moves no other, and equal streams give equal motions") {
+  DisturbanceParameters other = rough_sea();
+  other.roll.oscillation_sd *= 2;
+  const Disturbance a(rough_sea(), Stream{1, "a"}), b(other, Stream{1, "a"}), c(rough_sea(), Stream{2, "a"});
+  CHECK(a.at(100.0).pitch_rad.value == b.at(100.0).pitch_rad.value);
+  CHECK(a.at(100.0).roll_rad.value != b.at(100.0).roll_rad.value);
+  CHECK(a.at(100.0).pitch_rad.value != c.at(100.0).pitch_rad.value);
+}
+
+TEST_CASE("every named preset is a motion, and no other name is") {
+  for (const auto name : kDisturbancePresets) {
+    CHECK(std::abs(Disturbance(disturbance_preset(name).value(), Stream{1, "a"}).at(3.0).roll_rad.value) > 0.0);
+  }
+  CHECK_FALSE(disturbance_preset("ferry").has_value());
+}
+
+TEST_CASE("nothing disturbed is no motion, and nonsense is refused with its axis") {
+  const Excursion still = Disturbance({}, Stream{1, "a"}).at(12.0);
+  CHECK(still.roll_rad.value == 0.0);
+  CHECK(still.heave_m.acceleration == 0.0);
+  DisturbanceParameters p;
+  p.pitch.hurst = 1.0;
+  CHECK_THROWS_WITH(Disturbance(p, Stream(1, "a")), "disturbance of pitch: hurst must be between 0 and 1");
+  p = {};
+  p.heave = {.oscillation_sd = 1.0, .period_s = 0.4};
+  CHECK_THROWS_WITH(Disturbance(p, Stream(1, "a")), "disturbance of heave: 1 / period_s is above highest_hz");
+}
