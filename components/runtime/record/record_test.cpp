@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -167,6 +168,27 @@ TEST_CASE("records stand in the order of the specification, one chunk per second
   CHECK(opcodes(read_file(folder / "a.mcap")) == "\x01\x0C\x09" + chunk + chunk + chunk +
                                                      "\x0F\x03\x04\x04\x0B\x08\x08\x08\x0A\x0D" +
                                                      std::string(6, '\x0E') + "\x02");
+}
+
+TEST_CASE("a long record needs no more memory than a short one") {
+  const Folder folder;
+  RecordWriter writer(folder / "long.mcap", {"1.2.3", 42, kStart});
+  writer.add_channel({3, "bow/transmit", "transmit/1", "", 2, 100});
+  const msg::Buffer event = payload(msg::Transmit{});
+  const auto write_until = [&](int until) {
+    while (static_cast<int>(writer.message_count()) < until) {
+      writer.write(3, writer.message_count(), 1_s * static_cast<std::int64_t>(writer.message_count()), event);
+    }
+    return ::mallinfo2().uordblks;
+  };
+  const auto before = write_until(100);
+  const auto after = write_until(20'000);  // as many chunks; an index kept in memory would be 1.7 MB
+  CHECK(after < before + 10'000);
+  writer.close();
+
+  const std::string ops = opcodes(read_file(folder / "long.mcap"));
+  CHECK(std::count(ops.begin(), ops.end(), '\x06') == 20'000);
+  CHECK(std::count(ops.begin(), ops.end(), '\x08') == 20'000);
 }
 
 TEST_CASE("a chunk ends at 16 MiB") {

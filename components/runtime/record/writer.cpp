@@ -33,7 +33,7 @@ RecordWriter::RecordWriter(std::filesystem::path file, const RecordInfo& info,
     std::filesystem::create_directories(file_.parent_path(), error);
     if (error) throw UserError(file_.string() + ": cannot make its folder: " + error.message());
   }
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw UserError(file_.string() + ": cannot be written: " + cause());
   try {
     put(std::as_bytes(std::span(kMcapMagic)));
@@ -47,7 +47,7 @@ RecordWriter::RecordWriter(std::filesystem::path file, const RecordInfo& info,
     if (descriptor_ >= 0) ::close(descriptor_);
     throw;
   }
-  whole_until_ = offset_;
+  chunks_start_ = whole_until_ = offset_;
   chunk_.reserve(kChunkBytes);
 }
 
@@ -187,7 +187,6 @@ void RecordWriter::write(std::uint16_t channel, std::uint64_t seq, SimTime t_sim
 }
 
 void RecordWriter::end_chunk() {
-  const std::uint64_t start = offset_;
   ByteSink head;
   const std::uint64_t head_bytes = 8 + 8 + 8 + 4 + 4 + 8;
   head.u8(static_cast<std::uint8_t>(Op::chunk));
@@ -200,19 +199,15 @@ void RecordWriter::end_chunk() {
   head.u64(chunk_.size());
   put(head.bytes());
   put(chunk_.bytes());
-  put_chunk_indices(start);
+  put_message_indices();
   whole_until_ = offset_;
   ++chunk_count_;
   chunk_.clear();
   chunk_entries_.clear();
 }
 
-void RecordWriter::put_chunk_indices(std::uint64_t chunk_start) {
-  const std::uint64_t chunk_end = offset_;
-  ByteSink places;  // channel id -> offset of its message index
+void RecordWriter::put_message_indices() {
   for (const auto& [channel, entries] : chunk_entries_) {
-    places.u16(channel);
-    places.u64(offset_);
     ByteSink content;
     content.u16(channel);
     content.u32(static_cast<std::uint32_t>(entries.size() * 16));
@@ -222,19 +217,67 @@ void RecordWriter::put_chunk_indices(std::uint64_t chunk_start) {
     }
     put_record(Op::message_index, content);
   }
+}
+
+template <std::size_t count>
+std::array<std::byte, count> RecordWriter::read_back(std::uint64_t at) {
+  std::array<std::byte, count> bytes;
+  std::size_t have = 0;
+  while (have < count) {
+    const ssize_t got = ::pread(descriptor_, bytes.data() + have, count - have, static_cast<off_t>(at + have));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail("cannot be read back");
+    have += static_cast<std::size_t>(got);
+  }
+  return bytes;
+}
+
+/// The chunks' places are read back from the file: kept in memory they would grow with the record, for ever.
+void RecordWriter::put_chunk_index() {
+  constexpr std::size_t kEnough = 1U << 16U;  // bytes per write
+  ByteSink index;
+  std::uint64_t at = chunks_start_;
+  for (std::uint32_t n = 0; n < chunk_count_; ++n) {
+    append_record(index, Op::chunk_index, chunk_index_of(at));
+    if (index.size() < kEnough) continue;
+    put(index.bytes());
+    index.clear();
+  }
+  put(index.bytes());
+}
+
+/// Of the chunk at `at`, which then is the end of the chunk's message indices.
+ByteSink RecordWriter::chunk_index_of(std::uint64_t& at) {
+  const std::uint64_t start = at;
+  const auto chunk = read_back<kRecordHead + 24>(start);
+  ByteSource in(chunk);
+  in.u8();
+  const std::uint64_t end = start + kRecordHead + in.u64();
+  const std::uint64_t first = in.u64(), last = in.u64(), bytes = in.u64();
+
+  ByteSink places;  // channel id -> offset of its message index
+  for (at = end;;) {
+    const auto next = read_back<kRecordHead + 2>(at);  // after the last chunk: the end of the data
+    ByteSource of(next);
+    if (static_cast<Op>(of.u8()) != Op::message_index) break;
+    const std::uint64_t content = of.u64();
+    places.u16(of.u16());
+    places.u64(at);
+    at += kRecordHead + content;
+  }
 
   ByteSink index;
-  index.u64(chunk_entries_.empty() ? 0 : chunk_first_);
-  index.u64(chunk_entries_.empty() ? 0 : chunk_last_);
-  index.u64(chunk_start);
-  index.u64(chunk_end - chunk_start);
+  index.u64(first);
+  index.u64(last);
+  index.u64(start);
+  index.u64(end - start);
   index.u32(static_cast<std::uint32_t>(places.size()));
   index.raw(places.bytes());
-  index.u64(offset_ - chunk_end);
+  index.u64(at - end);
   index.text("");
-  index.u64(chunk_.size());
-  index.u64(chunk_.size());
-  append_record(chunk_index_, Op::chunk_index, index);
+  index.u64(bytes);
+  index.u64(bytes);
+  return index;
 }
 
 void RecordWriter::put_summary() {
@@ -252,27 +295,25 @@ void RecordWriter::put_summary() {
     numbers.u16(channel);
     numbers.u64(count);
   }
-  ByteSink statistics;
-  append_record(statistics, Op::statistics, numbers);
-
   const std::uint64_t summary_start = offset_;
   crc_ = Crc32{};
   ByteSink offsets;
-  const std::pair<Op, const ByteSink*> groups[] = {{Op::schema, &schemas_},
-                                                   {Op::channel, &channels_},
-                                                   {Op::statistics, &statistics},
-                                                   {Op::chunk_index, &chunk_index_},
-                                                   {Op::attachment_index, &attachment_index_},
-                                                   {Op::metadata_index, &metadata_index_}};
-  for (const auto& [op, group] : groups) {
-    if (group->empty()) continue;
+  const auto put_group = [&](Op op, const auto& put_records) {
+    const std::uint64_t start = offset_;
+    put_records();
+    if (offset_ == start) return;
     ByteSink content;
     content.u8(static_cast<std::uint8_t>(op));
-    content.u64(offset_);
-    content.u64(group->size());
+    content.u64(start);
+    content.u64(offset_ - start);
     append_record(offsets, Op::summary_offset, content);
-    put(group->bytes());
-  }
+  };
+  put_group(Op::schema, [&] { put(schemas_.bytes()); });
+  put_group(Op::channel, [&] { put(channels_.bytes()); });
+  put_group(Op::statistics, [&] { put_record(Op::statistics, numbers); });
+  put_group(Op::chunk_index, [&] { put_chunk_index(); });
+  put_group(Op::attachment_index, [&] { put(attachment_index_.bytes()); });
+  put_group(Op::metadata_index, [&] { put(metadata_index_.bytes()); });
   const std::uint64_t offsets_start = offset_;
   put(offsets.bytes());
 

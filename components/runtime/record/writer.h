@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -15,7 +16,7 @@
 
 namespace ensonify::record {
 
-/// Writes a record front to back. Holds one chunk in memory, and per chunk written some hundred bytes of index.
+/// Writes a record front to back. Holds one chunk in memory and nothing of those before it, however long the record.
 /// Until close() the file is a truncated record: readable to its last whole chunk.
 class RecordWriter {
  public:
@@ -46,16 +47,21 @@ class RecordWriter {
   void put_record(Op op, const ByteSink& content);
   void put_attachment(const Attachment& attachment);
   void put_info(const RecordInfo& info);
-  void put_chunk_indices(std::uint64_t chunk_start);
+  void put_message_indices();
+  void put_chunk_index();
+  ByteSink chunk_index_of(std::uint64_t& at);
   void put_summary();
+  template <std::size_t count>
+  std::array<std::byte, count> read_back(std::uint64_t at);
   void end_chunk();
   void fail(const char* what);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  std::uint64_t offset_ = 0;       // bytes written
-  std::uint64_t whole_until_ = 0;  // end of the last whole chunk with its indices
-  Crc32 crc_;                      // of everything written, restarted for the summary
+  std::uint64_t offset_ = 0;        // bytes written
+  std::uint64_t whole_until_ = 0;   // end of the last whole chunk with its indices
+  std::uint64_t chunks_start_ = 0;  // the first chunk
+  Crc32 crc_;                       // of everything written, restarted for the summary
   std::int64_t utc_start_ns_ = 0;
 
   ByteSink chunk_;
@@ -68,7 +74,6 @@ class RecordWriter {
   std::map<std::string, std::uint16_t> schema_ids_;
   ByteSink schemas_;
   ByteSink channels_;
-  ByteSink chunk_index_;
   ByteSink attachment_index_;
   ByteSink metadata_index_;
   std::map<std::uint16_t, std::uint64_t> counts_;
