@@ -11,7 +11,6 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   from.optional("release_hysteresis_m", config.release_hysteresis_m, 0, 50e3);
   from.optional("load_ahead_s", config.load_ahead_s, 1, 3600);
   from.optional("threads", config.threads, 1, 64);
-  from.optional("lsb_m", config.lsb_m, 1e-6, 4e-3);
   from.optional("corridor_half_deg", config.corridor_half_deg, 0, 85);
   from.optional("raster_crs", config.terrain.raster_crs);
   from.optional("raster_band", config.terrain.raster_band, 1, 1000);

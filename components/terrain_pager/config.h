@@ -17,7 +17,6 @@ struct TerrainPagerConfig {
   double release_hysteresis_m = 50.0;  // and give them up when farther than feed margin + this
   double load_ahead_s = 60.0;          // tiles are fetched into memory for as far as the vehicle goes in this time
   int threads = 2;                     // that fetch
-  double lsb_m = 0.0002;               // heights are whole multiples of this
   double corridor_half_deg = 65.0;     // holes matter within this angle either side of nadir along the runlines
 
   // From the scenario.

@@ -18,7 +18,6 @@ TEST_CASE("default.yaml of the pager says what the struct says") {
   CHECK(read.release_hysteresis_m == d.release_hysteresis_m);
   CHECK(read.load_ahead_s == d.load_ahead_s);
   CHECK(read.threads == d.threads);
-  CHECK(read.lsb_m == d.lsb_m);
   CHECK(read.corridor_half_deg == d.corridor_half_deg);
   CHECK(read.terrain.raster_crs == d.terrain.raster_crs);
   CHECK(read.terrain.raster_band == d.terrain.raster_band);

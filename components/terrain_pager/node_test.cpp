@@ -1,6 +1,7 @@
 #include "components/terrain_pager/node.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
 #include "components/runtime/config/config_error.h"
@@ -14,9 +15,9 @@ namespace {
 TerrainPagerConfig small_slope() {
   TerrainPagerConfig config;
   config.terrain.seabed.post_spacing_m = 0.1;
-  config.terrain.seabed.synthetic.reference_depth_m = 15.0;
-  config.terrain.seabed.synthetic.slope_rad = 0.01;
-  config.terrain.seabed.synthetic_size_m = {800.0, 800.0};
+  config.terrain.seabed.layered.layers = {
+      {.name = "slope", .form = relief::Plane{.depth_m = 15.0, .slope = std::tan(0.01)}}};
+  config.terrain.seabed.layered.size_m = {800.0, 800.0};
   config.feed_margin_m = 60.0;
   config.release_hysteresis_m = 20.0;
   return config;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "components/runtime/terrain/tile_posts.h"
+
 namespace ensonify::pager {
 namespace {
 
@@ -12,22 +14,20 @@ constexpr int kChartPosts = 256;
 }  // namespace
 
 using source::PostBlock;
+using source::Vec2;
 
 msg::Tile make_tile(const TerrainSource& terrain, const terrain::TileGrid& grid, const terrain::TileKey& key) {
-  const int posts = grid.cells + 1;
-  const PostBlock block{std::int64_t{key.east} * grid.cells, std::int64_t{key.north} * grid.cells, posts, posts,
-                        grid.spacing_m};
-  const auto side = static_cast<std::size_t>(posts);
+  const auto side = static_cast<std::size_t>(grid.cells) + 1;
+  const Vec2 origin = grid.origin_of(key);
   msg::Tile tile;
   tile.col = key.east;
   tile.row = key.north;
-  tile.origin_east_m = block.east_m(0);
-  tile.origin_north_m = block.north_m(0);
+  tile.origin_east_m = origin.x();
+  tile.origin_north_m = origin.y();
   tile.spacing_m = grid.spacing_m;
   tile.height_m = msg::Array<float>({side, side});
   tile.sediment = msg::Array<std::uint8_t>({side, side});
-  terrain.sample(block, tile.height_m.flat(), tile.sediment.flat());
-  for (float& height : tile.height_m.flat()) height = terrain::on_lattice(height, grid.lsb_m);
+  source::fill_tile(terrain, grid, key, tile.height_m.flat(), tile.sediment.flat());
   return tile;
 }
 

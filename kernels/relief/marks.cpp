@@ -175,20 +175,23 @@ Field field_of(std::vector<Mark> marks, double post_spacing_m) {
   };
 }
 
-Field dredge_cut(std::vector<Vec2> line_enu_m, double half_width_m, double bottom_m, double side_slope,
-                 double post_spacing_m) {
+Field dredge_cut(std::vector<frames::Vec3> line_enu_m, double half_width_m, double side_slope, double post_spacing_m) {
   if (line_enu_m.size() < 2 || !(half_width_m > 0.0 && side_slope > 0.0))
     throw std::invalid_argument("dredge cut: allowed are two places or more, a half width and a side slope above 0");
-  return [line = std::move(line_enu_m), half_width_m, bottom_m, side_slope, post_spacing_m](const Window& window,
-                                                                                            std::span<float> height_m) {
+  return [line = std::move(line_enu_m), half_width_m, side_slope, post_spacing_m](const Window& window,
+                                                                                  std::span<float> height_m) {
     for (int j = 0; j < window.rows; ++j) {
       for (int i = 0; i < window.columns; ++i) {
         const Vec2 place = place_enu_m(window, i, j, post_spacing_m);
-        double nearest2 = std::numeric_limits<double>::infinity();
-        for (std::size_t p = 0; p + 1 < line.size(); ++p)
-          nearest2 = std::min(nearest2, distance2_to_segment(place, line[p], line[p + 1]));
-        const double outside_m = std::max(0.0, std::sqrt(nearest2) - half_width_m);
-        height_m[window.node(i, j)] = static_cast<float>(bottom_m + side_slope * outside_m);
+        double lowest_m = std::numeric_limits<double>::infinity();
+        for (std::size_t p = 0; p + 1 < line.size(); ++p) {
+          const Vec2 start = line[p].head<2>(), end = line[p + 1].head<2>();
+          const double along = along_segment(place, start, end);
+          const double outside_m = (place - start - along * (end - start)).norm() - half_width_m;
+          lowest_m = std::min(lowest_m,
+                              std::lerp(line[p].z(), line[p + 1].z(), along) + side_slope * std::max(0.0, outside_m));
+        }
+        height_m[window.node(i, j)] = static_cast<float>(lowest_m);
       }
     }
   };

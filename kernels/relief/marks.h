@@ -73,10 +73,9 @@ class Marks {
 /// A list of given marks, for wrecks' and anchors' own tracks.
 Field field_of(std::vector<Mark> marks, double post_spacing_m);
 
-/// A dredged channel: no higher than `bottom_m` (ENU z) within `half_width_m` of the line, rising outside with
-/// `side_slope` (m per m). A ceiling: Seabed takes the lower of it and the bottom. Throws std::invalid_argument below
-/// two places.
-Field dredge_cut(std::vector<frames::Vec2> line_enu_m, double half_width_m, double bottom_m, double side_slope,
-                 double post_spacing_m);
+/// A dredged channel or a valley: within `half_width_m` of the line no higher than the line, whose ENU z is the
+/// bottom's and is linear between its places; rising outside with `side_slope` (m per m). A ceiling: Seabed takes the
+/// lower of it and the bottom. Throws std::invalid_argument below two places.
+Field dredge_cut(std::vector<frames::Vec3> line_enu_m, double half_width_m, double side_slope, double post_spacing_m);
 
 }  // namespace ensonify::relief

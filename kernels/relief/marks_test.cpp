@@ -81,7 +81,7 @@ TEST_CASE("marks are the same in every window, and cover what their closed form 
 }
 
 TEST_CASE("a dredged channel has a level bottom and sides of the slope asked for") {
-  const Field cut = dredge_cut({{0, 0}, {100, 0}}, 10.0, -12.0, 0.2, 1.0);
+  const Field cut = dredge_cut({{0, 0, -12}, {100, 0, -12}, {200, 0, -14}}, 10.0, 0.2, 1.0);
   const Seabed seabed([](const Window&, std::span<float> z) { std::fill(z.begin(), z.end(), -9.0F); }, nullptr,
                       {{.height_m = cut, .join = Layer::Join::kCut, .sediment = 4}});
   std::vector<float> z(41);
@@ -93,9 +93,12 @@ TEST_CASE("a dredged channel has a level bottom and sides of the slope asked for
   CHECK(z[26] == -9.0F);
   CHECK(sediment[15] == 4);
   CHECK(sediment[26] == 0);
+  float halfway_m = 0.0F;
+  cut({0, 150, 5, 1, 1}, std::span(&halfway_m, 1));
+  CHECK(halfway_m == Approx(-13.0));  // the bottom falls from place to place
 }
 
 TEST_CASE("wrong numbers are refused") {
   CHECK_THROWS_AS(Marks({.length_m = 0.0}, 0.5, 1, "x"), std::invalid_argument);
-  CHECK_THROWS_AS(dredge_cut({{0, 0}}, 1.0, -5.0, 0.2, 1.0), std::invalid_argument);
+  CHECK_THROWS_AS(dredge_cut({{0, 0, -5}}, 1.0, 0.2, 1.0), std::invalid_argument);
 }

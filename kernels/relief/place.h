@@ -15,11 +15,14 @@ inline frames::Vec2 place_enu_m(const Window& window, int column, int row, doubl
           static_cast<double>(window.north + row) * scale * post_spacing_m};
 }
 
+/// How far along a segment the nearest of its points lies: 0 at a, 1 at b.
+inline double along_segment(const frames::Vec2& place, const frames::Vec2& a, const frames::Vec2& b) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0.0 ? std::clamp((place - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
 inline double distance2_to_segment(const frames::Vec2& place, const frames::Vec2& a, const frames::Vec2& b) {
-  const frames::Vec2 axis = b - a;
-  const double length2 = axis.squaredNorm();
-  const double along = length2 > 0.0 ? std::clamp((place - a).dot(axis) / length2, 0.0, 1.0) : 0.0;
-  return (place - a - along * axis).squaredNorm();
+  return (place - a - along_segment(place, a, b) * (b - a)).squaredNorm();
 }
 
 }  // namespace ensonify::relief

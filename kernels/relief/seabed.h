@@ -16,9 +16,11 @@ struct Layer {
     kCover,  // the higher of bottom and height: sediment fills hollows, outcrops stand out of it
     kCut,    // the lower of bottom and height: dredging
   };
-  Field height_m;  // kAdd: relative to the bottom; else ENU z
+  Field height_m;  // kAdd: relative to the bottom; else ENU z, or above an earlier bottom
   Join join = Join::kAdd;
-  Field mask = nullptr;                  // none: 1 everywhere. kCover, kCut: the share of the way to the new height
+  std::optional<std::size_t> above;  // kCover, kCut: height counts from the bottom as it was when so many layers lay
+                                     // on the base; none: from ENU z 0
+  Field mask = nullptr;              // none: 1 everywhere. kCover, kCut: the share of the way to the new height
   std::optional<std::uint8_t> sediment;  // the class where the layer shows; none: what was there
   double shows_above_m = 0.0;            // it shows where the mask is a half or more and it moved the bottom by more
                                          // than this

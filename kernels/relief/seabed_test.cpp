@@ -49,6 +49,19 @@ TEST_CASE("a mask blends the height, and the class changes where it passes a hal
   CHECK(at({constant(-20.0F), nullptr, {low}}).sediment == 0);
 }
 
+TEST_CASE("a cover's height can count from the bottom as it was before") {
+  const Layer rock{.height_m = constant(2.0F), .mask = constant(0.5F)};  // 1 m of it
+  const auto sand = [](float thick) {
+    return Layer{.height_m = constant(thick), .join = Layer::Join::kCover, .above = 0, .sediment = 1};
+  };
+  CHECK(at({constant(-20.0F), nullptr, {rock, sand(1.5F)}}).height_m == -18.5F);
+  CHECK(at({constant(-20.0F), nullptr, {rock, sand(1.5F)}}).sediment == 1);
+  CHECK(at({constant(-20.0F), nullptr, {rock, sand(0.5F)}}).height_m == -19.0F);
+  CHECK(at({constant(-20.0F), nullptr, {rock, sand(0.5F)}}).sediment == 0);
+  CHECK_THROWS_WITH(Seabed(constant(0.0F), nullptr, {{.height_m = constant(0.0F), .above = 1}}),
+                    "seabed: a layer's height counts from a bottom that is not there yet");
+}
+
 TEST_CASE("a seabed without base or a layer without height is refused") {
   CHECK_THROWS_WITH(Seabed(nullptr, nullptr, {}), "seabed: there is no base to lay layers on");
   CHECK_THROWS_WITH(Seabed(constant(0.0F), nullptr, {Layer{}}), "seabed: a layer has no height");

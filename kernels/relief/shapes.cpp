@@ -66,4 +66,15 @@ Field sphere(const Sphere& shape, double post_spacing_m) {
   });
 }
 
+Field ridge(const Ridge& shape, double post_spacing_m) {
+  require_positive("width_m", shape.width_m);
+  return field_of(post_spacing_m, [shape](const Vec2& place) {
+    const double distance2 = distance2_to_segment(place, shape.start_enu_m, shape.end_enu_m);
+    // Beyond four widths it is 2^-64 of its height.
+    return distance2 > 16.0 * shape.width_m * shape.width_m
+               ? 0.0
+               : shape.height_m * std::exp(-4.0 * std::numbers::ln2 * distance2 / (shape.width_m * shape.width_m));
+  });
+}
+
 }  // namespace ensonify::relief

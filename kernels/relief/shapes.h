@@ -47,4 +47,14 @@ struct Sphere {
 };
 Field sphere(const Sphere& shape, double post_spacing_m);
 
+/// A ridge upon the bottom: Gaussian across, level along its line, falling off as a Gaussian of the same width beyond
+/// its ends. Its height above the bottom, m.
+struct Ridge {
+  frames::Vec2 start_enu_m = frames::Vec2::Zero();
+  frames::Vec2 end_enu_m = frames::Vec2::Zero();
+  double height_m = 1.0;
+  double width_m = 20.0;  // > 0, full width at half height
+};
+Field ridge(const Ridge& shape, double post_spacing_m);
+
 }  // namespace ensonify::relief

@@ -52,3 +52,11 @@ TEST_CASE("a wave has its amplitude and length, a sphere its top and edge") {
   CHECK_THROWS_WITH(wave({.wavelength_m = 0.0}, kSpacing), "shape: wavelength_m is 0.000000, allowed: above 0");
   CHECK_THROWS_WITH(sphere({.radius_m = -1.0}, kSpacing), "shape: radius_m is -1.000000, allowed: above 0");
 }
+
+TEST_CASE("a ridge has its height on its line and half of it half a width away") {
+  const Field crest = ridge({{0, -50}, {0, 50}, 4.0, 20.0}, kSpacing);
+  CHECK(at(crest, 0, 10) == Approx(4.0));
+  CHECK(at(crest, 10, 10) == Approx(2.0));
+  CHECK(at(crest, 0, 60) == Approx(2.0));
+  CHECK(at(crest, 0, 131) == 0.0F);
+}

@@ -8,7 +8,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "kernels/terrain/synthetic_seabed.h"
+#include "kernels/relief/bodies.h"
+#include "kernels/relief/spectral_surface.h"
 
 using namespace ensonify::trace;
 using namespace ensonify::terrain;
@@ -88,13 +89,24 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
   CHECK(starboard == Approx(20 * kDegree).margin(0.01));
 }
 
-/// Relief of 0.3 m rms and some 200 boulders per hectare.
+/// Relief of 0.3 m rms, smooth below 2.5 m, and some 200 boulders per hectare.
 static Scene strewn_with_boulders(std::uint64_t seed, double spacing_m, int cells) {
-  SyntheticSeabedParameters parameters{.seed = seed, .reference_depth_m = kDepth_m};
-  parameters.boulders = {.per_hectare = 200, .smallest_radius_m = 0.5, .largest_radius_m = 2.0};
-  parameters.relief.rms_m = 0.3;
-  const SyntheticSeabed seabed(parameters);
-  return scene_of([&](double x, double y) { return seabed.height_m(x, y); }, spacing_m, cells);
+  const ensonify::relief::Bodies boulders(
+      {.per_km2 = 20000, .smallest_radius_m = 0.5, .largest_radius_m = 2.0, .size_exponent = 1.0}, spacing_m, seed,
+      "boulders");
+  const ensonify::relief::SpectralSurface relief({.rms_m = 0.3, .outer_scale_m = 40.0, .inner_scale_m = 2.5}, spacing_m,
+                                                 seed, "relief");
+  const ensonify::relief::Window posts{0, -cells / 2, -cells / 2, cells + 1, cells + 1};
+  std::vector<float> body_m(posts.size()), relief_m(posts.size());
+  boulders.fill(posts, body_m);
+  relief.fill(posts, relief_m);
+  return scene_of(
+      [&](double x, double y) {
+        const auto k = posts.node(static_cast<int>(std::lround(x / spacing_m) - posts.east),
+                                  static_cast<int>(std::lround(y / spacing_m) - posts.north));
+        return -kDepth_m + static_cast<double>(body_m[k]) + static_cast<double>(relief_m[k]);
+      },
+      spacing_m, cells);
 }
 
 TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main lobe at most 0.1 % are unhit") {

@@ -30,8 +30,8 @@ class Terrain(SystemTest):
     def scenario_on(self, folder):
         """The bay with its generator replaced by a tile set."""
         text = SCENARIO.read_text(encoding="utf-8")
-        text = re.sub(r"^  kind: synthetic\n", f"  kind: tiles\n  tiles: {{ folder: {folder} }}\n", text, flags=re.M)
-        text = re.sub(r"^  synthetic:\n(    .*\n)+", "", text, flags=re.M)
+        text = re.sub(r"^  kind: layers\n", f"  kind: tiles\n  tiles: {{ folder: {folder} }}\n", text, flags=re.M)
+        text = re.sub(r"^  (size_m: .*\n|layers:\n(    .*\n)+)", "", text, flags=re.M)
         path = self.folder / "on_tiles.yaml"
         path.write_text(text, encoding="utf-8")
         return path

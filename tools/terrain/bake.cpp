@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "components/runtime/exit_error.h"
+#include "components/runtime/terrain/tile_posts.h"
 #include "components/runtime/tiles/file_bytes.h"
 #include "components/runtime/tool.h"
 
@@ -37,16 +38,10 @@ std::vector<terrain::TileKey> keys_of(const terrain::TileGrid& grid, const sourc
 
 terrain::Tile tile_of(const source::TerrainSource& source, const terrain::TileGrid& grid, const terrain::TileKey& key) {
   const int posts = grid.cells + 1;
-  const source::PostBlock block{std::int64_t{key.east} * grid.cells, std::int64_t{key.north} * grid.cells, posts, posts,
-                                grid.spacing_m};
-  terrain::Tile tile{grid.origin_of(key),
-                     grid.spacing_m,
-                     posts,
-                     posts,
-                     std::vector<float>(block.size()),
-                     std::vector<std::uint8_t>(block.size())};
-  source.sample(block, tile.height_m, tile.sediment);
-  for (float& height : tile.height_m) height = terrain::on_lattice(height, grid.lsb_m);
+  const auto count = static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
+  terrain::Tile tile{
+      grid.origin_of(key), grid.spacing_m, posts, posts, std::vector<float>(count), std::vector<std::uint8_t>(count)};
+  source::fill_tile(source, grid, key, tile.height_m, tile.sediment);
   return tile;
 }
 

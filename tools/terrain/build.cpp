@@ -17,7 +17,7 @@ namespace {
 struct Options {
   std::string scenario;
   BakeOptions bake;
-  double lsb_m = 2e-4;
+  std::optional<double> lsb_m;
   std::string raster_crs;
   int raster_band = 1;
   std::optional<double> raster_nodata;
@@ -29,7 +29,8 @@ std::string source_text(const Options& options) {
   return fmt::format(
              "# what these tiles were built from\nlsb_m: {}\ncells: {}\nraster_band: {}\nraster_crs: "
              "\"{}\"\nraster_nodata: {}\n",
-             options.lsb_m, options.bake.cells, options.raster_band, options.raster_crs,
+             options.lsb_m ? fmt::format("{}", *options.lsb_m) : "the scenario's", options.bake.cells,
+             options.raster_band, options.raster_crs,
              options.raster_nodata ? fmt::format("{}", *options.raster_nodata) : "none") +
          "scenario:\n" + to_canonical_yaml(document.root);
 }
@@ -43,7 +44,8 @@ int build(const Options& options) {
   tiles::TileSet set;
   set.folder = options.bake.folder;
   set.origin = source->origin();
-  set.grid = {frames::Vec2::Zero(), source::post_spacing_m(terrain, *source), options.bake.cells, options.lsb_m};
+  set.grid = {frames::Vec2::Zero(), source::post_spacing_m(terrain, *source), options.bake.cells,
+              options.lsb_m.value_or(source::lsb_m(terrain, *source))};
   set.made_from = std::filesystem::path(options.scenario).parent_path().filename().string() + "/" +
                   std::filesystem::path(options.scenario).filename().string();
   if (!bake(*source, options.scenario, options.bake.threads, set)) return kExitInterrupted;
@@ -60,9 +62,8 @@ Verb add_build(CLI::App& parent) {
       "build", "Bakes a scenario's seabed into a tile set. A build that was stopped goes on where it was.");
   app->add_option("scenario", options->scenario, "scenario file (YAML)")->required()->check(CLI::ExistingFile);
   app->add_option("folder", options->bake.folder, "folder of the tile set, made if need be")->required();
-  app->add_option("--lsb-m", options->lsb_m, "step of heights, m")
-      ->check(CLI::Range(1e-6, 10.0))
-      ->capture_default_str();
+  app->add_option("--lsb-m", options->lsb_m, "step of heights, m, instead of the scenario's")
+      ->check(CLI::Range(1e-6, 10.0));
   options->bake.add_to(*app);
   app->add_option("--raster-crs", options->raster_crs, "reference system of a raster that names none, e.g. EPSG:32619");
   app->add_option("--raster-band", options->raster_band, "band of a raster")->capture_default_str();

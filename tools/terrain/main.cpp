@@ -8,14 +8,16 @@
 int main(int argc, char** argv) {
   using namespace ensonify;
   CLI::App app(
-      "Makes, checks and reads tile sets: seabeds on disk, as docs/tiles.md describes them.\nExit code: 0 done, 1 "
+      "Seabeds: makes, checks and reads tile sets (docs/tiles.md), draws and measures generated seabeds.\nExit code: 0 "
+      "done, 1 "
       "verify "
       "found a fault, 2 wrong input or a file that cannot be read or written.",
       "ensonify terrain");
   app.require_subcommand(1);
-  const std::vector<terrain_tool::Verb> verbs = {terrain_tool::add_build(app), terrain_tool::add_import(app),
-                                                 terrain_tool::add_info(app), terrain_tool::add_verify(app),
-                                                 terrain_tool::add_sample(app)};
+  const std::vector<terrain_tool::Verb> verbs = {terrain_tool::add_build(app),  terrain_tool::add_import(app),
+                                                 terrain_tool::add_info(app),   terrain_tool::add_verify(app),
+                                                 terrain_tool::add_sample(app), terrain_tool::add_plot(app),
+                                                 terrain_tool::add_truth(app),  terrain_tool::add_grid(app)};
   return tool_main(app, argc, argv, [&] {
     for (const auto& verb : verbs) {
       if (verb.app->parsed()) return verb.run();

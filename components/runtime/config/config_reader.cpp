@@ -223,6 +223,36 @@ std::optional<std::vector<double>> ConfigReader::any_numbers(std::string_view ke
   return good ? std::optional(std::move(values)) : std::nullopt;
 }
 
+std::optional<std::vector<double>> ConfigReader::rows(std::string_view key, std::size_t width, bool must,
+                                                      const NumberRange& range) const {
+  const std::string allowed = "a list of lists of " + std::to_string(width) + " numbers";
+  const ConfigNode* node = take(key, must, allowed);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  if (!node->is_list()) {
+    problem(key, described(*node) + ", not " + allowed);
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  bool good = true;
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    const ConfigNode& row = node->items[i];
+    const std::string path = state_->path_of(key) + "[" + std::to_string(i) + "]";
+    if (!row.is_list() || row.items.size() != width) {
+      state_->documents->problems.push_back(
+          {row.place, path, "is not a list of " + std::to_string(width) + " numbers, as a place in this list must be"});
+      good = false;
+      continue;
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      values.push_back(0.0);
+      good &= scalar(row.items[k], path + "[" + std::to_string(k) + "]", values.back(), range);
+    }
+  }
+  return good ? std::optional(std::move(values)) : std::nullopt;
+}
+
 void ConfigReader::read(std::string_view key, bool& value, bool must) const {
   const ConfigNode* node = take(key, must, "true, false");
   if (node == nullptr) {

@@ -136,6 +136,8 @@ class ConfigReader {
   std::optional<std::uint64_t> natural(std::string_view key, bool must) const;
   bool numbers(std::string_view key, std::span<double> values, bool must, const NumberRange& range) const;
   std::optional<std::vector<double>> any_numbers(std::string_view key, bool must, const NumberRange& range) const;
+  std::optional<std::vector<double>> rows(std::string_view key, std::size_t width, bool must,
+                                          const NumberRange& range) const;
   std::optional<std::size_t> word(std::string_view key, const std::vector<std::string>& words, bool must) const;
   ConfigReader child(const ConfigNode& node, const std::string& path) const;
   void read_path(std::string_view key, std::string& path, bool must) const;
@@ -182,6 +184,15 @@ class ConfigReader {
             FileUnit unit = kSi) const {
     if (auto found = any_numbers(key, must, {lo, hi, unit.si})) {
       value = std::move(*found);
+    }
+  }
+  /// A list of lists of N numbers, e.g. the places of a line.
+  template <std::size_t N>
+  void read(std::string_view key, std::vector<std::array<double, N>>& value, bool must, double lo = kLowest,
+            double hi = kHighest, FileUnit unit = kSi) const {
+    if (const auto found = rows(key, N, must, {lo, hi, unit.si})) {
+      value.resize(found->size() / N);
+      for (std::size_t i = 0; i < found->size(); ++i) value[i / N][i % N] = (*found)[i];
     }
   }
   template <class T, class... Rest>

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 const char* const kWorld = R"(ensonify: scenario/1
 site: {latitude_deg: 42.5, longitude_deg: -70.5}
-seabed: {kind: synthetic}
+seabed: {kind: layers}
 mission: {runlines: [{from_m: [0, 0], to_m: [100, 0]}]}
 )";
 
@@ -219,12 +219,12 @@ TEST_CASE("includes are merged before the file itself, with arguments of their o
 
 TEST_CASE("mistakes in a launch file and its world are reported together") {
   const Folder folder;
-  folder.add("world.yaml", replaced(kWorld, "synthetic", "sand"));
+  folder.add("world.yaml", replaced(kWorld, "layers", "sand"));
   folder.add("x.yaml", replaced(replaced(replaced(kLaunch, "bow.pose", "bwo.pose"), "cpus: [0, 1]", "cpus: [a]"),
                                 "head.yaml", "haed.yaml"));
   CHECK(folder.problems({.args = {"rastr=x"}}) ==
         "--arg rastr: is not an argument of this launch file; did you mean raster?\n"
-        "world.yaml:3:16: seabed.kind: is \"sand\", not one of synthetic, raster, tiles\n"
+        "world.yaml:3:16: seabed.kind: is \"sand\", not one of layers, raster, tiles\n"
         "x.yaml:5:33: processes.auv.cpus[0]: is \"a\", not a number in [0, 4095]\n"
         "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (looked beside this file and in the "
         "data folders)\n"

@@ -223,7 +223,7 @@ void check_whole(ConfigReader& from, const Scenario& scenario) {
       from.problem("mission", "speed_mps is above what " + vehicle.name + " can do (fastest_mps)");
     }
   }
-  const bool generated = scenario.seabed.kind == Seabed::Kind::kSynthetic;
+  const bool generated = scenario.seabed.kind == Seabed::Kind::kLayers;
   if (scenario.site.origin_from_raster && generated) {
     from.problem("site", "origin: raster needs seabed.kind: raster or tiles");
   }
@@ -265,7 +265,7 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
   for (auto& [name, vehicle] : from.named_sections("vehicles")) {
     scenario.vehicles.push_back(read_vehicle(name, vehicle));
   }
-  scenario.seabed.synthetic.seed = scenario.seed;
+  scenario.seabed.layered.seed = scenario.seed;
   scenario.mission = read_mission(from.section("mission"));
   check_whole(from, scenario);
   return scenario;

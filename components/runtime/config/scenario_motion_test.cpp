@@ -15,7 +15,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string scenario_text(const std::string& vehicle, const std::string& sections = "") {
   return "ensonify: scenario/1\nsite: {latitude_deg: 42, longitude_deg: -70}\n"
-         "time: {start_utc: \"2025-06-01T12:00:00Z\"}\nseabed: {kind: synthetic, synthetic: {depth_m: 20}}\n" +
+         "time: {start_utc: \"2025-06-01T12:00:00Z\"}\nseabed: {kind: layers, layers: {ground: {plane: {depth_m: "
+         "20}}}}\n" +
          sections + "\nvehicles:\n  boat: {" + vehicle +
          "}\nmission: {speed_mps: 2, run_in_m: 10, runlines: [{from_m: [0, 0], to_m: [0, 990]}]}\n";
 }

@@ -11,61 +11,18 @@
 namespace ensonify {
 namespace {
 
-frames::Vec2 vec2(const std::array<double, 2>& v) { return {v[0], v[1]}; }
-
 double ratio_of(double db) { return std::pow(10.0, 0.1 * db); }
 
-terrain::Ridge read_ridge(ConfigReader from) {
-  terrain::Ridge ridge;
-  std::array<double, 2> start{}, end{};
-  from.required("from_m", start, -kFarAway_m, kFarAway_m);
-  from.required("to_m", end, -kFarAway_m, kFarAway_m);
-  from.required("height_m", ridge.height_m, 0, 1000);
-  from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
-  ridge.start_enu_m = vec2(start);
-  ridge.end_enu_m = vec2(end);
-  return ridge;
-}
-
-terrain::Boulders read_boulders(ConfigReader from) {
-  terrain::Boulders boulders;
-  from.required("per_hectare", boulders.per_hectare, 0, 10000);
-  from.optional("smallest_radius_m", boulders.smallest_radius_m, 0.05, 20);
-  from.optional("largest_radius_m", boulders.largest_radius_m, 0.05, 20);
-  from.optional("height_per_radius", boulders.height_per_radius, 0, 2);
-  if (boulders.largest_radius_m < boulders.smallest_radius_m) {
-    from.problem("largest_radius_m", "is below smallest_radius_m");
-  }
-  return boulders;
-}
-
-terrain::Relief read_relief(ConfigReader from) {
-  terrain::Relief relief;
-  from.required("rms_m", relief.rms_m, 0, 100);
-  from.optional("longest_wavelength_m", relief.longest_wavelength_m, 0.1, kFarAway_m);
-  from.optional("octaves", relief.octaves, 1, 16);
-  from.optional("hurst", relief.hurst, 0.01, 1);
-  return relief;
-}
-
-void read_synthetic(ConfigReader from, Seabed& seabed) {
-  terrain::SyntheticSeabedParameters& values = seabed.synthetic;
-  std::array<double, 2> reference{};
-  from.optional("size_m", seabed.synthetic_size_m, 10, kFarAway_m);
-  from.optional("reference_m", reference, -kFarAway_m, kFarAway_m);
-  from.optional("depth_m", values.reference_depth_m, 0, 11000);
-  from.optional("slope_deg", values.slope_rad, 0, 60, kDegrees);
-  from.optional("downhill_heading_deg", values.downhill_heading_rad, -360, 360, kDegrees);
-  values.reference_enu_m = vec2(reference);
-  if (const auto ridge = from.optional_section("ridge")) {
-    values.ridge = read_ridge(*ridge);
-  }
-  if (const auto boulders = from.optional_section("boulders")) {
-    values.boulders = read_boulders(*boulders);
-  }
-  if (const auto relief = from.optional_section("relief")) {
-    values.relief = read_relief(*relief);
-  }
+LayeredSeabed read_layered(ConfigReader& from) {
+  LayeredSeabed seabed;
+  std::array<double, 2> size{seabed.size_m.x(), seabed.size_m.y()}, centre{};
+  from.optional("size_m", size, 0.1, kFarAway_m);
+  from.optional("centre_m", centre, -kFarAway_m, kFarAway_m);
+  seabed.size_m = {size[0], size[1]};
+  seabed.centre_enu_m = {centre[0], centre[1]};
+  if (from.has("layers")) seabed.layers = read_layers(from);
+  if (seabed.layers.empty()) from.problem("layers", "is empty; at least one layer is needed");
+  return seabed;
 }
 
 RasterSeabed read_raster(ConfigReader from) {
@@ -176,20 +133,22 @@ Seabed read_seabed(ConfigReader from) {
   Seabed seabed;
   from.required_choice(
       "kind", seabed.kind,
-      {{"synthetic", Seabed::Kind::kSynthetic}, {"raster", Seabed::Kind::kRaster}, {"tiles", Seabed::Kind::kTiles}});
+      {{"layers", Seabed::Kind::kLayers}, {"raster", Seabed::Kind::kRaster}, {"tiles", Seabed::Kind::kTiles}});
   from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
+  from.optional("lsb_m", seabed.lsb_m, 1e-6, 1);
   if (const auto sediments = from.optional_section("sediments")) {
     read_sediments(*sediments, seabed);
   }
-  const std::array<std::pair<Seabed::Kind, const char*>, 3> sections = {
-      {{Seabed::Kind::kSynthetic, "synthetic"}, {Seabed::Kind::kRaster, "raster"}, {Seabed::Kind::kTiles, "tiles"}}};
+  const std::array<std::pair<Seabed::Kind, const char*>, 5> sections = {{{Seabed::Kind::kLayers, "layers"},
+                                                                         {Seabed::Kind::kLayers, "size_m"},
+                                                                         {Seabed::Kind::kLayers, "centre_m"},
+                                                                         {Seabed::Kind::kRaster, "raster"},
+                                                                         {Seabed::Kind::kTiles, "tiles"}}};
   for (const auto& [kind, key] : sections) {
     if (kind != seabed.kind && from.has(key)) from.problem(key, "is not used by this kind of seabed");
   }
   switch (seabed.kind) {
-    case Seabed::Kind::kSynthetic:
-      if (auto section = from.optional_section("synthetic")) read_synthetic(*section, seabed);
-      break;
+    case Seabed::Kind::kLayers: seabed.layered = read_layered(from); break;
     case Seabed::Kind::kRaster: seabed.raster = read_raster(from.section("raster")); break;
     case Seabed::Kind::kTiles: from.section("tiles").required_path("folder", seabed.tiles_folder); break;
   }

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "components/runtime/config/scenario_layers.h"
 #include "kernels/seabed/law.h"
-#include "kernels/terrain/synthetic_seabed.h"
 
 namespace ensonify {
 
@@ -18,16 +19,23 @@ struct RasterSeabed {
   Holes holes = Holes::kRefuse;
 };
 
+/// A seabed generated from layers, from the bottom up.
+struct LayeredSeabed {
+  std::uint64_t seed = 0;                                                             // the scenario's
+  frames::Vec2 size_m{600.0, 600.0};                                                  // east, north
+  frames::Vec2 centre_enu_m{0.0, 0.0};                                                // of that rectangle
+  std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
+};
+
 struct Seabed {
-  enum class Kind { kSynthetic, kRaster, kTiles };
-  Kind kind = Kind::kSynthetic;
+  enum class Kind { kLayers, kRaster, kTiles };
+  Kind kind = Kind::kLayers;
   double post_spacing_m = 0.5;
+  double lsb_m = 2e-4;  // heights are whole multiples of this; a tile set has its own
   /// What the classes of posts are made of. Class 0 is always there (medium sand unless it is given); a class that is
   /// not listed is as class 0.
   std::map<std::uint8_t, seabed::Scatterer> sediments = {{0, *seabed::sediment_of("medium sand")}};
-  /// Synthetic: a seabed generated from these values alone. Its seed is the scenario's.
-  terrain::SyntheticSeabedParameters synthetic;
-  std::array<double, 2> synthetic_size_m{600.0, 600.0};  // extent east and north, centred on the origin
+  LayeredSeabed layered;
   RasterSeabed raster;
   std::string tiles_folder;  // a tile set (docs/tiles.md), as found on disk
 };

@@ -11,5 +11,7 @@ inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther fr
 /// The sections of a scenario file that have a source file of their own.
 Water read_water(ConfigReader from);
 Seabed read_seabed(ConfigReader from);
+/// The list `layers` of a seabed.
+std::vector<layers::Layer> read_layers(const ConfigReader& seabed);
 
 }  // namespace ensonify

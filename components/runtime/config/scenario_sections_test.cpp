@@ -142,7 +142,7 @@ TEST_CASE("mistakes in a cast have a line and a column") {
 
 TEST_CASE("sediments are named, or given by grain size, parameters, Lambert's law or GSAB") {
   const Section section = section_of(R"(seabed:
-  kind: synthetic
+  kind: layers
   sediments:
     0: fine sand
     1: {grain_size_phi: 4.5}
@@ -161,25 +161,86 @@ TEST_CASE("sediments are named, or given by grain size, parameters, Lambert's la
   CHECK(std::get<seabed::Gsab>(sediments.at(5)).specular == Approx(0.1));
   CHECK(std::get<seabed::Gsab>(sediments.at(5)).transition == 0.0);
 
-  const Section bare = section_of("seabed: {kind: synthetic}");
+  const Section bare = section_of("seabed: {kind: layers}");
   CHECK(std::get<seabed::SedimentParameters>(bare.seabed.sediments.at(0)) == *seabed::sediment_of("medium sand"));
 }
 
 TEST_CASE("mistakes in sediments have a place") {
   const auto of = [](const std::string& sediments) {
-    return problems_of("seabed: {kind: synthetic, sediments: {" + sediments + "}}");
+    return problems_of("seabed: {kind: layers, sediments: {" + sediments + "}}");
   };
   CHECK_THAT(of("0: sponge"),
-             Catch::StartsWith("s.yaml:1:42: seabed.sediments.0: is \"sponge\", not one of rough rock"));
+             Catch::StartsWith("s.yaml:1:39: seabed.sediments.0: is \"sponge\", not one of rough rock"));
   CHECK(of("sand: clay") ==
-        "s.yaml:1:45: seabed.sediments.sand: is not a class of the seabed, a whole number in [0, 255]");
-  CHECK(of("1: {grain_size_phi: 12}") == "s.yaml:1:59: seabed.sediments.1.grain_size_phi: 12 is outside [-1, 9]");
+        "s.yaml:1:42: seabed.sediments.sand: is not a class of the seabed, a whole number in [0, 255]");
+  CHECK(of("1: {grain_size_phi: 12}") == "s.yaml:1:56: seabed.sediments.1.grain_size_phi: 12 is outside [-1, 9]");
   CHECK(of("1: {name: clay, lambert_mu_db: -20}") ==
-        "s.yaml:1:70: seabed.sediments.1.lambert_mu_db: stands beside name; give one or the other");
+        "s.yaml:1:67: seabed.sediments.1.lambert_mu_db: stands beside name; give one or the other");
   CHECK(of("1: {}") ==
-        "s.yaml:1:42: seabed.sediments.1: needs one of name, grain_size_phi, density_ratio (with the "
+        "s.yaml:1:39: seabed.sediments.1: needs one of name, grain_size_phi, density_ratio (with the "
         "other five), lambert_mu_db, gsab");
-  CHECK(of("1: {lambert_mu_db: -4}") == "s.yaml:1:58: seabed.sediments.1.lambert_mu_db: -4 is outside [-60, -4.97]");
+  CHECK(of("1: {lambert_mu_db: -4}") == "s.yaml:1:55: seabed.sediments.1.lambert_mu_db: -4 is outside [-60, -4.97]");
+}
+
+TEST_CASE("a seabed's layers are read from the bottom up, each with its mask") {
+  const Section section = section_of(R"(seabed:
+  kind: layers
+  size_m: [400, 300]
+  layers:
+    ground: {plane: {depth_m: 12}}
+    mud: {spectral: {as_sediment: medium silt, outer_scale_m: 40}}
+    rock:
+      spectral: {rms_m: 1, outer_scale_m: 30, intermittency: 0.2, rough: {patches: {length_m: 20, share: 0.3}}}
+      sediment: 4
+    sand: {spectral: {rms_m: 0.1, outer_scale_m: 10}, join: cover, above: ground, mask: {any: [{depth_m: {from: 5}}, {polygon_m: [[0, 0], [10, 0], [0, 10]], soft_m: 2}]}}
+    shells: {sediment: 5, mask: {slope_deg: {to: 45, soft: 1}, of: mud, reverse: true}}
+    channel: {use: false, dredged: {line_m: [[0, 0, 14], [50, 0, 15]], half_width_m: 9}}
+)");
+  REQUIRE(section.problems == "");
+  const auto& layers = section.seabed.layered.layers;
+  REQUIRE(layers.size() == 6);
+  CHECK(section.seabed.layered.size_m == frames::Vec2(400, 300));
+  // Medium silt's w2 is 5.18e-4 cm^4 at gamma 3.25 [APL1994]: times 10^(6.5 - 8) in SI.
+  const auto& mud = std::get<layers::Spectral>(layers[1].form).spectrum;
+  CHECK(relief::strength(mud) == Approx(5.175e-4 * std::pow(10.0, -1.5)).epsilon(0.01));
+  CHECK(mud.hurst == Approx(0.625));
+  CHECK(std::get<layers::Spectral>(layers[2].form).rough->patches->share == 0.3);
+  CHECK(layers[2].sediment == 4);
+  CHECK(layers[3].join == relief::Layer::Join::kCover);
+  CHECK(layers[3].mask->any.size() == 2);
+  CHECK(layers[3].mask->any[1].polygon_enu_m[1] == frames::Vec2(10, 0));
+  CHECK(std::holds_alternative<layers::Paint>(layers[4].form));
+  CHECK(layers[4].mask->slope->high == Approx(1.0));
+  CHECK(layers[4].mask->reverse);
+  CHECK_FALSE(layers[5].used);
+  CHECK(layers[5].join == relief::Layer::Join::kCut);
+  CHECK(std::get<layers::Dredged>(layers[5].form).line_enu_m[1].z() == -15.0);
+}
+
+TEST_CASE("mistakes in layers have a place") {
+  const auto of = [](const std::string& layers) {
+    return problems_of("seabed: {kind: layers, layers: {" + layers + "}}");
+  };
+  CHECK(of("a: {plane: {depth_m: 20}, ripples: {wavelength_m: 1}}") ==
+        "s.yaml:1:68: seabed.layers.a.ripples: stands beside plane; a layer is one thing, make two of it");
+  CHECK_THAT(of("a: {mask: {}}"), Catch::StartsWith("s.yaml:1:36: seabed.layers.a: is nothing: it needs a sediment to "
+                                                    "paint, or one of plane, ramp, wave, sphere, guide"));
+  CHECK(of("a: {plane: {}}, b: {spectral: {rms_m: 1, outer_scale_m: 2}, join: cover, above: c}") ==
+        "s.yaml:1:113: seabed.layers.b.above: is \"c\", not a layer further up; allowed: a");
+  CHECK(of("a: {plane: {}, above: a}") ==
+        "s.yaml:1:55: seabed.layers.a.above: is \"a\", not a layer further up; allowed: none\n"
+        "s.yaml:1:55: seabed.layers.a.above: needs join: cover or cut; a layer that adds counts from the seabed under "
+        "it");
+  CHECK(of("a: {spectral: {outer_scale_m: 2}}") ==
+        "s.yaml:1:47: seabed.layers.a.spectral: needs rms_m, or as_sediment (a sediment whose roughness goes on)");
+  CHECK(of("a: {plane: {}, mask: {polygon_m: [[0, 0], [1], [2, 2]]}}") ==
+        "s.yaml:1:66: seabed.layers.a.mask.polygon_m: needs three corners or more\n"
+        "s.yaml:1:75: seabed.layers.a.mask.polygon_m[1]: is not a list of 2 numbers, as a place in this list must be");
+  CHECK(of("a: {plane: {}, mask: {depth_m: {soft: 1}}}") ==
+        "s.yaml:1:64: seabed.layers.a.mask.depth_m: needs from or to");
+  CHECK(of("a: {ripples: {wavelength_m: 2, lee_fraction: 0.2}}") ==
+        "s.yaml:1:78: seabed.layers.a.ripples.lee_fraction: 0.2 is outside [0.3, 0.5]");
+  CHECK(of("") == "s.yaml:1:32: seabed.layers: is empty; at least one layer is needed");
 }
 
 }  // namespace ensonify

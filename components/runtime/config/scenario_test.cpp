@@ -1,6 +1,7 @@
 #include "components/runtime/config/scenario.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 
 #include "components/runtime/config/config_reader.h"
@@ -14,8 +15,8 @@ time: {start_utc: "2025-06-01T12:00:00Z"}
 seed: 7
 water: {temperature_degc: 12, absorption_db_per_km: 60}
 seabed:
-  kind: synthetic
-  synthetic: {depth_m: 20, slope_deg: 2, ridge: {from_m: [10, 20], to_m: [40, 20], height_m: 3}, boulders: {per_hectare: 9}}
+  kind: layers
+  layers: {slope: {plane: {slope_deg: 2}}, rocks: {boulders: {per_km2: 900, smallest_radius_m: 1, largest_radius_m: 2}}}
 vehicles:
   auv:
     kind: kinematic
@@ -54,10 +55,12 @@ TEST_CASE("a scenario is read whole, in SI units") {
   CHECK(bay.seed == 7);
   CHECK(bay.water.absorption_dbpm == Approx(0.06));
   CHECK_FALSE(bay.water.profile.given());
-  CHECK(bay.seabed.synthetic.slope_rad == Approx(2 * 3.14159265358979 / 180));
-  CHECK(bay.seabed.synthetic.ridge.start_enu_m == frames::Vec2(10, 20));
-  CHECK(bay.seabed.synthetic.boulders.per_hectare == 9);
-  CHECK(bay.seabed.synthetic.seed == 7);
+  REQUIRE(bay.seabed.layered.layers.size() == 2);
+  CHECK(std::get<relief::Plane>(bay.seabed.layered.layers[0].form).slope ==
+        Approx(std::tan(2 * 3.14159265358979 / 180)));
+  CHECK(bay.seabed.layered.layers[1].name == "rocks");
+  CHECK(std::get<relief::BodyParameters>(bay.seabed.layered.layers[1].form).per_km2 == 900);
+  CHECK(bay.seabed.layered.seed == 7);
   CHECK(bay.mission.speed_mps == Approx(4 * 0.514444).margin(1e-5));
   CHECK(bay.vehicle().limits.turning_radius_m == 12);
   CHECK(bay.vehicle("auv").waves.roll_rad.period_s == 7);
@@ -97,11 +100,11 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
         "bay.yaml:2:33: site.latitude_deg: 142.5 is outside [-89.9, 89.9]");
   CHECK(problems_of(kBay, "2025-06-01", "2025-02-30") ==
         "bay.yaml:3:19: time.start_utc: \"2025-02-30T12:00:00Z\" is not a UTC time such as 2025-06-01T12:00:00Z");
-  CHECK(problems_of(kBay, "kind: synthetic", "kind: sythetic") ==
-        "bay.yaml:7:9: seabed.kind: is \"sythetic\", not one of synthetic, raster, tiles");
-  CHECK(problems_of(kBay, "boulders: {per_hectare: 9}", "boulders: {per_hectrae: 9}") ==
-        "bay.yaml:8:108: seabed.synthetic.boulders.per_hectare: is missing; allowed: a number in [0, 10000]\n"
-        "bay.yaml:8:109: seabed.synthetic.boulders.per_hectrae: is not a known key; did you mean per_hectare?");
+  CHECK(problems_of(kBay, "kind: layers", "kind: layer") ==
+        "bay.yaml:7:9: seabed.kind: is \"layer\", not one of layers, raster, tiles");
+  CHECK(problems_of(kBay, "boulders: {per_km2: 900", "boulders: {per_kn2: 900") ==
+        "bay.yaml:8:62: seabed.layers.rocks.boulders.per_km2: is missing; allowed: a number in [0, 1e+08]\n"
+        "bay.yaml:8:63: seabed.layers.rocks.boulders.per_kn2: is not a known key; did you mean per_km2?");
   CHECK(problems_of(kBay, "speed_kn: 4", "speed_kn: 40") ==
         "bay.yaml:17:10: mission: speed_mps is above what auv can do (fastest_mps)");
   CHECK(problems_of(kBay, "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}",
@@ -112,10 +115,10 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
   CHECK(problems_of(kBay, "latitude_deg: 42.5, longitude_deg: -70.5", "origin: raster") ==
         "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster or tiles");
   CHECK(
-      problems_of(kBay, "kind: synthetic\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
+      problems_of(kBay, "kind: layers\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
       "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (looked beside this file and in the data "
       "folders)\n"
-      "bay.yaml:9:14: seabed.synthetic: is not used by this kind of seabed");
+      "bay.yaml:9:11: seabed.layers: is not used by this kind of seabed");
 }
 
 TEST_CASE("UTC times become nanoseconds") {

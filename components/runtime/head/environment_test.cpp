@@ -19,7 +19,7 @@ double db(double ratio) { return 10.0 * std::log10(ratio); }
 Scenario world(const std::string& water, const std::string& sediments = "{}") {
   auto from =
       ConfigReader::from_text("ensonify: scenario/1\nsite: {latitude_deg: 45, longitude_deg: 0}\nwater: " + water +
-                                  "\nseabed: {kind: synthetic, sediments: " + sediments +
+                                  "\nseabed: {kind: layers, sediments: " + sediments +
                                   "}\nvehicles: {auv: {}}\n"
                                   "mission: {depth_m: 10, runlines: [{from_m: [0, 0], to_m: [100, 0]}]}\n",
                               "world.yaml");

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/terrain/layers_source.h"
 #include "components/runtime/terrain/raster_source.h"
-#include "components/runtime/terrain/synthetic_source.h"
 #include "components/runtime/terrain/tile_set_source.h"
 
 namespace ensonify::source {
@@ -16,13 +16,6 @@ namespace {
 
 std::string place_text(const frames::Geodetic& place) {
   return fmt::format("{:.9f}, {:.9f} deg", place.latitude_deg, place.longitude_deg);
-}
-
-std::unique_ptr<TerrainSource> synthetic(const TerrainOptions& options) {
-  const Seabed& seabed = options.seabed;
-  const double east = seabed.synthetic_size_m[0] / 2, north = seabed.synthetic_size_m[1] / 2;
-  return std::make_unique<SyntheticSource>(seabed.synthetic, Extent{-east, -north, east, north}, options.site.origin,
-                                           seabed.post_spacing_m);
 }
 
 std::unique_ptr<TerrainSource> raster(const TerrainOptions& options) {
@@ -57,7 +50,7 @@ std::unique_ptr<TerrainSource> tile_set(const TerrainOptions& options) {
 
 std::unique_ptr<TerrainSource> source_of(const TerrainOptions& options) {
   switch (options.seabed.kind) {
-    case Seabed::Kind::kSynthetic: return synthetic(options);
+    case Seabed::Kind::kLayers: return std::make_unique<LayersSource>(options.seabed, options.site.origin);
     case Seabed::Kind::kRaster: return raster(options);
     case Seabed::Kind::kTiles: return tile_set(options);
   }
@@ -67,6 +60,10 @@ std::unique_ptr<TerrainSource> source_of(const TerrainOptions& options) {
 double post_spacing_m(const TerrainOptions& options, const TerrainSource& terrain) {
   if (options.seabed.kind == Seabed::Kind::kTiles) return terrain.native_spacing_m();
   return std::min(options.seabed.post_spacing_m, terrain.native_spacing_m());
+}
+
+double lsb_m(const TerrainOptions& options, const TerrainSource& terrain) {
+  return terrain.lsb_m().value_or(options.seabed.lsb_m);
 }
 
 }  // namespace ensonify::source

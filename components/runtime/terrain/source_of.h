@@ -24,4 +24,7 @@ std::unique_ptr<TerrainSource> source_of(const TerrainOptions& options);
 /// Distance between posts: that of a tile set; else the scenario's, or the raster's own cell size when that is smaller.
 double post_spacing_m(const TerrainOptions& options, const TerrainSource& terrain);
 
+/// Step of the lattice of heights: that of a tile set; else the scenario's.
+double lsb_m(const TerrainOptions& options, const TerrainSource& terrain);
+
 }  // namespace ensonify::source

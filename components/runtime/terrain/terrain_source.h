@@ -51,6 +51,8 @@ class TerrainSource {
   virtual frames::Geodetic origin() const = 0;
   /// Distance between posts that loses nothing worth keeping, m.
   virtual double native_spacing_m() const = 0;
+  /// The step that all heights are whole multiples of, m, where they are.
+  virtual std::optional<double> lsb_m() const { return std::nullopt; }
 
   /// Heights (ENU z, m; NaN where nothing is known) and sediment classes, row by row from the south-west. The value of
   /// a post depends on its place in the lattice only, so blocks that share posts agree bit by bit.

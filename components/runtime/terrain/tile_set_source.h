@@ -22,6 +22,7 @@ class TileSetSource : public TerrainSource {
   double highest_m() const override { return highest_m_; }
   frames::Geodetic origin() const override { return set_.origin; }
   double native_spacing_m() const override { return set_.grid.spacing_m; }
+  std::optional<double> lsb_m() const override { return set_.grid.lsb_m; }
   /// Throws tiles::TileError for a damaged file.
   void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const override;
   double height_m(const Vec2& place) const override;

@@ -159,7 +159,7 @@ ARTEFACTS = (
     Artefact("nadir_gap", "sidescan", ground, ("as it is: dark below the fish", "directivity switched off"),
              always=(FISH, NO_SURFACE), off=("side.effects.directivity=false",)),
     Artefact("first_bottom", "sidescan", slant, ("slant range: the water column, then the first bottom", "ground range by the bottom track"),
-             always=(FISH, NO_SURFACE, "seabed.synthetic.ridge={from_m: [-80, -15], to_m: [80, -25], height_m: 5, width_m: 16}"),
+             always=(FISH, NO_SURFACE, "seabed.layers.ridge={ridge: {from_m: [-80, -15], to_m: [80, -25], height_m: 5, width_m: 16}, sediment: 1, shows_above_m: 2.5}"),
              draw_off=ground, limits=(105, 160)),
     Artefact("second_echo", "echosounder", echogram, ("as it is", "multipath switched off"),
              off=("sounder.effects.multipath=false",), limits=(70, 160)),
@@ -172,7 +172,7 @@ ARTEFACTS = (
     Artefact("heave_ribbing", "multibeam", chart, ("heave 0.3 s late", "heave in time"),
              always=("vehicles.boat.heave={amplitude_m: 0.5, period_s: 6}",), on=("nav.motion_latency_s=0.3",)),
     Artefact("side_lobe_arc", "forward_looking", ahead, ("uniform array, first side lobe -13 dB", "side lobes switched off (-60 dB)"),
-             always=("mission.depth_m=14", "seabed.synthetic.boulders={per_hectare: 25, smallest_radius_m: 1, largest_radius_m: 2}",
+             always=("mission.depth_m=14", "seabed.layers.boulders={boulders: {per_km2: 2500, smallest_radius_m: 1, largest_radius_m: 2, size_exponent: 1}, sediment: 2}",
                      "seabed.sediments={0: {lambert_mu_db: -40}, 2: {lambert_mu_db: -10}}"),
              off=("eye.effects.side_lobes=false",), limits=(105, 165), size_in=(10.0, 4.0)),
     Artefact("water_column_arc", "multibeam", section, ("line shaded to -30 dB: a bow at the nadir's range", "side lobes switched off (-60 dB)"),
@@ -181,8 +181,8 @@ ARTEFACTS = (
              on=(SECTORS,), percentiles=(1, 99)),
     Artefact("layover", "sidescan", slant, ("steep ridge: its top answers before its foot", "the same height on a gentle slope"),
              always=(FISH, NO_SURFACE), limits=(105, 165),
-             on=("seabed.synthetic.ridge={from_m: [14, -38], to_m: [14, -18], height_m: 6, width_m: 3}",),
-             off=("seabed.synthetic.ridge={from_m: [14, -38], to_m: [14, -18], height_m: 6, width_m: 16}",)),
+             on=("seabed.layers.ridge={ridge: {from_m: [14, -38], to_m: [14, -18], height_m: 6, width_m: 3}, sediment: 1, shows_above_m: 3}",),
+             off=("seabed.layers.ridge={ridge: {from_m: [14, -38], to_m: [14, -18], height_m: 6, width_m: 16}, sediment: 1, shows_above_m: 3}",)),
 )
 
 

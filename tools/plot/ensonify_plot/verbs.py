@@ -11,6 +11,7 @@ from ensonify_plot.level import Gain
 from ensonify_plot.navigation import navigation_picture
 from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.results import open_record, save_picture
+from ensonify_plot.seabed import add_seabed
 
 GAIN_HELP = ("added to the received level for display: S,A for S log10 R + 2 A R (S in dB, A in dB/km, R slant range in m, held "
              "below 1 m); none; head: the head's own law without its offset; or auto: head, or ")
@@ -44,6 +45,7 @@ def add_verbs(verbs) -> None:
     _verb(verbs, "navigation", plot_navigation,
           "How good the navigation was: error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
           "Allan deviation of the inertial sensors, spectra of the motion.")
+    add_seabed(verbs)
 
 
 def _add_waterfall(verbs) -> None:

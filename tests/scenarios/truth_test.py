@@ -1,0 +1,111 @@
+"""The shipped scenarios' seabeds measure what measured seabeds do, and their truth.json says so.
+
+The ranges are those of grids of real surveys (docs/seabed/statistics.md): reefs and outcrops beside sand, coral, bedforms,
+flat mud, a canyon's head, a river's bed. Plain fractional Brownian relief must fail the mixed one.
+"""
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+
+SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
+BIN = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "bin"
+SCENARIOS = SOURCE / "scenarios"
+
+# Rock and sand in one window: two classes of roughness, gathered, steep where rough.
+MOSAIC = {"exponent": (3.1, 3.5), "k2": (0.10, 0.35), "rms_over_median": (2.3, 12), "p95_over_p5": (14, 80),
+          "bimodality": (0.55, 1), "slope_correlation": (0.5, 0.75)}
+RANGES = {
+    ("slope_overlap", "middle"): MOSAIC,
+    ("survey_10km", "rock_and_sand"): {"k2": (0.10, 0.35), "rms_over_median": (2.3, 12)},
+    # One class each: even within it.
+    ("ripple_field", "dunes"): {"k2": (-0.06, 0.06), "rms_over_median": (1.0, 1.2)},
+    ("ripple_field", "smooth"): {"k2": (-0.1, 0.1), "rms_over_median": (1.0, 1.2), "p95_over_p5": (1.5, 3)},
+    ("coral_bank", "reef"): {"k2": (0.25, 0.40), "rms_over_median": (2, 3), "slope_correlation": (0.55, 0.75)},
+    ("river_bank", "bed"): {"exponent": (3.2, 3.7)},
+}
+# (scenario, window): percentile: degrees. Slopes between posts of what surveys of the real sites have for cells.
+SLOPES = {
+    ("canyon_head", "walls"): {"p50": (8, 24), "p95": (25, 45), "p99.9": (40, 65)},
+}
+
+
+def truth(scenario, windows):
+    words = [BIN / "ensonify-terrain", "truth", scenario]
+    for w in windows:
+        words += ["--window", f"{w['name']}={w['east_m']},{w['north_m']},{w['spacing_m']},{w['posts']}"]
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, check=False)
+    if done.returncode != 0:
+        raise AssertionError(done.stderr)
+    return json.loads(done.stdout)["windows"]
+
+
+def stored(name):
+    return json.loads((SCENARIOS / name / "truth.json").read_text(encoding="utf-8"))["windows"]
+
+
+def outside(measured, ranges):
+    """Which of the ranges a window's numbers leave."""
+    return [key for key, (low, high) in ranges.items() if not low <= measured[key] <= high]
+
+
+class Truth(unittest.TestCase):
+    def test_truth_files_are_what_the_scenarios_measure(self):
+        files = sorted(SCENARIOS.glob("*/truth.json"))
+        self.assertGreaterEqual(len(files), 6)
+        for file in files:
+            windows = json.loads(file.read_text(encoding="utf-8"))["windows"]
+            for was, now in zip(windows, truth(file.with_name("scenario.yaml"), windows)):
+                with self.subTest(scenario=file.parent.name, window=was["name"]):
+                    for key, value in was.items():
+                        if isinstance(value, float):  # rounded to four digits; another CPU may differ in the last
+                            self.assertAlmostEqual(now[key], value, delta=2e-3 * abs(value) + 1e-4, msg=key)
+
+    def test_they_lie_where_measured_seabeds_do(self):
+        for (scenario, window), ranges in RANGES.items():
+            with self.subTest(scenario=scenario, window=window):
+                measured = next(w for w in stored(scenario) if w["name"] == window)
+                self.assertEqual(outside(measured, ranges), [], measured)
+        for (scenario, window), ranges in SLOPES.items():
+            with self.subTest(scenario=scenario, window=window):
+                measured = next(w for w in stored(scenario) if w["name"] == window)
+                self.assertEqual(outside(measured["slope_deg"], ranges), [], measured)
+
+    def test_flat_ones_are_flat(self):
+        for scenario in ("patch_test", "trawl_scars"):  # rms about the plane: 0.046 m in 64 m on a flat measured shelf
+            widest = stored(scenario)[0]["roughness"][-1]
+            self.assertGreater(widest["side_m"], 30)
+            self.assertLess(widest["rms_m"], 0.055)
+
+    def test_plain_fractional_brownian_relief_fails_the_mosaic(self):
+        plain = truth(SCENARIOS / "unit" / "fbm.yaml", [{"name": "all", "east_m": -128, "north_m": -128, "spacing_m": 0.25, "posts": 1024}])[0]
+        self.assertLess(plain["k2"], 0.02)
+        self.assertLess(plain["rms_over_median"], 1.2)
+        self.assertGreaterEqual(set(outside(plain, MOSAIC)), {"k2", "rms_over_median", "p95_over_p5", "bimodality"})
+
+
+class UnitCases(unittest.TestCase):
+    """Worlds with closed forms: slopes between posts, and depths, are those of the formula."""
+
+    def window(self, case):
+        return truth(SCENARIOS / "unit" / f"{case}.yaml", [{"name": "all", "east_m": -31.75, "north_m": -31.75, "spacing_m": 0.25, "posts": 256}])[0]
+
+    def test_plane(self):
+        for value in self.window("plane")["slope_deg"].values():
+            self.assertAlmostEqual(value, 5.0, delta=0.01)
+
+    def test_ramp_and_step(self):
+        self.assertEqual(self.window("ramp")["depth_m"], [18, 22])
+        self.assertAlmostEqual(self.window("ramp")["slope_deg"]["p95"], 14.04, delta=0.01)  # 4 m in 16 m
+        self.assertEqual(self.window("step")["depth_m"], [19, 21])
+
+    def test_sphere_and_sinusoid(self):
+        self.assertEqual(self.window("sphere")["depth_m"], [17, 20])
+        wave = self.window("sinusoid")
+        self.assertEqual(wave["depth_m"], [19.5, 20.5])
+        self.assertAlmostEqual(wave["slope_deg"]["p99.9"], 11.11, delta=0.05)  # atan(2 pi 0.5 / 16)
+
+
+if __name__ == "__main__":
+    unittest.main()

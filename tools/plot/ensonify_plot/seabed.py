@@ -1,0 +1,89 @@
+"""A seabed as its scenario or tile set has it: depths under a sun, and the sediment classes beside them."""
+import json
+import os
+import subprocess
+import tempfile
+
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
+
+from ensonify_plot.grid import Frame
+from ensonify_plot.pictures import Relief, depth_bar, map_axes, map_size_in, new_figure
+from ensonify_plot.survey import UserError
+
+CLASS_COLOURS = ["#d9cfa8", "#8a5a44", "#e8c98f", "#5b8c5a", "#4d6f94", "#c0504d", "#8064a2", "#7f7f7f"]
+
+
+def add_seabed(verbs) -> None:
+    """The verb `seabed`."""
+    text = "A generated or stored seabed: depth in colours under a light from the north-west, and its sediment classes."
+    verb = verbs.add_parser("seabed", help=text, description=text)
+    verb.set_defaults(act=plot_seabed)
+    verb.add_argument("seabed", metavar="SCENARIO|FOLDER", help="a scenario file, or the folder of a tile set")
+    verb.add_argument("--out", default="seabed.png", metavar="FILE", help="PNG file; default: seabed.png")
+    verb.add_argument("--title", help="above the picture; default: the file's folder")
+    verb.add_argument("--around", nargs=3, type=float, metavar=("EAST", "NORTH", "SIDE"), help="a square, in m; default: all of it")
+    verb.add_argument("--posts", type=int, default=1000, help="per side, at most; default: 1000")
+
+
+def plot_seabed(options) -> int:
+    """`ensonify plot seabed`."""
+    frame, up_m, classes = read_seabed(options)
+    if not np.isfinite(up_m).any():
+        raise UserError(f"{options.seabed}: has no height there")
+    title = options.title or os.path.basename(os.path.dirname(os.path.abspath(options.seabed)))
+    figure = seabed_picture(frame, up_m, classes, title)
+    figure.savefig(options.out, pil_kwargs={"compress_level": 9})
+    print(options.out)
+    return 0
+
+
+def read_seabed(options):
+    """Frame, heights and classes of what was asked for, from `ensonify terrain grid`."""
+    program = os.path.join(os.environ["ENSONIFY_BIN"], "ensonify-terrain")
+    with tempfile.NamedTemporaryFile(prefix="ensonify-") as raw:
+        words = [program, "grid", options.seabed, "--out", raw.name, "--posts", str(options.posts)]
+        if options.around:
+            words += ["--around", *map(str, options.around)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise UserError(done.stderr.strip() or f"{program} failed")
+        facts = json.loads(done.stdout)
+        with open(raw.name, "rb") as file:
+            data = file.read()
+    shape = facts["rows"], facts["columns"]
+    count = shape[0] * shape[1]
+    up_m = np.frombuffer(data, "<f4", count).reshape(shape)
+    classes = np.frombuffer(data, np.uint8, count, 4 * count).reshape(shape)
+    step = facts["spacing_m"]
+    return Frame(facts["west_m"] - step / 2, facts["south_m"] - step / 2, step, shape[1], shape[0]), up_m, classes
+
+
+def seabed_picture(frame: Frame, up_m, classes, title: str):
+    """Depths; beside them the classes, if there is more than one."""
+    relief = Relief(up_m, frame.cell_m)
+    several = np.unique(classes[np.isfinite(up_m)]).size > 1
+    width, height = map_size_in(frame)
+    wide = frame.cols > 1.6 * frame.rows  # one above the other
+    columns, rows = (1, 2) if several and wide else (2, 1) if several else (1, 1)
+    figure = new_figure(0.75 * width * columns, 0.75 * height * rows)
+    axes = np.atleast_1d(figure.subplots(rows, columns)).ravel()
+    mappable = relief.draw(axes[0], frame, up_m)
+    map_axes(axes[0], frame, f"{title}\nposts {frame.cell_m:g} m apart, slopes shaded x{relief.exaggeration:g}")
+    depth_bar(figure, mappable, axes[0])
+    if several:
+        draw_classes(axes[1], frame, up_m, classes)
+    return figure
+
+
+def draw_classes(axes, frame: Frame, up_m, classes) -> None:
+    """Each class in a colour of its own."""
+    seen = np.unique(classes[np.isfinite(up_m)])
+    colours = [CLASS_COLOURS[k % len(CLASS_COLOURS)] for k in seen]
+    shown = np.where(np.isfinite(up_m), np.searchsorted(seen, classes), np.nan)
+    axes.imshow(shown, extent=frame.extent_m, origin="lower", interpolation="nearest", cmap=ListedColormap(colours),
+                vmin=-0.5, vmax=seen.size - 0.5)
+    map_axes(axes, frame, "sediment classes\n")
+    axes.legend(handles=[Patch(facecolor=c, label=str(k)) for c, k in zip(colours, seen)], loc="upper left",
+                bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False)

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "components/runtime/terrain/source_of.h"
+
+namespace ensonify::terrain_tool {
+
+/// A seabed from a scenario file, or from the folder of a tile set.
+struct Opened {
+  std::unique_ptr<source::TerrainSource> terrain;
+  double spacing_m = 1.0, lsb_m = 2e-4;
+};
+Opened open_seabed(const std::string& scenario_or_folder);
+
+}  // namespace ensonify::terrain_tool
