@@ -25,7 +25,9 @@ TEST_CASE("each field is shown with its unit, short lists on one line") {
         "  position_enu_m: [1.5, -2, -10.25] m\n"
         "  enu_from_body: [1, 0, 0, 0]\n"
         "  velocity_enu_mps: [0, 0, 0] m/s\n"
-        "  rate_body_radps: [0, 0, 0] rad/s\n");
+        "  rate_body_radps: [0, 0, 0] rad/s\n"
+        "  acceleration_enu_mps2: [0, 0, 0] m/s^2\n"
+        "  angular_acceleration_body_radps2: [0, 0, 0] rad/s^2\n");
 }
 
 TEST_CASE("a long array shows type, shape, both ends and the range of its values") {
