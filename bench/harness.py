@@ -26,10 +26,12 @@ class Bench:
             raise RuntimeError(f"{words}: exit {done.returncode}: {done.stderr or done.stdout}")
         return json.loads(done.stdout)
 
-    def launch(self, name: str, *options, environment=None) -> dict:
-        """Runs bench/launch/NAME.yaml; the clock's report, with the connect time from its log."""
+    def launch(self, name: str, *options, environment=None, cpu=None) -> dict:
+        """Runs bench/launch/NAME.yaml, all its processes on one CPU if `cpu` is given; the clock's report, with the
+        connect time from its log."""
         with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as out:
-            command = [str(self.build / "bin" / "ensonify-run"), str(ROOT / "bench" / "launch" / f"{name}.yaml"),
+            place = ["taskset", "-c", str(cpu)] if cpu is not None else []
+            command = [*place, str(self.build / "bin" / "ensonify-run"), str(ROOT / "bench" / "launch" / f"{name}.yaml"),
                        "--out", out, *map(str, options)]
             environment = dict(environment or os.environ)
             # A launch file's `python3` is the Python that runs this: it has what the client needs.

@@ -98,6 +98,7 @@ class Session:
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
         self._subscribe(welcome["in"])
         self._prove({token for out in welcome["out"] for token in out["tokens"]})
+        self._note_viewers()
         return welcome
 
     def _subscribe(self, inputs: list) -> None:
@@ -163,7 +164,9 @@ class Session:
 
     def done(self, next_ns: int, finish: bool, cost_ns: int) -> None:
         """Answers the grant. Whatever was published until now has been handed to ZeroMQ before."""
-        self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, list(self._published.items())))
+        self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, self._published.items()))
+        if self._published:
+            self._note_viewers()  # while the others work
 
     def publish(self, topic: bytes, topic_id: int, type_hash: int, t_sim_ns: int, body: list) -> None:
         """Sends on both planes; waits while a participant does not keep up. `topic` ends in NUL."""
@@ -173,11 +176,14 @@ class Session:
             wire.Envelope(0, self.epoch, self.rank, topic_id, 2 + len(body), type_hash, seq, t_sim_ns))
         frames = [topic, envelope, *body]
         _send(self._sync, frames)
-        while self._live.getsockopt(_EVENTS) & _POLLIN:  # lets ZeroMQ take note of new viewers, too
-            subscription = self._live.recv()
-            (self._viewed.add if subscription[:1] == b"\x01" else self._viewed.discard)(subscription[1:])
         if self._viewed:
             _send(self._live, frames)
+
+    def _note_viewers(self) -> None:
+        """Who wants to see from the next step on; asking lets ZeroMQ take note of them, too."""
+        while self._live.getsockopt(_EVENTS) & _POLLIN:
+            subscription = self._live.recv()
+            (self._viewed.add if subscription[:1] == b"\x01" else self._viewed.discard)(subscription[1:])
 
     # --- leaving
 
