@@ -28,10 +28,11 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   from.optional("sound_speed_latency_s", probe.latency_s, 0, 10);
 
   config.instruments = read_instruments(from);
-  own_vehicle(from, scenario, process);  // the pose is wired; the name is checked for the user's sake
+  const Vehicle vehicle = own_vehicle(from, scenario, process);  // the pose itself is wired
   config.seed = scenario.seed;
   config.process = process;
-  config.mean_height_m = -scenario.mission.depth_m;
+  config.heights = {scenario.vertical.tide, scenario.vertical.datums, scenario.current, vehicle.floats,
+                    vehicle.start ? vehicle.start->position_enu_m.z() : -scenario.mission.depth_m};
   if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
   config.water = true_profile(scenario);
   return config;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
 #include "components/runtime/config/scenario.h"
 #include "kernels/refraction/profile.h"
@@ -52,7 +53,7 @@ struct NavigationConfig {
   // From the scenario.
   std::uint64_t seed = 1;
   std::string process;
-  double mean_height_m = 0.0;              // ENU z from which heave counts
+  Heights heights;
   std::optional<frames::Geodetic> origin;  // not given: the chart tells it
   refraction::SoundSpeedProfile water = refraction::SoundSpeedProfile::uniform(1500.0);  // the true one
 

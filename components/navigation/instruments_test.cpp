@@ -215,3 +215,66 @@ TEST_CASE("a compass gives the heading of attitude, clockwise from grid north") 
   const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 1_s);
   CHECK(attitudes.back().heading_grid_rad == Approx(0.02 + 2 * kDegree).margin(1e-5));
 }
+
+namespace {
+
+constexpr double kM2_radps = 1.405189e-4;
+
+/// On a tide at its fastest: 2 m above chart datum, rising 0.2 mm/s; floating 1 m low, deeper by load by 0.3 m.
+NavigationConfig on_a_tide(const std::string& yaml) {
+  NavigationConfig config = config_of(yaml);
+  config.heights.tide = vertical::Tide(vertical::HarmonicTide{2.0, {{kM2_radps, 1.5, kPi / 2}}});
+  config.heights.floats = vertical::Loading{{}, 0.3, 0.0};
+  config.heights.rest_m = -1.0;
+  return config;
+}
+double riding(double t) { return 2.0 + 1.5 * std::sin(kM2_radps * t) - 1.0 - 0.3 + 0.5 * std::sin(2 * kPi * t / 8); }
+
+}  // namespace
+
+TEST_CASE("neither tide nor draught nor load is in heave, of the simplest sensor and of a graded one") {
+  NavigationConfig simple = on_a_tide("centre_of_rotation_m: [0, 0, 0]");
+  simple.sigma.heave_m = 0.0;
+  NodeUnderTest<NavigationNode> ideal(simple);
+  sail(ideal, 16, riding);
+  for (const auto& attitude : ideal.step_until<msg::Attitude>("attitude", 16_s)) {
+    REQUIRE(attitude.heave_m ==
+            Approx(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(attitude.stamp_ns) / 8)).margin(1e-9));
+  }
+
+  // The filter's corner is at 30 s: what it started with has died away after 160 s to exp(-0.7 * 2 pi * 160 / 30), and
+  // of a steady rise nothing is left.
+  NodeUnderTest<NavigationNode> graded(on_a_tide("motion_sensor: { rate_hz: 10, heave_cutoff_s: 30 }"));
+  sail(graded, 240, riding);
+  const auto attitudes = graded.step_until<msg::Attitude>("attitude", 240_s);
+  double mean = 0.0, early = 0.0;
+  for (std::size_t i = 1600; i < 2400; ++i) mean += attitudes[i].heave_m / 800;
+  for (std::size_t i = 1600; i < 2000; ++i) early += attitudes[i].heave_m / 400;
+  CHECK(mean == Approx(0.0).margin(1e-3));
+  CHECK(early - mean == Approx(0.0).margin(1e-3));  // in 20 s the tide has risen by 4 mm
+}
+
+TEST_CASE("pressure depth counts from the water level, and heights by it follow the tide") {
+  NodeUnderTest<NavigationNode> navigation(
+      on_a_tide("imu: { grade: fog }\ndepth: { position_m: [0, 0, 2] }\ngnss: { grade: rtk, position_m: [0, 0, -4] }"));
+  const auto still = [](double t) { return riding(t) - 0.5 * std::sin(2 * kPi * t / 8); };
+  sail(navigation, 60, still);
+  const auto depths = navigation.step_until<msg::Depth>("depth", 60_s);
+  REQUIRE(depths.size() == 601);
+  for (const auto& depth : depths) {
+    const double t = 1e-9 * static_cast<double>(depth.stamp_ns);
+    const double roll = 5 * kDegree * std::sin(2 * kPi * t / 6);
+    REQUIRE(depth.depth_m == Approx(1.3 + 2.0 * std::cos(roll)).margin(1e-3));  // draught and load, not the tide
+  }
+  const auto estimate = navigation.step_until<msg::Estimate>("estimate", 60_s).back();
+  CHECK(estimate.position_enu_m[2] == Approx(still(60)).margin(0.05));
+}
+
+TEST_CASE("an antenna above chart datum but under the water has no fix") {
+  NodeUnderTest<NavigationNode> navigation(on_a_tide("gnss: { position_m: [0, 0, -0.5] }"));
+  sail(navigation, 30, riding);
+  CHECK(navigation.step_until<msg::Position>("position", 30_s).empty());
+  NodeUnderTest<NavigationNode> higher(on_a_tide("gnss: { position_m: [0, 0, -2.5] }"));
+  sail(higher, 30, riding);
+  CHECK(!higher.step_until<msg::Position>("position", 30_s).empty());
+}

@@ -16,7 +16,7 @@ NavigationConfig config_of(double scale) {
   NavigationConfig config;
   config.process = "nav";
   config.origin = frames::Geodetic{44.0, -63.0};
-  config.mean_height_m = -2.0;
+  config.heights.rest_m = -2.0;
   NavigationErrors& s = config.sigma;
   for (double* sigma :
        {&s.roll_rad, &s.pitch_rad, &s.heading_rad, &s.heave_m, &s.horizontal_m, &s.vertical_m, &s.velocity_mps}) {

@@ -35,7 +35,7 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = Rate{config.probe.rate_hz, 1}})),
       estimates_(ports.out<msg::Estimate>("estimate", {.rate = attitude_rate(config)})),
       carried_(config.instruments),
-      suite_(config.instruments, config.seed, config.process, ports,
+      suite_(config.instruments, config.heights, config.seed, config.process, ports,
              [this](const msg::Position& position) { take_fix(position); }) {
   if (config.origin) world_.emplace(*config.origin);
   if (carried_.imu) {

@@ -1,5 +1,6 @@
 #include "components/navigation/sensors.h"
 
+#include "components/navigation/world_frame.h"
 #include "kernels/frames/attitude.h"
 
 namespace ensonify {
@@ -13,7 +14,7 @@ double noise(const random::Stream& stream, std::int64_t n, std::uint64_t axis) {
 
 NavigationSensors::NavigationSensors(const NavigationConfig& config)
     : sigma_(config.sigma),
-      mean_height_m_(config.mean_height_m),
+      heights_(config.heights),
       probe_(config.probe),
       water_(config.water),
       attitude_noise_(config.seed, config.process + "/attitude"),
@@ -29,7 +30,7 @@ msg::Attitude NavigationSensors::attitude(const msg::Pose& truth, std::int64_t n
   measured.pitch_rad = angles.pitch_rad + sigma_.pitch_rad * noise(attitude_noise_, n, 1);
   measured.heading_grid_rad =
       frames::wrap_two_pi(angles.heading_rad + sigma_.heading_rad * noise(attitude_noise_, n, 2));
-  measured.heave_m = truth.position_enu_m[2] - mean_height_m_ + sigma_.heave_m * noise(attitude_noise_, n, 3);
+  measured.heave_m = truth.position_enu_m[2] - heights_.mean_m(truth) + sigma_.heave_m * noise(attitude_noise_, n, 3);
   return measured;
 }
 
@@ -41,9 +42,7 @@ msg::Position NavigationSensors::position(const msg::Pose& truth, std::int64_t n
     const double sigma_m = axis < 2 ? sigma_.horizontal_m : sigma_.vertical_m;
     measured.position_enu_m[axis] = truth.position_enu_m[axis] + sigma_m * noise(position_noise_, n, axis);
   }
-  const auto place = world.geodetic_of({measured.position_enu_m[0], measured.position_enu_m[1]});
-  measured.latitude_deg = place.latitude_deg;
-  measured.longitude_deg = place.longitude_deg;
+  tell_place(measured, world);
   measured.sigma_horizontal_m = sigma_.horizontal_m;
   measured.sigma_vertical_m = sigma_.vertical_m;
   return measured;

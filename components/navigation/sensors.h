@@ -25,7 +25,7 @@ class NavigationSensors {
 
  private:
   NavigationErrors sigma_;
-  double mean_height_m_;
+  Heights heights_;
   SoundSpeedProbe probe_;
   refraction::SoundSpeedProfile water_;
   random::Stream attitude_noise_, position_noise_, velocity_noise_, sound_speed_noise_;

@@ -33,9 +33,9 @@ struct Suite::Moment {
   double stamp_s(const Instrument& i) const { return i.clock.stamp_s(t_s, i.latency_s, i.stamping); }
 };
 
-Suite::Suite(const Instruments& carried, std::uint64_t seed, const std::string& process, Ports& ports,
-             std::function<void(const msg::Position&)> positions)
-    : positions_(std::move(positions)) {
+Suite::Suite(const Instruments& carried, const Heights& heights, std::uint64_t seed, const std::string& process,
+             Ports& ports, std::function<void(const msg::Position&)> positions)
+    : heights_(heights), positions_(std::move(positions)) {
   const auto stream = [&](const char* name) { return random::Stream(seed, process + "/" + name); };
   const auto rate = [](const Instrument& instrument) { return OutOptions{.rate = rate_of(instrument.rate_hz)}; };
   if (const auto& c = carried.gnss) {
@@ -100,8 +100,9 @@ void Suite::publish(std::optional<Ports::Out<Message>>& out, Message message, co
 void Suite::measure_fix(const Moment& moment) {
   const Instrument& instrument = gnss_->config.instrument;
   const frames::Vec3 antenna_enu_m = frames::enu_from_body(moment.truth.pose, instrument.actual.position_body_m);
+  const double above_water_m = antenna_enu_m.z() - heights_.water_level_m(moment.t_s);
   const sensors::GnssReading reading =
-      gnss_->sensor.measure(antenna_enu_m.z(), instrument.out_at(moment.t_s), gnss_->since(moment.t_s));
+      gnss_->sensor.measure(above_water_m, instrument.out_at(moment.t_s), gnss_->since(moment.t_s));
   if (reading.quality == sensors::FixQuality::kNone) return;
 
   const frames::Vec3 measured_enu_m = antenna_enu_m + reading.error_enu_m;
@@ -124,12 +125,10 @@ void Suite::measure_fix(const Moment& moment) {
   }
 
   const frames::Vec3 origin_enu_m = measured_enu_m - moment.believed * lever;
-  const frames::Geodetic place = moment.world.geodetic_of(origin_enu_m.head<2>());
   msg::Position position;
   position.stamp_ns = from_seconds(stamp_s).count();
   position.position_enu_m = plain(origin_enu_m);
-  position.latitude_deg = place.latitude_deg;
-  position.longitude_deg = place.longitude_deg;
+  tell_place(position, moment.world);
   position.sigma_horizontal_m = reading.sigma_enu_m.x();
   position.sigma_vertical_m = reading.sigma_enu_m.z();
   position.quality = static_cast<std::int64_t>(reading.quality);
@@ -210,7 +209,9 @@ void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
 
 void Suite::measure_depth(const Moment& moment) {
   const Instrument& instrument = depth_->config.instrument;
-  const double true_m = -frames::enu_from_body(moment.truth.pose, instrument.actual.position_body_m).z();
+  const double water_level_m = heights_.water_level_m(moment.t_s);
+  const double true_m = vertical::depth_below_water_m(
+      frames::enu_from_body(moment.truth.pose, instrument.actual.position_body_m), water_level_m);
   const double reading = depth_->sensor.measure(true_m, depth_->since(moment.t_s));
   if (instrument.out_at(moment.t_s)) return;
   msg::Depth depth;
@@ -220,8 +221,9 @@ void Suite::measure_depth(const Moment& moment) {
     const sensors::ScalarErrors& e = depth_->config.errors;
     const double sigma_m = std::max(1e-3, std::hypot(e.white, e.bias_sigma, e.wander));
     const frames::Vec3 lever = moment.estimator->lever_of(instrument.measured.position_body_m);
+    const double height_m = water_level_m - reading;  // the system knows the tide
     moment.estimator->correct(moment.stamp_s(instrument),
-                              [=](Estimator::Filter& filter) { filter.correct_height(-reading, lever, sigma_m); });
+                              [=](Estimator::Filter& filter) { filter.correct_height(height_m, lever, sigma_m); });
   }
 }
 

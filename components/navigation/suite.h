@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "components/navigation/estimator.h"
+#include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
 #include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
@@ -31,8 +32,8 @@ class Outbox {
 class Suite {
  public:
   /// `positions` is where fixes go: their port belongs to the node.
-  Suite(const Instruments& carried, std::uint64_t seed, const std::string& process, Ports& ports,
-        std::function<void(const msg::Position&)> positions);
+  Suite(const Instruments& carried, const Heights& heights, std::uint64_t seed, const std::string& process,
+        Ports& ports, std::function<void(const msg::Position&)> positions);
 
   SimTime next() const;
 
@@ -73,6 +74,7 @@ class Suite {
   void publish(std::optional<Ports::Out<Message>>& out, Message message, const Instrument& instrument,
                const Moment& moment);
 
+  Heights heights_;
   TileSet seabed_;
   Outbox outbox_;
   std::function<void(const msg::Position&)> positions_;

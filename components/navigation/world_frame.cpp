@@ -30,4 +30,10 @@ frames::MovingPose moving_pose(const msg::Pose& pose) {
   return {{{x, y, z}, frames::quaternion_of(pose.enu_from_body)}, {u, v, w}, {p, q, r}};
 }
 
+void tell_place(msg::Position& position, const frames::LocalProjection& world) {
+  const frames::Geodetic place = world.geodetic_of({position.position_enu_m[0], position.position_enu_m[1]});
+  position.latitude_deg = place.latitude_deg;
+  position.longitude_deg = place.longitude_deg;
+}
+
 }  // namespace ensonify

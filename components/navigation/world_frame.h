@@ -4,6 +4,7 @@
 #include "kernels/frames/pose.h"
 #include "kernels/inertial/strapdown.h"
 #include "messages/motion.h"
+#include "messages/navigation.h"
 
 namespace ensonify {
 
@@ -16,5 +17,8 @@ inertial::NavigationState geodetic_state(const frames::MovingPose& body, const f
                                          const frames::LocalProjection& world);
 
 frames::MovingPose moving_pose(const msg::Pose& pose);
+
+/// Completes a position whose place in the world is set by its latitude and longitude.
+void tell_place(msg::Position& position, const frames::LocalProjection& world);
 
 }  // namespace ensonify

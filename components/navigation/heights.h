@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "kernels/motion/current.h"
+#include "kernels/vertical/draught.h"
+#include "kernels/vertical/reduction.h"
+#include "kernels/vertical/tide.h"
+#include "messages/motion.h"
+
+namespace ensonify {
+
+/// What heights and depths of instruments refer to. World zero is chart datum.
+struct Heights {
+  vertical::Tide tide;
+  vertical::Datums datums;
+  motion::Current current;                  // speed through the water, by which a hull settles, is that against it
+  std::optional<vertical::Loading> floats;  // not given: no sinkage
+  double rest_m = 0.0;                      // of the body's reference point above the water level, at rest
+
+  /// The water level above chart datum at sim time t.
+  double water_level_m(double t_s) const { return tide.at(t_s).height_m; }
+
+  /// The height above chart datum about which a body heaves: with the tide, less what it settles by speed and load.
+  double mean_m(const msg::Pose& body) const;
+};
+
+}  // namespace ensonify
