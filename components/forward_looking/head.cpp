@@ -131,7 +131,7 @@ void ForwardLookingHead::look(const trace::Scene& seabed) {
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * sampling.count * sampling.period_s;
   arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
-  listening_->rays.fill(arrivals_.transmit_pose(), hits_, static_cast<float>(reach_m), rays_);
+  listening_->rays.fill(arrivals_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(reach_m), rays_);
   arrivals_.trace(seabed, rays_, reach_m, hits_);
 }
 

@@ -291,7 +291,8 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
     const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;
   };
-  CHECK(seen_deg(1500.0) == Approx(50.0).margin(0.6));
+  // The pillar is 1.7 degrees wide, and its brightest spot anywhere on it.
+  CHECK(seen_deg(1500.0) == Approx(50.0).margin(0.9));
   // sin(beam) 1500 / 1440 = sin(50): 47.3 degrees, two and a half beams off.
-  CHECK(seen_deg(1440.0) == Approx(std::asin(std::sin(50 * kDeg) * 0.96) / kDeg).margin(0.6));
+  CHECK(seen_deg(1440.0) == Approx(std::asin(std::sin(50 * kDeg) * 0.96) / kDeg).margin(0.9));
 }

@@ -173,7 +173,7 @@ void SectorEchoes::look(const trace::Scene& seabed) {
       sampling_.start_s + sampling_.count * sampling_.period_s - config_.resolved_s(listening_->pulse_length_s);
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * window_s;
   arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
-  listening_->rays.fill(arrivals_.transmit_pose(), hits_, static_cast<float>(reach_m), rays_);
+  listening_->rays.fill(arrivals_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(reach_m), rays_);
   arrivals_.trace(seabed, rays_, reach_m, hits_);
 }
 

@@ -90,7 +90,7 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
   echoes_.move(poses_);
   echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
-  distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
+  distribution_.fill(echoes_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(settings.range_m), rays_);
   echoes_.trace(seabed, rays_, settings.range_m, hits_);
   Emission emission;
   emission.shot = shot;

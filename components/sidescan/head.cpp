@@ -107,7 +107,7 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
   echoes_.move(poses_);
   echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
-  distribution_.fill(echoes_.transmit_pose(), hits_, static_cast<float>(settings.range_m), rays_);
+  distribution_.fill(echoes_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(settings.range_m), rays_);
   echoes_.trace(seabed, rays_, settings.range_m, hits_);
   echo::Image& image = echoes_.listen(emission, pulse_, rays_, hits_);
 

@@ -100,7 +100,7 @@ void distributed_over_embree(benchmark::State& state) {
   std::vector<double> ratios;
   const auto whole = [&] {
     seabed_scene.trace(kHead, distribution.probes(), kMaxRange, seen);
-    distribution.fill(kHead, seen, kMaxRange, rays);
+    distribution.fill(kHead, seen, seabed_scene.objects(), kMaxRange, rays);
     seabed_scene.trace(kHead, rays, kMaxRange, hits);
   };
   whole();

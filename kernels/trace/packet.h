@@ -28,12 +28,19 @@ struct Entry {
   terrain::Tile tile;
   EmbreeScene scene;
   Heights heights;  // of the posts
+  std::vector<Object> objects;
 };
 
 struct Scene::Impl {
   Device device;
   frames::Vec2 origin_enu_m;
   std::map<terrain::TileKey, Entry> tiles;
+  std::vector<Object> objects;  // of all tiles
+
+  void gather_objects() {
+    objects.clear();
+    for (const auto& [key, entry] : tiles) objects.insert(objects.end(), entry.objects.begin(), entry.objects.end());
+  }
 };
 
 /// Rays of one packet, in Embree's frame. Lanes beyond `count` are off.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -22,6 +21,17 @@ constexpr std::size_t kCellsPerTask = 16;  // fixed, so the number of threads ch
 constexpr double kWidest = 0.5;            // of a cell, in either coordinate: fill_cell() needs it below 0.6 rad
 
 constexpr double kRaysPerCell = 12.0, kRaysPerFacet = 10.0;  // at normal quality
+
+// Of planes that rays aim at. Where a plane is as far from the seabed as a quarter of the head's height above it,
+// places wander on the seabed by a quarter of what the head moves.
+constexpr double kPlaneStep_m = 0.25,
+                 kPlaneShift = 0.3819660113;  // a seabed at a round depth is not between two planes
+constexpr std::size_t kFewestToPlaces =
+    40;                               // strata of a part: fewer rays sample a peaked law better if they are strata
+constexpr double kLeastFall = 0.01;   // sine of the angle at which rays fall on the plane
+constexpr double kMostStretch = 2.0;  // farthest over nearest place of a cell
+
+constexpr double kSpare = 1.01;  // of the fewest rays
 
 void check(const Span& span, double lowest, double highest, const char* fault) {
   const bool rises = lowest <= span.low && span.low <= span.main_low && span.main_low < span.main_high &&
@@ -52,6 +62,13 @@ double importance(const Span& span, double low, double high) {
   const double middle = 0.5 * (span.main_low + span.main_high), half = 0.5 * (span.main_high - span.main_low);
   const double far = std::max(std::abs(low - middle), std::abs(high - middle));
   return std::min(1.0, (half / far) * (half / far) * (1.0 + 1e-9));  // rounding of the main lobe's own edge
+}
+
+/// How far below the head the plane of the world lies that is next to a height; 0 where it is no stand-in for it.
+double plane_below(double head_z_m, double seen_z_m) {
+  const double steps = std::round(seen_z_m / kPlaneStep_m - kPlaneShift);
+  const double below_m = head_z_m - seen_z_m, plane_m = head_z_m - kPlaneStep_m * (steps + kPlaneShift);
+  return 0.5 * below_m < plane_m && plane_m < 2.0 * below_m ? plane_m : 0.0;
 }
 
 Eigen::Vector3f direction_of(TransmitVolume::Axis axis, float along, float side, float zero) {
@@ -85,18 +102,18 @@ RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings
 
   const double sine_width = volume.sine.main_high - volume.sine.main_low;
   const double angle_width = volume.angle_rad.main_high - volume.angle_rad.main_low;
-  for (double step = std::max(sine_width, angle_width); cells_.size() < kProbeCells; step *= 0.98) {
+  std::size_t cells = 0;
+  for (double step = std::max(sine_width, angle_width); cells < kProbeCells; step *= 0.98) {
     volume_sines_ = edges_of(volume.sine, step);
     volume_angles_rad_ = edges_of(volume.angle_rad, step);
-    cells_.resize((volume_sines_.size() - 1) * (volume_angles_rad_.size() - 1));
+    cells = (volume_sines_.size() - 1) * (volume_angles_rad_.size() - 1);
   }
-  if (settings.most_rays < 4 * cells_.size()) {
-    throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells_.size()));
+  if (settings.most_rays < 4 * cells) {
+    throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells));
   }
   if (2.0 * settings.quality * static_cast<double>(settings.fewest_rays) > static_cast<double>(settings.most_rays)) {
     throw std::invalid_argument("the fewest rays times the quality must be at most half of the most");
   }
-  needs_.resize(cells_.size());
   aim();
 }
 
@@ -127,20 +144,24 @@ void RayDistribution::aim() {
 struct RayDistribution::Corners {
   std::array<Vec3, 4> place_m;  // (low u, low phi), (high u, low phi), (low u, high phi), (high u, high phi)
   std::array<double, 4> range_m;
-  double facet_m;
+  double facet_m;       // of the farthest
+  double finer_per_sr;  // facets that face the head, where they are smaller than those: mean over the corners
+  double plane_m;       // of Need
 };
 
 bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const {
   const std::array<std::size_t, 4> at{corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)};
   const Hit* farthest = nullptr;
-  corners.facet_m = std::numeric_limits<double>::infinity();
+  double sum_of_z_m = 0.0, hits = 0.0;
   for (const std::size_t k : at) {
     const Hit& hit = probes.hits[k];
     if (!hit.hit()) continue;
+    sum_of_z_m += hit.position_enu_m.z(), hits += 1.0;
     if (!farthest || hit.path_length_m > farthest->path_length_m) farthest = &hit;
-    corners.facet_m = std::min(corners.facet_m, static_cast<double>(hit.facet_m));
   }
   if (!farthest) return false;
+  corners.facet_m = farthest->facet_m;
+  corners.finer_per_sr = 0.0;
   const Vec3 normal = farthest->normal_enu.cast<double>();
   const double off_m = normal.dot(farthest->position_enu_m - probes.head.position_enu_m);
   for (std::size_t c = 0; c < 4; ++c) {
@@ -148,20 +169,24 @@ bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Cor
     if (hit.hit()) {
       corners.place_m[c] = hit.position_enu_m - probes.head.position_enu_m;
       corners.range_m[c] = hit.path_length_m;
+      if (hit.facet_m < farthest->facet_m) {
+        corners.finer_per_sr += 0.25 * facing_facets_per_sr(hit.path_length_m, hit.facet_m);
+      }
     } else {
-      const Vec3 direction = probes.head.enu_from_head * probes_[at[c]].direction_head.cast<double>();
+      const Vec3 direction = probes.enu_from_head * probes_[at[c]].direction_head.cast<double>();
       const double to_plane_m = off_m / normal.dot(direction);
       corners.range_m[c] = to_plane_m > 0.0 ? std::min(to_plane_m, probes.max_range_m) : probes.max_range_m;
       corners.place_m[c] = corners.range_m[c] * direction;
     }
   }
+  corners.plane_m = plane_below(probes.head.position_enu_m.z(), sum_of_z_m / hits);
   return true;
 }
 
 RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const Look& probes) const {
   Corners seen;
   const double du = sine_edges_[i + 1] - sine_edges_[i], dphi = angle_edges_rad_[j + 1] - angle_edges_rad_[j];
-  if (!(du > 0.0) || !look(i, j, probes, seen)) return {1.0, 1.0};
+  if (!(du > 0.0) || !look(i, j, probes, seen)) return {};
 
   // In units of what is resolved: beams, and ranges within a beam.
   const auto& r = seen.range_m;
@@ -177,70 +202,114 @@ RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const 
   const double area_m2 = 0.5 * (p[3] - p[0]).cross(p[2] - p[1]).norm();
   const double wide_u_m = (p[1] - p[0]).norm() + (p[3] - p[2]).norm();
   const double wide_phi_m = (p[2] - p[0]).norm() + (p[3] - p[1]).norm();
-  const Need facets{2.0 * settings_.quality * kRaysPerFacet * area_m2 / (seen.facet_m * seen.facet_m),
-                    wide_u_m / wide_phi_m};
+  const double coarse = 2.0 * area_m2 / (seen.facet_m * seen.facet_m), fine = seen.finer_per_sr * du * dphi;
+  const Need facets{settings_.quality * kRaysPerFacet * std::max(coarse, fine), wide_u_m / wide_phi_m};
 
   Need both = facets.rays > resolution.rays ? facets : resolution;
-  both.rays *= importance(volume_.sine, volume_sines_[i], volume_sines_[i + 1]) *
-               importance(volume_.angle_rad, volume_angles_rad_[j], volume_angles_rad_[j + 1]);
+  both.rays *= importance_of(i * columns() + j);
   both.rays = std::min(both.rays, static_cast<double>(settings_.most_rays));
+  both.plane_m = seen.plane_m;
   return both;
 }
 
-/// Cuts the cells into strata, for this share of what they need; the number of rays.
+double RayDistribution::importance_of(std::size_t cell) const {
+  const std::size_t i = cell / columns(), j = cell % columns();
+  return importance(volume_.sine, volume_sines_[i], volume_sines_[i + 1]) *
+         importance(volume_.angle_rad, volume_angles_rad_[j], volume_angles_rad_[j + 1]);
+}
+
+/// Cuts the parts into strata, for this share of what they need; the number of rays.
 std::size_t RayDistribution::cut(double share) {
   std::size_t rays = 0;
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    const double wanted = std::max(1.0, share * needs_[k].rays);
-    const double along_u = std::clamp(std::ceil(std::sqrt(wanted * needs_[k].sine_to_angle)), 1.0, std::ceil(wanted));
-    cells_[k] = {static_cast<std::uint32_t>(along_u), static_cast<std::uint32_t>(std::ceil(wanted / along_u)), rays};
-    rays += std::size_t{cells_[k].along_sine} * cells_[k].along_angle;
+  for (Part& part : parts_) {
+    const double wanted = std::max(1.0, share * part.need.rays);
+    const double along_u = std::clamp(std::ceil(std::sqrt(wanted * part.need.sine_to_angle)), 1.0, std::ceil(wanted));
+    part.along_sine = static_cast<std::uint32_t>(along_u);
+    part.along_angle = static_cast<std::uint32_t>(std::ceil(wanted / along_u));
+    rays += std::size_t{part.along_sine} * part.along_angle;
   }
   return rays;
 }
 
-void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, float max_range_m,
-                           std::vector<Ray>& rays) {
+void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits,
+                           std::span<const Object> objects, float max_range_m, std::vector<Ray>& rays) {
   if (probe_hits.size() != probes_.size()) throw std::invalid_argument("there must be one hit per probe");
-  const Look probes{head, probe_hits, max_range_m};
-  const std::size_t columns = angle_edges_rad_.size() - 1;
-  const auto for_cells = [&](const auto& work) {
+  const Look probes{head, head.enu_from_head.toRotationMatrix(), probe_hits, max_range_m};
+  const auto for_parts = [&](const auto& work) {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, cells_.size(), kCellsPerTask),
+        tbb::blocked_range<std::size_t>(0, parts_.size(), kCellsPerTask),
         [&](const auto& range) {
           for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
         },
         tbb::simple_partitioner());
   };
-  for_cells([&](std::size_t k) { needs_[k] = need(k / columns, k % columns, probes); });
-  share_ = 1.0;
-  std::size_t count = cut(share_);
-  while (count > settings_.most_rays) {  // strata are whole: the last per cent may take another turn
-    share_ *= 0.999 * static_cast<double>(settings_.most_rays) / static_cast<double>(count);
-    count = cut(share_);
-  }
+  parts_.resize((sine_edges_.size() - 1) * columns());
+  for_parts([&](std::size_t k) {
+    const std::size_t i = k / columns(), j = k % columns();
+    parts_[k] = {sine_edges_[i],    sine_edges_[i + 1], angle_edges_rad_[j], angle_edges_rad_[j + 1], k,
+                 need(i, j, probes)};
+  });
+  for (const Object& object : objects) set_apart(object, probes);
+  if (rays_.size() < parts_.size()) rays_.resize(parts_.size());
+
   const bool any = std::any_of(probe_hits.begin(), probe_hits.end(), [](const Hit& hit) { return hit.hit(); });
+  const auto most = static_cast<double>(settings_.most_rays);
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
-  while (static_cast<double>(count) < fewest) {
-    share_ *= 1.001 * fewest / static_cast<double>(count);
-    count = cut(share_);
+  share_ = 1.0;
+  double count = 0.0;
+  const auto draw = [&] {  // what falls within the cells varies by a per cent
+    for (count = static_cast<double>(cut(share_)); count > most; count = static_cast<double>(cut(share_))) {
+      share_ *= 0.999 * most / count;
+    }
+    for (; count < kSpare * fewest; count = static_cast<double>(cut(share_))) share_ *= 1.001 * kSpare * fewest / count;
+    for_parts([&](std::size_t k) { fill_part(k, probes); });
+    count = 0.0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) count += static_cast<double>(rays_[k].size());
+  };
+  for (draw(); count > most || count < fewest; draw()) {
+    share_ *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
-  rays.resize(count);
-  for_cells([&](std::size_t k) { fill_cell(k, std::span(rays).subspan(cells_[k].first)); });
+  gather(rays);
 }
 
-void RayDistribution::fill_cell(std::size_t index, std::span<Ray> rays) const {
-  const Cell& cell = cells_[index];
-  const std::size_t columns = angle_edges_rad_.size() - 1, i = index / columns, j = index % columns;
-  const double half_u = 0.5 * (sine_edges_[i + 1] - sine_edges_[i]), middle_u = sine_edges_[i] + half_u;
-  const double half_rad = 0.5 * (angle_edges_rad_[j + 1] - angle_edges_rad_[j]),
-               middle_rad = angle_edges_rad_[j] + half_rad;
-  const double du = 2.0 * half_u / cell.along_sine, dphi = 2.0 * half_rad / cell.along_angle;
+/// All rays; those to places share the solid angle of their parts, as the lattices' edges leave a little more or less.
+void RayDistribution::gather(std::vector<Ray>& rays) const {
+  double places_sr = 0.0, parts_sr = 0.0;
+  for (const Part& part : parts_) {
+    places_sr += part.to_places_sr;
+    if (part.to_places_sr > 0.0) parts_sr += part.solid_angle_sr();
+  }
+  const auto scale = static_cast<float>(parts_sr / places_sr);
+  rays.clear();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    for (const Ray& ray : rays_[k]) {
+      rays.push_back(
+          {ray.direction_head, parts_[k].to_places_sr > 0.0 ? scale * ray.solid_angle_sr : ray.solid_angle_sr});
+    }
+  }
+}
+
+void RayDistribution::fill_part(std::size_t index, const Look& probes) {
+  Part& part = parts_[index];
+  std::vector<Ray>& rays = rays_[index];
+  rays.clear();
+  part.to_places_sr = 0.0;
+  const std::size_t strata = std::size_t{part.along_sine} * part.along_angle;
+  if (rays.capacity() < 2 * strata) rays.reserve(4 * strata);  // the next pings need about as many: no memory for them
+  if (part.need.plane_m > 0.0 && strata >= kFewestToPlaces && aim_at_places(part, probes, rays)) return;
+  fill_strata(part, index, rays);
+}
+
+void RayDistribution::fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const {
+  const double half_u = 0.5 * (part.high_sine - part.low_sine), middle_u = part.low_sine + half_u;
+  const double half_rad = 0.5 * (part.high_rad - part.low_rad), middle_rad = part.low_rad + half_rad;
+  const double du = 2.0 * half_u / part.along_sine, dphi = 2.0 * half_rad / part.along_angle;
   const auto sine = static_cast<float>(std::sin(middle_rad)), cosine = static_cast<float>(std::cos(middle_rad));
   const auto u0 = static_cast<float>(middle_u), u_step = static_cast<float>(du), u_first = static_cast<float>(-half_u);
   const auto e_step = static_cast<float>(dphi), e_first = static_cast<float>(-half_rad);
   const auto solid_angle = static_cast<float>(du * dphi);
-  const std::size_t count = std::size_t{cell.along_sine} * cell.along_angle;
+  const std::size_t count = std::size_t{part.along_sine} * part.along_angle;
+  rays.resize(count);
 
   constexpr std::size_t kRun = random::Stream::Run::kSize;
   random::Stream::Run bits;
@@ -254,7 +323,7 @@ void RayDistribution::fill_cell(std::size_t index, std::span<Ray> rays) const {
     for (std::size_t k = 0; k < lanes; ++k) {
       a[k] = static_cast<float>(static_cast<int>(next_a));
       c[k] = static_cast<float>(static_cast<int>(next_c));
-      if (++next_a == cell.along_sine) next_a = 0, ++next_c;
+      if (++next_a == part.along_sine) next_a = 0, ++next_c;
     }
     for (std::size_t k = 0; k < kRun; ++k) {
       const float u = u0 + (u_first + u_step * (a[k] + uniform(bits.word[0][k])));

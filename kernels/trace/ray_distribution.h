@@ -52,17 +52,23 @@ struct RaySettings {
 ///
 /// The volume is cut into some thousand cells of direction. One probe ray to each corner tells how far away and how
 /// wide apart the seabed is that a cell sees; from that follows how many rays the cell needs, so that each resolution
-/// cell (range resolution x beam) and each facet that it sees gets the number that the quality asks for. The cell is
-/// then cut into as many equal strata, with one ray at a random place in each, which depends on (stream, cell, stratum)
-/// only: the rays are an unbiased sample of the volume whatever the density, and the same pose over the same tiles has
-/// the same rays. Where neighbouring corners see different things (the edge of a boulder, the end of a shadow) they are
-/// far apart and the cell gets many rays; at grazing incidence likewise.
+/// cell (range resolution x beam) and each facet that it sees gets the number that the quality asks for. Where
+/// neighbouring corners see different things (the edge of a boulder, the end of a shadow) they are far apart and the
+/// cell gets many rays; at grazing incidence likewise.
+///
+/// Where a cell sees ground below, its rays aim at places of the world (ground_lattice.h) on the
+/// horizontal plane next to what they see: a head that moved a little has rays to the same places, so its echoes come
+/// from the same scatterers. Elsewhere, and where a cell has fewer than forty rays, it is cut into as many equal
+/// strata, with one ray at a random place in each. Either way rays are a fair sample of the volume whatever the
+/// density, all together carry its solid angle exactly, and the same pose over the same tiles has the same rays.
+///
+/// Small things that probes may miss come as boxes (Scene::objects()). What a box covers of a cell becomes a part of
+/// its own, with the rays that the object's facets ask for if they face the head, at least.
 ///
 /// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
 /// in the main lobe, and a third more beyond it; not with the number of beams. A corner that meets nothing counts as
 /// lying on the plane of the farthest facet that its cell sees, and no farther than the range. A cell that sees nothing
-/// has one ray. A Mills cross of 1 degree x 130 degrees has cells of 1.3 degrees across-track: a thing that is smaller,
-/// and missed by the probes, gets the rays that the seabed around it asks for.
+/// has one ray.
 class RayDistribution {
  public:
   /// Throws std::invalid_argument for empty or overlapping spans, and for settings that are not positive.
@@ -75,34 +81,54 @@ class RayDistribution {
   /// The rays that look first; their solid angles are 0. They change with steer().
   std::span<const Ray> probes() const { return probes_; }
 
-  /// The rays for what the probes met within max_range_m. Neighbours follow each other, as packets want it. Throws
-  /// std::invalid_argument unless there is one hit per probe.
-  void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, float max_range_m, std::vector<Ray>& rays);
+  /// The rays for what the probes met within max_range_m, and for what lies in the boxes. Neighbours follow each other,
+  /// as packets want it. Throws std::invalid_argument unless there is one hit per probe.
+  void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, std::span<const Object> objects,
+            float max_range_m, std::vector<Ray>& rays);
 
   /// What the last fill had of the rays that the quality asks for: 1; less where most_rays limits them, more where
   /// there are fewest_rays.
   double share() const { return share_; }
 
  private:
-  struct Cell {
-    std::uint32_t along_sine = 1, along_angle = 1;  // strata
-    std::size_t first = 0;                          // ray
-  };
   struct Need {
-    double rays, sine_to_angle;  // strata, and their number along u over that along phi
+    double rays = 1.0, sine_to_angle = 1.0;  // strata, and their number along u over that along phi
+    double plane_m = 0.0;                    // how far below the head the plane lies that they aim at; 0: none
   };
   struct Look {
     const frames::HeadPose& head;
+    Eigen::Matrix3d enu_from_head;
     std::span<const Hit> hits;
     double max_range_m;
   };
+  struct Part {  // of the volume: a cell, or what boxes leave and take of it
+    double low_sine, high_sine, low_rad, high_rad;
+    std::size_t cell;
+    Need need;
+    std::uint32_t along_sine = 1, along_angle = 1;  // strata
+    double to_places_sr = 0.0;                      // that rays carry to places; 0: none aims at any
+    double solid_angle_sr() const { return (high_sine - low_sine) * (high_rad - low_rad); }
+  };
   struct Corners;
+  std::size_t columns() const { return angle_edges_rad_.size() - 1; }
   std::size_t corner(std::size_t i, std::size_t j) const { return i * angle_edges_rad_.size() + j; }
+  double importance_of(std::size_t cell) const;
   void aim();
   bool look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const;
   Need need(std::size_t i, std::size_t j, const Look& probes) const;
+  /// Two triangles to a square of the posts' spacing.
+  static double facing_facets_per_sr(double range_m, double facet_m) {
+    return 2.0 * range_m * range_m / (facet_m * facet_m);
+  }
+  void set_apart(const Object& object, const Look& probes);
+  void set_apart(const Part& box, double rays_per_sr);
   std::size_t cut(double share);
-  void fill_cell(std::size_t index, std::span<Ray> rays) const;
+  void fill_part(std::size_t index, const Look& probes);
+  void gather(std::vector<Ray>& rays) const;
+  /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
+  /// is seen too flat.
+  bool aim_at_places(Part& part, const Look& probes, std::vector<Ray>& rays) const;
+  void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
 
   TransmitVolume volume_;
   RaySettings settings_;
@@ -111,8 +137,8 @@ class RayDistribution {
   std::vector<double> volume_sines_, volume_angles_rad_;  // edges of the cells, as given ...
   std::vector<double> sine_edges_, angle_edges_rad_;      // ... and as steered
   std::vector<Ray> probes_;
-  std::vector<Need> needs_;
-  std::vector<Cell> cells_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<Ray>> rays_;  // of each part
   double share_ = 1.0;
 };
 

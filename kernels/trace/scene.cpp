@@ -18,7 +18,8 @@ namespace {
 using frames::Vec2;
 using frames::Vec3;
 
-constexpr std::int32_t kBlockCells = 64;  // cells per side of a grid primitive
+constexpr std::int32_t kBlockCells = 64;   // cells per side of a grid primitive
+constexpr std::int32_t kObjectCells = 16;  // of a box around what stands among holes
 
 /// One instruction set everywhere that results must match. No number of threads: Embree would hold the whole process's
 /// TBB to it.
@@ -26,6 +27,48 @@ Device new_device() {
   Device device(rtcNewDevice("isa=avx2,set_affinity=0"));
   if (!device) throw std::runtime_error("Embree cannot start (it needs a processor with AVX2)");
   return device;
+}
+
+bool whole_cell(const terrain::Tile& tile, std::int32_t column, std::int32_t row) {
+  for (const auto& [c, r] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+    if (!std::isfinite(tile.height_m[tile.post(column + c, row + r)])) return false;
+  }
+  return true;
+}
+
+/// A box around the whole cells of [column, column + width) x [row, row + height), within the tile; none without such.
+/// It is there only where a cell in or around the block is a hole, or where `all` of them are wanted.
+void add_object(const terrain::Tile& tile, std::int32_t column, std::int32_t row, std::int32_t side, bool all,
+                std::vector<Object>& objects) {
+  Object object{{}, static_cast<float>(tile.spacing_m)};
+  bool holes = all;
+  for (std::int32_t r = std::max(row - 1, 0); r < std::min(row + side + 1, tile.rows - 1); ++r) {
+    for (std::int32_t c = std::max(column - 1, 0); c < std::min(column + side + 1, tile.columns - 1); ++c) {
+      const bool inside = row <= r && r < row + side && column <= c && c < column + side;
+      if (!whole_cell(tile, c, r)) {
+        holes = true;
+      } else if (inside) {
+        for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+          object.box_enu_m.extend(tile.position_enu_m(c + x, r + y));
+        }
+      }
+    }
+  }
+  if (holes && !object.box_enu_m.isEmpty()) objects.push_back(object);
+}
+
+std::vector<Object> objects_of(const terrain::Tile& tile) {
+  std::vector<Object> objects;
+  if (std::max(tile.columns, tile.rows) <= kBlockCells) {
+    add_object(tile, 0, 0, kBlockCells, true, objects);
+  } else if (!std::all_of(tile.height_m.begin(), tile.height_m.end(), [](float z) { return std::isfinite(z); })) {
+    for (std::int32_t row = 0; row < tile.rows - 1; row += kObjectCells) {
+      for (std::int32_t column = 0; column < tile.columns - 1; column += kObjectCells) {
+        add_object(tile, column, row, kObjectCells, false, objects);
+      }
+    }
+  }
+  return objects;
 }
 
 /// Cells [column, column + width) x [row, row + height) without a hole become one grid; else each whole cell becomes
@@ -48,7 +91,7 @@ void add_block(const terrain::Tile& tile, std::int32_t column, std::int32_t row,
   if (whole(column, row, width, height)) return add(column, row, width, height);
   for (std::int32_t r = row; r < row + height; ++r) {
     for (std::int32_t c = column; c < column + width; ++c) {
-      if (whole(c, r, 1, 1)) add(c, r, 1, 1);
+      if (whole_cell(tile, c, r)) add(c, r, 1, 1);
     }
   }
 }
@@ -135,16 +178,23 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 
 void Scene::insert(const terrain::TileKey& key, const terrain::Tile& tile) {
   if (const auto fault = terrain::fault_of(tile)) throw std::invalid_argument(*fault);
-  impl_->tiles.insert_or_assign(key, Entry{tile, scene_of(impl_->device, tile, impl_->origin_enu_m), heights_of(tile)});
+  impl_->tiles.insert_or_assign(
+      key, Entry{tile, scene_of(impl_->device, tile, impl_->origin_enu_m), heights_of(tile), objects_of(tile)});
+  impl_->gather_objects();
 }
 
-bool Scene::remove(const terrain::TileKey& key) { return impl_->tiles.erase(key) > 0; }
+bool Scene::remove(const terrain::TileKey& key) {
+  const bool there = impl_->tiles.erase(key) > 0;
+  impl_->gather_objects();
+  return there;
+}
 
 void Scene::recentre(const Vec2& origin_enu_m) {
   impl_->origin_enu_m = origin_enu_m;
   for (auto& [key, entry] : impl_->tiles) entry.scene = scene_of(impl_->device, entry.tile, origin_enu_m);
 }
 
+std::span<const Object> Scene::objects() const { return impl_->objects; }
 bool Scene::empty() const { return impl_->tiles.empty(); }
 std::size_t Scene::size() const { return impl_->tiles.size(); }
 bool Scene::contains(const terrain::TileKey& key) const { return impl_->tiles.contains(key); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -37,6 +38,12 @@ struct Heights {
   double highest_m = 0.0;
 };
 
+/// A box around something small.
+struct Object {
+  Eigen::AlignedBox3d box_enu_m;
+  float facet_m = 0.0F;  // as Hit has it
+};
+
 /// Seabed tiles to trace rays against.
 ///
 /// Each tile is one Embree scene of grid primitives (two triangles per cell), built when it comes; tiles share the bits
@@ -58,6 +65,10 @@ class Scene {
 
   /// Takes a tile away; false when there was none.
   bool remove(const terrain::TileKey& key);
+
+  /// What a look at the seabed may miss: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
+  /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order.
+  std::span<const Object> objects() const;
 
   /// Moves the origin of Embree's coordinates; rebuilds every tile.
   void recentre(const frames::Vec2& origin_enu_m);

@@ -24,7 +24,7 @@ echo::Image MillsCross::hear(const trace::Scene& seabed, const frames::HeadPose&
   std::vector<trace::Ray> rays;
   std::vector<trace::Hit> hits;
   seabed.trace(head, distribution.probes(), static_cast<float>(range_m), hits, kSpeed_mps);
-  distribution.fill(head, hits, static_cast<float>(range_m), rays);
+  distribution.fill(head, hits, seabed.objects(), static_cast<float>(range_m), rays);
   seabed.trace(head, rays, static_cast<float>(range_m), hits, kSpeed_mps);
 
   const seabed::BackscatterTable table(backscatter);

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "kernels/array/line.h"
+#include "tests/physics/correlation.h"
 #include "tests/physics/mills_cross.h"
 #include "tests/physics/sidescan_ping.h"
 
@@ -44,16 +47,43 @@ std::vector<double> speckle(SidescanConfig config, const frames::Vec3& position_
   return amplitudes;
 }
 
-/// Correlation of the powers of two echoes: |coherence|^2 of Gaussian fields.
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0, square = 0.0, product = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double p = a[i] * a[i], q = b[i] * b[i];
-    sum += 0.5 * (p + q), square += 0.5 * (p * p + q * q), product += p * q;
+/// Of the powers of the same echoes at two places, over some seabeds.
+double correlation_after(const frames::Vec3& moved_m, int seabeds) {
+  std::vector<double> here, there;
+  for (int seed = 1; seed <= seabeds; ++seed) {
+    const auto a = speckle(head(seed), {0.0, 0.0, -12.0}), b = speckle(head(seed), frames::Vec3(0, 0, -12) + moved_m);
+    here.insert(here.end(), a.begin(), a.end());
+    there.insert(there.end(), b.begin(), b.end());
   }
-  const double n = static_cast<double>(a.size()), mean = sum / n;
-  return (product / n - mean * mean) / (square / n - mean * mean);
+  return power_correlation(here, there);
 }
+
+double line_m() { return array::length_in_waves_for(head(1).channels[0].horizontal_beamwidth_rad) * 1500.0 / 400e3; }
+
+/// Of the powers of two pings d apart along a uniform line that sends and hears, mean over the ranges. Of the
+/// scatterers at the sine u seen from between the two places the echoes differ by the phase 2 k d u, and the patterns
+/// are those at u +- d / 2R (van Cittert and Zernike). Far away that is the cubic spline 1 - 6 x^2 + 6 x^3, x = d / L
+/// below 1/2, and 2 (1 - x)^3 above.
+double along_track(double d_over_l) {
+  const double waves = line_m() * 400e3 / 1500.0, end = 3.0 / waves;
+  constexpr int kSteps = 400, kRanges = 40;
+  double mean = 0.0;
+  for (int r = 0; r < kRanges; ++r) {
+    const double aside = 0.5 * d_over_l * line_m() / (15.0 + 85.0 * (r + 0.5) / kRanges);
+    double cross = 0.0, own = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double u = end * (2.0 * (i + 0.5) / kSteps - 1.0);
+      cross += array::line_power(waves, u + aside) * array::line_power(waves, u - aside) *
+               std::cos(4.0 * std::numbers::pi * d_over_l * waves * u);
+      own += std::pow(array::line_power(waves, u), 2);
+    }
+    mean += std::pow(cross / own, 2) / kRanges;
+  }
+  return mean;
+}
+
+/// The same after d across the track: samples of the same time share 1 - 2 d cos(grazing) / (c tau) of their pulses.
+double across_track(double d_m) { return std::pow(std::max(1.0 - 0.97 * d_m / 0.075, 0.0), 2); }
 
 }  // namespace
 
@@ -85,19 +115,38 @@ TEST_CASE("speckle is Rayleigh: 40 seeds, and its coefficient of variation") {
   CHECK(squares / n == Approx(1.0).epsilon(0.02));  // N exponentials: 0.33 %
 }
 
-TEST_CASE("a head that rests hears the same seabed again, one that moved another") {
-  // Lines that send and hear: coherence is a cubic spline that ends at d = L. 2,200 samples: a correlation of nothing
-  // has a standard deviation of 2 %. After 0.02 L theory says 0.996; where a resolution cell has fewer rays than
-  // scatterers, as at the ranges of a sidescan, a moved head meets other ones of them, and keeps about half of it
-  // (docs/physics/echo.md; kernels/echo holds the theory where rays are many).
-  const SidescanConfig config = head(1);
-  const auto here = speckle(config, {0.0, 0.0, -12.0});
-  const bool again = speckle(config, {0.0, 0.0, -12.0}) == here;
+TEST_CASE("a head that rests hears the same seabed again") {
+  const bool again = speckle(head(1), {0.0, 0.0, -12.0}) == speckle(head(1), {0.0, 0.0, -12.0});
   CHECK(again);
-  const double length_m = array::length_in_waves_for(config.channels[0].horizontal_beamwidth_rad) * 1500.0 / 400e3;
-  const auto after = [&](double moved_m) { return correlation(here, speckle(config, {0.0, moved_m, -12.0})); };
-  const double near = after(0.02 * length_m), far = after(1.05 * length_m);
-  INFO(near << " after 0.02 L, " << far << " after 1.05 L");
-  CHECK(near > 0.3);
-  CHECK(std::abs(far) < 0.08);
+}
+
+TEST_CASE("sidescan: pings decorrelate along the track as the two-way pattern says") {
+  // Echoes from 15 to 100 m, three seabeds: 6,800 independent samples, so a correlation has a standard deviation of 1.2
+  // to 2 %. Places that rays aim at wander a little on the seabed, and cells at the rim of what is heard come and go.
+  for (const double d_over_l : {0.02, 0.1, 0.25, 0.5, 1.05}) {
+    const double reached = correlation_after({0.0, d_over_l * line_m(), 0.0}, 3);
+    INFO(reached << " after " << d_over_l << " L, theory " << along_track(d_over_l));
+    CHECK(reached == Approx(along_track(d_over_l)).margin(0.05));
+  }
+}
+
+TEST_CASE("sidescan: pings decorrelate across the track as pulses overlap") {
+  // Across the track by d, starboard comes nearer by d cos(grazing), 0.75 to 0.99 d from 15 m on: 0.97 d in the mean.
+  for (const double d_m : {0.01, 0.03}) {
+    const double reached = correlation_after({d_m, 0.0, 0.0}, 3);
+    INFO(reached << " after " << d_m << " m, theory " << across_track(d_m));
+    CHECK(reached == Approx(across_track(d_m)).margin(0.08));
+  }
+}
+
+TEST_CASE("correlation for the picture", "[.speckle-csv]") {
+  std::puts("kind,moved,correlation,theory");
+  for (int i = 0; i <= 11; ++i) {
+    const double x = 0.1 * i;
+    std::printf("0,%.3f,%.5f,%.5f\n", x, correlation_after({0.0, x * line_m(), 0.0}, 3), along_track(x));
+  }
+  for (int i = 0; i <= 8; ++i) {
+    const double x = 0.01 * i;
+    std::printf("1,%.3f,%.5f,%.5f\n", x, correlation_after({x, 0.0, 0.0}, 3), across_track(x));
+  }
 }
