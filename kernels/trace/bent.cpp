@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/trace/packet.h"
+#include "kernels/trace/scene_impl.h"
 
 namespace ensonify::trace {
 namespace {
@@ -108,8 +109,8 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   hit.path_length_m = static_cast<float>(end.length_m);
   hit.tube_m2 = static_cast<float>(lane.path.tube_m2(end));
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
-  hit.facet_m = static_cast<float>(packet.met[lane_index]->spacing_m);
-  hit.sediment = terrain::sediment_at(*packet.met[lane_index], hit.position_enu_m.head<2>());
+  hit.facet_m = packet.met[lane_index]->facet_m;
+  hit.sediment = terrain::sediment_at(*packet.met[lane_index]->tile, hit.position_enu_m.head<2>());
   return hit;
 }
 
@@ -167,7 +168,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
         from[lane] = ray.at(start, source_depth);
         packet.set(lane, from[lane], ray.chord(), static_cast<float>(ray.leg.chord_m + (ray.last ? 0.0 : kOverlap_m)));
       }
-      packet.intersect(impl_->tiles);
+      packet.intersect(impl_->mesh);
       for (std::size_t lane = 0; lane < count; ++lane) {
         if (!lanes[lane]) continue;
         Lane& ray = *lanes[lane];

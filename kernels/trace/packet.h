@@ -1,13 +1,7 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <span>
-
-#include "kernels/trace/scene.h"
+#include "kernels/frames/attitude.h"
+#include "kernels/trace/mesh.h"
 
 /// What straight and bent rays share. Private to this folder: it includes Embree.
 namespace ensonify::trace {
@@ -15,39 +9,11 @@ namespace ensonify::trace {
 constexpr std::size_t kPacket = 16;  // rays that Embree traces together
 constexpr std::size_t kChunk = 32;   // packets per task: fixed, so the number of threads changes nothing
 
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, SceneRelease>;
-
-struct Entry {
-  terrain::Tile tile;
-  EmbreeScene scene;
-  Heights heights;  // of the posts
-  std::vector<Object> objects;
-};
-
-struct Scene::Impl {
-  Device device;
-  frames::Vec2 origin_enu_m;
-  std::map<terrain::TileKey, Entry> tiles;
-  std::vector<Object> objects;  // of all tiles
-
-  void gather_objects() {
-    objects.clear();
-    for (const auto& [key, entry] : tiles) objects.insert(objects.end(), entry.objects.begin(), entry.objects.end());
-  }
-};
-
 /// Rays of one packet, in Embree's frame. Lanes beyond `count` are off.
 struct Packet {
   alignas(64) RTCRayHit16 rays;
   alignas(64) int on[kPacket];
-  const terrain::Tile* met[kPacket];  // by each lane; null: nothing
+  const Part* met[kPacket];  // by each lane; null: nothing
 
   /// One lane, as far as tfar_m.
   void set(std::size_t lane, const frames::Vec3& start, const frames::Vec3& direction, float tfar_m) {
@@ -73,18 +39,15 @@ struct Packet {
     on[lane] = 0;
   }
 
-  /// The nearest facet of all tiles for each lane.
-  void intersect(const std::map<terrain::TileKey, Entry>& tiles) {
-    for (const auto& [key, entry] : tiles) {  // in key order: of two tiles met at one range the first wins
-      float before[kPacket];
-      std::copy_n(rays.ray.tfar, kPacket, before);
-      RTCIntersectContext
-          context;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
-      rtcInitIntersectContext(&context);
-      rtcIntersect16(on, entry.scene.get(), &context, &rays);
-      for (std::size_t lane = 0; lane < kPacket; ++lane) {
-        if (rays.ray.tfar[lane] < before[lane]) met[lane] = &entry.tile;
-      }
+  /// The nearest facet for each lane.
+  void intersect(const Mesh& mesh) {
+    if (!mesh.scene()) return;
+    RTCIntersectContext
+        context;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
+    rtcInitIntersectContext(&context);
+    rtcIntersect16(on, mesh.scene(), &context, &rays);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) met[lane] = &mesh.part(rays.hit.instID[0][lane]);
     }
   }
 

@@ -124,6 +124,18 @@ void RayDistribution::steer(double sine, double angle_rad) {
   aim();
 }
 
+TransmitVolume RayDistribution::volume() const {
+  TransmitVolume steered = volume_;
+  for (double* u : {&steered.sine.low, &steered.sine.high, &steered.sine.main_low, &steered.sine.main_high}) {
+    *u = std::clamp(*u + steered_sine_, -1.0, 1.0);
+  }
+  for (double* phi :
+       {&steered.angle_rad.low, &steered.angle_rad.high, &steered.angle_rad.main_low, &steered.angle_rad.main_high}) {
+    *phi += steered_rad_;
+  }
+  return steered;
+}
+
 void RayDistribution::aim() {
   sine_edges_ = volume_sines_;
   angle_edges_rad_ = volume_angles_rad_;

@@ -78,6 +78,9 @@ class RayDistribution {
   /// Neither changes solid angles; sines beyond -1 and 1 are lost. (0, 0) is the volume as given.
   void steer(double sine, double angle_rad);
 
+  /// Where the rays go, as steered.
+  TransmitVolume volume() const;
+
   /// The rays that look first; their solid angles are 0. They change with steer().
   std::span<const Ray> probes() const { return probes_; }
 

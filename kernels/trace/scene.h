@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/frames/pose.h"
+#include "kernels/lod/cover.h"
 #include "kernels/refraction/path_table.h"
 #include "kernels/terrain/tile.h"
 #include "kernels/trace/ray.h"
@@ -26,7 +27,7 @@ struct Hit {
   float path_length_m = 0.0F;  // along the path: range_m when it is straight
   float tube_m2 = 0.0F;        // area of the bundle, across it, per steradian of launch: range_m^2 when straight
   float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
-  float facet_m = 0.0F;        // spacing of the posts there: a facet is half a square of it
+  float facet_m = 0.0F;        // spacing of the posts of the mesh there: a facet is half a square of it
   std::uint8_t sediment = 0;
 
   bool hit() const { return range_m > 0.0F; }
@@ -44,18 +45,28 @@ struct Object {
   float facet_m = 0.0F;  // as Hit has it
 };
 
+/// How finely a scene shows its tiles (docs/seabed/level-of-detail.md).
+struct LevelOfDetail {
+  bool enabled = false;         // by what is looked at; off: all tiles at full detail
+  std::int32_t side_lobes = 2;  // level, 0..5: side lobes see every 2^level-th post
+  std::int32_t looks = 1;       // adaptations that make a ping: what one has used is kept for the next ping's
+
+  bool operator==(const LevelOfDetail&) const = default;
+};
+
 /// Seabed tiles to trace rays against.
 ///
-/// Each tile is one Embree scene of grid primitives (two triangles per cell), built when it comes; tiles share the bits
-/// of their edge posts and the intersection is watertight, so no ray passes between neighbours (a test aims at the
-/// seams). A cell that touches a hole (NaN post) has no triangles. Embree computes in float, relative to
-/// `origin_enu_m`: keep it within 4 km of the tiles and the head, where a coordinate rounds by less than 0.13 mm.
-/// Positions of hits are double.
+/// A tile is cut into blocks; a block is one Embree scene of grid primitives (two triangles per cell), built when it is
+/// first needed, and the parts of a mesh stand under one tree. Blocks and tiles share the bits of their edges and the
+/// intersection is watertight, so no ray passes between neighbours (a test aims at the seams). A cell that touches a
+/// hole (NaN post) has no triangles. Embree computes in float, relative to `origin_enu_m`: keep it within 4 km of the
+/// tiles and the head, where a coordinate rounds by less than 0.13 mm. Positions of hits are double.
 ///
-/// The answer depends on the tiles, the pose and the rays; never on the order of insertion or the number of threads.
+/// The answer depends on the tiles, the pose, the rays and the views of the last adaptation; never on the order of
+/// insertion, on earlier adaptations or the number of threads.
 class Scene {
  public:
-  explicit Scene(const frames::Vec2& origin_enu_m);
+  explicit Scene(const frames::Vec2& origin_enu_m, const LevelOfDetail& detail = {});
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
@@ -70,8 +81,18 @@ class Scene {
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order.
   std::span<const Object> objects() const;
 
-  /// Moves the origin of Embree's coordinates; rebuilds every tile.
+  /// Moves the origin of Embree's coordinates; everything is built anew.
   void recentre(const frames::Vec2& origin_enu_m);
+
+  /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere.
+  /// A ray within a view of level 0 hits what it would hit with all tiles at full detail, to the bit. With level of
+  /// detail enabled there is no mesh before this, nor after a tile has come or gone; without it nothing happens. Blocks
+  /// that were seen lately are kept.
+  void adapt(std::span<const lod::View> views);
+
+  const LevelOfDetail& detail() const;
+  /// In memory, ready for rays.
+  std::size_t triangles() const;
 
   bool empty() const;
   std::size_t size() const;
@@ -95,6 +116,9 @@ class Scene {
   /// water surface tells where in the profile it is.
   void tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
                 float max_range_m, refraction::PathTable& paths) const;
+
+  /// Of the tiles' own posts, whatever the mesh; empty over a hole or no tile.
+  std::optional<double> height_m(const frames::Vec2& place_enu_m) const;
 
   /// Over the tiles within a horizontal distance of a place; empty when there are none.
   std::optional<Heights> heights_near(const frames::Vec2& place_enu_m, double radius_m) const;

@@ -1,0 +1,184 @@
+// How long a head takes to adapt its mesh, Embree's part included, and what that keeps of the tiles.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "kernels/trace/fan.h"
+#include "kernels/trace/scene.h"
+#include "kernels/trace/views.h"
+
+using namespace ensonify;
+
+namespace {
+
+constexpr double kSide_m = 102.4;  // of a tile of 1024 cells of 0.1 m
+const trace::TransmitVolume kFan = trace::mills_cross_volume(50.0, 50.0, 1.13);
+
+/// Relief that repeats from tile to tile, so that a world of any size costs one.
+const terrain::Tile& relief(double depth_m) {
+  static std::map<double, terrain::Tile> made;
+  const auto found = made.find(depth_m);
+  if (found != made.end()) return found->second;
+  const double turn = 2.0 * std::numbers::pi / kSide_m;
+  return made[depth_m] = terrain::sample_tile({.spacing_m = 0.1}, {0, 0}, [&](double x, double y) {
+           return -depth_m + std::sin(2 * turn * x) * std::cos(3 * turn * y) +
+                  0.1 * std::sin(150 * turn * x) * std::sin(90 * turn * y);
+         });
+}
+
+/// The tiles that a pager holds around the vehicle.
+class World {
+ public:
+  World(double depth_m, bool endless) : scene_({0, 0}, {.enabled = true}), tile_(relief(depth_m)), endless_(endless) {}
+
+  void page(const frames::Vec2& place, double margin_m) {
+    const auto reach = static_cast<int>(std::ceil(margin_m / kSide_m));
+    const int east = tile_at(place.x()), north = tile_at(place.y());
+    for (int i = -reach - 1; i <= reach + 1; ++i) {
+      for (int j = -reach - 1; j <= reach + 1; ++j) {
+        const terrain::TileKey key{east + i, north + j};
+        if (!endless_ && !(key == terrain::TileKey{0, 0})) continue;
+        const double distance = std::hypot(gap_m(key.east, place.x()), gap_m(key.north, place.y()));
+        if (distance > margin_m + 50.0) scene_.remove(key);
+        if (distance > margin_m || scene_.contains(key)) continue;
+        tile_.origin_enu_m = {kSide_m * (key.east - 0.5), kSide_m * (key.north - 0.5)};
+        scene_.insert(key, tile_);
+      }
+    }
+  }
+  trace::Scene& scene() { return scene_; }
+  double paged_triangles() const { return 2.0 * 1024 * 1024 * static_cast<double>(scene_.size()); }
+
+ private:
+  static int tile_at(double x) { return static_cast<int>(std::floor(x / kSide_m + 0.5)); }
+  static double gap_m(int tile, double x) { return std::max(0.0, std::abs(x - kSide_m * tile) - 0.5 * kSide_m); }
+
+  trace::Scene scene_;
+  terrain::Tile tile_;
+  bool endless_;
+};
+
+struct Track {
+  double speed_mps, rate_hz, turn_radps;
+  frames::HeadPose at(int ping) const {
+    const double t = ping / rate_hz, heading = 0.3 + turn_radps * t;
+    const double radius = turn_radps == 0.0 ? 0.0 : speed_mps / turn_radps;
+    const frames::Vec2 place =
+        turn_radps == 0.0
+            ? frames::Vec2(speed_mps * t * frames::Vec2(std::sin(0.3), std::cos(0.3)))
+            : frames::Vec2(radius * (std::cos(0.3) - std::cos(heading)), radius * (std::sin(heading) - std::sin(0.3)));
+    return {{place.x(), place.y(), -1.0},
+            frames::enu_from_body(frames::Attitude{heading, 0.02 * std::sin(t), 0.03 * std::cos(t)})};
+  }
+};
+
+double seconds_of(const auto& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// 50 m above the seabed, 130 degrees: a swath of 214 m.
+void adapt(benchmark::State& state) {
+  const Track track{0.1 * static_cast<double>(state.range(0)), static_cast<double>(state.range(1)),
+                    static_cast<double>(state.range(2)) * std::numbers::pi / 180.0};
+  World world(51.0, true);
+  int ping = 0;
+  world.page({0, 0}, 170.0);
+  const auto views = [&] { return trace::views_of(kFan, track.at(ping), 130.0, {}, 2); };
+  world.scene().adapt(views());
+  std::vector<double> processor_s, wall_s;
+  std::size_t triangles = 0;
+  for (auto _ : state) {
+    ++ping;
+    world.page(track.at(ping).position_enu_m.head<2>(), 170.0);
+    const std::clock_t start = std::clock();
+    wall_s.push_back(seconds_of([&] { world.scene().adapt(views()); }));
+    processor_s.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    state.SetIterationTime(wall_s.back());
+    triangles = std::max(triangles, world.scene().triangles());
+  }
+  state.counters["worst_ms"] = 1e3 * *std::ranges::max_element(wall_s);
+  state.counters["worst_cpu_ms"] = 1e3 * *std::ranges::max_element(processor_s);
+  double sum = 0.0;
+  for (const double s : processor_s) sum += s;
+  state.counters["mean_cpu_ms"] = 1e3 * sum / static_cast<double>(processor_s.size());
+  state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["paged_over_held"] = world.paged_triangles() / static_cast<double>(triangles);
+}
+
+/// Paging, adaptation and rays over a world of one tile (10^6 posts), and of tiles without end; 20 m above the seabed,
+/// so that the swath fits on the tile. In turns: what the endless one takes more.
+void endless_over_small(benchmark::State& state) {
+  World small(21.0, false), endless(21.0, true);
+  const Track straight{4.0, 10.0, 0.0};
+  std::vector<trace::Ray> rays;
+  trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
+  std::vector<trace::Hit> hits;
+  double small_s = 0.0, endless_s = 0.0;
+  int ping = 0;
+  const auto one = [&](World& world, const frames::HeadPose& head) {
+    const std::clock_t start = std::clock();
+    world.page(head.position_enu_m.head<2>(), 83.0);
+    world.scene().adapt(trace::views_of(kFan, head, 52.0, {}, 2));
+    world.scene().trace(head, rays, 52.0F, hits);
+    return static_cast<double>(std::clock() - start);
+  };
+  for (auto _ : state) {
+    ++ping;
+    // To and fro over 4 m in the middle of the one tile, as fast as over the endless ones.
+    const int phase = ping % 20;
+    const double small_part = one(small, straight.at(phase < 10 ? phase - 5 : 15 - phase));
+    const double endless_part = one(endless, straight.at(ping));
+    if (ping <= 20) continue;
+    small_s += small_part;
+    endless_s += endless_part;
+  }
+  state.counters["endless/small"] = endless_s / small_s;
+}
+
+BENCHMARK(adapt)
+    ->ArgNames({"dm/s", "Hz", "deg/s"})
+    ->Args({20, 10, 0})
+    ->Args({40, 5, 0})
+    ->Args({40, 10, 0})
+    ->Args({20, 10, 6})
+    ->Args({40, 5, 6})
+    ->UseManualTime()
+    ->Iterations(200)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(endless_over_small)->Iterations(400)->Unit(benchmark::kMillisecond);
+
+/// The bench is void if a ray gets lost.
+void check() {
+  World world(51.0, true);
+  world.page({0, 0}, 170.0);
+  const frames::HeadPose head = Track{4.0, 5.0, 0.1}.at(3);
+  world.scene().adapt(trace::views_of(kFan, head, 130.0, {}, 2));
+  std::vector<trace::Ray> rays;
+  trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
+  std::vector<trace::Hit> hits;
+  world.scene().trace(head, rays, 130.0F, hits);
+  for (const trace::Hit& hit : hits) {
+    if (hit.hit()) continue;
+    std::fprintf(stderr, "a ray is lost\n");
+    std::exit(1);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  check();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,83 @@
+#include "kernels/lod/hierarchy.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace ensonify::lod {
+namespace {
+
+using terrain::Vec3;
+
+constexpr double kSlack_m = 0.01;
+constexpr std::int32_t kFewestCells = 3;
+
+std::int32_t blocks_over(std::int32_t cells, std::int32_t size) {
+  return (cells + span_cells(size) - 1) / span_cells(size);
+}
+
+std::int32_t cells_between(std::int32_t first, std::int32_t last, std::int32_t level) {
+  return (last - first + (1 << level) - 1) >> level;
+}
+
+}  // namespace
+
+Hierarchy::Hierarchy(const terrain::Tile& tile)
+    : origin_enu_m_(tile.origin_enu_m),
+      spacing_m_(tile.spacing_m),
+      last_column_(tile.columns - 1),
+      last_row_(tile.rows - 1) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (std::int32_t size = 0; size <= kLargest; ++size) {
+    const std::int32_t columns = blocks_over(last_column_, size), rows = blocks_over(last_row_, size);
+    sizes_.push_back({columns, rows, {}});
+    auto& all = sizes_.back().bounds;
+    all.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), {kInfinity, -kInfinity});
+  }
+  for (std::int32_t row = 0; row < rows(0); ++row) {
+    for (std::int32_t column = 0; column < columns(0); ++column) {
+      const Posts under = posts({0, column, row});
+      float lowest = kInfinity, highest = -kInfinity;
+      for (std::int32_t y = under.south; y <= under.north; ++y) {
+        for (std::int32_t x = under.west; x <= under.east; ++x) {
+          const float height = tile.height_m[tile.post(x, y)];  // comparisons with a hole are false
+          lowest = height < lowest ? height : lowest;
+          highest = height > highest ? height : highest;
+        }
+      }
+      for (std::int32_t size = 0; size <= kLargest; ++size) {
+        Size& of = sizes_[static_cast<std::size_t>(size)];
+        Bounds& all = of.bounds[static_cast<std::size_t>((row >> size) * of.columns + (column >> size))];
+        all = {std::min(all.lowest_m, lowest), std::max(all.highest_m, highest)};
+      }
+    }
+  }
+}
+
+Posts Hierarchy::posts(const Block& block) const {
+  const std::int32_t span = span_cells(block.size);
+  return {block.column * span, std::min((block.column + 1) * span, last_column_), block.row * span,
+          std::min((block.row + 1) * span, last_row_)};
+}
+
+const Hierarchy::Bounds& Hierarchy::bounds(const Block& block) const {
+  const Size& size = sizes_[static_cast<std::size_t>(block.size)];
+  return size.bounds[static_cast<std::size_t>(block.row * size.columns + block.column)];
+}
+
+Sphere Hierarchy::sphere(const Block& block) const {
+  const Posts under = posts(block);
+  const Bounds& heights = bounds(block);
+  const Vec3 low(origin_enu_m_.x() + spacing_m_ * under.west, origin_enu_m_.y() + spacing_m_ * under.south,
+                 static_cast<double>(heights.lowest_m));
+  const Vec3 high(origin_enu_m_.x() + spacing_m_ * under.east, origin_enu_m_.y() + spacing_m_ * under.north,
+                  static_cast<double>(heights.highest_m));
+  return {0.5 * (low + high), 0.5 * (high - low).norm() + kSlack_m};
+}
+
+bool Hierarchy::has_room(const Leaf& leaf) const {
+  const Posts under = posts(leaf.block);
+  return leaf.level == 0 || (cells_between(under.west, under.east, leaf.level) >= kFewestCells &&
+                             cells_between(under.south, under.north, leaf.level) >= kFewestCells);
+}
+
+}  // namespace ensonify::lod

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "kernels/lod/cover.h"
+#include "kernels/trace/mesh.h"
+#include "kernels/trace/scene.h"
+
+/// What a scene is made of. Private to this folder: it includes Embree.
+namespace ensonify::trace {
+
+struct Entry {
+  terrain::Tile tile;
+  lod::Hierarchy hierarchy;
+  Heights heights;  // of the posts
+  std::vector<Object> objects;
+  lod::Cover cover;
+};
+
+std::vector<Object> objects_of(const terrain::Tile& tile);
+
+struct PartKey {
+  terrain::TileKey tile;
+  lod::Leaf leaf;
+  lod::Rim rim;
+  auto operator<=>(const PartKey&) const = default;
+};
+
+struct CachedPart {
+  Part part;
+  std::uint64_t used = 0;  // last, by number of adaptation
+};
+
+struct Scene::Impl {
+  Device device;
+  frames::Vec2 origin_enu_m;
+  LevelOfDetail detail;
+  std::map<terrain::TileKey, Entry> tiles;
+  std::vector<Object> objects;  // of all tiles
+
+  std::vector<lod::View> views;  // of the mesh ...
+  bool stale = true;             // ... unless tiles have come or gone since
+  std::uint64_t adaptations = 0;
+  std::map<PartKey, CachedPart> parts;
+  Mesh mesh;
+
+  void gather_objects();
+  void adapt(std::span<const lod::View> wanted);
+  void show();
+  /// A tile comes or goes: there is no mesh until the next adaptation.
+  void change(const terrain::TileKey& key);
+  /// All at full detail, unless detail depends on the view.
+  void show_all();
+  lod::Neighbours neighbours_of(const terrain::TileKey& key) const;
+  std::vector<const Part*> use(const std::vector<PartKey>& keys);
+};
+
+}  // namespace ensonify::trace
