@@ -1,0 +1,143 @@
+#include "kernels/survey/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace ensonify::survey {
+namespace {
+
+Vec2 forward_of(const Rectangle& r) { return {std::sin(r.heading_rad), std::cos(r.heading_rad)}; }
+Vec2 starboard_of(const Rectangle& r) { return {std::cos(r.heading_rad), -std::sin(r.heading_rad)}; }
+
+std::size_t cells(double extent_m, double cell_m) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(extent_m / cell_m)));
+}
+
+}  // namespace
+
+Runline line_across(const Rectangle& r, double across_m, bool back) {
+  const Vec2 middle = r.centre_enu_m + (across_m - 0.5 * r.width_m) * starboard_of(r);
+  const Vec2 half = 0.5 * r.length_m * forward_of(r);
+  const Runline line{middle - half, middle + half};
+  return back ? navigation::reversed(line) : line;
+}
+
+Coverage::Coverage(const Rectangle& r, double cell_m, int needed)
+    : cell_m_(cell_m),
+      needed_(static_cast<std::uint32_t>(needed)),
+      forward_(forward_of(r)),
+      starboard_(starboard_of(r)),
+      corner_enu_m_(r.centre_enu_m - 0.5 * r.length_m * forward_ - 0.5 * r.width_m * starboard_),
+      columns_(cells(r.width_m, cell_m)),
+      rows_(cells(r.length_m, cell_m)),
+      cells_(columns_ * rows_) {
+  if (!(cell_m > 0.0) || needed < 1) throw std::invalid_argument("Coverage: cell_m must be above 0, needed at least 1");
+}
+
+void Coverage::add(const Vec2& place_enu_m, double height_m) {
+  const Vec2 off = place_enu_m - corner_enu_m_;
+  const double column = std::floor(off.dot(starboard_) / cell_m_), row = std::floor(off.dot(forward_) / cell_m_);
+  if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) && row < static_cast<double>(rows_))) {
+    return;
+  }
+  Cell& cell = cells_[static_cast<std::size_t>(column) * rows_ + static_cast<std::size_t>(row)];
+  ++cell.soundings;
+  ++cell.of_this_line;
+  cell.sum_m += height_m;
+}
+
+void Coverage::end_line() {
+  for (Cell& cell : cells_) {
+    cell.lines += cell.of_this_line >= needed_;
+    cell.of_this_line = 0;
+  }
+}
+
+double Coverage::height_m(std::size_t column, std::size_t row) const {
+  const Cell& cell = at(column, row);
+  return cell.soundings == 0 ? std::numeric_limits<double>::quiet_NaN() : cell.sum_m / cell.soundings;
+}
+
+std::vector<CoveredEdge> Coverage::open_rows(double across_m, double head_height_m) const {
+  constexpr std::size_t kNear = 3;  // cells from the edge back that tell its depth: the shallowest counts
+  const auto first =
+      static_cast<std::size_t>(std::clamp(std::floor(across_m / cell_m_), 0.0, static_cast<double>(columns_ - 1)));
+  std::vector<CoveredEdge> open;
+  double least_known_m = std::numeric_limits<double>::infinity();
+  for (std::size_t row = 0; row < rows_; ++row) {
+    std::size_t end = first;
+    while (end < columns_ && is_covered(end, row)) ++end;
+    if (end == columns_) continue;
+    double depth_m = std::numeric_limits<double>::infinity();
+    for (std::size_t column = end; column + kNear >= end; --column) {
+      const double height = height_m(column, row);
+      if (!std::isnan(height)) depth_m = std::min(depth_m, head_height_m - height);
+      if (column == 0) break;
+    }
+    open.push_back({static_cast<double>(end) * cell_m_, depth_m});
+    least_known_m = std::min(least_known_m, depth_m);
+  }
+  if (std::isinf(least_known_m)) return {};
+  for (CoveredEdge& edge : open) {
+    if (std::isinf(edge.depth_m)) edge.depth_m = least_known_m;
+  }
+  return open;
+}
+
+double Coverage::take_holes(double reach_m) {
+  std::size_t most = 0, best = 0;
+  for (std::size_t column = 0; column < columns_; ++column) {
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows_; ++row) count += !is_covered(column, row) && !at(column, row).marked;
+    if (count > most) most = count, best = column;
+  }
+  if (most == 0) return std::numeric_limits<double>::quiet_NaN();
+  const double across_m = (static_cast<double>(best) + 0.5) * cell_m_;
+  for (std::size_t column = 0; column < columns_; ++column) {
+    if (std::abs((static_cast<double>(column) + 0.5) * cell_m_ - across_m) > reach_m) continue;
+    for (std::size_t row = 0; row < rows_; ++row) cells_[column * rows_ + row].marked = true;
+  }
+  return across_m;
+}
+
+Coverage::Depths Coverage::depths(double head_height_m) const {
+  Depths found;
+  bool any = false;
+  for (std::size_t column = 0; column < columns_; ++column) {
+    double sum_m = 0.0, least_m = std::numeric_limits<double>::infinity();
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows_; ++row) {
+      if (!is_covered(column, row)) continue;
+      const double depth_m = head_height_m - height_m(column, row);
+      sum_m += depth_m;
+      least_m = std::min(least_m, depth_m);
+      ++count;
+    }
+    if (count == 0) continue;
+    const double mean_m = sum_m / static_cast<double>(count);
+    found.shallowest_cell_m = any ? std::min(found.shallowest_cell_m, least_m) : least_m;
+    found.shallowest_column_m = any ? std::min(found.shallowest_column_m, mean_m) : mean_m;
+    found.deepest_column_m = any ? std::max(found.deepest_column_m, mean_m) : mean_m;
+    any = true;
+  }
+  return found;
+}
+
+double Coverage::covered() const { return 1.0 - static_cast<double>(holes()) / static_cast<double>(cells_.size()); }
+
+double Coverage::overlapped() const {
+  std::size_t covered = 0, lines = 0;
+  for (const Cell& cell : cells_) {
+    covered += cell.lines > 0;
+    lines += cell.lines;
+  }
+  return covered == 0 ? 0.0 : static_cast<double>(lines) / static_cast<double>(covered);
+}
+
+std::size_t Coverage::holes() const {
+  return static_cast<std::size_t>(
+      std::count_if(cells_.begin(), cells_.end(), [&](const Cell& cell) { return cell.soundings < needed_; }));
+}
+
+}  // namespace ensonify::survey

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "kernels/navigation/runline.h"
+#include "kernels/survey/spacing.h"
+
+namespace ensonify::survey {
+
+using navigation::Runline;
+using navigation::Vec2;
+
+/// Depth below the head at a place, m; NaN where it is not known.
+using DepthAt = std::function<double(const Vec2& place_enu_m)>;
+
+using Polygon = std::vector<Vec2>;  // corners in order, either sense; the last is joined to the first
+
+/// Of a simple polygon, >= 0.
+double area_m2(const Polygon& polygon);
+
+/// How lines are laid over an area.
+struct LayRules {
+  double heading_rad = 0.0;  // grid, of the first line; the survey goes on to starboard of it
+  Swath swath;
+  double shortest_line_m = 1.0;  // pieces of lines that are shorter are left out
+  double row_m = 5.0;            // distance along lines at which the bottom is looked at, > 0
+};
+
+/// Parallel lines over an area, run alternately up and down, each as far from the one before as the swath allows on the
+/// bottom there. Where the area is concave a line may come in pieces. `depth` decides everything that `rules` do not:
+/// a slope spreads the lines. Throws std::invalid_argument for fewer than 3 corners, an area of zero, depths that are
+/// not known or not above 0, and more than 10000 lines.
+std::vector<Runline> adapted_lines(const Polygon& area, const DepthAt& depth, const LayRules& rules);
+
+/// The same with one distance between lines, the one that the shallowest place asks for.
+std::vector<Runline> fixed_lines(const Polygon& area, const DepthAt& depth, const LayRules& rules);
+
+/// The same with a distance that is given; less, so that all are alike and the first lies half of it from the edge.
+std::vector<Runline> spaced_lines(const Polygon& area, double spacing_m, const LayRules& rules);
+
+}  // namespace ensonify::survey
