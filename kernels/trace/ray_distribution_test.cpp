@@ -90,12 +90,12 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
   CHECK(starboard == Approx(20 * kDegree).margin(0.01));
 }
 
-/// Relief of 0.3 m rms, smooth below 2.5 m, and some 200 boulders per hectare.
+/// Relief of 0.3 m rms, smooth below 1 m (four posts), and some 200 boulders per hectare.
 static Scene strewn_with_boulders(std::uint64_t seed, double spacing_m, int cells) {
   const ensonify::relief::Bodies boulders(
       {.per_km2 = 20000, .smallest_radius_m = 0.5, .largest_radius_m = 2.0, .size_exponent = 1.0}, spacing_m, seed,
       "boulders");
-  const ensonify::relief::SpectralSurface relief({.rms_m = 0.3, .outer_scale_m = 40.0, .inner_scale_m = 2.5}, spacing_m,
+  const ensonify::relief::SpectralSurface relief({.rms_m = 0.3, .outer_scale_m = 40.0, .inner_scale_m = 1.0}, spacing_m,
                                                  seed, "relief");
   const ensonify::relief::Window posts{0, -cells / 2, -cells / 2, cells + 1, cells + 1};
   std::vector<float> body_m(posts.size()), relief_m(posts.size());
