@@ -38,6 +38,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"physics", "values of the acoustic models, as CSV or JSON"},
     {"terrain", "seabeds on disk: build, info, verify, sample"},
     {"doctor", "look for what is wrong with this machine or installation"},
+    {"patch", "the patch test of a multibeam, from a record of its lines"},
     {"plot", "pictures and summary of a survey"},
 };
 

@@ -1,0 +1,234 @@
+#include "kernels/boresight/adjust.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "kernels/boresight/cells.h"
+#include "kernels/boresight/drift.h"
+#include "kernels/boresight/plane.h"
+
+namespace ensonify::boresight {
+
+namespace {
+
+constexpr double kLoose = 10.0;  // s, rad: a prior that decides nothing that can be observed
+constexpr int kChoosing =
+    8;  // rounds in which soundings may still change their cells; convergence is Newton's afterwards
+constexpr double kTypical = 20.0;       // soundings that the typical cell counts for in the variance of each
+constexpr double kLeastSigmaM = 0.003;  // of a plane fit: few soundings can lie on it by luck
+
+class Adjustment {
+ public:
+  Adjustment(const std::vector<Line>& lines, const AdjustSettings& settings)
+      : lines_(lines), settings_(settings), drift_(lines, settings) {
+    state_ = Vector::Zero(static_cast<Eigen::Index>(drift_.size()));
+    prior_ = priors();
+  }
+
+  Adjusted run() {
+    Adjusted result;
+    for (result.rounds = 1; result.rounds <= settings_.most_rounds; ++result.rounds) {
+      gather(result.rounds <= kChoosing);
+      if (result.rounds == 1) result.rms_before_m = rms();
+      const Vector step = normal_.llt().solve(-gradient_ - prior_ * state_);
+      state_ += step;
+      if (step.head<kUnknowns>().cwiseAbs().maxCoeff() < 1e-6) {  // 1 us, 0.2 seconds of arc
+        result.converged = true;
+        break;
+      }
+    }
+    gather(false);
+    finish(result);
+    return result;
+  }
+
+ private:
+  /// The inverse covariance of all unknowns before anything was heard. What is not solved for gets a very large one.
+  Matrix priors() const {
+    constexpr double kFixed = 1e24;
+    Matrix prior = drift_.inverse_covariance();
+    for (std::size_t k = 0; k < kUnknowns; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      prior(i, i) = settings_.solve[k] ? 1.0 / (kLoose * kLoose) : kFixed;
+    }
+    return prior;
+  }
+
+  /// The offsets there and then: the installation's, and what the attitude is off.
+  Offsets offsets_at(const Drift::Columns& columns) const {
+    Offsets offsets = offsets_of(state_.head<kUnknowns>());
+    offsets.roll_rad += state_[columns[3]];
+    offsets.pitch_rad += state_[columns[4]];
+    offsets.yaw_rad += state_[columns[5]];
+    return offsets;
+  }
+
+  const Sounding& sounding(const SoundingRef& ref) const { return lines_[ref.line].soundings[ref.index]; }
+  Drift::Columns columns_of(const SoundingRef& ref) const { return drift_.columns(ref.line, sounding(ref).time_s); }
+
+  Places placed() const {
+    Places places(lines_.size());
+    for (std::size_t line = 0; line < lines_.size(); ++line) {
+      for (const Sounding& s : lines_[line].soundings) {
+        const Drift::Columns c = drift_.columns(line, s.time_s);
+        places[line].push_back(place(s, offsets_at(c)).place_enu_m + Vec3(state_[c[0]], state_[c[1]], state_[c[2]]));
+      }
+    }
+    return places;
+  }
+
+  /// What is compared at these places: soundings by cell, without those far from the cell's plane.
+  void choose(const Places& places) {
+    const Cells cells(places, settings_.cell_m, settings_.least);
+    chosen_.clear();
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const Members all(cells[n].members.begin(), cells[n].members.end());
+      const Plane rough(all, places);
+      Members kept;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const double off_m = std::abs(rough.residual_m()[static_cast<Eigen::Index>(i)]);
+        if (off_m <= settings_.gate_sds * rough.sigma_m()) kept.push_back(all[i]);
+      }
+      if (!kept.empty() && kept.front().line != kept.back().line) chosen_.push_back(std::move(kept));
+    }
+    if (chosen_.empty()) {
+      throw std::invalid_argument("no square of " + std::to_string(settings_.cell_m) + " m holds at least " +
+                                  std::to_string(settings_.least) + " soundings of two lines: do the lines overlap?");
+    }
+  }
+
+  /// Normal equations and residuals at the present state.
+  void gather(bool anew) {
+    const Places places = placed();
+    if (anew) choose(places);
+    std::vector<Plane> planes;
+    std::vector<double> variances;
+    for (const Members& members : chosen_) {
+      planes.emplace_back(members, places);
+      variances.push_back(planes.back().sigma_m() * planes.back().sigma_m());
+    }
+    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+    std::nth_element(variances.begin(), middle, variances.end());
+    typical_m2_ = std::max(*middle, kLeastSigmaM * kLeastSigmaM);
+    normal_ = scatter_ = prior_;
+    gradient_ = Vector::Zero(state_.size());
+    squares_ = 0.0;
+    used_ = 0;
+    for (std::size_t n = 0; n < planes.size(); ++n) {
+      const std::vector<Eigen::Index> where = unknowns_of_cell(chosen_[n]);
+      accumulate(chosen_[n], planes[n], where, equations(chosen_[n], planes[n], where));
+    }
+  }
+
+  /// The unknowns that matter in a cell, rising.
+  std::vector<Eigen::Index> unknowns_of_cell(const Members& members) const {
+    std::vector<Eigen::Index> where;
+    for (std::size_t k = 0; k < kUnknowns; ++k) where.push_back(static_cast<Eigen::Index>(k));
+    for (const SoundingRef& ref : members) {
+      const Drift::Columns columns = columns_of(ref);
+      where.insert(where.end(), columns.begin(), columns.end());
+    }
+    std::sort(where.begin(), where.end());
+    where.erase(std::unique(where.begin(), where.end()), where.end());
+    return where;
+  }
+
+  /// One row per sounding: how its residual changes with the unknowns `where`, and last the residual, all without what
+  /// the plane explains.
+  Matrix equations(const Members& members, const Plane& plane, const std::vector<Eigen::Index>& where) const {
+    Matrix rows = Matrix::Zero(static_cast<Eigen::Index>(members.size()), static_cast<Eigen::Index>(where.size() + 1));
+    const Eigen::RowVector3d across = plane.across();
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const SoundingRef& ref = members[static_cast<std::size_t>(i)];
+      const Drift::Columns columns = columns_of(ref);
+      const Eigen::Matrix<double, 1, kUnknowns> rates = across * place(sounding(ref), offsets_at(columns)).rates;
+      rows.block<1, kUnknowns>(i, 0) = rates;
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const auto at = std::lower_bound(where.begin(), where.end(), columns[k]) - where.begin();
+        rows(i, at) = k < 3 ? across[static_cast<Eigen::Index>(k)] : rates[static_cast<Eigen::Index>(k - 1)];
+      }
+    }
+    rows.rightCols<1>() = plane.residual_m();
+    plane.project_out(rows);
+    return rows;
+  }
+
+  void accumulate(const Members& members, const Plane& plane, const std::vector<Eigen::Index>& where,
+                  const Matrix& rows) {
+    const double free = static_cast<double>(members.size()) - 3.0, square = plane.residual_m().squaredNorm();
+    const double weight = (kTypical + free) / (kTypical * typical_m2_ + square);
+    squares_ += square;
+    used_ += members.size();
+    const Matrix products = weight * rows.transpose() * rows;
+    const Matrix pulls = weight * std::sqrt((free + 3.0) / free) * plane.residual_m().asDiagonal() * rows;
+    const Matrix scatter = pulls.transpose() * pulls;  // outer beams err more than those beside them from other lines
+    const Eigen::Index last = rows.cols() - 1;
+    for (Eigen::Index a = 0; a < last; ++a) {
+      gradient_[where[static_cast<std::size_t>(a)]] += products(a, last);
+      for (Eigen::Index b = 0; b < last; ++b) {
+        normal_(where[static_cast<std::size_t>(a)], where[static_cast<std::size_t>(b)]) += products(a, b);
+        scatter_(where[static_cast<std::size_t>(a)], where[static_cast<std::size_t>(b)]) += scatter(a, b);
+      }
+    }
+  }
+
+  double rms() const { return used_ > 0 ? std::sqrt(squares_ / static_cast<double>(used_)) : 0.0; }
+
+  /// Deviations by what is left of each sounding (heteroscedasticity-consistent [White1980]).
+  void finish(Adjusted& result) const {
+    const Matrix inverse = normal_.llt().solve(Matrix::Identity(normal_.rows(), normal_.cols()));
+    const Matrix covariance = inverse * scatter_ * inverse;
+    result.offsets = offsets_of(state_.head<kUnknowns>());
+    for (std::size_t k = 0; k < kUnknowns; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      if (!settings_.solve[k]) continue;
+      result.sd[i] = std::sqrt(covariance(i, i));
+    }
+    result.rms_after_m = rms();
+    result.cells = chosen_.size();
+    result.soundings = used_;
+  }
+
+  const std::vector<Line>& lines_;
+  const AdjustSettings& settings_;
+  const Drift drift_;
+  Vector state_, gradient_;
+  Matrix prior_, normal_, scatter_;
+  std::vector<Members> chosen_;  // by cell
+  double typical_m2_ = 1.0;      // variance about a cell's plane
+  double squares_ = 0.0;
+  std::size_t used_ = 0;
+};
+
+void check(const std::vector<Line>& lines, const AdjustSettings& settings) {
+  if (lines.size() < 2) throw std::invalid_argument("a patch test compares at least two lines");
+  if (!(settings.cell_m > 0.0) || !(settings.piece_s > 0.0) || !(settings.height_piece_s > 0.0) ||
+      !(settings.wander_s > 0.0) || !(settings.gate_sds > 0.0) || settings.least < 3 || settings.most_rounds < 1) {
+    throw std::invalid_argument(
+        "cell, pieces, wander and gate are positive, a cell takes at least 3 soundings of a line");
+  }
+  for (const Line& line : lines) {
+    for (const Sounding& s : line.soundings) {
+      if (!s.place_enu_m.allFinite() || !s.head_enu_m.allFinite() || !std::isfinite(s.time_s)) {
+        throw std::invalid_argument("a sounding has a place that is not finite");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Offsets offsets_of(const Unknowns& u) { return {u[0], u[1], u[2], u[3], u[4]}; }
+
+Unknowns unknowns_of(const Offsets& o) {
+  return (Unknowns() << o.position_latency_s, o.attitude_latency_s, o.roll_rad, o.pitch_rad, o.yaw_rad).finished();
+}
+
+Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings) {
+  check(lines, settings);
+  return Adjustment(lines, settings).run();
+}
+
+}  // namespace ensonify::boresight

@@ -1,0 +1,49 @@
+#include <catch2/catch.hpp>
+
+#include "kernels/boresight/test_survey.h"
+
+using namespace ensonify::boresight;
+using namespace ensonify::boresight::testing;
+
+TEST_CASE("without noise the offsets come back") {
+  Errors none;
+  const Adjusted found = adjust(survey_all(kPatchTest, calibration_site, kTruth, none, 1), kCoarse);
+  INFO("error " << error_of(found).transpose());
+  CHECK(found.converged);
+  // What is left is the bend of rock and knee within cells: a twentieth of what a patch test is asked for.
+  for (Eigen::Index k = 0; k < 5; ++k) CHECK(std::abs(error_of(found)[k]) < 0.05 * kLimits[k]);
+  CHECK(found.rms_after_m < 0.2 * found.rms_before_m);  // of the rock within its cells
+}
+
+TEST_CASE("what the lines hardly tell comes with a wide interval") {
+  // To and fro over a level bottom: roll shows as ever, the position's latency does not.
+  const std::vector<Course> courses = {{-100, 100, 0, 4}, {100, -100, 0, 4}};
+  const Offsets truth{.position_latency_s = 0.1, .roll_rad = 0.5 * kDegree};
+  const Adjusted found = adjust(survey_all(courses, level, truth, kFogRtk, 3), kCoarse);
+  INFO("sd " << found.sd.transpose());
+  CHECK(found.sd[0] > 0.1);
+  CHECK(found.sd[2] < 0.01 * kDegree);
+  CHECK(found.offsets.position_latency_s == Approx(0.1).margin(3 * found.sd[0]));
+  CHECK(found.offsets.roll_rad == Approx(0.5 * kDegree).margin(3 * found.sd[2]));
+}
+
+TEST_CASE("an unknown that is not asked for stays zero") {
+  AdjustSettings settings = kCoarse;
+  settings.solve = {false, false, true, false, false};
+  const Adjusted found = adjust(survey_all(kPatchTest, calibration_site, {.roll_rad = 0.01}, {}, 1), settings);
+  CHECK(found.offsets.position_latency_s == Approx(0.0).margin(1e-12));
+  CHECK(found.offsets.yaw_rad == Approx(0.0).margin(1e-12));
+  CHECK(found.offsets.roll_rad == Approx(0.01).epsilon(0.01));
+  CHECK(found.sd[4] == 0.0);
+}
+
+TEST_CASE("what cannot be compared is refused") {
+  const Line line = survey(kPatchTest[0], level, {}, {}, Stream(1, "line"));
+  const Line far = survey({-150, 150, 4000, 4}, level, {}, {}, Stream(1, "line"));
+  CHECK_THROWS_AS(adjust({line}, {}), std::invalid_argument);
+  CHECK_THROWS_WITH(adjust({line, far}, {}), Catch::Contains("do the lines overlap"));
+  CHECK_THROWS_AS(adjust({line, line}, {.cell_m = 0.0}), std::invalid_argument);
+  Line broken = line;
+  broken.soundings[3].place_enu_m.x() = std::nan("");
+  CHECK_THROWS_WITH(adjust({line, broken}, {}), Catch::Contains("not finite"));
+}

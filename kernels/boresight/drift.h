@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "kernels/boresight/adjust.h"
+
+namespace ensonify::boresight {
+
+/// What the navigation of each line may be off, as unknowns behind the global ones: east, north, up, roll, pitch and
+/// heading, constant over pieces of time. Heights wander with every wave that heave misses, so theirs are short.
+class Drift {
+ public:
+  static constexpr std::size_t kAxes = 6;
+  using Columns = std::array<Eigen::Index, kAxes>;  // places in the state
+
+  Drift(const std::vector<Line>& lines, const AdjustSettings& settings);
+
+  Eigen::Index size() const { return size_; }  // of the state
+  Columns columns(std::size_t line, double time_s) const;
+
+  /// Of a stationary first-order process along each line and axis; zero for the global unknowns.
+  Eigen::MatrixXd inverse_covariance() const;
+
+ private:
+  struct Pieces {
+    Eigen::Index first, count;
+    double start_s, length_s, sd;
+  };
+  std::vector<std::array<Pieces, kAxes>> pieces_;  // by line
+  double wander_s_;
+  Eigen::Index size_ = static_cast<Eigen::Index>(kUnknowns);
+};
+
+}  // namespace ensonify::boresight

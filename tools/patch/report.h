@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernels/boresight/adjust.h"
+#include "tools/patch/record_soundings.h"
+#include "tools/patch/split_lines.h"
+
+namespace ensonify::patch_tool {
+
+/// What a patch test found, and from what.
+struct Finding {
+  Heard heard;                 // its soundings have gone into `lines`
+  std::vector<RunLine> lines;  // all that were found
+  std::vector<bool> used;      // of the lines
+  boresight::Adjusted adjusted;
+};
+
+std::string as_text(const Finding& finding);
+std::string as_json(const Finding& finding);
+
+}  // namespace ensonify::patch_tool
