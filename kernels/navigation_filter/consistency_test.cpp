@@ -180,19 +180,20 @@ class Run {
 
 }  // namespace
 
-TEST_CASE("the filter is as wrong as it says: mean NEES of 100 runs") {
-  // 150 s with fixes on the surface, then 250 s without, log and depth all along; epochs each 5 s. Of 100 runs the mean
-  // of nine degrees of freedom is chi-square of 900 over 100: 95 % between 8.19 and 9.85. The epochs of a run share its
-  // draws, so how many of them are inside is itself a matter of luck: seeds 1-400 give 9.21 for the FOG grade and 9.02
-  // for the tactical one over all epochs, and of their eight hundreds seven have 90 % inside (one has 88 %).
+TEST_CASE("the filter is as wrong as it says: mean NEES of 200 runs") {
+  // 150 s with fixes on the surface, then 250 s without, log and depth all along; epochs each 5 s. Of 200 runs the mean
+  // of nine degrees of freedom is chi-square of 1800 over 200: 95 % between 8.42 and 9.60. The epochs of a run share
+  // what is drawn once (correlation 0.44), so how many of them are inside is itself a matter of luck: of 100 runs of a
+  // filter that is right, 15 in 100 have fewer than 90 % inside (docs/navigation/filter.md).
+  constexpr int kRuns = 200;
   const Mission m = mission(400.0, 80.0, 2.0);
   for (const Grade& grade : {kFog, kTactical}) {
     std::vector<double> mean(m.truth.size(), 0.0);
-    for (std::uint64_t seed = 101; seed <= 200; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
       Run run(m, grade, seed);
       for (std::size_t n = 1; n < m.truth.size(); ++n) {
         run.step(n, n * kStep_s <= 150.0);
-        if (n % 25 == 0) mean[n] += run.nees(n) / 100.0;
+        if (n % 25 == 0) mean[n] += run.nees(n) / kRuns;
       }
     }
     int epochs = 0, inside = 0;
@@ -200,7 +201,7 @@ TEST_CASE("the filter is as wrong as it says: mean NEES of 100 runs") {
     for (std::size_t n = 25; n < m.truth.size(); n += 25) {
       ++epochs;
       total += mean[n];
-      if (mean[n] > 8.19 && mean[n] < 9.85) ++inside;
+      if (mean[n] > 8.42 && mean[n] < 9.60) ++inside;
     }
     CAPTURE(inside, epochs, total / epochs);
     CHECK(inside >= 0.9 * epochs);

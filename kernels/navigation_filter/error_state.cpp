@@ -102,9 +102,18 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned) const {
 
 void NavigationFilter::propagate_covariance() {
   if (pending_s_ <= 0.0) return;
+  // Only position, velocity and rotation are led by other errors: those of sensors keep to themselves. The transition
+  // to second order in time is therefore [moves; 0, keeps], keeps diagonal.
+  constexpr int kMoving = kGyroBias, kSensors = kErrorCount - kMoving;
   const double t = pending_s_;
   const Covariance ft = t * error_rates(pending_velocity_ned_ / t);
-  const Covariance transition = Covariance::Identity() + ft + 0.5 * ft * ft;
+  const Eigen::Matrix<double, kSensors, 1> decays = ft.diagonal().tail<kSensors>();
+  Eigen::Matrix<double, kMoving, kErrorCount> moves =
+      0.5 * ft.topLeftCorner<kMoving, kMoving>() * ft.topRows<kMoving>();
+  moves.rightCols<kSensors>() += 0.5 * ft.topRightCorner<kMoving, kSensors>() * decays.asDiagonal();
+  moves += ft.topRows<kMoving>();
+  moves.leftCols<kMoving>().diagonal().array() += 1.0;
+  const Eigen::Matrix<double, kSensors, 1> keeps = 1.0 + decays.array() + 0.5 * decays.array().square();
 
   Eigen::Matrix<double, kErrorCount, 1> noise = Eigen::Matrix<double, kErrorCount, 1>::Zero();
   noise.segment<3>(kVelocity).setConstant(squared(model_.imu.accelerometer.random_walk));
@@ -117,7 +126,11 @@ void NavigationFilter::propagate_covariance() {
 
   // Noise of the step by the trapezoidal rule: half of it enters before the transition, half after.
   covariance_.diagonal() += 0.5 * t * noise;
-  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  const Eigen::Matrix<double, kMoving, kErrorCount> moved = moves * covariance_;
+  covariance_.topLeftCorner<kMoving, kMoving>() = moved * moves.transpose();
+  covariance_.topRightCorner<kMoving, kSensors>() = moved.rightCols<kSensors>() * keeps.asDiagonal();
+  covariance_.bottomLeftCorner<kSensors, kMoving>() = covariance_.topRightCorner<kMoving, kSensors>().transpose();
+  covariance_.bottomRightCorner<kSensors, kSensors>().array() *= (keeps * keeps.transpose()).array();
   covariance_.diagonal() += 0.5 * t * noise;
   pending_s_ = 0.0;
   pending_velocity_ned_.setZero();
