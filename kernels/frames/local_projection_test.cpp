@@ -1,5 +1,6 @@
 #include "kernels/frames/local_projection.h"
 
+#include <GeographicLib/TransverseMercatorExact.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -42,6 +43,24 @@ TEST_CASE("true heading is grid heading plus convergence") {
   // A short way along true north has grid bearing -convergence.
   const Vec2 step = map.enu_of({here.latitude_deg + 1e-4, here.longitude_deg}) - east;
   CHECK(std::atan2(step.x(), step.y()) == Approx(-map.convergence_rad(east)).epsilon(1e-5));
+}
+
+TEST_CASE("the series is the exact projection within 5 nm") {
+  // [Karney2011], sec. 4: to the sixth order, within 3900 km. Metres of 1e6 have a rounding of their own of 0.1 to 1
+  // nm.
+  const auto& exact = GeographicLib::TransverseMercatorExact::UTM();  // WGS 84, scale 0.9996
+  for (const double latitude : {-75.0, -30.0, 0.0, 44.0, 80.0}) {
+    const LocalProjection map({latitude, 10.0});
+    double x0 = 0.0, y0 = 0.0, x = 0.0, y = 0.0;
+    exact.Forward(10.0, latitude, 10.0, x0, y0);
+    for (const double east_deg : {0.001, 0.3, 4.0}) {
+      const Geodetic place{latitude + 0.7 * east_deg, 10.0 + east_deg};
+      exact.Forward(10.0, place.latitude_deg, place.longitude_deg, x, y);
+      CHECK((map.enu_of(place) - Vec2(x, y - y0) / 0.9996).norm() < 7e-9);
+      const Geodetic back = map.geodetic_of(map.enu_of(place));
+      CHECK(std::abs(back.latitude_deg - place.latitude_deg) < 7e-9 / 111e3);
+    }
+  }
 }
 
 TEST_CASE("an origin off the globe is refused") {
