@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "messages/array.h"
+
 namespace ensonify::msg {
 
 struct Attitude {
@@ -35,6 +37,8 @@ struct Position {
   double sigma_vertical_m = 0.0;
   std::int64_t quality = 0;
   double hdop = 0.0;
+  double height_above_geoid_m = 0.0;
+  double geoid_above_ellipsoid_m = 0.0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -47,6 +51,9 @@ struct Position {
     visit("quality", "1", "as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told",
           self.quality);
     visit("hdop", "1", "horizontal dilution of precision; 0 not told", self.hdop);
+    visit("height_above_geoid_m", "m", "of the body origin, as in NMEA's GGA", self.height_above_geoid_m);
+    visit("geoid_above_ellipsoid_m", "m", "undulation at the same place, WGS 84, as in NMEA's GGA",
+          self.geoid_above_ellipsoid_m);
   }
 };
 
@@ -144,6 +151,8 @@ struct VelocityLog {
   std::array<double, 4> range_m{};
   double altitude_m = 0.0;
   double error_velocity_mps = 0.0;
+  bool water_lock = false;
+  std::array<double, 3> water_velocity_body_mps{};
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -155,6 +164,9 @@ struct VelocityLog {
     visit("range_m", "m", "along each beam to the bottom; 0: no lock", self.range_m);
     visit("altitude_m", "m", "of the transducer above the bottom; 0: no beam has lock", self.altitude_m);
     visit("error_velocity_mps", "m/s", "what four beams disagree about", self.error_velocity_mps);
+    visit("water_lock", "", "whether velocity is known through the water; else it is zero", self.water_lock);
+    visit("water_velocity_body_mps", "m/s", "of the transducer through the water that is tracked, along the same axes",
+          self.water_velocity_body_mps);
   }
 };
 
@@ -183,6 +195,67 @@ struct Altitude {
     visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
     visit("valid", "", "whether anything answered", self.valid);
     visit("range_m", "m", "along the beam to the bottom; 0: no answer", self.range_m);
+  }
+};
+
+struct CurrentProfile {
+  static constexpr const char* kType = "current_profile/1";
+  static constexpr const char* kAbout = "What a current profiler measures: how water of each bin passes it.";
+  std::int64_t stamp_ns = 0;
+  Array<double> below_transducer_m;
+  Array<double> velocity_body_mps;
+  Array<double> sigma_mps;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("below_transducer_m", "m", "bins: distance of each bin's middle along the instrument's axis, rising",
+          self.below_transducer_m);
+    visit("velocity_body_mps", "m/s",
+          "bins x 3: of the water less the transducer's, along the body's axes as mounting was measured",
+          self.velocity_body_mps);
+    visit("sigma_mps", "m/s", "bins: stated standard deviation of each horizontal component", self.sigma_mps);
+  }
+};
+
+struct Ctd {
+  static constexpr const char* kType = "ctd/1";
+  static constexpr const char* kAbout = "What a probe of conductivity, temperature and depth makes of the water.";
+  std::int64_t stamp_ns = 0;
+  double depth_m = 0.0;
+  double temperature_degc = 0.0;
+  double salinity_psu = 0.0;
+  double sound_speed_mps = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
+    visit("depth_m", "m", "of the probe below the water level", self.depth_m);
+    visit("temperature_degc", "degC", "of the water", self.temperature_degc);
+    visit("salinity_psu", "psu", "of the water, practical salinity", self.salinity_psu);
+    visit("sound_speed_mps", "m/s", "reckoned from the three before", self.sound_speed_mps);
+  }
+};
+
+struct UsblFix {
+  static constexpr const char* kType = "usbl_fix/1";
+  static constexpr const char* kAbout = "Where an ultra-short baseline system finds another vehicle's transponder.";
+  std::int64_t stamp_ns = 0;
+  bool valid = false;
+  double range_m = 0.0;
+  std::array<double, 3> place_body_m{};
+  std::array<double, 3> position_enu_m{};
+  std::array<double, 3> sigma_enu_m{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time that the place belongs to, by the instrument's clock", self.stamp_ns);
+    visit("valid", "", "whether the transponder was heard; else the rest is zero", self.valid);
+    visit("range_m", "m", "from array to transponder, by the sound speed that the system uses", self.range_m);
+    visit("place_body_m", "m", "transponder less array, along the carrier's body axes as mounting was measured",
+          self.place_body_m);
+    visit("position_enu_m", "m", "transponder in the world frame, by the carrier's own estimate", self.position_enu_m);
+    visit("sigma_enu_m", "m", "stated standard deviation of each, of the array's measurement alone", self.sigma_enu_m);
   }
 };
 

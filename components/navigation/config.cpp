@@ -34,7 +34,7 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   config.heights = {scenario.vertical.tide, scenario.vertical.datums, scenario.current, vehicle.floats,
                     vehicle.start ? vehicle.start->position_enu_m.z() : -scenario.mission.depth_m};
   if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
-  config.water = true_profile(scenario);
+  config.water = {true_profile(scenario), true_column(scenario.water), scenario.water.sound_speed_law};
   return config;
 }
 

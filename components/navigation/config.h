@@ -7,8 +7,8 @@
 
 #include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
+#include "components/navigation/true_water.h"
 #include "components/runtime/config/scenario.h"
-#include "kernels/refraction/profile.h"
 
 namespace ensonify {
 
@@ -55,7 +55,7 @@ struct NavigationConfig {
   std::string process;
   Heights heights;
   std::optional<frames::Geodetic> origin;  // not given: the chart tells it
-  refraction::SoundSpeedProfile water = refraction::SoundSpeedProfile::uniform(1500.0);  // the true one
+  TrueWater water;
 
   static NavigationConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
   /// The parameters that have a default in default.yaml.

@@ -21,6 +21,12 @@ struct Heights {
   /// The water level above chart datum at sim time t.
   double water_level_m(double t_s) const { return tide.at(t_s).height_m; }
 
+  /// Of the water at a height above chart datum; it goes along with the tide's streams, not with its height.
+  frames::Vec3 water_velocity_enu_mps(double height_m, double t_s) const {
+    const frames::Vec2 across = current.velocity_enu_mps(-height_m, t_s);
+    return {across.x(), across.y(), 0.0};
+  }
+
   /// The height above chart datum about which a body heaves: with the tide, less what it settles by speed and load.
   double mean_m(const msg::Pose& body) const;
 };

@@ -214,20 +214,67 @@ HeadingConfig read_heading(ConfigReader& from, const frames::Vec3& centre) {
   return heading;
 }
 
+void read_doppler(ConfigReader& from, sensors::JanusGeometry& geometry, sensors::DopplerErrors& errors) {
+  from.optional("slant_deg", geometry.slant_rad, 5, 60, kDegrees);
+  from.optional("first_azimuth_deg", geometry.first_azimuth_rad, -180, 180, kDegrees);
+  from.optional("beam_white_mps", errors.beam_white_mps, 0, 5);
+  from.optional("scale_percent", errors.scale, 0, 20, kPercent);
+  from.optional("longest_m", errors.longest_m, 0.1, 2000);
+}
+
 DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centre) {
   DopplerLogConfig log;
   log.instrument = read_instrument(from, centre, 5.0);
+  from.optional("water_track_m", log.water_track_m, 0, 500);
   read_graded(from, "velocity_log", [&](ConfigReader& errors) {
-    errors.optional("slant_deg", log.geometry.slant_rad, 5, 60, kDegrees);
-    errors.optional("first_azimuth_deg", log.geometry.first_azimuth_rad, -180, 180, kDegrees);
-    errors.optional("beam_white_mps", log.errors.beam_white_mps, 0, 5);
+    read_doppler(errors, log.geometry, log.errors);
     errors.optional("beam_white_percent", log.errors.beam_white_share, 0, 100, kPercent);
-    errors.optional("scale_percent", log.errors.scale, 0, 20, kPercent);
     errors.optional("dropout", log.errors.dropout, 0, 1);
     errors.optional("shortest_m", log.errors.shortest_m, 0, 100);
-    errors.optional("longest_m", log.errors.longest_m, 0.1, 2000);
   });
   return log;
+}
+
+CurrentProfilerConfig read_current_profiler(ConfigReader& from, const frames::Vec3& centre) {
+  CurrentProfilerConfig profiler;
+  profiler.instrument = read_instrument(from, centre, 1.0);
+  read_graded(from, "current_profiler", [&](ConfigReader& section) {
+    read_doppler(section, profiler.geometry, profiler.errors);
+    section.optional("blanking_m", profiler.layout.blanking_m, 0, 100);
+    section.optional("bin_m", profiler.layout.thickness_m, 0.05, 100);
+    section.optional("bins", profiler.layout.count, 1, 200);
+  });
+  return profiler;
+}
+
+CtdConfig read_ctd(ConfigReader& from, const frames::Vec3& centre) {
+  CtdConfig ctd;
+  ctd.instrument = read_instrument(from, centre, 4.0);
+  read_graded(from, "ctd", [&](ConfigReader& errors) {
+    read_scalar(errors.optional_section("depth"), ctd.depth, "m", 100);
+    read_scalar(errors.optional_section("temperature"), ctd.temperature, "degc", 10);
+    read_scalar(errors.optional_section("salinity"), ctd.salinity, "psu", 10);
+  });
+  return ctd;
+}
+
+UsblConfig read_usbl(ConfigReader& from, const frames::Vec3& centre) {
+  UsblConfig usbl;
+  usbl.instrument = read_instrument(from, centre, 0.5);
+  read_graded(from, "usbl", [&](ConfigReader& section) {
+    sensors::UsblErrors& errors = usbl.errors;
+    section.optional("range_white_m", errors.range_white_m, 0, 100);
+    section.optional("sound_speed_percent", errors.sound_speed_scale, -10, 10, kPercent);
+    section.optional("bearing_white_deg", errors.bearing_white_rad, 0, 10, kDegrees);
+    section.optional("longest_m", errors.longest_m, 1, 10000);
+    section.optional("widest_deg", errors.widest_rad, 1, 90, kDegrees);
+    section.optional("outlier", errors.outlier, 0, 1);
+    section.optional("sound_speed_mps", errors.speed_of_sound_mps, 1300, 1700);
+  });
+  std::array<double, 3> transponder{};
+  from.optional("transponder_m", transponder, -500, 500);
+  usbl.transponder_body_m = vec3(transponder);
+  return usbl;
 }
 
 }  // namespace
@@ -267,6 +314,18 @@ Instruments read_instruments(ConfigReader& from) {
     section->optional("longest_m", range.longest_m, 0.1, 2000);
     section->optional("dropout", range.dropout, 0, 1);
   }
+  if (auto section = from.optional_section("sound_speed")) {
+    carried.sound_speed.emplace();
+    carried.sound_speed->instrument = read_instrument(*section, centre, 1.0);
+    read_graded(*section, "sound_speed", [&](ConfigReader& errors) {
+      read_scalar(errors.optional_section("errors"), carried.sound_speed->errors, "mps", 50);
+    });
+  }
+  if (auto section = from.optional_section("ctd")) carried.ctd = read_ctd(*section, centre);
+  if (auto section = from.optional_section("current_profiler")) {
+    carried.current_profiler = read_current_profiler(*section, centre);
+  }
+  if (auto section = from.optional_section("usbl")) carried.usbl = read_usbl(*section, centre);
   return carried;
 }
 

@@ -14,6 +14,7 @@
 #include "kernels/sensors/level.h"
 #include "kernels/sensors/range_sensor.h"
 #include "kernels/sensors/scalar_sensor.h"
+#include "kernels/sensors/usbl.h"
 
 namespace ensonify {
 
@@ -61,6 +62,7 @@ struct DopplerLogConfig {
   Instrument instrument;
   sensors::JanusGeometry geometry;
   sensors::DopplerErrors errors;
+  double water_track_m = 0.0;  // of the water that is tracked below the transducer; 0: water is not tracked
 };
 
 struct DepthConfig {
@@ -73,6 +75,31 @@ struct AltimeterConfig {
   sensors::RangeErrors errors;
 };
 
+struct SoundSpeedConfig {
+  Instrument instrument;
+  sensors::ScalarErrors errors;  // m/s
+};
+
+struct CtdConfig {
+  Instrument instrument;
+  sensors::ScalarErrors depth;        // m
+  sensors::ScalarErrors temperature;  // degC
+  sensors::ScalarErrors salinity;     // psu: what the cell's error comes to
+};
+
+struct CurrentProfilerConfig {
+  Instrument instrument;
+  sensors::JanusGeometry geometry;
+  sensors::DopplerErrors errors;
+  sensors::BinLayout layout;
+};
+
+struct UsblConfig {
+  Instrument instrument;
+  sensors::UsblErrors errors;
+  frames::Vec3 transponder_body_m = frames::Vec3::Zero();  // of the target, in its own frame
+};
+
 /// What the vehicle carries; what is not given it does not.
 struct Instruments {
   std::optional<GnssConfig> gnss;
@@ -82,11 +109,17 @@ struct Instruments {
   std::optional<DopplerLogConfig> velocity_log;
   std::optional<DepthConfig> depth;
   std::optional<AltimeterConfig> altimeter;
+  std::optional<SoundSpeedConfig> sound_speed;
+  std::optional<CtdConfig> ctd;
+  std::optional<CurrentProfilerConfig> current_profiler;
+  std::optional<UsblConfig> usbl;
 
   bool need_seabed() const { return velocity_log || altimeter; }
+  bool meet_seabed() const { return need_seabed() || current_profiler; }
 };
 
-/// Reads the sections gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter. `grade` in a section names a
+/// Reads the sections gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter, sound_speed, ctd,
+/// current_profiler, usbl. `grade` in a section names a
 /// file of the folder grades, or one of the user's; keys beside it go before those of the file. Positions count from
 /// `centre_of_rotation_m` of the body.
 Instruments read_instruments(ConfigReader& from);

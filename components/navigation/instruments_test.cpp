@@ -1,29 +1,13 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 
-#include "components/navigation/node.h"
-#include "components/runtime/config/config_reader.h"
+#include "components/navigation/test_sailing.h"
 #include "components/runtime/head/test_seabed.h"
-#include "components/runtime/testing.h"
 
 using namespace ensonify;
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
+using namespace ensonify::sailing;
 
 namespace {
-
-NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 1) {
-  ConfigReader from = ConfigReader::from_text(yaml, "nav.yaml");
-  NavigationConfig config;
-  config.instruments = read_instruments(from);
-  from.finish();
-  config.process = "nav";
-  config.seed = seed;
-  config.origin = frames::Geodetic{44.0, -63.0};
-  return config;
-}
 
 std::string faults_of(const std::string& yaml) {
   try {
@@ -32,30 +16,6 @@ std::string faults_of(const std::string& yaml) {
     return error.what();
   }
   return "";
-}
-
-/// A circle of 100 m at 2 m/s, rolling 5 degrees in 6 s, at `height(t)`.
-template <class Height>
-msg::Pose circling(SimTime at, const Height& height) {
-  const double t = seconds(at), turn = 2.0 / 100.0, heading = turn * t;
-  const double roll = 5 * kDegree * std::sin(2 * kPi * t / 6),
-               roll_rate = 5 * kDegree * 2 * kPi / 6 * std::cos(2 * kPi * t / 6);
-  msg::Pose pose;
-  pose.stamp_ns = at.count();
-  pose.position_enu_m = {100.0 - 100.0 * std::cos(heading), 100.0 * std::sin(heading), height(t)};
-  pose.velocity_enu_mps = {2.0 * std::sin(heading), 2.0 * std::cos(heading),
-                           (height(t + 1e-3) - height(t - 1e-3)) / 2e-3};
-  pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{heading, 0.0, roll}));
-  const frames::Vec3 rates = frames::body_rates_radps({heading, 0.0, roll}, {turn, 0.0, roll_rate});
-  pose.rate_body_radps = {rates.x(), rates.y(), rates.z()};
-  return pose;
-}
-
-constexpr auto kLevel = [](double) { return -1.0; };
-
-template <class Height>
-void sail(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
-  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", circling(i * 10_ms, height));
 }
 
 template <class Height>
@@ -72,14 +32,17 @@ TEST_CASE("every grade reads, and names its kind") {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().stem().string();
-    const std::size_t split = name.starts_with("motion_sensor") || name.starts_with("velocity_log")
-                                  ? name.find('_', name.find('_') + 1)
-                                  : name.find('_');
+    std::string kind;
+    for (const char* known : {"gnss", "imu", "motion_sensor", "heading", "velocity_log", "depth", "sound_speed", "ctd",
+                              "current_profiler", "usbl"}) {
+      if (name.starts_with(std::string(known) + "_")) kind = known;
+    }
     INFO(name);
-    CHECK(faults_of(name.substr(0, split) + ": { grade: " + name.substr(split + 1) + " }") == "");
+    REQUIRE(!kind.empty());
+    CHECK(faults_of(kind + ": { grade: " + name.substr(kind.size() + 1) + " }") == "");
     ++count;
   }
-  CHECK(count == 15);
+  CHECK(count == 19);
   CHECK(config_of("imu: { grade: fog }").instruments.imu->errors.gyro.turn_on_bias == Approx(0.02 * kDegree / 3600));
   CHECK(config_of("imu: { grade: fog, gyro: { bias_degph: 0.5 } }").instruments.imu->errors.gyro.turn_on_bias ==
         Approx(0.5 * kDegree / 3600));

@@ -53,8 +53,9 @@ struct Moments {
 TEST_CASE("navigation/default.yaml lists every parameter with its default") {
   Scenario scenario;
   scenario.vehicles.resize(1);
-  const std::vector<std::string> listed_when_carried{"gnss",         "imu",   "motion_sensor", "heading",
-                                                     "velocity_log", "depth", "altimeter"};
+  const std::vector<std::string> listed_when_carried{
+      "gnss",      "imu",         "motion_sensor", "heading",          "velocity_log", "depth",
+      "altimeter", "sound_speed", "ctd",           "current_profiler", "usbl"};
   CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, listed_when_carried) == "");
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("the estimate is quieter than the fixes by what the filter's theory sa
 
 TEST_CASE("the probe tells the sound speed at its own depth, with its bias, its noise and its latency") {
   NavigationConfig config = config_of(0);
-  config.water = refraction::SoundSpeedProfile({{0.0, 1500.0}, {10.0, 1520.0}});  // 2 m/s per m
+  config.water.sound_speed = refraction::SoundSpeedProfile({{0.0, 1500.0}, {10.0, 1520.0}});  // 2 m/s per m
   config.probe.position_body_m = {0.0, 0.0, 1.0};
   config.probe.rate_hz = 2;
   config.probe.sigma_mps = 0.0;
@@ -156,7 +157,7 @@ TEST_CASE("the probe tells the sound speed at its own depth, with its bias, its 
 
   config.probe = SoundSpeedProbe{};
   config.probe.rate_hz = 10;
-  config.water = refraction::SoundSpeedProfile::uniform(1490.0);
+  config.water.sound_speed = refraction::SoundSpeedProfile::uniform(1490.0);
   NodeUnderTest<NavigationNode> noisy(config);
   give_truth(noisy, 100);
   Moments error;

@@ -19,6 +19,11 @@ Rate position_rate(const NavigationConfig& config) {
   return gnss ? rate_of(gnss->instrument.rate_hz) : Rate{config.position_rate_hz, 1};
 }
 
+Rate sound_speed_rate(const NavigationConfig& config) {
+  const auto& probe = config.instruments.sound_speed;
+  return probe ? rate_of(probe->instrument.rate_hz) : Rate{config.probe.rate_hz, 1};
+}
+
 }  // namespace
 
 NavigationNode::NavigationNode(const Config& config, Ports& ports)
@@ -32,12 +37,14 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       sound_speed_latency_(from_seconds(config.probe.latency_s)),
       attitudes_(ports.out<msg::Attitude>("attitude", {.rate = attitude_rate(config)})),
       positions_(ports.out<msg::Position>("position", {.rate = position_rate(config)})),
-      sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = Rate{config.probe.rate_hz, 1}})),
+      sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = sound_speed_rate(config)})),
       estimates_(ports.out<msg::Estimate>("estimate", {.rate = attitude_rate(config)})),
       carried_(config.instruments),
-      suite_(config.instruments, config.heights, config.seed, config.process, ports,
-             [this](const msg::Position& position) { take_fix(position); }) {
+      suite_(config, ports,
+             {[this](const msg::Position& position) { take_fix(position); },
+              [this](const msg::SoundSpeed& reading) { sound_speeds_.send(reading); }}) {
   if (config.origin) world_.emplace(*config.origin);
+  if (carried_.usbl) usbl_.emplace(*carried_.usbl, config.seed, config.process, ports);
   if (carried_.imu) {
     estimator_.emplace(carried_, config.seed, config.process);
     increments_ = ports.out<msg::InertialIncrements>("imu", {.rate = rate_of(carried_.imu->instrument.rate_hz)});
@@ -74,8 +81,9 @@ SimTime NavigationNode::step(SimTime now) {
     if (position && !carried_.gnss) measure_position(fix);
     if (attitude) measure_attitude(now, sample);
   }
+  if (usbl_) find_transponder(now);
   const std::int64_t dip = sound_speed_due_.count();
-  if (sound_speed_due_.due(now) && truth_) {
+  if (sound_speed_due_.due(now) && truth_ && !carried_.sound_speed) {
     sound_speeds_under_way_.emplace_back(now + sound_speed_latency_, sensors_.sound_speed(*truth_, dip));
   }
   report_sound_speed(now);
@@ -84,6 +92,7 @@ SimTime NavigationNode::step(SimTime now) {
   SimTime next =
       std::min({attitude_due_.next(), position_due_.next(), sound_speed_due_.next(), suite_.next(), outbox_.next()});
   if (estimator_) next = std::min(next, imu_due_.next());
+  if (usbl_) next = std::min(next, usbl_->next());
   return sound_speeds_under_way_.empty() ? next : std::min(next, sound_speeds_under_way_.front().first);
 }
 
@@ -127,7 +136,7 @@ void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
     attitude.heave_m = sensed.heave_m;
     if (const auto delayed = motion_sensor_->delayed_heave()) delayed_heaves_->send(*delayed);
   }
-  believed_ = frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
+  believed_.enu_from_body = frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
   estimate(attitude);
   if (!motion_sensor_) return attitudes_.send(attitude);
 
@@ -138,11 +147,24 @@ void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
   outbox_.at(now + from_seconds(instrument.latency_s), [this, attitude] { attitudes_.send(attitude); });
 }
 
+/// After attitude has been measured: a degree of it is two metres at a hundred.
+void NavigationNode::find_transponder(SimTime now) {
+  if (!truth_ || !world_) return usbl_->step(now, nullptr, outbox_);
+  const double t_s = seconds(SimTime{truth_->stamp_ns});
+  const Moment moment{now, t_s, moving_pose(*truth_), *world_, believed_, nullptr};
+  usbl_->step(now, &moment, outbox_);
+}
+
+void NavigationNode::believe(const msg::Estimate& estimate) {
+  const auto& [east_m, north_m, up_m] = estimate.position_enu_m;
+  believed_ = {frames::quaternion_of(estimate.enu_from_body), frames::Vec3(east_m, north_m, up_m)};
+}
+
 void NavigationNode::estimate(const msg::Attitude& attitude) {
   if (estimator_) {
     if (!estimator_->ready()) return;
     const msg::Estimate estimate = estimator_->estimate(*world_);
-    believed_ = frames::quaternion_of(estimate.enu_from_body);
+    believe(estimate);
     return estimates_.send(estimate);
   }
   if (!filter_.ready()) return;
@@ -152,6 +174,7 @@ void NavigationNode::estimate(const msg::Attitude& attitude) {
   estimate.enu_from_body = frames::wxyz_of(
       frames::enu_from_body(frames::Attitude{attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad}));
   estimate.velocity_enu_mps = plain(filter_.velocity_enu_mps());
+  believe(estimate);
   estimates_.send(estimate);
 }
 

@@ -9,6 +9,7 @@
 #include "components/navigation/motion_sensor.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
+#include "components/navigation/usbl_tracker.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {
@@ -28,7 +29,9 @@ class NavigationNode {
   void take_fix(const msg::Position& position);
   void measure_attitude(SimTime now, std::int64_t n);
   void report_sound_speed(SimTime now);
+  void find_transponder(SimTime now);
   void estimate(const msg::Attitude& attitude);
+  void believe(const msg::Estimate& estimate);
 
   NavigationSensors sensors_;
   DeadReckoning filter_;
@@ -38,7 +41,7 @@ class NavigationNode {
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;
   std::deque<msg::Pose> recent_;  // the newest pose that is as old as the motion sensor's latency, and all after it
-  frames::Quaternion believed_ = frames::enu_from_ned();  // attitude, as last measured or estimated
+  Believed believed_;             // as last measured or estimated
   Outbox outbox_;
   Ports::Out<msg::Attitude> attitudes_;
   Ports::Out<msg::Position> positions_;
@@ -50,6 +53,7 @@ class NavigationNode {
   std::optional<MotionSensor> motion_sensor_;
   std::optional<Estimator> estimator_;
   Suite suite_;
+  std::optional<UsblTracker> usbl_;
 };
 
 }  // namespace ensonify

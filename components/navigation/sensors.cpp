@@ -42,7 +42,7 @@ msg::Position NavigationSensors::position(const msg::Pose& truth, std::int64_t n
     const double sigma_m = axis < 2 ? sigma_.horizontal_m : sigma_.vertical_m;
     measured.position_enu_m[axis] = truth.position_enu_m[axis] + sigma_m * noise(position_noise_, n, axis);
   }
-  tell_place(measured, world);
+  tell_place(measured, world, heights_.datums);
   measured.sigma_horizontal_m = sigma_.horizontal_m;
   measured.sigma_vertical_m = sigma_.vertical_m;
   return measured;
@@ -65,7 +65,7 @@ msg::SoundSpeed NavigationSensors::sound_speed(const msg::Pose& truth, std::int6
       frames::quaternion_of(truth.enu_from_body) * frames::Vec3(forward_m, starboard_m, down_m);
   const double depth_m = -(truth.position_enu_m[2] + offset_enu_m.z());
   measured.sound_speed_mps =
-      water_.speed_mps(depth_m) + probe_.bias_mps + probe_.sigma_mps * noise(sound_speed_noise_, n, 0);
+      water_.sound_speed.speed_mps(depth_m) + probe_.bias_mps + probe_.sigma_mps * noise(sound_speed_noise_, n, 0);
   return measured;
 }
 

@@ -27,7 +27,7 @@ class NavigationSensors {
   NavigationErrors sigma_;
   Heights heights_;
   SoundSpeedProbe probe_;
-  refraction::SoundSpeedProfile water_;
+  TrueWater water_;
   random::Stream attitude_noise_, position_noise_, velocity_noise_, sound_speed_noise_;
 };
 

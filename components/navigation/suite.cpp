@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <vector>
 
 #include "components/navigation/world_frame.h"
 
@@ -18,25 +17,13 @@ std::array<double, 3> plain(const V& v) {
 
 }  // namespace
 
-/// Truth at one event, and who wants to know of it.
-struct Suite::Moment {
-  SimTime now;
-  double t_s;  // of the truth
-  frames::MovingPose truth;
-  const frames::LocalProjection& world;
-  const frames::Quaternion& believed;
-  Estimator* estimator;
-
-  inertial::NavigationState at(const frames::Mounting& mounting) const {
-    return geodetic_state(truth, mounting, world);
-  }
-  double stamp_s(const Instrument& i) const { return i.clock.stamp_s(t_s, i.latency_s, i.stamping); }
-};
-
-Suite::Suite(const Instruments& carried, const Heights& heights, std::uint64_t seed, const std::string& process,
-             Ports& ports, std::function<void(const msg::Position&)> positions)
-    : heights_(heights), positions_(std::move(positions)) {
-  const auto stream = [&](const char* name) { return random::Stream(seed, process + "/" + name); };
+Suite::Suite(const NavigationConfig& config, Ports& ports, const To& to)
+    : heights_(config.heights),
+      positions_(to.positions),
+      water_(config.instruments, config.water, config.heights, seabed_, config.seed, config.process, ports,
+             to.sound_speeds) {
+  const Instruments& carried = config.instruments;
+  const auto stream = [&](const char* name) { return random::Stream(config.seed, config.process + "/" + name); };
   const auto rate = [](const Instrument& instrument) { return OutOptions{.rate = rate_of(instrument.rate_hz)}; };
   if (const auto& c = carried.gnss) {
     gnss_.emplace(*c, sensors::Gnss(c->errors, stream("gnss")));
@@ -57,14 +44,11 @@ Suite::Suite(const Instruments& carried, const Heights& heights, std::uint64_t s
     altimeter_.emplace(*c, sensors::RangeSensor(c->errors, stream("altimeter")));
     altitudes_out_ = ports.out<msg::Altitude>("altitude", rate(c->instrument));
   }
-  if (carried.need_seabed()) {
-    ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { seabed_.insert(tile); });
-    ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& tile) { seabed_.release(tile); });
-  }
+  if (carried.meet_seabed()) seabed_.connect(ports, !carried.need_seabed());
 }
 
 SimTime Suite::next() const {
-  SimTime next = outbox_.next();
+  SimTime next = std::min(outbox_.next(), water_.next());
   if (gnss_) next = std::min(next, gnss_->due.next());
   if (heading_) next = std::min(next, heading_->due.next());
   if (log_) next = std::min(next, log_->due.next());
@@ -74,13 +58,13 @@ SimTime Suite::next() const {
 }
 
 void Suite::step(SimTime now, const std::optional<msg::Pose>& truth,
-                 const std::optional<frames::LocalProjection>& world, const frames::Quaternion& believed,
+                 const std::optional<frames::LocalProjection>& world, const Believed& believed,
                  std::optional<Estimator>& estimator) {
   const auto n = static_cast<std::uint64_t>(log_ ? log_->due.count() : 0);
   const bool heading = heading_ && heading_->due.due(now), fix = gnss_ && gnss_->due.due(now);
   const bool velocity = log_ && log_->due.due(now), depth = depth_ && depth_->due.due(now);
   const bool altitude = altimeter_ && altimeter_->due.due(now);
-  if (!truth || !world) return;
+  if (!truth || !world) return water_.step(now, nullptr, outbox_);
   const Moment moment{now,      seconds(SimTime{truth->stamp_ns}), moving_pose(*truth), *world,
                       believed, estimator ? &*estimator : nullptr};
   if (heading) measure_heading(moment);
@@ -88,13 +72,7 @@ void Suite::step(SimTime now, const std::optional<msg::Pose>& truth,
   if (velocity) measure_velocity(moment, n);
   if (depth) measure_depth(moment);
   if (altitude) measure_altitude(moment);
-}
-
-template <class Message>
-void Suite::publish(std::optional<Ports::Out<Message>>& out, Message message, const Instrument& instrument,
-                    const Moment& moment) {
-  message.stamp_ns = from_seconds(moment.stamp_s(instrument)).count();
-  outbox_.at(moment.now + from_seconds(instrument.latency_s), [&out, message] { out->send(message); });
+  water_.step(now, &moment, outbox_);
 }
 
 void Suite::measure_fix(const Moment& moment) {
@@ -124,11 +102,11 @@ void Suite::measure_fix(const Moment& moment) {
     moment.estimator->correct(stamp_s, [fix](Estimator::Filter& filter) { filter.correct_position(fix); });
   }
 
-  const frames::Vec3 origin_enu_m = measured_enu_m - moment.believed * lever;
+  const frames::Vec3 origin_enu_m = measured_enu_m - moment.believed.enu_from_body * lever;
   msg::Position position;
   position.stamp_ns = from_seconds(stamp_s).count();
   position.position_enu_m = plain(origin_enu_m);
-  tell_place(position, moment.world);
+  tell_place(position, moment.world, heights_.datums);
   position.sigma_horizontal_m = reading.sigma_enu_m.x();
   position.sigma_vertical_m = reading.sigma_enu_m.z();
   position.quality = static_cast<std::int64_t>(reading.quality);
@@ -148,7 +126,7 @@ void Suite::measure_heading(const Moment& moment) {
   heading_rad_ = reading;
   msg::Heading heading;
   heading.heading_true_rad = reading;
-  publish(headings_out_, heading, instrument, moment);
+  outbox_.publish(*headings_out_, heading, instrument, moment);
   if (moment.estimator != nullptr) {
     const sensors::ScalarErrors& e = heading_->config.errors.common;
     // The filter takes all that a compass errs by for white noise, slow parts too, so they are given more weight.
@@ -164,23 +142,13 @@ void Suite::measure_heading(const Moment& moment) {
   }
 }
 
-std::optional<double> Suite::distance_m(const frames::HeadPose& from, const frames::Vec3& direction,
-                                        double longest_m) const {
-  if (seabed_.scene().empty()) return std::nullopt;
-  const std::vector<trace::Ray> ray{{direction.cast<float>(), 0.0F}};
-  std::vector<trace::Hit> hit;
-  seabed_.scene().trace(from, ray, static_cast<float>(longest_m), hit);
-  if (!hit[0].hit()) return std::nullopt;
-  return hit[0].range_m;
-}
-
 void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
   const Instrument& instrument = log_->config.instrument;
   if (instrument.out_at(moment.t_s)) return;
   const frames::HeadPose head = frames::head_pose(moment.truth.pose, instrument.actual);
   std::array<std::optional<double>, 4> ranges;
   for (std::size_t beam = 0; beam < 4; ++beam) {
-    ranges[beam] = distance_m(head, log_->sensor.directions()[beam], log_->config.errors.longest_m);
+    ranges[beam] = seabed_.distance_m(head, log_->sensor.directions()[beam], log_->config.errors.longest_m);
   }
   const inertial::NavigationState transducer = moment.at(instrument.actual);
   const auto reading =
@@ -196,7 +164,8 @@ void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
   for (std::size_t beam = 0; beam < 4; ++beam) message.range_m[beam] = reading.range_m[beam].value_or(0.0);
   message.altitude_m = reading.altitude_m.value_or(0.0);
   message.error_velocity_mps = reading.error_velocity_mps;
-  publish(velocities_out_, message, instrument, moment);
+  track_water(moment, head, n, message);
+  outbox_.publish(*velocities_out_, message, instrument, moment);
   if (moment.estimator != nullptr && reading.valid) {
     const Estimator& e = *moment.estimator;
     const frames::Vec3 unit_velocity = e.along_unit(velocity), lever = e.lever_of(instrument.measured.position_body_m);
@@ -205,6 +174,19 @@ void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
       filter.correct_velocity(unit_velocity, lever, unit_sigma);
     });
   }
+}
+
+void Suite::track_water(const Moment& moment, const frames::HeadPose& head, std::uint64_t n,
+                        msg::VelocityLog& message) const {
+  const double below_m = log_->config.water_track_m;
+  if (below_m <= 0.0) return;
+  const frames::Mounting &actual = log_->config.instrument.actual, &measured = log_->config.instrument.measured;
+  const double layer_m = frames::enu_from_head(head, {0.0, 0.0, below_m}).z();
+  const frames::Vec3 through_enu_mps =
+      moment.velocity_enu_mps(actual.position_body_m) - heights_.water_velocity_enu_mps(layer_m, moment.t_s);
+  const auto reading = log_->sensor.water_track(head.enu_from_head.conjugate() * through_enu_mps, n);
+  message.water_lock = reading.valid;
+  message.water_velocity_body_mps = plain(frames::Vec3(measured.body_from_head * reading.velocity_mps));
 }
 
 void Suite::measure_depth(const Moment& moment) {
@@ -216,7 +198,7 @@ void Suite::measure_depth(const Moment& moment) {
   if (instrument.out_at(moment.t_s)) return;
   msg::Depth depth;
   depth.depth_m = reading;
-  publish(depths_out_, depth, instrument, moment);
+  outbox_.publish(*depths_out_, depth, instrument, moment);
   if (moment.estimator != nullptr) {
     const sensors::ScalarErrors& e = depth_->config.errors;
     const double sigma_m = std::max(1e-3, std::hypot(e.white, e.bias_sigma, e.wander));
@@ -232,12 +214,12 @@ void Suite::measure_altitude(const Moment& moment) {
   const double dt_s = altimeter_->since(moment.t_s);
   if (instrument.out_at(moment.t_s)) return;
   const frames::HeadPose head = frames::head_pose(moment.truth.pose, instrument.actual);
-  const auto reading =
-      altimeter_->sensor.measure(distance_m(head, frames::Vec3::UnitZ(), altimeter_->config.errors.longest_m), dt_s);
+  const auto reading = altimeter_->sensor.measure(
+      seabed_.distance_m(head, frames::Vec3::UnitZ(), altimeter_->config.errors.longest_m), dt_s);
   msg::Altitude altitude;
   altitude.valid = reading.has_value();
   altitude.range_m = reading.value_or(0.0);
-  publish(altitudes_out_, altitude, instrument, moment);
+  outbox_.publish(*altitudes_out_, altitude, instrument, moment);
 }
 
 }  // namespace ensonify

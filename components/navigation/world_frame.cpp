@@ -30,10 +30,13 @@ frames::MovingPose moving_pose(const msg::Pose& pose) {
   return {{{x, y, z}, frames::quaternion_of(pose.enu_from_body)}, {u, v, w}, {p, q, r}};
 }
 
-void tell_place(msg::Position& position, const frames::LocalProjection& world) {
-  const frames::Geodetic place = world.geodetic_of({position.position_enu_m[0], position.position_enu_m[1]});
+void tell_place(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums) {
+  const auto& [east_m, north_m, up_m] = position.position_enu_m;
+  const frames::Geodetic place = world.geodetic_of({east_m, north_m});
   position.latitude_deg = place.latitude_deg;
   position.longitude_deg = place.longitude_deg;
+  position.height_above_geoid_m = vertical::geoid_height_m(datums, {east_m, north_m, up_m});
+  position.geoid_above_ellipsoid_m = datums.geoid_above_ellipsoid.at({east_m, north_m});
 }
 
 }  // namespace ensonify

@@ -3,6 +3,7 @@
 #include "kernels/frames/local_projection.h"
 #include "kernels/frames/pose.h"
 #include "kernels/inertial/strapdown.h"
+#include "kernels/vertical/reduction.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -18,7 +19,7 @@ inertial::NavigationState geodetic_state(const frames::MovingPose& body, const f
 
 frames::MovingPose moving_pose(const msg::Pose& pose);
 
-/// Completes a position whose place in the world is set by its latitude and longitude.
-void tell_place(msg::Position& position, const frames::LocalProjection& world);
+/// Completes a position whose place in the world is set by its latitude, longitude and heights.
+void tell_place(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums);
 
 }  // namespace ensonify

@@ -26,6 +26,9 @@ __all__ = [
     "VelocityLog",
     "Depth",
     "Altitude",
+    "CurrentProfile",
+    "Ctd",
+    "UsblFix",
     "TransmitSector",
     "AppliedSettings",
     "HeadTrack",
@@ -206,6 +209,8 @@ class Position(Message):
     sigma_vertical_m [m]: stated standard deviation, up
     quality [1]: as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told
     hdop [1]: horizontal dilution of precision; 0 not told
+    height_above_geoid_m [m]: of the body origin, as in NMEA's GGA
+    geoid_above_ellipsoid_m [m]: undulation at the same place, WGS 84, as in NMEA's GGA
     """
 
     TYPE = "position/1"
@@ -217,6 +222,8 @@ class Position(Message):
     sigma_vertical_m: float = 0.0
     quality: int = 0
     hdop: float = 0.0
+    height_above_geoid_m: float = 0.0
+    geoid_above_ellipsoid_m: float = 0.0
 
 
 @dataclass(eq=False)
@@ -309,6 +316,8 @@ class VelocityLog(Message):
     range_m [m]: along each beam to the bottom; 0: no lock
     altitude_m [m]: of the transducer above the bottom; 0: no beam has lock
     error_velocity_mps [m/s]: what four beams disagree about
+    water_lock: whether velocity is known through the water; else it is zero
+    water_velocity_body_mps [m/s]: of the transducer through the water that is tracked, along the same axes
     """
 
     TYPE = "velocity_log/1"
@@ -319,6 +328,8 @@ class VelocityLog(Message):
     range_m: tuple = fixed(0.0, 0.0, 0.0, 0.0)
     altitude_m: float = 0.0
     error_velocity_mps: float = 0.0
+    water_lock: bool = False
+    water_velocity_body_mps: tuple = fixed(0.0, 0.0, 0.0)
 
 
 @dataclass(eq=False)
@@ -347,6 +358,63 @@ class Altitude(Message):
     stamp_ns: int = 0
     valid: bool = False
     range_m: float = 0.0
+
+
+@dataclass(eq=False)
+class CurrentProfile(Message):
+    """What a current profiler measures: how water of each bin passes it.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    below_transducer_m [m]: bins: distance of each bin's middle along the instrument's axis, rising
+    velocity_body_mps [m/s]: bins x 3: of the water less the transducer's, along the body's axes as mounting was measured
+    sigma_mps [m/s]: bins: stated standard deviation of each horizontal component
+    """
+
+    TYPE = "current_profile/1"
+    stamp_ns: int = 0
+    below_transducer_m: np.ndarray = array("f8")
+    velocity_body_mps: np.ndarray = array("f8")
+    sigma_mps: np.ndarray = array("f8")
+
+
+@dataclass(eq=False)
+class Ctd(Message):
+    """What a probe of conductivity, temperature and depth makes of the water.
+
+    stamp_ns [ns]: time of measurement, by the instrument's clock
+    depth_m [m]: of the probe below the water level
+    temperature_degc [degC]: of the water
+    salinity_psu [psu]: of the water, practical salinity
+    sound_speed_mps [m/s]: reckoned from the three before
+    """
+
+    TYPE = "ctd/1"
+    stamp_ns: int = 0
+    depth_m: float = 0.0
+    temperature_degc: float = 0.0
+    salinity_psu: float = 0.0
+    sound_speed_mps: float = 0.0
+
+
+@dataclass(eq=False)
+class UsblFix(Message):
+    """Where an ultra-short baseline system finds another vehicle's transponder.
+
+    stamp_ns [ns]: time that the place belongs to, by the instrument's clock
+    valid: whether the transponder was heard; else the rest is zero
+    range_m [m]: from array to transponder, by the sound speed that the system uses
+    place_body_m [m]: transponder less array, along the carrier's body axes as mounting was measured
+    position_enu_m [m]: transponder in the world frame, by the carrier's own estimate
+    sigma_enu_m [m]: stated standard deviation of each, of the array's measurement alone
+    """
+
+    TYPE = "usbl_fix/1"
+    stamp_ns: int = 0
+    valid: bool = False
+    range_m: float = 0.0
+    place_body_m: tuple = fixed(0.0, 0.0, 0.0)
+    position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    sigma_enu_m: tuple = fixed(0.0, 0.0, 0.0)
 
 
 @dataclass(eq=False)
@@ -895,6 +963,9 @@ TYPES = {cls.TYPE: cls for cls in (
     VelocityLog,
     Depth,
     Altitude,
+    CurrentProfile,
+    Ctd,
+    UsblFix,
     Ping,
     BottomTrack,
     Transmit,

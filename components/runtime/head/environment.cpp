@@ -35,17 +35,6 @@ refraction::SoundSpeedProfile profile_of(const WaterProfile& profile, const Scen
   return refraction::SoundSpeedProfile(std::move(knots)).thinned(kSpeedTolerance_mps);
 }
 
-/// The water that absorbs. Beyond its samples it goes on unchanged; the laws know depth.
-water::Column column_of(const Water& water) {
-  std::vector<water::SeaWater> samples;
-  for (const WaterSample& sample : water.profile.samples) {
-    samples.push_back({sample.temperature_degc.value_or(water.temperature_degc),
-                       sample.salinity_psu.value_or(water.salinity_psu), sample.depth_m, water.ph});
-  }
-  if (samples.empty()) samples.push_back({water.temperature_degc, water.salinity_psu, 0.0, water.ph});
-  return water::Column(std::move(samples));
-}
-
 double noise_level_db_of(const Water& water, double frequency_hz) {
   return water.noise_level_db.value_or(water::ambient_noise_level_db(frequency_hz, water.wind_speed_mps));
 }
@@ -76,11 +65,21 @@ refraction::SoundSpeedProfile applied_profile(const Scenario& scenario) {
   return profile_of(water.applied.given() ? water.applied : water.profile, scenario);
 }
 
+water::Column true_column(const Water& water) {
+  std::vector<water::SeaWater> samples;
+  for (const WaterSample& sample : water.profile.samples) {
+    samples.push_back({sample.temperature_degc.value_or(water.temperature_degc),
+                       sample.salinity_psu.value_or(water.salinity_psu), sample.depth_m, water.ph});
+  }
+  if (samples.empty()) samples.push_back({water.temperature_degc, water.salinity_psu, 0.0, water.ph});
+  return water::Column(std::move(samples));
+}
+
 Environment::Environment(const Scenario& scenario, double frequency_hz)
     : frequency_hz_(frequency_hz),
       profile_(true_profile(scenario)),
       applied_(ensonify::applied_profile(scenario)),
-      column_(column_of(scenario.water)),
+      column_(true_column(scenario.water)),
       absorption_law_(scenario.water.absorption_law),
       absorption_dbpm_(scenario.water.absorption_dbpm),
       noise_level_db_(noise_level_db_of(scenario.water, frequency_hz)),

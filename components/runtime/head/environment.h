@@ -19,6 +19,9 @@ refraction::SoundSpeedProfile true_profile(const Scenario& scenario);
 /// The profile that soundings are corrected with: `water.applied`, else the true one.
 refraction::SoundSpeedProfile applied_profile(const Scenario& scenario);
 
+/// Temperature and salinity over depth, as they truly are: beyond the scenario's samples they stay the same.
+water::Column true_column(const Water& water);
+
 /// Water, surface and seabed as a head of one frequency meets them: what every head has from the scenario besides its
 /// mounting. Depths are positive down from chart datum.
 class Environment {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "components/runtime/head/tile_set.h"
+#include "components/runtime/ports.h"
+#include "kernels/frames/pose.h"
+
+namespace ensonify {
+
+/// The true seabed, as instruments with narrow beams meet it.
+class SeabedBelow {
+ public:
+  /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed.
+  void connect(Ports& ports, bool optional);
+
+  /// From `from` along a direction of its frame; empty where nothing is as near as `longest_m`.
+  std::optional<double> distance_m(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m) const;
+
+ private:
+  TileSet tiles_;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "components/navigation/carried.h"
+#include "messages/navigation.h"
+
+namespace ensonify {
+
+/// An array under this vehicle that finds the transponder of another one.
+class UsblTracker {
+ public:
+  UsblTracker(const UsblConfig& config, std::uint64_t seed, const std::string& process, Ports& ports);
+
+  SimTime next() const { return array_.due.next(); }
+  /// Asks when it is due; without a moment time passes and nothing is asked.
+  void step(SimTime now, const Moment* moment, Outbox& outbox);
+
+ private:
+  /// Where the transponder was when it answered what is heard at the moment; empty while the target is not known.
+  std::optional<frames::Vec3> answered_enu_m(const Moment& moment, const frames::Vec3& array_enu_m) const;
+
+  Carried<UsblConfig, random::Stream> array_;
+  frames::PoseHistory target_;
+  Ports::Out<msg::UsblFix> fixes_out_;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "components/navigation/carried.h"
+#include "components/navigation/heights.h"
+#include "components/navigation/seabed_below.h"
+#include "components/navigation/true_water.h"
+#include "messages/navigation.h"
+
+namespace ensonify {
+
+/// The instruments that measure the water: sound speed probe, CTD, current profiler.
+class WaterInstruments {
+ public:
+  /// `sound_speeds` is where the probe's readings go: their port belongs to the node.
+  WaterInstruments(const Instruments& carried, const TrueWater& water, const Heights& heights,
+                   const SeabedBelow& seabed, std::uint64_t seed, const std::string& process, Ports& ports,
+                   std::function<void(const msg::SoundSpeed&)> sound_speeds);
+
+  SimTime next() const;
+  /// Measures what is due; without a moment time passes and nothing is measured.
+  void step(SimTime now, const Moment* moment, Outbox& outbox);
+
+ private:
+  struct CtdSensors {
+    sensors::ScalarSensor depth, temperature, salinity;
+  };
+
+  void measure_sound_speed(const Moment& moment, Outbox& outbox);
+  void measure_water(const Moment& moment, Outbox& outbox);
+  void profile_current(const Moment& moment, std::uint64_t n, Outbox& outbox);
+
+  TrueWater water_;
+  Heights heights_;
+  const SeabedBelow& seabed_;
+  std::function<void(const msg::SoundSpeed&)> sound_speeds_;
+  std::optional<Carried<SoundSpeedConfig, sensors::ScalarSensor>> probe_;
+  std::optional<Carried<CtdConfig, CtdSensors>> ctd_;
+  std::optional<Carried<CurrentProfilerConfig, random::Stream>> profiler_;
+  std::optional<Ports::Out<msg::Ctd>> ctds_out_;
+  std::optional<Ports::Out<msg::CurrentProfile>> profiles_out_;
+};
+
+}  // namespace ensonify
