@@ -18,6 +18,7 @@ import sys
 from bus_benches import bench_free, bench_observers, bench_python, bench_round, bench_start, bench_stream
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
+from navigation_bench import bench_navigation
 
 
 def bench_kernels(b):
@@ -34,6 +35,7 @@ def bench_kernels(b):
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
            "python": bench_python, "observers": bench_observers, "heads": bench_heads,
+           "navigation": bench_navigation,
            "kernels": bench_kernels}
 
 

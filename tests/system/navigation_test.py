@@ -1,0 +1,154 @@
+"""Launches without sonar: launch/navigation.yaml holds what it promises; a vehicle moved by forces rides the tide."""
+import unittest
+
+import ensonify
+import numpy as np
+from support import SOURCE, SystemTest
+
+
+def column(record, topic, field):
+    """Stamps (s) and values of a field, message by message."""
+    messages = [message for _, _, message in record.messages(topic)]
+    return np.array([m.stamp_ns for m in messages]) * 1e-9, np.array([getattr(m, field) for m in messages], float)
+
+
+class Navigation(SystemTest):
+    def test_the_estimate_is_as_wrong_as_it_says(self):
+        result = self.run_launch(SOURCE / "launch/navigation.yaml", "--free", "--arg", "lines=2", "--arg", "length_m=120",
+                                 "--arg", "rate_hz=50", timeout=200)
+        self.assertEqual(result.code, 0, result.stderr)
+        self.assertTrue(list(result.out.glob("navigation*.png")))
+        with ensonify.Record(result.out / "navigation.mcap") as record:
+            t_s, true_m = column(record, "boat/pose", "position_enu_m")
+            at_s, estimate_m = column(record, "nav/estimate", "position_enu_m")
+            _, covariance_m2 = column(record, "nav/estimate", "position_covariance_enu_m2")
+            positions = [message for _, _, message in record.messages("nav/position")]
+        settled = (at_s > 30) & (at_s <= t_s[-1])
+        error_m = estimate_m - np.stack([np.interp(at_s, t_s, axis) for axis in true_m.T], axis=1)
+        sigma_m = np.sqrt(covariance_m2[:, [0, 4, 8]])
+        # One run: of what wanders over minutes there are few independent values, so no more than 4 sigma, and not 1/100 of it.
+        self.assertLess(np.max(np.abs(error_m / sigma_m)[settled]), 4)
+        self.assertGreater(np.median(np.abs(error_m / sigma_m)[settled]), 0.05)
+        self.assertLess(np.max(sigma_m[settled]), 0.1)  # RTK
+
+        # The launch floats on the tide: 4.9 m + 2.7 cos(M2 t - 90 degrees) + cos(S2 t - 120 degrees), less settlement.
+        hours = positions[-1].stamp_ns / 3.6e12
+        tide_m = 4.9 + 2.7 * np.cos(np.radians(28.984104 * hours - 90)) + np.cos(np.radians(30.0 * hours - 120))
+        up_m = np.mean([p.position_enu_m[2] for p in positions[-300:]])
+        self.assertAlmostEqual(up_m, tide_m - 0.06, delta=0.04)  # a minute of waves, averaged; RTK
+        for position in positions[::50]:  # GGA: height above the geoid, and the undulation
+            self.assertAlmostEqual(position.height_above_geoid_m, position.position_enu_m[2] - 4.6, places=6)
+            self.assertAlmostEqual(position.geoid_above_ellipsoid_m, 50.1, places=6)
+
+
+HYDRODYNAMIC = """
+ensonify: launch/1
+scenario: tideway.yaml
+duration_s: 40
+clock: { rate: free }
+processes:
+  boat: { run: vehicle }
+  nav:  { run: navigation, config: { imu: { grade: fog }, gnss: { grade: rtk, position_m: [0, 0, -3] }, depth: { position_m: [0, 0, 0.5] }, motion_sensor: { grade: survey, delayed_heave_s: 0 } } }
+  pilot: { run: autopilot }
+  recorder: { run: recorder, config: { file: run.mcap, topics: [boat/pose, nav/attitude, nav/depth, nav/estimate] } }
+expect:
+  - { name: it holds its mission's speed, bounds: { topic: boat/pose, field: velocity_enu_mps.1, min: 1, max: 5, after_s: 20 } }
+"""
+
+
+class Forces(SystemTest):
+    def test_a_launch_moved_by_forces_rides_tide_and_waves(self):
+        text = (SOURCE / "scenarios/tideway/scenario.yaml").read_text()
+        by_forces = text.replace("    acceleration_mps2: 0.3\n", "    acceleration_mps2: 0.3\n    kind: hydrodynamic\n"
+                                 f"    dynamics: {SOURCE}/components/vehicle/hydrodynamic/survey_launch.yaml\n")
+        self.assertNotEqual(text, by_forces)
+        self.write("tideway.yaml", by_forces)
+        result = self.run_launch(HYDRODYNAMIC, timeout=200)
+        self.assertEqual(result.code, 0, result.stderr)
+        with ensonify.Record(result.out / "run.mcap") as record:
+            t_s, true_m = column(record, "boat/pose", "position_enu_m")
+            _, depth_m = column(record, "nav/depth", "depth_m")
+            at_s, heave_m = column(record, "nav/attitude", "heave_m")
+        # At the start the tide stands at 4.9 - 0.5 m. Depth of the sensor: 0.5 m and settlement below the level.
+        self.assertAlmostEqual(np.mean(true_m[:, 2]), 4.4, delta=0.3)
+        self.assertAlmostEqual(np.mean(depth_m), 0.55, delta=0.3)
+        # It moves with the sea, by 0.03 m rms in 3.5 s: over 40 s, eleven periods of a band as wide as the jitter, within a third.
+        self.assertGreater(np.std(true_m[:, 2]), 0.02)
+        self.assertLess(np.std(true_m[:, 2]), 0.06)  # with what the launch settles as she gathers speed
+        self.assertLess(np.max(np.abs(heave_m)), 0.3)  # and none of the 4.4 m is heave
+
+
+TWO_WORLD = """
+ensonify: scenario/1
+site: { name: Two, latitude_deg: 44, longitude_deg: -63 }
+seed: 3
+water: { sound_speed_mps: 1500 }
+seabed:
+  kind: layers
+  post_spacing_m: 0.25
+  size_m: [100, 100]
+  layers: { ground: { plane: { depth_m: 20 } } }
+vehicles:
+  boat:
+    start: { position_m: [0, -10, 0], heading_deg: 0, speed_mps: 2 }
+    mountings: { bow: { actual: { position_m: [0, 0, 1] } } }
+  auv:
+    start: { position_m: [10, -5, -8], heading_deg: 0, speed_mps: 1 }
+    mountings: { sounder: { actual: { position_m: [0, 0, 0.2] } } }
+mission: { speed_mps: 1, runlines: [{ from_m: [0, -10], to_m: [0, 40] }] }   # nobody flies it
+"""
+
+TWO = """
+ensonify: launch/1
+scenario: two.yaml
+duration_s: 4
+clock: { rate: free }
+processes:
+  boat:     { run: vehicle }
+  auv:      { run: vehicle }
+  boat_nav: { run: navigation, config: { vehicle: boat, usbl: { grade: survey, position_m: [0, 0, 1], rate_hz: 2 } } }
+  auv_nav:  { run: navigation, config: { vehicle: auv, depth: { } } }
+  pager:    { run: terrain_pager }
+  bow:      { run: multibeam, config: { ping_rate_hz: 2, amplitude_every: 1000, quality: 0.1 } }
+  sounder:  { run: echosounder, config: { ping_rate_hz: 2, range_m: 40 } }
+  recorder: { run: recorder, config: { file: run.mcap, topics: [auv/pose, boat_nav/usbl, auv_nav/depth, bow/soundings, sounder/bottom] } }
+wiring:
+  boat_nav.pose: boat/pose
+  boat_nav.target: auv/pose
+  auv_nav.pose: auv/pose
+  pager.pose: boat/pose
+  bow.pose: boat/pose
+  bow.estimate: boat_nav/estimate
+  bow.attitude: boat_nav/attitude
+  bow.sound_speed: boat_nav/sound_speed
+  sounder.pose: auv/pose
+  sounder.estimate: auv_nav/estimate
+"""
+
+
+class TwoVehicles(SystemTest):
+    def test_each_carries_a_head_of_its_own_and_one_finds_the_other(self):
+        self.write("two.yaml", TWO_WORLD)
+        result = self.run_launch(TWO, timeout=200)
+        self.assertEqual(result.code, 0, result.stderr)
+        with ensonify.Record(result.out / "run.mcap") as record:
+            t_s, auv_m = column(record, "auv/pose", "position_enu_m")
+            soundings = [message for _, _, message in record.messages("bow/soundings")]
+            _, altitude_m = column(record, "sounder/bottom", "altitude_m")
+            _, depth_m = column(record, "auv_nav/depth", "depth_m")
+            fixes = [message for _, _, message in record.messages("boat_nav/usbl")]
+        self.assertGreater(len(soundings), 4)
+        for ping in soundings:
+            up_m = np.asarray(ping.position_enu_m)[np.asarray(ping.valid, bool), 2]
+            self.assertAlmostEqual(np.median(up_m), -20, delta=0.3)  # heights of fixes err by 0.05 m
+        self.assertAlmostEqual(np.median(altitude_m), 20 - 8.2, delta=0.1)
+        self.assertAlmostEqual(np.mean(depth_m), 8, delta=0.01)
+        heard = [fix for fix in fixes if fix.valid]
+        self.assertGreater(len(heard), 4)
+        for fix in heard:  # 15 m away: centimetres by range and angle, and the boat's own estimate
+            there_m = [np.interp(fix.stamp_ns * 1e-9, t_s, axis) for axis in auv_m.T]
+            self.assertLess(np.linalg.norm(np.asarray(fix.position_enu_m) - there_m), 0.6)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
