@@ -29,6 +29,7 @@ std::string Registry::join(const std::string& from, const protocol::Hello& hello
   if (has_joined_[*rank]) return name + ": has joined already";
   joined_[*rank] = hello;
   has_joined_[*rank] = true;
+  add_notes(facts_, hello.declaration);
   for (const auto& [key, text] : hello.facts) facts_[name + "/" + key] = text;
   return "";
 }

@@ -1,5 +1,7 @@
 #include "components/runtime/launch_wiring.h"
 
+#include <fmt/format.h>
+
 #include "components/runtime/version.h"
 
 namespace ensonify {
@@ -30,6 +32,10 @@ std::map<std::string, std::string> facts_of(const Launch& launch) {
           {"scenario", launch.scenario_text},
           {"version", kVersion},
           {"seed", std::to_string(launch.scenario.seed)}};
+}
+
+void add_notes(std::map<std::string, std::string>& facts, const Declaration& process) {
+  for (const auto& [name, value] : process.notes) facts[process.process + "/" + name] = fmt::format("{}", value);
 }
 
 Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {

@@ -74,6 +74,8 @@ class LocalRun {
   };
 
   void connect() {
+    auto facts = facts_of(launch_);
+    for (const Declaration& process : declarations_) add_notes(facts, process);
     std::vector<std::vector<Stepper*>> subscribers(graph_.topics.size());
     for (const Graph::Edge& edge : graph_.edges) {
       std::vector<Stepper*>& of_topic = subscribers[edge.topic];
@@ -85,7 +87,7 @@ class LocalRun {
       for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
         if (graph_.topics[t].publisher == rank) outs.push_back({graph_.topics[t].name, static_cast<std::uint32_t>(t)});
       }
-      members_[rank]->stepper->wire(feeds_of(graph_, declarations_, rank), std::move(outs), facts_of(launch_), 1,
+      members_[rank]->stepper->wire(feeds_of(graph_, declarations_, rank), std::move(outs), facts, 1,
                                     static_cast<std::uint32_t>(rank), [subscribers](msg::Packet&& packet) {
                                       for (Stepper* s : subscribers[packet.envelope.topic_id]) s->insert(packet);
                                     });

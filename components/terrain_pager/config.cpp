@@ -1,5 +1,7 @@
 #include "components/terrain_pager/config.h"
 
+#include <algorithm>
+
 #include "components/runtime/config/config_reader.h"
 
 namespace ensonify {
@@ -9,17 +11,24 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   from.optional("rate_hz", config.rate_hz, 1, 20);
   from.optional("feed_margin_m", config.feed_margin_m, 0, 50e3);
   from.optional("release_hysteresis_m", config.release_hysteresis_m, 0, 50e3);
+  from.optional("wide_margin_m", config.wide_margin_m, 0, 50e3);
   from.optional("load_ahead_s", config.load_ahead_s, 1, 3600);
   from.optional("threads", config.threads, 1, 64);
+  from.optional("budget_mb", config.budget_mb, 1, 1e6);
+  from.optional("head_budget_mb", config.head_budget_mb, 1, 1e6);
   from.optional("corridor_half_deg", config.corridor_half_deg, 0, 85);
   from.optional("raster_crs", config.terrain.raster_crs);
   from.optional("raster_band", config.terrain.raster_band, 1, 1000);
   from.optional("raster_nodata", config.terrain.raster_nodata);
 
+  config.place = from.node().place;
   config.scenario_file = scenario.file;
   config.terrain.site = scenario.site;
   config.terrain.seabed = scenario.seabed;
   config.mission = scenario.mission;
+  if (!scenario.vehicles.empty()) config.fastest_mps = 0.0;
+  for (const Vehicle& vehicle : scenario.vehicles)
+    config.fastest_mps = std::max(config.fastest_mps, vehicle.fastest_mps);
   return config;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/config/config_error.h"
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/terrain/source_of.h"
 
@@ -13,16 +14,22 @@ class ConfigReader;
 /// What the pager is told: its own parameters and, from the scenario, which seabed and where the survey goes.
 struct TerrainPagerConfig {
   int rate_hz = 2;                     // how often it looks where the vehicle is
-  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: three times the greatest depth + 20 m
+  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: as far as they can hear (demand.h)
   double release_hysteresis_m = 50.0;  // and give them up when farther than feed margin + this
-  double load_ahead_s = 60.0;          // tiles are fetched into memory for as far as the vehicle goes in this time
+  double wide_margin_m = 100.0;        // memory has tiles nearer than feed margin + this to the predicted track
+  double load_ahead_s = 60.0;          // which is followed for so long
   int threads = 2;                     // that fetch
+  double budget_mb = 512.0;            // tiles in memory weigh at most so much
+  double head_budget_mb = 336.0;       // and those that heads hold so much
   double corridor_half_deg = 65.0;     // holes matter within this angle either side of nadir along the runlines
+
+  ConfigPlace place;  // of these parameters, for messages
 
   // From the scenario.
   std::string scenario_file;
   source::TerrainOptions terrain;
   Mission mission;
+  double fastest_mps = 10.0;  // of all vehicles
 
   static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
 };

@@ -16,6 +16,9 @@ TEST_CASE("default.yaml of the pager says what the struct says") {
   CHECK(read.rate_hz == d.rate_hz);
   CHECK(read.feed_margin_m == d.feed_margin_m);
   CHECK(read.release_hysteresis_m == d.release_hysteresis_m);
+  CHECK(read.wide_margin_m == d.wide_margin_m);
+  CHECK(read.budget_mb == d.budget_mb);
+  CHECK(read.head_budget_mb == d.head_budget_mb);
   CHECK(read.load_ahead_s == d.load_ahead_s);
   CHECK(read.threads == d.threads);
   CHECK(read.corridor_half_deg == d.corridor_half_deg);

@@ -1,61 +1,48 @@
 #include "components/terrain_pager/node.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/terrain/source_of.h"
+#include "components/terrain_pager/budget.h"
 #include "components/terrain_pager/corridor.h"
+#include "components/terrain_pager/demand.h"
 #include "components/terrain_pager/tile_messages.h"
 
 namespace ensonify {
 namespace {
 
-using pager::Margins;
 using pager::TileKey;
 using pager::Vec2;
 
 constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 4096;
 constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
-constexpr std::size_t kMostTilesHeld = 64;  // each is 5 MB in every head
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
 
-Margins margins_of(const TerrainPagerConfig& config, const pager::TerrainSource& terrain) {
-  Margins margins;
-  margins.feed_m = config.feed_margin_m > 0.0 ? config.feed_margin_m : 3.0 * -terrain.lowest_m() + 20.0;
-  margins.release_m = margins.feed_m + config.release_hysteresis_m;
-  margins.load_m = margins.release_m + config.load_ahead_s * config.mission.speed_mps;
-  return margins;
-}
-
-/// Heads could not hold the tiles that such margins and posts ask for: said before the run, not by the kernel's OOM
-/// killer.
-void check_memory(const TerrainPagerConfig& config, const pager::Margins& margins, const pager::TileGrid& grid) {
-  const double across = 2.0 * margins.release_m / grid.side_m() + 1.0;
-  const double terrain_tiles = across * across;
-  if (terrain_tiles > static_cast<double>(kMostTilesHeld)) {
-    throw ConfigError(
-        {ConfigProblem{{config.scenario_file, 0, 0},
-                       "seabed.post_spacing_m",
-                       "posts " + std::to_string(grid.spacing_m) + " m apart make about " +
-                           std::to_string(static_cast<long>(terrain_tiles)) + " tiles within " +
-                           std::to_string(margins.release_m) + " m of the vehicle; at most " +
-                           std::to_string(kMostTilesHeld) + " are allowed: widen the posts or narrow feed_margin_m"}});
-  }
+pager::Box box_of(const pager::Extent& extent) {
+  return {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}};
 }
 
 }  // namespace
 
 TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
-    : ports_(ports),
+    : config_(config),
+      ports_(ports),
       events_(Rate{config.rate_hz, 1}),
       terrain_(source::source_of(config.terrain)),
       grid_{Vec2::Zero(), source::post_spacing_m(config.terrain, *terrain_), 1024,
             source::lsb_m(config.terrain, *terrain_)},
-      load_ahead_s_(config.load_ahead_s),
+      box_(box_of(terrain_->extent())),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes})),
       releases_(ports.out<msg::TileRelease>("release")),
-      chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})) {
+      chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
+      paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
                                                                          : RasterSeabed::Holes::kKeep;
   pager::check_corridors(*terrain_, config.mission.runlines,
@@ -63,17 +50,17 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
                          config.scenario_file);
   ports.note("post_spacing_m", grid_.spacing_m);
   ports.note("shallowest_m", pager::shallowest_m(*terrain_, config.mission.runlines));
-  const Margins margins = margins_of(config, *terrain_);
-  const auto extent = terrain_->extent();
-  if (std::max(extent.east_m - extent.west_m, extent.north_m - extent.south_m) > 2.0 * margins.release_m) {
-    check_memory(config, margins, grid_);
-  }
-  paging_ = std::make_unique<pager::Paging>(grid_, extent, margins);
-  store_ = std::make_unique<pager::TileStore>(
+  const double feed_m =
+      config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
+  if (config.feed_margin_m > 0.0) pager::check_budgets(config, rules(feed_m).margins, grid_, box_);
+  store_.emplace(
       [this](const TileKey& key) { return std::make_shared<const msg::Tile>(pager::make_tile(*terrain_, grid_, key)); },
-      config.threads);
+      pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
   if (!config.mission.runlines.empty()) {
-    store_->want(paging_->within(config.mission.runlines.front().start_enu_m, margins.load_m));
+    const navigation::Runline& line = config.mission.runlines.front();
+    const Vec2 ahead = (line.end_enu_m - line.start_enu_m).normalized();
+    const pager::Paging probably(grid_, box_, rules(feed_m));
+    store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
   }
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
 }
@@ -86,28 +73,82 @@ SimTime TerrainPagerNode::step(SimTime now) {
   return events_.next();
 }
 
+pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
+  pager::Paging::Rules rules;
+  rules.margins = {feed_margin_m, feed_margin_m + config_.release_hysteresis_m};
+  rules.outlook = {config_.load_ahead_s, 1.0 / config_.rate_hz, feed_margin_m, feed_margin_m + config_.wide_margin_m};
+  rules.most = pager::most_in_memory(config_, grid_);
+  return rules;
+}
+
+/// What heads note is known when time starts. Between two looks the vehicle moves on.
+void TerrainPagerNode::start_paging() {
+  double feed_m = config_.feed_margin_m;
+  if (feed_m <= 0.0) {
+    feed_m = pager::demanded_m(ports_.facts(), -terrain_->lowest_m()) + config_.fastest_mps / config_.rate_hz;
+    try {
+      pager::check_budgets(config_, rules(feed_m).margins, grid_, box_);
+    } catch (const ConfigError& error) {
+      throw UserError(error.what());
+    }
+  }
+  paging_.emplace(grid_, box_, rules(feed_m));
+}
+
+paging::Motion TerrainPagerNode::motion_of(const msg::Pose& pose) {
+  const double share = 1.0 - std::exp(-1.0 / (config_.rate_hz * kTurnSmoothing_s));
+  turn_rate_radps_ += share * (-pose.rate_body_radps[2] - turn_rate_radps_);  // a body's z axis points down
+  return {{pose.position_enu_m[0], pose.position_enu_m[1]},
+          {pose.velocity_enu_mps[0], pose.velocity_enu_mps[1]},
+          turn_rate_radps_};
+}
+
 void TerrainPagerNode::page(const msg::Pose& pose) {
-  const Vec2 position(pose.position_enu_m[0], pose.position_enu_m[1]);
-  const Vec2 velocity(pose.velocity_enu_mps[0], pose.velocity_enu_mps[1]);
-  const auto decision = paging_->decide(position, position + 0.5 * load_ahead_s_ * velocity);
-  store_->want(decision.keep_in_memory);
+  if (!paging_) start_paging();
+  const paging::Motion motion = motion_of(pose);
+  const auto decision = paging_->look(motion);
+  store_->hold(decision.in_memory);
   for (const TileKey& key : decision.publish) publish(key);
   for (const TileKey& key : decision.release) {
     releases_.send({key.east, key.north});
     ports_.count("tiles_released");
   }
-  const bool inside = terrain_->extent().contains(position);
+  tell_paging(decision);
+  const bool inside = terrain_->extent().contains(motion.position_enu_m);
   ports_.health(inside ? "ok" : "degraded", inside ? "" : "the vehicle is outside the terrain");
 }
 
 void TerrainPagerNode::publish(const TileKey& key) {
   const auto taken = store_->take(key);
   if (taken.late) {
-    ++late_tiles_;
-    log::event(ports_, "late_tile", "col={} row={} late_tiles={}", key.east, key.north, late_tiles_);
+    log::event(ports_, "late_tile", "col={} row={} late_tiles={}", key.east, key.north, store_->statistics().late);
   }
   tiles_.send(*taken.tile);
   ports_.count("tiles_published");
+}
+
+/// A message only when poses have changed something; what disk and threads did goes behind it, for viewers.
+void TerrainPagerNode::tell_paging(const pager::Paging::Decision& decision) {
+  fetched_ += decision.fetched;
+  fetched_again_ += decision.fetched_again;
+  if (decision.publish.empty() && decision.release.empty() && decision.fetched == 0) return;
+  msg::Health paging;
+  paging.stamp_ns = ports_.now().count();
+  paging.message = fmt::format("{} tiles are meant to be in memory", decision.in_memory.size());
+  paging.counters = {{"tiles_fetched", fetched_}, {"tiles_fetched_again", fetched_again_}};
+
+  const auto statistics = store_->statistics();
+  const double tile_mb = 1e-6 * static_cast<double>(pager::tile_bytes(grid_));
+  std::string wall =
+      fmt::format(R"({{"resident_tiles":{},"resident_mb":{:.1f},"most_resident_mb":{:.1f},"tiles_made":{})",
+                  statistics.resident, tile_mb * static_cast<double>(statistics.resident),
+                  tile_mb * static_cast<double>(statistics.most_resident), statistics.made);
+  if (statistics.taken > 0) {
+    const auto taken = static_cast<double>(statistics.taken), late = static_cast<double>(statistics.late);
+    wall += fmt::format(R"(,"hit_rate":{:.4f},"late_tiles":{},"least_margin_s":{:.3f})", (taken - late) / taken,
+                        statistics.late, statistics.least_margin_s);
+  }
+  ports_.publish(paging_port_, msg::encode(paging), msg::Buffer::own(wall + "}"));
 }
 
 }  // namespace ensonify

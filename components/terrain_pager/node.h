@@ -22,27 +22,33 @@ class TerrainPagerNode {
 
   SimTime step(SimTime now);
 
-  /// Tiles that were due before they were in memory. A wall-clock fact: it says how fast the disk is, never what is
-  /// sent.
-  int late_tiles() const { return late_tiles_; }
+  /// A wall-clock fact: how fast disk and threads are, never what is sent.
+  pager::TileStore::Statistics statistics() const { return store_->statistics(); }
 
  private:
+  pager::Paging::Rules rules(double feed_margin_m) const;
+  void start_paging();
+  paging::Motion motion_of(const msg::Pose& pose);
   void page(const msg::Pose& pose);
   void publish(const pager::TileKey& key);
+  void tell_paging(const pager::Paging::Decision& decision);
 
+  Config config_;
   Ports& ports_;
   Periodic events_;
   std::unique_ptr<source::TerrainSource> terrain_;
   pager::TileGrid grid_;
-  double load_ahead_s_;
-  std::unique_ptr<pager::Paging> paging_;
-  std::unique_ptr<pager::TileStore> store_;
+  pager::Box box_;
+  std::optional<pager::Paging> paging_;  // from the first look on, when it is known how far heads hear
+  std::optional<pager::TileStore> store_;
+  double turn_rate_radps_ = 0.0;  // of the vehicle, smoothed
   std::optional<msg::Pose> pose_;
   Ports::Out<msg::Tile> tiles_;
   Ports::Out<msg::TileRelease> releases_;
   Ports::Out<msg::Chart> chart_;
+  std::size_t paging_port_;
+  std::int64_t fetched_ = 0, fetched_again_ = 0;
   bool chart_sent_ = false;
-  int late_tiles_ = 0;
 };
 
 }  // namespace ensonify

@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/config/config_reader.h"
 #include "components/runtime/testing.h"
 
 using namespace ensonify;
@@ -66,15 +68,18 @@ TEST_CASE("a vehicle under way gets tiles ahead and gives up those behind") {
   CHECK_FALSE(held.contains({-3, 0}));  // its eastern edge is 104 m behind
 }
 
-TEST_CASE("what is published does not depend on the threads that make it") {
-  const auto published = [](int threads) {
+TEST_CASE("what is published does not depend on the threads that make it, nor on what memory may hold") {
+  const auto published = [](int threads, double budget_mb) {
     auto config = small_slope();
     config.threads = threads;
+    config.budget_mb = budget_mb;
     NodeUnderTest<TerrainPagerNode> pager(config);
     for (int s = 0; s <= 20; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 10.0 * s, 0.0));
     return pager.step_until<msg::Tile>("tile", 20_s);
   };
-  const auto one = published(1), four = published(4);
+  const auto one = published(1, 512.0);
+  // 6 tiles may lie within 60 m, and one is being made: 7 x 5.25 MB, the least that is allowed.
+  const auto four = GENERATE_COPY(published(4, 512.0), published(1, 37.0));
   REQUIRE(one.size() == four.size());
   REQUIRE(one.size() > 4);
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -98,7 +103,47 @@ TEST_CASE("outside the terrain nothing is published and health says so") {
 TEST_CASE("posts too fine for the depth are refused before the run") {
   auto config = small_slope();
   config.terrain.seabed.post_spacing_m = 0.01;
-  CHECK_THROWS_WITH(NodeUnderTest<TerrainPagerNode>(config), Catch::Contains("at most 64 are allowed"));
+  CHECK_THROWS_WITH(
+      NodeUnderTest<TerrainPagerNode>(config),
+      Catch::Contains("seabed.post_spacing_m: posts 0.01 m apart make up to") && Catch::Contains("at most 336 MB"));
+}
+
+TEST_CASE("a budget too small for what heads need at once is refused, with its place") {
+  auto from = ConfigReader::from_text("feed_margin_m: 60\nbudget_mb: 30\n", "pager.yaml");
+  Scenario scenario;
+  scenario.seabed = small_slope().terrain.seabed;
+  const auto config = TerrainPagerConfig::read(from, scenario, "pager");
+  CHECK_THROWS_WITH(
+      NodeUnderTest<TerrainPagerNode>(config),
+      "pager.yaml:1:1: budget_mb: 30 does not hold the 6 tiles that may lie within 60 m of the vehicle and 2 "
+      "being made; at least 43 are needed");
+}
+
+TEST_CASE("memory keeps its budget, counted in bytes, however fast the vehicle") {
+  auto config = small_slope();
+  config.threads = 2;
+  config.budget_mb = 43.0;  // 8 tiles: 6 at once and 2 being made
+  NodeUnderTest<TerrainPagerNode> pager(config);
+  for (int s = 0; s <= 20; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 30.0 * s, 0.0));
+  CHECK(pager.step_until<msg::Tile>("tile", 20_s).size() > 10);
+  CHECK(static_cast<double>(pager.node().statistics().most_resident) * 1025 * 1025 * 5 <= 43e6);
+}
+
+TEST_CASE("what is fetched is counted, and behind it is told how fast disk and threads are") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  for (int s = 0; s <= 20; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 4.0 * s, 0.0));
+  pager.run_until(20_s);
+  const auto packets = pager.take("paging");
+  REQUIRE_FALSE(packets.empty());
+  const auto health = msg::decode<msg::Health>(packets.back().body, packets.back().body.size());
+  std::map<std::string, std::int64_t> counters;
+  for (const auto& counter : health.counters) counters[counter.name] = counter.count;
+  CHECK(counters.at("tiles_fetched") >= static_cast<std::int64_t>(pager.take("tile").size()));
+  CHECK(counters.at("tiles_fetched_again") == 0);
+  const std::string wall(packets.back().wall_facts.text());
+  for (const char* name : {"resident_tiles", "resident_mb", "tiles_made", "hit_rate", "late_tiles", "least_margin_s"}) {
+    CHECK_THAT(wall, Catch::Contains("\"" + std::string(name) + "\":"));
+  }
 }
 
 TEST_CASE("a runline outside the terrain is refused") {

@@ -1,47 +1,49 @@
 #include "components/terrain_pager/paging.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ensonify::pager {
 
-double Paging::distance_m(const TileKey& key, const Vec2& place) const {
-  const Vec2 south_west = grid_.origin_of(key);
-  const double side = grid_.side_m();
-  const double east = std::max({south_west.x() - place.x(), 0.0, place.x() - south_west.x() - side});
-  const double north = std::max({south_west.y() - place.y(), 0.0, place.y() - south_west.y() - side});
-  return std::hypot(east, north);
-}
+Paging::Decision Paging::look(const paging::Motion& motion) {
+  ++looks_;
+  const std::vector<TileKey> held(at_heads_.begin(), at_heads_.end());
+  auto exchange = paging::exchange(grid_, terrain_, motion.position_enu_m, rules_.margins, held);
+  at_heads_.insert(exchange.give.begin(), exchange.give.end());
+  ever_at_heads_.insert(exchange.give.begin(), exchange.give.end());
+  for (const TileKey& key : exchange.take) at_heads_.erase(key);
 
-std::vector<TileKey> Paging::within(const Vec2& place, double margin_m) const {
-  const Vec2 margin(margin_m, margin_m);
-  const Vec2 low = (place - margin).cwiseMax(Vec2(extent_.west_m, extent_.south_m));
-  const Vec2 high = (place + margin).cwiseMin(Vec2(extent_.east_m, extent_.north_m));
-  std::vector<TileKey> keys;
-  if (low.x() > high.x() || low.y() > high.y()) return keys;
-  const TileKey first = grid_.key_at(low), last = grid_.key_at(high);
-  for (std::int32_t north = first.north; north <= last.north; ++north) {
-    for (std::int32_t east = first.east; east <= last.east; ++east) {
-      if (distance_m({east, north}, place) <= margin_m) keys.push_back({east, north});
-    }
-  }
-  std::stable_sort(keys.begin(), keys.end(),
-                   [&](const TileKey& a, const TileKey& b) { return distance_m(a, place) < distance_m(b, place); });
-  return keys;
-}
-
-Paging::Decision Paging::decide(const Vec2& position, const Vec2& ahead) {
   Decision decision;
-  for (const TileKey& key : within(position, margins_.feed_m)) {
-    if (held_.insert(key).second) decision.publish.push_back(key);
+  decision.in_memory = paging::to_hold(needed(motion, exchange.give), in_memory_, rules_.most);
+  decision.publish = std::move(exchange.give);
+  decision.release = std::move(exchange.take);
+  paging::LastEnsonified now;
+  for (const TileKey& key : decision.in_memory) {
+    const auto before = in_memory_.find(key);
+    now[key] = before == in_memory_.end() ? paging::kNever : before->second;
+    if (paging::distance_m(paging::box_of(grid_, key), motion.position_enu_m) <= rules_.margins.feed_m) {
+      now[key] = looks_;
+    }
+    if (before != in_memory_.end()) continue;
+    ++decision.fetched;
+    if (!ever_fetched_.insert(key).second) ++decision.fetched_again;
   }
-  for (auto it = held_.begin(); it != held_.end();) {
-    const bool far = distance_m(*it, position) > margins_.release_m;
-    if (far) decision.release.push_back(*it);
-    it = far ? held_.erase(it) : std::next(it);
-  }
-  decision.keep_in_memory = within(ahead, margins_.load_m);
+  in_memory_ = std::move(now);
   return decision;
+}
+
+std::vector<TileKey> Paging::before_start(const paging::Motion& motion) const {
+  return paging::to_hold(needed(motion, {}), {}, rules_.most);
+}
+
+/// `first`, then what the track ahead needs and heads do not hold. What is only near is not needed when heads have had
+/// it before: it lies behind.
+std::vector<TileKey> Paging::needed(const paging::Motion& motion, std::vector<TileKey> first) const {
+  for (const paging::Need& need : paging::needs(grid_, terrain_, motion, rules_.outlook)) {
+    const bool only_near = std::isinf(need.due_s);
+    if (!(only_near ? ever_at_heads_ : at_heads_).contains(need.key)) first.push_back(need.key);
+  }
+  return first;
 }
 
 }  // namespace ensonify::pager

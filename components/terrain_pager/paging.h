@@ -1,50 +1,54 @@
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <vector>
 
-#include "components/runtime/terrain/terrain_source.h"
+#include "kernels/paging/prediction.h"
+#include "kernels/paging/residency.h"
 
 namespace ensonify::pager {
 
-using frames::Vec2;
-using source::Extent;
+using paging::Box;
 using terrain::TileGrid;
 using terrain::TileKey;
 
-/// Distances from the vehicle, m, feed < release < load: heads hold what lies nearer than `feed`, keep it until it lies
-/// beyond `release` (so that a vehicle circling at the border does not send tiles to and fro), and find it in memory
-/// because everything nearer than `load` is fetched ahead.
-struct Margins {
-  double feed_m = 100.0;
-  double release_m = 150.0;
-  double load_m = 400.0;
-};
-
-/// Decides which tiles heads hold. A function of the poses seen so far and of nothing else.
+/// Decides which tiles heads hold and which of them memory is meant to hold: the rules of kernels/paging with what they
+/// decided before. A function of the poses seen so far and of nothing else.
 class Paging {
  public:
-  Paging(const TileGrid& grid, const Extent& extent, const Margins& margins)
-      : grid_(grid), extent_(extent), margins_(margins) {}
-
-  struct Decision {
-    std::vector<TileKey> publish;  // nearest first
-    std::vector<TileKey> release;
-    std::vector<TileKey> keep_in_memory;  // nearest first, seen from where the vehicle will be
+  struct Rules {
+    paging::Margins margins;
+    paging::Outlook outlook;
+    std::size_t most = 100;  // tiles in memory
   };
 
-  /// `ahead` is where the vehicle is expected when the next tiles are needed.
-  Decision decide(const Vec2& position, const Vec2& ahead);
+  Paging(const TileGrid& grid, const Box& terrain, const Rules& rules)
+      : grid_(grid), terrain_(terrain), rules_(rules) {}
 
-  /// Tiles of the terrain that come within `margin` of a place, nearest first, then by key.
-  std::vector<TileKey> within(const Vec2& place, double margin_m) const;
-  double distance_m(const TileKey& key, const Vec2& place) const;
+  struct Decision {
+    std::vector<TileKey> publish;    // nearest first
+    std::vector<TileKey> release;    // by key
+    std::vector<TileKey> in_memory;  // in order of importance, at most `most`
+    int fetched = 0;                 // of these, not there at the look before
+    int fetched_again = 0;           // of these, there at an earlier one
+  };
+  /// One look at where the vehicle is.
+  Decision look(const paging::Motion& motion);
+
+  /// What to fetch before the first look when the vehicle will probably start like this.
+  std::vector<TileKey> before_start(const paging::Motion& motion) const;
 
  private:
+  std::vector<TileKey> needed(const paging::Motion& motion, std::vector<TileKey> first) const;
+
   TileGrid grid_;
-  Extent extent_;
-  Margins margins_;
-  std::set<TileKey> held_;
+  Box terrain_;
+  Rules rules_;
+  std::int64_t looks_ = 0;
+  std::set<TileKey> at_heads_;
+  paging::LastEnsonified in_memory_;
+  std::set<TileKey> ever_fetched_, ever_at_heads_;
 };
 
 }  // namespace ensonify::pager

@@ -1,54 +1,88 @@
 #include "components/terrain_pager/paging.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
 using namespace ensonify::pager;
+using ensonify::paging::Motion;
+using ensonify::terrain::Vec2;
 
 namespace {
 
 const TileGrid kGrid{Vec2::Zero(), 0.1, 1000, 1e-4};  // tiles of 100 m
-const Extent kTerrain{-1000, -1000, 1000, 1000};
-const Margins kMargins{60, 90, 300};
+const Box kTerrain{{-5000, -5000}, {5000, 5000}};
+
+Paging::Rules rules(std::size_t most) { return {{60, 90}, {60.0, 0.5, 60.0, 160.0}, most}; }
+
+/// Eastward at 4 m/s, twice a second.
+Motion eastward(int look) { return {{-500 + 2.0 * look, 50}, {4, 0}, 0.0}; }
 
 }  // namespace
 
-TEST_CASE("tiles nearer than the feed margin are published once, nearest first") {
-  Paging paging(kGrid, kTerrain, kMargins);
-  const auto first = paging.decide({50, 30}, {50, 30});
-  REQUIRE(first.publish.size() ==
-          6);  // 60 m reaches west, east, south and, by 50^2 + 30^2 < 60^2, the southern corners
-  CHECK(first.publish[0] == TileKey{0, 0});
-  CHECK(first.publish[1] == TileKey{0, -1});
-  CHECK(paging.decide({50, 30}, {50, 30}).publish.empty());
-}
-
-TEST_CASE("tiles are given up only beyond the release margin") {
-  Paging paging(kGrid, kTerrain, kMargins);
-  paging.decide({50, 50}, {50, 50});
-  CHECK(paging.decide({189, 50}, {189, 50}).release.size() == 3);  // the column 50..., 239 - 50 m west of it
-  const auto circling = paging.decide({185, 50}, {185, 50});
-  CHECK(circling.release.empty());
-  CHECK(circling.publish.empty());
-}
-
-TEST_CASE("along any track a head holds every tile within the margin, and none twice") {
-  Paging paging(kGrid, kTerrain, kMargins);
-  std::set<TileKey> held;
-  for (double t = 0.0; t < 600.0; t += 0.5) {
-    const Vec2 place(-500 + 1.7 * t, 200 * std::sin(t / 40));
-    const auto decision = paging.decide(place, place);
-    for (const auto& key : decision.publish) REQUIRE(held.insert(key).second);
-    for (const auto& key : decision.release) REQUIRE(held.erase(key) == 1);
-    for (const auto& key : paging.within(place, kMargins.feed_m)) REQUIRE(held.contains(key));
+TEST_CASE("on a straight track each tile is meant to be in memory long before it is published") {
+  Paging paging(kGrid, kTerrain, rules(100));
+  std::set<TileKey> before;
+  for (int look = 0; look < 400; ++look) {
+    const auto decision = paging.look(eastward(look));
+    if (look > 0) {
+      for (const TileKey& key : decision.publish) REQUIRE(before.contains(key));
+    }
+    before = {decision.in_memory.begin(), decision.in_memory.end()};
   }
 }
 
-TEST_CASE("nothing is published outside the terrain") {
-  Paging paging(kGrid, kTerrain, kMargins);
-  CHECK(paging.decide({5000, 0}, {5000, 0}).publish.empty());
-  for (const auto& key : paging.within({990, 990}, 500)) {
-    CHECK(key.east <= 10);
-    CHECK(key.north <= 10);
+TEST_CASE("memory is meant to hold what the budget allows, what is to be published first") {
+  // 14 tiles are those within 60 m at most, 6, and a few ahead; those to the sides are not asked for.
+  Paging paging(kGrid, kTerrain, {{60, 90}, {60.0, 0.5, 60.0, 60.0}, 14});
+  int fetched = 0, again = 0;
+  for (int look = 0; look < 400; ++look) {
+    const auto decision = paging.look(eastward(look));
+    REQUIRE(decision.in_memory.size() <= 14);
+    for (std::size_t i = 0; i < decision.publish.size(); ++i) REQUIRE(decision.in_memory[i] == decision.publish[i]);
+    fetched += decision.fetched;
+    again += decision.fetched_again;
   }
+  CHECK(fetched > 14);
+  CHECK(again == 0);
+}
+
+TEST_CASE("what was ensonified last is kept until the budget needs its place") {
+  Paging paging(kGrid, kTerrain, rules(40));
+  for (int look = 0; look < 300; ++look) paging.look(eastward(look));  // from x = -500 to 98
+  const auto kept = paging.look({{98, 50}, {0, 0}, 0.0}).in_memory;
+  const auto column = [](const TileKey& key) { return key.east; };
+  const auto oldest = std::ranges::min(kept, {}, column).east;
+  CHECK(oldest < -1);   // tiles behind, which heads have given up
+  CHECK(oldest >= -5);  // and none of where it was not
+  CHECK(kept.size() == 40);
+}
+
+TEST_CASE("a turning vehicle fetches no tile twice") {
+  // Two turns of 30 m radius, then a straight line, then two turns the other way; the budget has room for all around.
+  Paging paging(kGrid, kTerrain, rules(100));
+  Motion motion{{0, 0}, {4, 0}, 4.0 / 30.0};
+  int fetched_later = 0, again = 0;
+  for (int look = 0; look < 500; ++look) {
+    motion.turn_rate_radps = look < 190 ? 4.0 / 30.0 : look < 310 ? 0.0 : -4.0 / 30.0;
+    const Vec2 next = ensonify::paging::place_after(motion, 0.5);
+    const double turned = 0.5 * motion.turn_rate_radps;
+    const Vec2 v = motion.velocity_enu_mps;
+    motion.velocity_enu_mps = {v.x() * std::cos(turned) - v.y() * std::sin(turned),
+                               v.x() * std::sin(turned) + v.y() * std::cos(turned)};
+    motion.position_enu_m = next;
+    const auto decision = paging.look(motion);
+    again += decision.fetched_again;
+    if (look > 95 && look < 190) fetched_later += decision.fetched;  // the second turn
+  }
+  CHECK(fetched_later == 0);
+  CHECK(again == 0);
+}
+
+TEST_CASE("outside the terrain nothing is published and nothing fetched") {
+  Paging paging(kGrid, kTerrain, rules(100));
+  const auto decision = paging.look({{9000, 0}, {4, 0}, 0.0});
+  CHECK(decision.publish.empty());
+  CHECK(decision.in_memory.empty());
 }

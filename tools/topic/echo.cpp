@@ -46,10 +46,11 @@ void print_json(const msg::Packet& packet, const TopicEntry& topic, const msg::V
   constexpr std::size_t kFew = 16;
   const std::size_t elements = options.full ? SIZE_MAX : kFew;
   const msg::Value& shown = chosen(content, topic, options.field);
-  fmt::print(R"({{"topic":{},"type":{},"seq":{},"t_sim_ns":{},"{}":{}}})"
+  fmt::print(R"({{"topic":{},"type":{},"seq":{},"t_sim_ns":{},"{}":{}{}}})"
              "\n",
              nlohmann::json(topic.name).dump(), nlohmann::json(topic.type).dump(), packet.envelope.seq,
-             packet.envelope.t_sim_ns, options.field.empty() ? "content" : "value", msg::to_json(shown, elements));
+             packet.envelope.t_sim_ns, options.field.empty() ? "content" : "value", msg::to_json(shown, elements),
+             packet.wall_facts.size > 0 ? fmt::format(R"(,"wall_facts":{})", packet.wall_facts.text()) : "");
 }
 
 void print_text(const msg::Packet& packet, const TopicEntry& topic, const msg::Value& content, const Options& options) {
@@ -58,6 +59,7 @@ void print_text(const msg::Packet& packet, const TopicEntry& topic, const msg::V
   if (options.field.empty()) {
     fmt::print("t={:.3f} s {} {} seq={}\n{}", t_s, topic.name, topic.type, packet.envelope.seq,
                message_text(content, type));
+    if (packet.wall_facts.size > 0) fmt::print("  wall facts: {}\n", packet.wall_facts.text());
     return;
   }
   const msg::FieldInfo* info = find_field(type, options.field);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "components/runtime/head/head_motion.h"
 #include "components/runtime/log.h"
 #include "messages/motion.h"
@@ -11,6 +13,20 @@ namespace ensonify {
 namespace {
 
 constexpr SimTime kCommandDelay = 100_ms;
+
+/// How far from the vehicle the head needs the seabed, whatever it is set to: the pager asks (terrain_pager/demand.h).
+void note_reach(Ports& ports, const HeadInputs::Start& start) {
+  double range_m = 0.0;
+  bool follows = false;  // the depth, by itself, in every channel
+  for (const HeadInputs::Channel& channel : start.channels) {
+    if (!channel.limits.range_m) continue;
+    follows = channel.settings.auto_range && (follows || range_m == 0.0);
+    range_m = std::max(range_m, channel.limits.range_m->most);
+  }
+  if (range_m == 0.0) return;
+  ports.note("reach_m", range_m + start.mounting.actual.position_body_m.norm());
+  if (follows) ports.note("auto_range", 1.0);
+}
 
 }  // namespace
 
@@ -24,6 +40,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
     names_.push_back(channel.name);
     settings_.emplace_back(channel.settings, channel.limits);
   }
+  note_reach(ports, start);
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
   ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { push(estimate_, estimate); },
                           {.optional = true});

@@ -1,0 +1,73 @@
+"""A survey whose seabed is paged in and given up again hears what one hears with the whole seabed in memory."""
+import unittest
+
+import ensonify
+from support import SystemTest
+
+# 700 m of rock and sand at 0.1 m, 21 tiles; the boat crosses it lengthwise.
+WORLD = """
+ensonify: scenario/1
+site: { name: Strip, latitude_deg: 57.5, longitude_deg: -1.5 }
+seed: 10
+seabed:
+  kind: layers
+  post_spacing_m: 0.1
+  size_m: [700, 200]
+  layers:
+    slope: { plane: { depth_m: 12, slope_deg: 0.2, downhill_heading_deg: 90 } }
+    rock: { spectral: { rms_m: 0.3, outer_scale_m: 50 } }
+vehicles:
+  boat:
+    acceleration_mps2: 0.3
+    turning_radius_m: 30
+    fastest_mps: 8
+    mountings: { bow: { actual: { position_m: [1.5, 0.2, 0.8] } } }
+mission:
+  speed_mps: 6
+  runlines: [{ from_m: [-300, 0], to_m: [300, 0] }]
+"""
+
+LAUNCH = """
+ensonify: launch/1
+scenario: world.yaml
+duration_s: 60
+clock: {{ rate: free }}
+processes:
+  boat:  {{ run: vehicle }}
+  nav:   {{ run: navigation }}
+  pilot: {{ run: autopilot }}
+  pager: {{ run: terrain_pager, config: {{ {pager} }} }}
+  bow:   {{ run: multibeam, config: {{ ping_rate_hz: 1, amplitude_every: 10 }} }}
+  heard: {{ run: recorder, config: {{ file: heard.mcap, topics: [bow/soundings, bow/ping] }} }}
+  paged: {{ run: recorder, config: {{ file: paged.mcap, topics: [pager/release, pager/health] }} }}
+"""
+
+
+def releases(record):
+    with ensonify.Record(record) as messages:
+        return sum(1 for _ in messages.messages("pager/release"))
+
+
+class Paged(SystemTest):
+    def survey(self, name, pager):
+        self.write("world.yaml", WORLD)
+        result = self.run_launch(LAUNCH.format(pager=pager), out=name, timeout=300)
+        self.assertEqual(result.code, 0, result.stderr)
+        return result.out
+
+    def test_what_is_heard_does_not_depend_on_what_is_resident(self):
+        whole = self.survey("whole", "feed_margin_m: 1000")
+        self.assertEqual(releases(whole / "paged.mcap"), 0)
+        # The least that is allowed: 6 tiles at once within 62 m and one being made; every tile is a surprise to the disk.
+        paged = self.survey("paged", "budget_mb: 53, threads: 1, load_ahead_s: 1, wide_margin_m: 0")
+        self.assertGreaterEqual(releases(paged / "paged.mcap"), 6)
+        same = self.tool("compare", whole / "heard.mcap", paged / "heard.mcap")
+        self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
+        with ensonify.Record(paged / "heard.mcap") as record:
+            heard = [soundings.valid.any() for _, _, soundings in record.messages("bow/soundings")]
+        self.assertGreater(len(heard), 50)
+        self.assertTrue(all(heard), "a ping came back empty")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
