@@ -24,7 +24,8 @@ from navigation_bench import bench_navigation
 def bench_kernels(b):
     """The google-benchmark programs of the kernels, which print their own floors."""
     rows = []
-    for name in ("bench_array", "bench_trace", "bench_lod", "bench_echo", "bench_detect", "bench_relief", "bench_seabed"):
+    for name in ("bench_array", "bench_trace", "bench_lod", "bench_echo", "bench_detect", "bench_relief", "bench_seabed",
+                 "bench_page_in"):
         done = subprocess.run([str(b.build / "bench" / name), "--benchmark_format=json"], capture_output=True, text=True)
         if done.returncode != 0:
             raise RuntimeError(f"{name}: exit {done.returncode}: {done.stderr}")

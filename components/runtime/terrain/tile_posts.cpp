@@ -8,6 +8,7 @@ void fill_tile(const TerrainSource& source, const terrain::TileGrid& grid, const
   source.sample(
       {std::int64_t{key.east} * grid.cells, std::int64_t{key.north} * grid.cells, posts, posts, grid.spacing_m},
       height_m, sediment);
+  if (source.lsb_m() == grid.lsb_m) return;  // they are on it
   for (float& height : height_m) height = terrain::on_lattice(height, grid.lsb_m);
 }
 

@@ -47,7 +47,20 @@ TileSetSource::TilePtr TileSetSource::tile_at(const terrain::TileKey& key) const
   return tile;
 }
 
+TileSetSource::TilePtr TileSetSource::whole_tile(const PostBlock& posts) const {
+  const std::int64_t cells = set_.grid.cells;
+  if (posts.spacing_m != set_.grid.spacing_m || posts.columns != cells + 1 || posts.rows != cells + 1) return nullptr;
+  if (posts.first_east % cells != 0 || posts.first_north % cells != 0) return nullptr;
+  return tile_at(
+      {static_cast<std::int32_t>(posts.first_east / cells), static_cast<std::int32_t>(posts.first_north / cells)});
+}
+
 void TileSetSource::sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
+  if (const TilePtr tile = whole_tile(posts)) {
+    std::ranges::copy(tile->height_m, height_m.begin());
+    std::ranges::copy(tile->sediment, sediment.begin());
+    return;
+  }
   const bool own = posts.spacing_m == set_.grid.spacing_m;
   terrain::TileKey held{std::numeric_limits<std::int32_t>::min(), 0};
   TilePtr tile;

@@ -42,6 +42,9 @@ class TileSetSource : public TerrainSource {
   /// Nothing where the set has no tile.
   TilePtr tile_at(const terrain::TileKey& key) const;
 
+  /// The tile whose posts these are, all and no others; nothing if there is none.
+  TilePtr whole_tile(const PostBlock& posts) const;
+
   tiles::TileSet set_;
   Extent extent_;
   double lowest_m_ = 0.0, highest_m_ = 0.0;

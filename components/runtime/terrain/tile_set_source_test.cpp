@@ -72,3 +72,19 @@ TEST_CASE("between posts a set is bilinear") {
   CHECK(height[0] == Approx(seabed(-14.8, -14.8)).margin(0.0025));
   CHECK(sediment[0] == 1);
 }
+
+TEST_CASE("a whole tile has the bits that its posts have in a block that is none") {
+  const Set made;
+  const TileSetSource source(made.folder);
+  const PostBlock whole{-32, 0, 33, 33, 0.5}, wider{-32, 0, 34, 33, 0.5};
+  std::vector<float> height(whole.size()), wider_height(wider.size());
+  std::vector<std::uint8_t> sediment(whole.size()), wider_sediment(wider.size());
+  source.sample(whole, height, sediment);
+  source.sample(wider, wider_height, wider_sediment);
+  for (std::size_t row = 0; row < 33; ++row) {
+    for (std::size_t column = 0; column < 33; ++column) {
+      REQUIRE(height[row * 33 + column] == wider_height[row * 34 + column]);
+      REQUIRE(sediment[row * 33 + column] == wider_sediment[row * 34 + column]);
+    }
+  }
+}
