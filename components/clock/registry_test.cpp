@@ -48,3 +48,13 @@ TEST_CASE("a stranger, a double and a process under another's name are refused")
   CHECK(registry.join("a", hello_of("a", {}, {})).empty());
   CHECK(registry.join("a", hello_of("a", {}, {})) == "a: has joined already");
 }
+
+TEST_CASE("everybody learns what each process notes") {
+  clock::Registry registry(launch_of({"bow", "pager"}));
+  auto bow = hello_of("bow", {}, {});
+  bow.declaration.notes = {{"reach_m", 151.5}};
+  CHECK(registry.join("bow", bow).empty());
+  CHECK(registry.join("pager", hello_of("pager", {}, {})).empty());
+  REQUIRE(registry.check().empty());
+  CHECK(registry.welcome(1).facts.at("bow/reach_m") == "151.5");
+}
