@@ -82,6 +82,29 @@ class Terrain(SystemTest):
         bad = terrain("sample", folder, "--points", "-", text="1,2\nhere\n")
         self.assertEqual(bad.returncode, 2)
 
+    def test_a_mesh_covers_the_seabed_once_finely_below_the_fan_and_coarsely_elsewhere(self):
+        done = terrain("mesh", SCENARIO, "--at", 10, 20, "--altitude", 20)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mesh = json.loads(done.stdout)
+        west, south, east, north, level = np.array(mesh["blocks"]).T
+
+        def level_at(x, y):
+            over = (west <= x) & (x < east) & (south <= y) & (y < north)
+            self.assertEqual(np.count_nonzero(over), 1)
+            return level[over][0]
+
+        self.assertEqual({level_at(x, 20) for x in range(-30, 50, 5)}, {0})  # 43 m to either side, across the heading
+        self.assertEqual(level_at(10, 150), 5)
+        self.assertEqual(level_at(-150, 20), 5)
+        self.assertLess(10 * mesh["triangles"], mesh["triangles_of_all_posts"])
+        picture = self.folder / "lod.png"
+        plot = [BIN / "ensonify-plot", "lod", SCENARIO, "--at", "10", "20", "--altitude", "20", "--out", picture]
+        subprocess.run(plot, check=True, capture_output=True, timeout=120)
+        self.assertGreater(picture.stat().st_size, 10_000)
+        beside = terrain("mesh", SCENARIO, "--at", 5000, 0)
+        self.assertEqual(beside.returncode, 2)
+        self.assertIn("has no height at 5000, 0", beside.stderr)
+
     def test_info_and_verify(self):
         folder = self.build()
         facts = json.loads(terrain("info", folder, "--json").stdout)

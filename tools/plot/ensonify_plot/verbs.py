@@ -8,6 +8,7 @@ from ensonify_plot.forward_looking import forward_looking_picture
 from ensonify_plot.heard import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
                                  soundings_of)
 from ensonify_plot.level import Gain
+from ensonify_plot.lod import add_lod
 from ensonify_plot.navigation import navigation_picture
 from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.results import open_record, save_picture
@@ -46,6 +47,7 @@ def add_verbs(verbs) -> None:
           "How good the navigation was: error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
           "Allan deviation of the inertial sensors, spectra of the motion.")
     add_seabed(verbs)
+    add_lod(verbs)
 
 
 def _add_waterfall(verbs) -> None:

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/terrain/tile_posts.h"
+#include "kernels/array/line.h"
+#include "kernels/frames/attitude.h"
+#include "kernels/lod/patch.h"
+#include "kernels/trace/views.h"
+#include "tools/terrain/open.h"
+#include "tools/terrain/verbs.h"
+
+namespace ensonify::terrain_tool {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kCells = 1024;        // of a tile's side
+constexpr double kMostTiles = 400;  // of posts: 2 GB
+
+struct Options {
+  std::string seabed;
+  std::vector<double> at;
+  double altitude_m = 50.0, heading_deg = 0.0, swath_deg = 130.0, beamwidth_deg = 1.0;
+  int side_lobes = 2;
+};
+
+struct Paged {
+  terrain::Tile tile;
+  lod::Hierarchy hierarchy;
+  lod::Cover cover;
+};
+
+/// The tiles within a horizontal distance of a place.
+std::map<terrain::TileKey, Paged> tiles_within(const Opened& seabed, const frames::Vec2& place, double reach_m) {
+  const terrain::TileGrid grid{.spacing_m = seabed.spacing_m, .cells = kCells, .lsb_m = seabed.lsb_m};
+  const frames::Vec2 reach(reach_m, reach_m);
+  const terrain::TileKey first = grid.key_at(place - reach), last = grid.key_at(place + reach);
+  const double tiles = (last.east - first.east + 1.0) * (last.north - first.north + 1.0);
+  if (tiles > kMostTiles) {
+    throw UserError(fmt::format("the swath needs {:.0f} tiles of posts {:g} m apart; allowed: {:.0f}", tiles,
+                                grid.spacing_m, kMostTiles));
+  }
+  std::map<terrain::TileKey, Paged> paged;
+  constexpr int kPosts = kCells + 1;
+  for (int east = first.east; east <= last.east; ++east) {
+    for (int north = first.north; north <= last.north; ++north) {
+      const terrain::TileKey key{east, north};
+      terrain::Tile tile{grid.origin_of(key), grid.spacing_m, kPosts, kPosts, {}, {}};
+      tile.height_m.resize(std::size_t{kPosts} * kPosts);
+      tile.sediment.resize(tile.height_m.size());
+      source::fill_tile(*seabed.terrain, grid, key, tile.height_m, tile.sediment);
+      lod::Hierarchy hierarchy(tile);
+      paged.emplace(key, Paged{std::move(tile), std::move(hierarchy), {}});
+    }
+  }
+  return paged;
+}
+
+lod::Neighbours around(const std::map<terrain::TileKey, Paged>& paged, const terrain::TileKey& key) {
+  const auto beside = [&](int east, int north) {
+    const auto other = paged.find({key.east + east, key.north + north});
+    return other == paged.end() ? nullptr : &other->second.cover;
+  };
+  return {beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)};
+}
+
+frames::HeadPose head_of(const Options& options, const Opened& seabed) {
+  const frames::Vec2 place(options.at[0], options.at[1]);
+  const double bottom_m = seabed.terrain->height_m(place);
+  if (!std::isfinite(bottom_m))
+    throw UserError(fmt::format("{}: has no height at {:g}, {:g}", options.seabed, place.x(), place.y()));
+  return {{place.x(), place.y(), bottom_m + options.altitude_m},
+          frames::enu_from_body({options.heading_deg * kDegree, 0.0, 0.0})};
+}
+
+int mesh(const Options& options) {
+  const Opened seabed = open_seabed(options.seabed);
+  const frames::HeadPose head = head_of(options, seabed);
+  const double half_swath_rad = 0.5 * options.swath_deg * kDegree;
+  const double range_m = 1.1 * options.altitude_m / std::cos(half_swath_rad);  // the seabed is not level
+  const double waves = array::length_in_waves_for(options.beamwidth_deg * kDegree);
+  const auto views =
+      trace::views_of(trace::mills_cross_volume(waves, waves, half_swath_rad), head, range_m, {}, options.side_lobes);
+  auto paged = tiles_within(seabed, head.position_enu_m.head<2>(), range_m);
+  for (auto& [key, one] : paged) one.cover.choose(one.hierarchy, views);
+  std::size_t shown = 0, all = 0;
+  nlohmann::ordered_json blocks = nlohmann::ordered_json::array();
+  for (const auto& [key, one] : paged) {
+    all += 2 * std::size_t{kCells} * kCells;
+    const lod::Neighbours neighbours = around(paged, key);
+    for (const lod::Leaf& leaf : one.cover.leaves()) {
+      const lod::Rim rim = lod::rim_of(leaf, one.cover, neighbours);
+      shown += lod::patch_of(one.tile, one.hierarchy, leaf, rim, head.position_enu_m.head<2>()).triangles();
+      const lod::Posts posts = one.hierarchy.posts(leaf.block);
+      const frames::Vec3 low = one.tile.position_enu_m(posts.west, posts.south);
+      const frames::Vec3 high = one.tile.position_enu_m(posts.east, posts.north);
+      blocks.push_back({low.x(), low.y(), high.x(), high.y(), leaf.level});
+    }
+  }
+  const frames::Vec3& place = head.position_enu_m;
+  fmt::print("{}\n", nlohmann::ordered_json{{"head_enu_m", {place.x(), place.y(), place.z()}},
+                                            {"spacing_m", seabed.spacing_m},
+                                            {"triangles", shown},
+                                            {"triangles_of_all_posts", all},
+                                            {"blocks", blocks}}
+                         .dump());
+  return kExitOk;
+}
+
+}  // namespace
+
+Verb add_mesh(CLI::App& parent) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = parent.add_subcommand(
+      "mesh",
+      "Prints, as JSON, the blocks of the mesh that a multibeam's transmission makes of a seabed: west, south, east "
+      "and "
+      "north edge (m) and level (0: all posts, n: every 2^n-th) of each; and how many triangles they have.");
+  app->add_option("seabed", options->seabed, "scenario file, or folder of a tile set")->required();
+  app->add_option("--at", options->at, "EAST NORTH in m: where the head is")->expected(2)->required();
+  app->add_option("--altitude", options->altitude_m, "of the head above the seabed, m")
+      ->check(CLI::Range(0.5, 1000.0))
+      ->capture_default_str();
+  app->add_option("--heading", options->heading_deg, "degrees from north")->capture_default_str();
+  app->add_option("--swath", options->swath_deg, "degrees")->check(CLI::Range(1.0, 150.0))->capture_default_str();
+  app->add_option("--beam", options->beamwidth_deg, "width of a beam, degrees")
+      ->check(CLI::Range(0.2, 10.0))
+      ->capture_default_str();
+  app->add_option("--side-lobes", options->side_lobes, "level that side lobes see")
+      ->check(CLI::Range(0, lod::kCoarsest))
+      ->capture_default_str();
+  return {app, [options] { return mesh(*options); }};
+}
+
+}  // namespace ensonify::terrain_tool
