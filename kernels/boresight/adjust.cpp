@@ -91,7 +91,7 @@ class Adjustment {
         const double off_m = std::abs(rough.residual_m()[static_cast<Eigen::Index>(i)]);
         if (off_m <= settings_.gate_sds * rough.sigma_m()) kept.push_back(all[i]);
       }
-      if (!kept.empty() && kept.front().line != kept.back().line) chosen_.push_back(std::move(kept));
+      if (kept.size() > 3 && kept.front().line != kept.back().line) chosen_.push_back(std::move(kept));
     }
     if (chosen_.empty()) {
       throw std::invalid_argument("no square of " + std::to_string(settings_.cell_m) + " m holds at least " +
