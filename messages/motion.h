@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace ensonify::msg {
@@ -42,12 +43,14 @@ struct Guidance {
   std::int64_t stamp_ns = 0;
   double heading_grid_rad = 0.0;
   double speed_mps = 0.0;
+  double depth_m = std::numeric_limits<double>::quiet_NaN();
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the command, sim time", self.stamp_ns);
     visit("heading_grid_rad", "rad", "heading to steer, clockwise from grid north", self.heading_grid_rad);
     visit("speed_mps", "m/s", "speed through the water to reach, forward", self.speed_mps);
+    visit("depth_m", "m", "depth of the body origin below the water level to hold; NaN: as before", self.depth_m);
   }
 };
 
@@ -64,7 +67,7 @@ struct MissionState {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the state, sim time", self.stamp_ns);
-    visit("state", "", "run_in, on_line, turn or done", self.state);
+    visit("state", "", "run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done", self.state);
     visit("line", "1", "index of the runline being flown, -1 before the first", self.line);
     visit("line_count", "1", "number of runlines in the mission", self.line_count);
     visit("cross_track_m", "m", "estimated distance right of the runline, positive to starboard", self.cross_track_m);

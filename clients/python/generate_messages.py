@@ -37,7 +37,7 @@ def python_field(kind, default, braces):
     if kind in SCALARS:
         scalar = SCALARS[kind]
         text = (default or ZERO[scalar]).replace("true", "True").replace("false", "False")
-        text = text.replace("kUnchanged", 'float("nan")')
+        text = re.sub(r"kUnchanged|std::numeric_limits<double>::quiet_NaN\(\)", 'float("nan")', text)
         return scalar, text
     if match := re.fullmatch(r"(?:msg::)?Array<(.+)>", kind):
         return "np.ndarray", f'array("{DTYPES[match[1]]}")'

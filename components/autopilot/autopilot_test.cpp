@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <set>
 
 #include "components/autopilot/node.h"
@@ -9,6 +12,7 @@
 #include "kernels/motion/kinematics.h"
 
 using namespace ensonify;
+using navigation::Vec2;
 
 namespace {
 
@@ -19,14 +23,15 @@ AutopilotConfig three_lines(double spacing_m) {
   config.plan.mission.speed_mps = 2.0;
   config.plan.mission.run_in_m = 15.0;
   config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.3, 150, spacing_m, 3);
+  config.plan.mission.steps = steps_of(config.plan.mission.runlines);
   return config;
 }
 
 /// The vehicle and navigation of a test: kinematics on one side, a perfect estimate on the other, 0.1 s of delay.
 class Loop {
  public:
-  Loop(const AutopilotConfig& config, const motion::State& start)
-      : autopilot(config), limits_(config.plan.limits), state_(start) {
+  Loop(const AutopilotConfig& config, const motion::State& start, const Vec2& current_enu_mps = {0, 0})
+      : autopilot(config), limits_(config.plan.limits), state_(start), current_enu_mps_(current_enu_mps) {
     command_ = {start.heading_rad, start.speed_mps, start.position_enu_m.z()};
   }
 
@@ -37,27 +42,35 @@ class Loop {
     for (SimTime now = now_; now <= t && !autopilot.finished(); now += 100_ms) {
       msg::Estimate estimate;
       estimate.stamp_ns = now.count();
-      estimate.position_enu_m = {state_.position_enu_m.x(), state_.position_enu_m.y(), 0.0};
+      estimate.position_enu_m = {state_.position_enu_m.x(), state_.position_enu_m.y(), state_.position_enu_m.z()};
       estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{state_.heading_rad, 0, 0}));
-      estimate.velocity_enu_mps = {state_.speed_mps * std::sin(state_.heading_rad),
-                                   state_.speed_mps * std::cos(state_.heading_rad), 0.0};
+      estimate.velocity_enu_mps = {state_.speed_mps * std::sin(state_.heading_rad) + current_enu_mps_.x(),
+                                   state_.speed_mps * std::cos(state_.heading_rad) + current_enu_mps_.y(), 0.0};
       autopilot.give("estimate", estimate);
+      if (bottom) {
+        const double range_m = bottom(state_.position_enu_m.y()) + state_.position_enu_m.z();
+        autopilot.give("altitude", msg::Altitude{now.count(), true, range_m});
+      }
       const auto orders = autopilot.step_until<msg::Guidance>("command", now);
       for (const auto& mission : autopilot.step_until<msg::MissionState>("mission", now)) see(mission, state_);
       command_ = next;
-      if (!orders.empty()) next = {orders[0].heading_grid_rad, orders[0].speed_mps, 0.0};
+      if (!orders.empty()) next = {orders[0].heading_grid_rad, orders[0].speed_mps, next.height_m};
+      if (!orders.empty() && !std::isnan(orders[0].depth_m)) next.height_m = -orders[0].depth_m;
       state_ = motion::advance(state_, command_, 0.1, limits_);
+      state_.position_enu_m.head<2>() += 0.1 * current_enu_mps_;
       now_ = now + 100_ms;
     }
   }
 
   NodeUnderTest<AutopilotNode> autopilot;
+  std::function<double(double north_m)> bottom;  // depth; given: an altimeter is carried
   SimTime now() const { return now_; }
 
  private:
   motion::Limits limits_;
   motion::State state_;
   motion::Command command_;
+  Vec2 current_enu_mps_;
   SimTime now_{0};
 };
 
@@ -66,7 +79,7 @@ class Loop {
 TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
   Scenario scenario;
   scenario.vehicles.resize(1);
-  scenario.mission.runlines = {{{0, 0}, {0, 100}}};
+  scenario.mission.steps = steps_of({{{0, 0}, {0, 100}}});
   CHECK(default_yaml_fault<AutopilotConfig>("autopilot", scenario) == "");
 }
 
@@ -144,7 +157,7 @@ TEST_CASE("nothing is commanded before the first estimate") {
 
 TEST_CASE("lines over a chart are planned when it arrives, or refused with the reason") {
   AutopilotConfig config = three_lines(30.0);
-  config.plan.mission.runlines.clear();
+  config.plan.mission.steps.clear();
   config.plan.mission.auto_plan = AutoPlan{};
   msg::Chart chart;
   chart.west_m = chart.south_m = -400;
@@ -166,4 +179,159 @@ TEST_CASE("lines over a chart are planned when it arrives, or refused with the r
   CHECK_THROWS_WITH(
       autopilot.run_until(1_s),
       Catch::Contains("bay.yaml") && Catch::Contains("mission.auto: no room for a survey: no part of the chart"));
+}
+
+namespace {
+
+AutopilotConfig steps(std::vector<MissionStep> steps) {
+  AutopilotConfig config = three_lines(40.0);
+  config.plan.mission.steps = std::move(steps);
+  config.plan.mission.runlines.clear();
+  return config;
+}
+
+const motion::State kUnderWay{{0, 0, 0}, 0.0, 2.0, 0.0};
+
+/// The states that a mission goes through, each once in a row.
+std::vector<std::string> states_of(Loop& loop, SimTime until) {
+  std::vector<std::string> states;
+  loop.run_until(until, [&](const msg::MissionState& mission, const motion::State&) {
+    if (states.empty() || states.back() != mission.state) states.push_back(mission.state);
+  });
+  return states;
+}
+
+}  // namespace
+
+TEST_CASE("in a current lines are held against it, and run-outs are flown") {
+  AutopilotConfig config = three_lines(40.0);
+  config.plan.mission.run_in_m = 40.0;
+  config.plan.mission.run_out_m = 10.0;
+  Loop loop(config, start_of(config.plan, config.plan.mission.runlines), {0.5, -0.2});
+  std::vector<double> off_m;
+  std::set<std::string> states;
+  loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) {
+    states.insert(mission.state);
+    if (mission.state == "on_line") off_m.push_back(std::abs(mission.cross_track_m));
+  });
+  std::sort(off_m.begin(), off_m.end());
+  CHECK(off_m[off_m.size() * 95 / 100] < 1.0);
+  CHECK(states == std::set<std::string>{"run_in", "on_line", "run_out", "turn", "done"});
+}
+
+TEST_CASE("a line of several pieces is flown round its bends, and the circuit as often as told") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 150}, {100, 150}, {150, 250}}}});
+  config.plan.mission.repeat = 2;
+  Loop loop(config, kUnderWay);
+  double worst_m = 0.0;
+  std::int64_t last_line = -1;
+  double longest_to_go_m = 0.0;
+  loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) {
+    CHECK(mission.line_count == 2);
+    if (mission.state != "on_line") return;
+    last_line = mission.line;
+    worst_m = std::max(worst_m, std::abs(mission.cross_track_m));
+    longest_to_go_m = std::max(longest_to_go_m, mission.distance_to_go_m);
+  });
+  CHECK(last_line == 1);
+  // At a bend of 90 degrees the circle leaves a piece a radius before its end, so the next is first seen that far off.
+  CHECK(worst_m < 1.3 * 12.0);
+  CHECK(longest_to_go_m == Approx(130.0 + 100.0 + std::hypot(50.0, 100.0)).margin(0.5));
+  CHECK(loop.autopilot.finished());
+}
+
+TEST_CASE("an inspection passes on a heading, stops and stays, orbits, sets the sonar and marks") {
+  SetSonar sonar;
+  sonar.head = "bow";
+  sonar.range_m = 30.0;
+  Loop loop(steps({PassPlace{{60, 100}, 1.5}, sonar, KeepPlace{Vec2(150, 100), 20.0, 3.0}, SetMark{"wreck"},
+                   FlyOrbit{{150, 150}, 25.0, 1.25, true}}),
+            kUnderWay);
+  std::vector<std::string> states;
+  std::optional<motion::State> passed;
+  double slowest_mps = 9.0, kept_s = 0.0, orbit_s = 0.0, off_circle_m = 0.0;
+  loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State& vehicle) {
+    if (states.empty() || states.back() != mission.state) states.push_back(mission.state);
+    if (mission.state == "pass") passed = vehicle;
+    if (mission.state == "keep") {
+      kept_s += mission.distance_to_go_m < 4.5 ? 0.1 : 0.0;
+      slowest_mps = std::min(slowest_mps, vehicle.speed_mps);
+    }
+    if (mission.state == "orbit") {
+      orbit_s += 0.1;
+      if (orbit_s > 40.0) off_circle_m = std::max(off_circle_m, std::abs(mission.cross_track_m));
+    }
+  });
+  CHECK(states == std::vector<std::string>{"pass", "keep", "orbit", "done"});
+  REQUIRE(passed);
+  CHECK((passed->position_enu_m.head<2>() - Vec2(60, 100)).norm() < 1.5);
+  CHECK(passed->heading_rad == Approx(1.5).margin(0.1));
+  CHECK(kept_s == Approx(20.0).margin(0.5));
+  CHECK(slowest_mps < 0.05);
+  // 1.25 turns of a circle of 25 m at 2 m/s, and the way onto it.
+  CHECK(orbit_s == Approx(1.25 * 2 * 3.14159 * 25.0 / 2.0).margin(25.0));
+  CHECK(off_circle_m < 0.5);
+
+  const auto settings = loop.autopilot.step_until<msg::SonarSettings>("settings_bow", loop.now());
+  REQUIRE(settings.size() == 1);
+  CHECK(settings[0].range_m == 30.0);
+  CHECK(std::isnan(settings[0].swath_rad));
+  const auto marks = loop.autopilot.step_until<msg::Mark>("mark", loop.now());
+  REQUIRE(marks.size() == 1);
+  CHECK(marks[0].text == "wreck");
+  CHECK(std::hypot(marks[0].position_enu_m[0] - 150, marks[0].position_enu_m[1] - 100) < 4.5);
+}
+
+TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where it is too low") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 600}}}});
+  config.plan.mission.depth_m = 10.0;
+  config.plan.mission.altitude_m = 5.0;
+  config.plan.mission.least_altitude_m = 2.0;
+  Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
+  loop.bottom = [](double north_m) { return 20.0 + 3.0 * std::sin(north_m / 60.0); };  // slopes up to 1 in 20
+  double least_m = 99.0, worst_m = 0.0;
+  loop.run_until(400_s, [&](const msg::MissionState&, const motion::State& vehicle) {
+    const double altitude_m = loop.bottom(vehicle.position_enu_m.y()) + vehicle.position_enu_m.z();
+    if (vehicle.position_enu_m.y() < 100.0) return;
+    least_m = std::min(least_m, altitude_m);
+    worst_m = std::max(worst_m, std::abs(altitude_m - 5.0));
+  });
+  CHECK(loop.autopilot.finished());
+  CHECK(least_m > 4.0);
+  CHECK(worst_m < 1.5);  // 0.1 m/s of rise, looked ahead for 7 s, and awaited as long where it falls
+}
+
+TEST_CASE("a mission that takes too long is given up at the surface") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
+  config.plan.mission.depth_m = 10.0;
+  config.plan.mission.abort.after_s = 100.0;
+  Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
+  const auto states = states_of(loop, 600_s);
+  CHECK(states.back() == "abort");
+  CHECK(loop.autopilot.finished());
+  // 9 m up at 0.5 m/s: 18 s, and the command's delay.
+  CHECK(seconds(loop.now()) == Approx(118.0).margin(2.0));
+}
+
+TEST_CASE("an adaptive survey waits for each next line and ends when told") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 100}}}});
+  config.plan.mission.adaptive = AdaptivePlan{};
+  Loop loop(config, kUnderWay);
+  int waited = 0;
+  std::vector<std::string> states;
+  loop.run_until(600_s, [&](const msg::MissionState& mission, const motion::State&) {
+    if (states.empty() || states.back() != mission.state) states.push_back(mission.state);
+    if (mission.state != "await_line") return;
+    if (++waited % 30 != 0) return;
+    msg::NextLine next;
+    next.stamp_ns = mission.stamp_ns;
+    next.number = mission.line + 1;
+    next.done = mission.line == 1;
+    next.start_enu_m = {60, 100};
+    next.end_enu_m = {60, 20};
+    loop.autopilot.give("next_line", next);
+  });
+  CHECK(states ==
+        std::vector<std::string>{"run_in", "on_line", "await_line", "turn", "run_in", "on_line", "await_line", "done"});
+  CHECK(loop.autopilot.finished());
 }

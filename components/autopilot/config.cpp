@@ -11,9 +11,10 @@ AutopilotConfig AutopilotConfig::read(ConfigReader& from, const Scenario& scenar
   from.optional("lookahead_radii", config.lookahead_radii, 0.2, 20);
   from.optional("turn_margin", config.turn_margin, 1, 10);
   from.optional("turn_speed_fraction", config.turn_speed_fraction, 0.1, 1);
+  from.optional("drift_settle_s", config.drift_settle_s, 0, 1000);
   config.plan = MissionPlan::of(scenario, own_vehicle(from, scenario, process));
-  if (!config.plan.needs_chart() && scenario.mission.runlines.empty()) {
-    from.problem("", "the scenario's mission has no runline");
+  if (!config.plan.needs_chart() && scenario.mission.steps.empty()) {
+    from.problem("", "the scenario's mission has no step");
   }
   return config;
 }

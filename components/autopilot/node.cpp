@@ -1,5 +1,7 @@
 #include "components/autopilot/node.h"
 
+#include <algorithm>
+
 namespace ensonify {
 
 AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
@@ -13,18 +15,38 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
   if (config.plan.needs_chart()) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) { chart_ = chart; });
   } else {
-    pilot_.emplace(config, config.plan.mission.runlines);
+    pilot_.emplace(config, config.plan.mission.steps);
+  }
+  const Mission& mission = config.plan.mission;
+  const Rate rate{config.command_rate_hz, 1};
+  if (DepthKeeper(mission, config.plan.limits.vertical_speed_mps).steers()) {
+    ports.in<msg::Altitude>("altitude", [this](const msg::Altitude& altitude) { altitude_ = altitude; },
+                            {.optional = true});
+  }
+  if (mission.adaptive) {
+    ports.in<msg::NextLine>("next_line", [this](const msg::NextLine& line) { pilot_->offer(line); });
+  }
+  for (const std::string& head : mission.sonars()) {
+    settings_.emplace(head, ports.out<msg::SonarSettings>("settings_" + head, {.rate = rate}));
+  }
+  if (std::any_of(mission.steps.begin(), mission.steps.end(),
+                  [](const MissionStep& step) { return std::holds_alternative<SetMark>(step); })) {
+    marks_ = ports.out<msg::Mark>("mark", {.rate = rate});
   }
 }
 
 SimTime AutopilotNode::step(SimTime now) {
   if (!commands_due_.due(now)) return commands_due_.next();
-  if (!pilot_ && chart_) pilot_.emplace(config_, runlines(config_.plan, *chart_));
+  if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(runlines(config_.plan, *chart_)));
   if (pilot_ && estimate_) {
-    pilot_->update(*estimate_);
+    if (altitude_) pilot_->hear(*altitude_);
+    altitude_.reset();
+    pilot_->update(now, *estimate_);
     commands_.send(pilot_->command(now));
     missions_.send(pilot_->mission_state(now));
-    if (pilot_->state() == Pilot::State::kDone && !finished_) {
+    for (const auto& [head, settings] : pilot_->take_settings()) settings_.at(head).send(settings);
+    for (const msg::Mark& mark : pilot_->take_marks()) marks_->send(mark);
+    if (pilot_->ended() && !finished_) {
       finished_ = true;
       ports_.finish();
     }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "components/autopilot/pilot.h"
 #include "components/runtime/ports.h"
@@ -23,10 +25,13 @@ class AutopilotNode {
   Periodic commands_due_;
   std::optional<msg::Estimate> estimate_;
   std::optional<msg::Chart> chart_;
-  std::optional<Pilot> pilot_;  // empty until the lines are known
+  std::optional<msg::Altitude> altitude_;  // heard since the last command
+  std::optional<Pilot> pilot_;             // empty until the lines are known
   bool finished_ = false;
   Ports::Out<msg::Guidance> commands_;
   Ports::Out<msg::MissionState> missions_;
+  std::map<std::string, Ports::Out<msg::SonarSettings>> settings_;  // by head
+  std::optional<Ports::Out<msg::Mark>> marks_;
 };
 
 }  // namespace ensonify

@@ -2,22 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numbers>
 
 #include "components/runtime/assert.h"
+#include "kernels/guidance/drift.h"
 
 namespace ensonify {
 namespace {
 
 constexpr double kLag_s = 0.2;  // from an estimate to the vehicle's obeying: half a period and the command's delay
-constexpr double kLeastLookahead_s = 2.0;  // ten lags: the loop stays damped at any speed
 constexpr double kLinedUp_rad = 0.5;
+constexpr double kCircleGain = 2.0;  // at a radius outside, the course points 63 degrees inwards
+constexpr double kOnCircle = 0.5;    // share of the radius within which an orbit counts
+constexpr double kSurfaced_m = 1.0;
+constexpr double kSlowestClimb = 0.5;  // share of the speed at which a vehicle that is too low goes on
 
 const char* name_of(Pilot::State state) {
   switch (state) {
     case Pilot::State::kTurn: return "turn";
     case Pilot::State::kRunIn: return "run_in";
     case Pilot::State::kOnLine: return "on_line";
+    case Pilot::State::kRunOut: return "run_out";
+    case Pilot::State::kPass: return "pass";
+    case Pilot::State::kKeep: return "keep";
+    case Pilot::State::kOrbit: return "orbit";
+    case Pilot::State::kAwaitLine: return "await_line";
+    case Pilot::State::kAbort: return "abort";
     case Pilot::State::kDone: return "done";
   }
   return "";
@@ -25,103 +35,341 @@ const char* name_of(Pilot::State state) {
 
 }  // namespace
 
-Pilot::Pilot(const AutopilotConfig& config, std::vector<navigation::Runline> lines)
-    : speed_mps_(config.plan.mission.speed_mps),
-      turn_speed_mps_(config.plan.mission.speed_mps * config.turn_speed_fraction),
-      run_in_m_(config.plan.mission.run_in_m),
-      turning_radius_m_(config.plan.limits.turning_radius_m),
-      planned_radius_m_(config.plan.limits.turning_radius_m * config.turn_margin),
+Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
+    : mission_(config.plan.mission),
+      limits_(config.plan.limits),
       lookahead_radii_(config.lookahead_radii),
-      lines_(std::move(lines)) {
-  ENSONIFY_ASSERT(!lines_.empty(), "a pilot needs a line");
+      turn_margin_(config.turn_margin),
+      turn_speed_fraction_(config.turn_speed_fraction),
+      drift_settle_s_(config.drift_settle_s),
+      period_s_(1.0 / config.command_rate_hz),
+      steps_(std::move(steps)),
+      speed_mps_(mission_.speed_mps),
+      depth_(mission_, limits_.vertical_speed_mps) {
+  ENSONIFY_ASSERT(!steps_.empty(), "a pilot needs a step");
+  const auto lines = std::count_if(steps_.begin(), steps_.end(),
+                                   [](const MissionStep& step) { return std::holds_alternative<FlyLine>(step); });
+  line_count_ = mission_.repeat * static_cast<std::int64_t>(lines);
 }
 
-double Pilot::lookahead_m() const {
-  return std::max(lookahead_radii_ * turning_radius_m_, kLeastLookahead_s * here_.speed_mps);
+// --- steps ----------------------------------------------------------------------------------------------------------
+
+/// Begins steps until one takes time, or the mission is done.
+void Pilot::begin_step(SimTime now) {
+  const State before = state_ = State::kDone;
+  while (state_ == before) {
+    if (step_ == steps_.size()) {
+      if (mission_.adaptive) return await_line();
+      if (++round_ >= mission_.repeat) return;
+      step_ = 0;
+    }
+    const MissionStep& step = steps_[step_++];
+    std::visit([&](const auto& what) { begin(what, now); }, step);
+  }
+}
+
+void Pilot::begin(const FlyLine& line, SimTime) {
+  pieces_.clear();
+  for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
+    pieces_.push_back({line.points_enu_m[i - 1], line.points_enu_m[i]});
+  }
+  piece_ = 0;
+  ++line_;
+  head_for_line();
+}
+
+void Pilot::begin(const PassPlace& pass, SimTime) {
+  const navigation::Vec2 way = pass.place_enu_m - here_.waypose.position_enu_m;
+  const double towards_rad = way.norm() > 0.0 ? std::atan2(way.x(), way.y()) : here_.waypose.heading_rad;
+  state_ = State::kPass;
+  head_for({pass.place_enu_m, pass.heading_rad.value_or(towards_rad)});
+}
+
+void Pilot::begin(const KeepPlace& keep, SimTime) {
+  state_ = State::kKeep;
+  keep_ = keep;
+  station_enu_m_ = keep.place_enu_m.value_or(here_.waypose.position_enu_m);
+  kept_since_.reset();
+}
+
+void Pilot::begin(const FlyOrbit& orbit, SimTime) {
+  state_ = State::kOrbit;
+  circle_ = {orbit.centre_enu_m, orbit.radius_m, orbit.clockwise};
+  to_sweep_rad_ = 2.0 * std::numbers::pi * orbit.turns;
+}
+
+void Pilot::begin(const GoAt& go, SimTime) {
+  speed_mps_ = go.speed_mps.value_or(speed_mps_);
+  depth_.go_at(go);
+}
+
+void Pilot::begin(const SetSonar& sonar, SimTime now) {
+  msg::SonarSettings settings;
+  settings.stamp_ns = now.count();
+  settings.range_m = sonar.range_m.value_or(msg::kUnchanged);
+  settings.source_level_db = sonar.source_level_db.value_or(msg::kUnchanged);
+  settings.pulse_length_s = sonar.pulse_length_s.value_or(msg::kUnchanged);
+  settings.gain_spreading_db = sonar.gain_spreading_db.value_or(msg::kUnchanged);
+  settings.gain_absorption_dbpm = sonar.gain_absorption_dbpm.value_or(msg::kUnchanged);
+  settings.gain_offset_db = sonar.gain_offset_db.value_or(msg::kUnchanged);
+  settings.swath_rad = sonar.swath_rad.value_or(msg::kUnchanged);
+  settings.ping_rate_hz = sonar.ping_rate_hz.value_or(msg::kUnchanged);
+  settings.mode = sonar.mode;
+  settings_.emplace_back(sonar.head, settings);
+}
+
+void Pilot::begin(const SetMark& mark, SimTime now) { marks_.push_back({now.count(), mark.text, position_enu_m_}); }
+
+/// Goes straight on until the next line is known.
+void Pilot::await_line() {
+  state_ = State::kAwaitLine;
+  if (!offered_ || offered_->number != line_ + 1) return;
+  if (offered_->done) {
+    state_ = State::kDone;
+    return;
+  }
+  const auto& start = offered_->start_enu_m;
+  const auto& end = offered_->end_enu_m;
+  ++line_count_;
+  begin(FlyLine{{{start[0], start[1]}, {end[0], end[1]}}}, {});
+}
+
+// --- lines and turns ------------------------------------------------------------------------------------------------
+
+guidance::LineGains Pilot::gains() const {
+  guidance::LineGains gains =
+      guidance::line_gains(std::max(here_.speed_mps, 0.1), kLag_s, lookahead_radii_ * limits_.turning_radius_m);
+  if (drift_settle_s_ == 0.0) gains.integral_mps = 0.0;
+  return gains;
+}
+
+/// The circle over ground of a vehicle that turns while it is carried along is wider than that in the water.
+double Pilot::planned_radius_m() const {
+  const double carried = 1.0 + std::min(0.9, drift_enu_mps_.norm() / std::max(turn_speed_mps(), 0.01));
+  return motion::turning_circle_m(turn_speed_mps(), limits_) * turn_margin_ * carried * carried;
 }
 
 /// Before the line, close to its extension and pointing along it: guidance along the line does the rest.
 bool Pilot::lined_up() const {
   const auto at = navigation::line_position(line(), here_.waypose.position_enu_m);
   const double off_rad = frames::wrap_pi(here_.waypose.heading_rad - navigation::heading_rad(line()));
-  return std::abs(off_rad) < kLinedUp_rad && std::abs(at.cross_track_m) < 0.5 * turning_radius_m_ && at.along_m < 1.0 &&
-         at.along_m > -run_in_m_ - 5.0 * turning_radius_m_;
+  return std::abs(off_rad) < kLinedUp_rad && std::abs(at.cross_track_m) < 0.5 * limits_.turning_radius_m &&
+         at.along_m < 1.0 && at.along_m > -mission_.run_in_m - 5.0 * limits_.turning_radius_m;
 }
 
 void Pilot::head_for_line() {
+  integral_s_ = 0.0;
   if (lined_up()) {
     state_ = State::kRunIn;
     return;
   }
   state_ = State::kTurn;
-  const navigation::Waypose goal{navigation::extended(line(), run_in_m_, 0.0).start_enu_m,
-                                 navigation::heading_rad(line())};
-  turn_ = navigation::shortest_turn(here_.waypose, goal, planned_radius_m_);
+  head_for({navigation::extended(line(), mission_.run_in_m, 0.0).start_enu_m, navigation::heading_rad(line())});
+}
+
+void Pilot::head_for(const navigation::Waypose& goal) {
+  goal_ = goal;
+  turn_ = navigation::shortest_turn(here_.waypose, goal, planned_radius_m());
   along_turn_m_ = 0.0;
 }
 
-void Pilot::follow_turn() {
+/// Moves on along the turn; true at its end. A vehicle that has lost the path takes a new one from where it is.
+bool Pilot::turn_flown() {
   const double step_m = std::max(0.25, here_.speed_mps * kLag_s);
-  along_turn_m_ = navigation::nearest_along_m(turn_, here_.waypose.position_enu_m, along_turn_m_, 10.0 * step_m);
-  if (along_turn_m_ > turn_.length_m() - step_m) {
-    state_ = State::kRunIn;
-  } else if ((turn_.at(along_turn_m_).position_enu_m - here_.waypose.position_enu_m).norm() > 2.0 * planned_radius_m_) {
-    head_for_line();  // lost the path: take a new one from here
-  }
-}
-
-void Pilot::update(const msg::Estimate& estimate) {
-  const auto& p = estimate.position_enu_m;
-  const auto& v = estimate.velocity_enu_mps;
-  here_ = {{{p[0], p[1]}, frames::attitude_of(frames::quaternion_of(estimate.enu_from_body)).heading_rad},
-           std::hypot(v[0], v[1])};
-  if (!std::exchange(begun_, true)) head_for_line();
-  if (state_ == State::kTurn) follow_turn();
-  const auto along_m = [&] { return navigation::line_position(line(), here_.waypose.position_enu_m).along_m; };
-  if (state_ == State::kRunIn && along_m() >= 0.0) state_ = State::kOnLine;
-  if (state_ == State::kOnLine && along_m() >= navigation::length_m(line())) {
-    if (line_ + 1 == lines_.size()) {
-      state_ = State::kDone;
-    } else {
-      ++line_;
+  const navigation::Vec2& place = here_.waypose.position_enu_m;
+  along_turn_m_ = navigation::nearest_along_m(turn_, place, along_turn_m_, 10.0 * step_m);
+  if (along_turn_m_ > turn_.length_m() - step_m) return true;
+  if ((turn_.at(along_turn_m_).position_enu_m - place).norm() > 2.0 * planned_radius_m()) {
+    if (state_ == State::kTurn) {
       head_for_line();
+    } else {
+      head_for(goal_);
     }
   }
+  return false;
 }
 
-msg::Guidance Pilot::command(SimTime now) const {
-  msg::Guidance guidance;
-  guidance.stamp_ns = now.count();
-  const auto& place = here_.waypose.position_enu_m;
+/// How far before a bend the vehicle leaves a piece, so that its circle touches the next one.
+double Pilot::switch_before_end_m() const {
+  if (piece_ + 1 == pieces_.size()) return 0.0;
+  const double bend_rad =
+      std::abs(frames::wrap_pi(navigation::heading_rad(pieces_[piece_ + 1]) - navigation::heading_rad(line())));
+  constexpr double kSharpest_rad = 2.0;  // sharper bends are overshot: the circle would begin before the piece does
+  return planned_radius_m() * std::tan(0.5 * std::min(bend_rad, kSharpest_rad));
+}
+
+double Pilot::to_go_m(double along_m) const {
+  double to_go_m = navigation::length_m(line()) - along_m;
+  for (std::size_t i = piece_ + 1; i < pieces_.size(); ++i) to_go_m += navigation::length_m(pieces_[i]);
+  return to_go_m;
+}
+
+void Pilot::follow_line(SimTime now) {
+  const auto at = [&] { return navigation::line_position(line(), here_.waypose.position_enu_m); };
+  integral_s_ = guidance::next_integral_s(gains(), at().cross_track_m, integral_s_, period_s_);
+  if (state_ == State::kRunIn && at().along_m >= 0.0) state_ = State::kOnLine;
+  while (state_ == State::kOnLine && piece_ + 1 < pieces_.size() &&
+         at().along_m >= navigation::length_m(line()) - switch_before_end_m()) {
+    ++piece_;
+    integral_s_ = 0.0;
+  }
+  if (state_ == State::kOnLine && at().along_m >= navigation::length_m(line())) state_ = State::kRunOut;
+  if (state_ == State::kRunOut && at().along_m >= navigation::length_m(line()) + mission_.run_out_m) begin_step(now);
+}
+
+// --- the whole ------------------------------------------------------------------------------------------------------
+
+bool Pilot::holds_line() const {
+  return state_ == State::kRunIn || state_ == State::kOnLine || state_ == State::kRunOut || state_ == State::kAwaitLine;
+}
+
+void Pilot::look(SimTime now, const msg::Estimate& estimate) {
+  const auto attitude = frames::attitude_of(frames::quaternion_of(estimate.enu_from_body));
+  const navigation::Vec2 velocity(estimate.velocity_enu_mps[0], estimate.velocity_enu_mps[1]);
+  const navigation::Vec2 place(estimate.position_enu_m[0], estimate.position_enu_m[1]);
+  if (state_ == State::kOrbit && std::abs(guidance::outside_m(circle_, place)) < kOnCircle * circle_.radius_m) {
+    to_sweep_rad_ -= guidance::swept_rad(circle_, here_.waypose.position_enu_m, place);
+  }
+  position_enu_m_ = estimate.position_enu_m;
+  cosine_of_tilt_ = std::cos(attitude.roll_rad) * std::cos(attitude.pitch_rad);
+  here_ = {{place, attitude.heading_rad}, velocity.norm(), -estimate.position_enu_m[2]};
+  if (begun_ && drift_settle_s_ > 0.0 && holds_line()) {
+    drift_enu_mps_ = guidance::learn_drift(drift_enu_mps_, velocity, attitude.heading_rad, period_s_, drift_settle_s_);
+  }
+  if (depth_.steers()) height_ = depth_.order(now, here_.depth_m);
+  if (!height_.too_low) {
+    too_low_since_.reset();
+  } else if (!too_low_since_) {
+    too_low_since_ = now;
+  }
+}
+
+bool Pilot::must_abort(SimTime now, const msg::Estimate& estimate) {
+  const AbortRules& rules = mission_.abort;
+  const auto& variance = estimate.position_covariance_enu_m2;
+  return (rules.after_s && seconds(now) >= *rules.after_s) ||
+         (rules.position_sd_m && std::sqrt(std::max(variance[0], variance[4])) > *rules.position_sd_m) ||
+         (rules.too_low_s && too_low_since_ && seconds(now - *too_low_since_) >= *rules.too_low_s);
+}
+
+void Pilot::hear(const msg::Altitude& altitude) {
+  if (begun_ && altitude.valid) {
+    depth_.heard(SimTime{altitude.stamp_ns}, altitude.range_m * cosine_of_tilt_, here_.depth_m);
+  }
+}
+
+void Pilot::update(SimTime now, const msg::Estimate& estimate) {
+  look(now, estimate);
+  if (!std::exchange(begun_, true)) begin_step(now);
+  if (state_ != State::kDone && state_ != State::kAbort && must_abort(now, estimate)) state_ = State::kAbort;
   switch (state_) {
-    case State::kTurn:  // steer as the path will bend when the command takes effect
-      guidance.heading_grid_rad = frames::wrap_two_pi(
-          navigation::follow_heading_rad(turn_, place, along_turn_m_, lookahead_m()) +
-          turn_.at(along_turn_m_ + here_.speed_mps * kLag_s).heading_rad - turn_.at(along_turn_m_).heading_rad);
-      guidance.speed_mps = turn_speed_mps_;
+    case State::kTurn:
+      if (turn_flown()) state_ = State::kRunIn;
       break;
+    case State::kPass:
+      if (turn_flown()) begin_step(now);
+      break;
+    case State::kKeep:
+      if (!kept_since_ && (here_.waypose.position_enu_m - station_enu_m_).norm() <= 1.5 * keep_.within_m) {
+        kept_since_ = now;
+      }
+      if (kept_since_ && seconds(now - *kept_since_) >= keep_.for_s) begin_step(now);
+      break;
+    case State::kOrbit:
+      if (to_sweep_rad_ <= 0.0) begin_step(now);
+      break;
+    case State::kAwaitLine: await_line(); break;
+    default: break;
+  }
+  if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
+}
+
+bool Pilot::ended() const {
+  return state_ == State::kDone || (state_ == State::kAbort && (!depth_.steers() || here_.depth_m <= kSurfaced_m));
+}
+
+double Pilot::heading_for_rad(double course_rad, double speed_mps) const {
+  return guidance::heading_for_course_rad(course_rad, speed_mps, drift_enu_mps_);
+}
+
+/// Heading and speed of each state.
+msg::Guidance Pilot::steer() const {
+  const navigation::Vec2& place = here_.waypose.position_enu_m;
+  msg::Guidance guidance;
+  guidance.heading_grid_rad = frames::wrap_two_pi(here_.waypose.heading_rad);
+  guidance.speed_mps = speed_mps_;
+  switch (state_) {
+    case State::kTurn:
+    case State::kPass: {  // steer as the path will bend when the command takes effect
+      const double course_rad = navigation::follow_heading_rad(turn_, place, along_turn_m_, gains().lookahead_m) +
+                                turn_.at(along_turn_m_ + here_.speed_mps * kLag_s).heading_rad -
+                                turn_.at(along_turn_m_).heading_rad;
+      guidance.speed_mps = turn_speed_mps();
+      guidance.heading_grid_rad = heading_for_rad(course_rad, guidance.speed_mps);
+      break;
+    }
     case State::kRunIn:
     case State::kOnLine:
-      guidance.heading_grid_rad = navigation::line_of_sight_heading_rad(line(), place, lookahead_m());
-      guidance.speed_mps = speed_mps_;
+    case State::kRunOut:
+    case State::kAwaitLine: {
+      const double off_m = navigation::line_position(line(), place).cross_track_m;
+      const double course_rad =
+          navigation::heading_rad(line()) + guidance::course_offset_rad(gains(), off_m, integral_s_);
+      guidance.heading_grid_rad = heading_for_rad(course_rad, speed_mps_);
+      break;
+    }
+    case State::kOrbit: {  // on the circle the heading turns by speed / radius while the command is under way
+      const double bend_rad = (circle_.clockwise ? 1.0 : -1.0) * here_.speed_mps * kLag_s / circle_.radius_m;
+      guidance.heading_grid_rad =
+          heading_for_rad(guidance::circle_course_rad(circle_, place, kCircleGain) + bend_rad, speed_mps_);
+      break;
+    }
+    case State::kKeep: {
+      const guidance::StationRules rules{keep_.within_m, 0.2, speed_mps_, limits_.deceleration_mps2, kLag_s};
+      const auto steering =
+          guidance::keep_station(rules, station_enu_m_, place, here_.waypose.heading_rad, drift_enu_mps_);
+      guidance.heading_grid_rad = steering.heading_rad;
+      guidance.speed_mps = steering.speed_mps;
+      break;
+    }
+    case State::kAbort:
+      if (ended()) guidance.speed_mps = 0.0;
       break;
     case State::kDone:
-      guidance.heading_grid_rad = navigation::heading_rad(line());
+      if (!pieces_.empty()) guidance.heading_grid_rad = navigation::heading_rad(line());
       guidance.speed_mps = 0.0;
       break;
   }
   return guidance;
 }
 
+msg::Guidance Pilot::command(SimTime now) const {
+  msg::Guidance guidance = steer();
+  guidance.stamp_ns = now.count();
+  if (depth_.steers()) guidance.depth_m = state_ == State::kAbort ? 0.0 : height_.depth_m;
+  if (height_.too_low && state_ != State::kAbort) guidance.speed_mps *= kSlowestClimb;
+  return guidance;
+}
+
 msg::MissionState Pilot::mission_state(SimTime now) const {
-  const auto at = navigation::line_position(line(), here_.waypose.position_enu_m);
+  const navigation::Vec2& place = here_.waypose.position_enu_m;
   msg::MissionState mission;
   mission.stamp_ns = now.count();
   mission.state = name_of(state_);
-  mission.line = static_cast<std::int64_t>(line_) - (state_ == State::kTurn ? 1 : 0);
-  mission.line_count = static_cast<std::int64_t>(lines_.size());
-  mission.cross_track_m = at.cross_track_m;
-  mission.distance_to_go_m = navigation::length_m(line()) - at.along_m;
+  mission.line = line_ - (state_ == State::kTurn ? 1 : 0);
+  mission.line_count = line_count_;
+  if (state_ == State::kKeep) {
+    mission.distance_to_go_m = (station_enu_m_ - place).norm();
+  } else if (state_ == State::kOrbit) {
+    mission.cross_track_m = (circle_.clockwise ? -1.0 : 1.0) * guidance::outside_m(circle_, place);
+    mission.distance_to_go_m = to_sweep_rad_ * circle_.radius_m;
+  } else if (state_ == State::kPass) {
+    mission.distance_to_go_m = turn_.length_m() - along_turn_m_;
+  } else if (!pieces_.empty()) {
+    const auto at = navigation::line_position(line(), place);
+    mission.cross_track_m = at.cross_track_m;
+    mission.distance_to_go_m = to_go_m(at.along_m);
+  }
   return mission;
 }
 

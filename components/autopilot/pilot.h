@@ -1,52 +1,128 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "components/autopilot/config.h"
+#include "components/autopilot/depth_keeper.h"
 #include "components/runtime/sim_time.h"
+#include "kernels/guidance/circle.h"
+#include "kernels/guidance/line.h"
+#include "kernels/guidance/station.h"
 #include "kernels/navigation/turn.h"
+#include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "messages/sonar.h"
 
 namespace ensonify {
 
-/// Flies survey lines in order by what navigation estimates. Each line is reached by the shortest way that the turning
-/// circle allows, ending at the run-in; run-in and line are held by line-of-sight guidance.
+/// Flies a mission's steps in order by what navigation estimates. Each line is reached by the shortest way that the
+/// turning circle allows, ending at the run-in; lines are held by integral line-of-sight guidance on a course that the
+/// drift learned so far makes good.
 class Pilot {
  public:
-  enum class State { kTurn, kRunIn, kOnLine, kDone };
+  enum class State { kTurn, kRunIn, kOnLine, kRunOut, kPass, kKeep, kOrbit, kAwaitLine, kAbort, kDone };
 
-  Pilot(const AutopilotConfig& config, std::vector<navigation::Runline> lines);
+  Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps);
+
+  void hear(const msg::Altitude& altitude);
+  /// The line that an adaptive survey is to fly next; taken when its number is the one awaited.
+  void offer(const msg::NextLine& line) { offered_ = line; }
 
   /// Looks where the vehicle is and moves on through the states; then command() and mission_state() tell the outcome.
-  void update(const msg::Estimate& estimate);
+  void update(SimTime now, const msg::Estimate& estimate);
 
   State state() const { return state_; }
+  /// Nothing is left to do: the mission is done, or given up with the vehicle at the surface.
+  bool ended() const;
   msg::Guidance command(SimTime now) const;
   msg::MissionState mission_state(SimTime now) const;
+
+  /// What steps asked for since the last call: settings by head, and marks.
+  std::vector<std::pair<std::string, msg::SonarSettings>> take_settings() { return std::exchange(settings_, {}); }
+  std::vector<msg::Mark> take_marks() { return std::exchange(marks_, {}); }
 
  private:
   struct Place {
     navigation::Waypose waypose;
-    double speed_mps = 0.0;
+    double speed_mps = 0.0;  // over ground
+    double depth_m = 0.0;
   };
 
-  const navigation::Runline& line() const { return lines_[line_]; }
+  // --- steps
+  void begin_step(SimTime now);
+  void begin(const FlyLine& line, SimTime now);
+  void begin(const PassPlace& pass, SimTime now);
+  void begin(const KeepPlace& keep, SimTime now);
+  void begin(const FlyOrbit& orbit, SimTime now);
+  void begin(const GoAt& go, SimTime now);
+  void begin(const SetSonar& sonar, SimTime now);
+  void begin(const SetMark& mark, SimTime now);
+  void await_line();
+
+  // --- lines and turns
+  const navigation::Runline& line() const { return pieces_[piece_]; }
+  double to_go_m(double along_m) const;
   bool lined_up() const;
   void head_for_line();
-  void follow_turn();
-  double lookahead_m() const;
+  void head_for(const navigation::Waypose& goal);
+  bool turn_flown();
+  void follow_line(SimTime now);
+  double switch_before_end_m() const;
 
-  double speed_mps_, turn_speed_mps_, run_in_m_;
-  double turning_radius_m_, planned_radius_m_, lookahead_radii_;
-  std::vector<navigation::Runline> lines_;
-  std::size_t line_ = 0;  // flown or headed for
+  // --- steering
+  void look(SimTime now, const msg::Estimate& estimate);
+  bool must_abort(SimTime now, const msg::Estimate& estimate);
+  guidance::LineGains gains() const;
+  bool holds_line() const;
+  double planned_radius_m() const;
+  double turn_speed_mps() const { return speed_mps_ * turn_speed_fraction_; }
+  double heading_for_rad(double course_rad, double speed_mps) const;
+  msg::Guidance steer() const;
+
+  // What is to be flown.
+  Mission mission_;
+  motion::Limits limits_;
+  double lookahead_radii_, turn_margin_, turn_speed_fraction_, drift_settle_s_, period_s_;
+  std::vector<MissionStep> steps_;
+  std::size_t step_ = 0;  // the next to begin
+  int round_ = 0;
+  std::int64_t line_count_ = 0;
+
+  // Where the vehicle is in it.
   State state_ = State::kTurn;
   bool begun_ = false;
-  Place here_;
+  std::int64_t line_ = -1;  // number of the line flown or headed for
+  std::vector<navigation::Runline> pieces_;
+  std::size_t piece_ = 0;
   navigation::Turn turn_;
+  navigation::Waypose goal_;
   double along_turn_m_ = 0.0;
+  navigation::Vec2 station_enu_m_ = navigation::Vec2::Zero();
+  KeepPlace keep_;
+  std::optional<SimTime> kept_since_;
+  guidance::Circle circle_;
+  double to_sweep_rad_ = 0.0;
+  std::optional<msg::NextLine> offered_;
+  std::optional<SimTime> too_low_since_;
+
+  // How it goes.
+  Place here_;
+  double speed_mps_;
+  double integral_s_ = 0.0;
+  navigation::Vec2 drift_enu_mps_ = navigation::Vec2::Zero();
+  double cosine_of_tilt_ = 1.0;
+  DepthKeeper depth_;
+  guidance::HeightOrder height_;
+
+  std::vector<std::pair<std::string, msg::SonarSettings>> settings_;
+  std::vector<msg::Mark> marks_;
+  std::array<double, 3> position_enu_m_{};
 };
 
 }  // namespace ensonify

@@ -25,15 +25,32 @@ std::string extent_text(const Extent& extent) {
   return text;
 }
 
+/// Why a vehicle cannot be at a place; holes are nobody's business here.
+std::optional<std::string> fault_at(const TerrainSource& terrain, const Vec2& place, std::optional<double> depth_m) {
+  const double height_m = terrain.height_m(place);
+  char text[160];
+  if (height_m >= 0.0) {
+    std::snprintf(text, sizeof text, "%s is land, %.1f m above chart datum; allowed is water",
+                  place_text(place).c_str(), height_m);
+    return text;
+  }
+  if (depth_m && *depth_m > 0.0 && height_m >= -*depth_m) {
+    std::snprintf(text, sizeof text,
+                  "at %s the vehicle would be %.1f m deep and the seabed is at %.1f m; allowed is less",
+                  place_text(place).c_str(), *depth_m, -height_m);
+    return text;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> fault_of(const TerrainSource& terrain, const navigation::Runline& line,
-                                    const CorridorRules& rules) {
+                                    const CorridorRules& rules, std::optional<double> depth_m) {
   const Extent extent = terrain.extent();
   for (const Vec2& end : {line.start_enu_m, line.end_enu_m}) {
     if (!extent.contains(end)) {
       return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
     }
   }
-  if (!rules.refuse_holes) return std::nullopt;
   const double length = navigation::length_m(line);
   const double step = std::max(terrain.native_spacing_m(), length / 2000.0);
   const Vec2 along = (line.end_enu_m - line.start_enu_m) / length;
@@ -41,6 +58,8 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
   const auto steps = static_cast<int>(std::ceil(length / step));
   for (int i = 0; i <= steps; ++i) {
     const Vec2 place = navigation::point_on(line, length * i / steps);
+    if (const auto fault = fault_at(terrain, place, depth_m)) return fault;
+    if (!rules.refuse_holes) continue;
     const double height = terrain.height_m(place);
     const double reach = std::tan(rules.half_swath_rad) * std::max(0.0, -height);
     for (int k = -kAcross; k <= kAcross; ++k) {
@@ -60,9 +79,23 @@ void check_corridors(const TerrainSource& terrain, const std::vector<navigation:
                      const CorridorRules& rules, const std::string& scenario_file) {
   std::vector<ConfigProblem> problems;
   for (std::size_t i = 0; i < runlines.size(); ++i) {
-    if (const auto fault = fault_of(terrain, runlines[i], rules)) {
+    if (const auto fault = fault_of(terrain, runlines[i], rules, i < rules.depth_m.size() ? rules.depth_m[i] : 0.0)) {
       problems.push_back({{scenario_file, 0, 0}, "mission runline " + std::to_string(i + 1), *fault});
     }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
+                  const std::string& scenario_file) {
+  std::vector<ConfigProblem> problems;
+  const Extent extent = terrain.extent();
+  for (const VisitedPlace& visited : places) {
+    auto fault = fault_at(terrain, visited.place_enu_m, visited.depth_m);
+    if (!extent.contains(visited.place_enu_m)) {
+      fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
+    }
+    if (fault) problems.push_back({{scenario_file, 0, 0}, "mission", *fault});
   }
   if (!problems.empty()) throw ConfigError(problems);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,29 @@ using frames::Vec2;
 using source::Extent;
 using source::TerrainSource;
 
-/// What must be known of the seabed along the runlines.
+/// What must be known of the seabed along the runlines, and how deep the vehicle runs there.
 struct CorridorRules {
   double half_swath_rad = 1.134;  // the corridor reaches tan(half_swath) times the depth to either side
   bool refuse_holes = true;       // else only the lines' ends and the depth under them are asked for
+  /// Of each runline, below chart datum; nothing where it follows the bottom. Fewer than runlines: 0.
+  std::vector<std::optional<double>> depth_m = {};
 };
 
-/// Throws ConfigError, one problem per runline at most, if a line leaves the terrain or, with refuse_holes, if a place
-/// of its corridor inside the terrain has no height. `scenario_file` is the place that the message names.
+/// A place that a mission visits besides its runlines, and how deep.
+struct VisitedPlace {
+  Vec2 place_enu_m;
+  std::optional<double> depth_m;
+};
+
+/// Throws ConfigError, one problem per runline at most, if a line leaves the terrain, runs over land (above chart
+/// datum) or through the seabed, or, with refuse_holes, if a place of its corridor inside the terrain has no height.
+/// `scenario_file` is the place that the message names.
 void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
                      const CorridorRules& rules, const std::string& scenario_file);
+
+/// The same for places, without corridors.
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
+                  const std::string& scenario_file);
 
 /// Least depth under the runlines; without any, of the whole terrain. At least 0.
 double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/exit_error.h"
@@ -24,6 +27,31 @@ constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 4096;
 constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
+
+/// What the mission visits besides lines: places, circles, and the far edge of an adaptive survey.
+std::vector<pager::VisitedPlace> places_of(const Mission& mission) {
+  std::vector<pager::VisitedPlace> places;
+  std::optional<double> depth_m = mission.altitude_m ? std::nullopt : std::optional(mission.depth_m);
+  for (const MissionStep& step : mission.steps) {
+    if (const auto* go = std::get_if<GoAt>(&step)) depth_m = depth_after(*go, depth_m);
+    if (const auto* pass = std::get_if<PassPlace>(&step)) places.push_back({pass->place_enu_m, depth_m});
+    const auto* keep = std::get_if<KeepPlace>(&step);
+    if (keep != nullptr && keep->place_enu_m) places.push_back({*keep->place_enu_m, depth_m});
+    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
+      for (int i = 0; i < 16; ++i) {
+        const double bearing = kPi / 8.0 * i;
+        places.push_back({orbit->centre_enu_m + orbit->radius_m * Vec2(std::sin(bearing), std::cos(bearing)), depth_m});
+      }
+    }
+  }
+  if (mission.adaptive) {
+    AdaptivePlan last = *mission.adaptive;
+    last.first_line_m = last.width_m;
+    places.push_back({first_line(last).start_enu_m, depth_m});
+    places.push_back({first_line(last).end_enu_m, depth_m});
+  }
+  return places;
+}
 
 pager::Box box_of(const pager::Extent& extent) {
   return {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}};
@@ -46,8 +74,10 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
                                                                          : RasterSeabed::Holes::kKeep;
   pager::check_corridors(*terrain_, config.mission.runlines,
-                         {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse},
+                         {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse,
+                          config.mission.runline_depths_m()},
                          config.scenario_file);
+  pager::check_places(*terrain_, places_of(config.mission), config.scenario_file);
   ports.note("post_spacing_m", grid_.spacing_m);
   ports.note("shallowest_m", pager::shallowest_m(*terrain_, config.mission.runlines));
   const double feed_m =

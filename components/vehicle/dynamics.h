@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "components/runtime/sim_time.h"
 #include "components/vehicle/config.h"
@@ -15,8 +16,9 @@ class Dynamics {
 
   /// Moves on to `now` under the command in force.
   virtual void advance(SimTime now) = 0;
-  /// Puts a command in force from now on. Speed is through the water, >= 0.
-  virtual void command(double heading_rad, double speed_mps) = 0;
+  /// Puts a command in force from now on. Speed is through the water, >= 0; depth below the water level, >= 0, or
+  /// nothing: as before.
+  virtual void command(double heading_rad, double speed_mps, std::optional<double> depth_m) = 0;
   /// Where the vehicle is and how it moves, without waves.
   virtual frames::MovingPose moving() const = 0;
 };

@@ -1,6 +1,7 @@
 #include "components/vehicle/model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 #include "components/vehicle/kinematic/kinematic.h"
@@ -15,6 +16,7 @@ std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motio
 VehicleModel::VehicleModel(const VehicleConfig& config, const motion::State& start, SimTime now)
     : dynamics_(make_dynamics(config, start, now)),
       fastest_mps_(config.fastest_mps),
+      floats_(config.water.floats.has_value()),
       waves_(config.waves),
       disturbance_(config.disturbance, random::Stream(config.seed, "vehicle/" + config.name + "/disturbance")),
       now_(now) {}
@@ -25,7 +27,9 @@ void VehicleModel::advance(SimTime now) {
 }
 
 void VehicleModel::command(const msg::Guidance& guidance) {
-  dynamics_->command(guidance.heading_grid_rad, std::clamp(guidance.speed_mps, 0.0, fastest_mps_));
+  std::optional<double> depth_m;
+  if (!floats_ && std::isfinite(guidance.depth_m)) depth_m = std::max(0.0, guidance.depth_m);
+  dynamics_->command(guidance.heading_grid_rad, std::clamp(guidance.speed_mps, 0.0, fastest_mps_), depth_m);
 }
 
 msg::Pose VehicleModel::pose() const {

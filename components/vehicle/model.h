@@ -17,7 +17,7 @@ class VehicleModel {
 
   /// Moves on to `now` under the command in force.
   void advance(SimTime now);
-  /// Puts a new command in force, from now on.
+  /// Puts a new command in force, from now on. A vehicle that floats does not dive.
   void command(const msg::Guidance& guidance);
 
   msg::Pose pose() const;
@@ -25,6 +25,7 @@ class VehicleModel {
  private:
   std::unique_ptr<Dynamics> dynamics_;
   double fastest_mps_;
+  bool floats_;
   motion::Waves waves_;
   motion::Disturbance disturbance_;
   SimTime now_;

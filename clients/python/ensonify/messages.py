@@ -13,6 +13,9 @@ __all__ = [
     "ClockHealth",
     "Counter",
     "Health",
+    "Mark",
+    "NextLine",
+    "Coverage",
     "Pose",
     "Guidance",
     "MissionState",
@@ -120,6 +123,73 @@ class Health(Message):
 
 
 @dataclass(eq=False)
+class Mark(Message):
+    """Something worth finding again, as a mission or an agent notes it.
+
+    stamp_ns [ns]: time of the mark, sim time
+    text: what it is
+    position_enu_m [m]: estimated position of the vehicle then: east, north, up
+    """
+
+    TYPE = "mark/1"
+    stamp_ns: int = 0
+    text: str = ""
+    position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+
+
+@dataclass(eq=False)
+class NextLine(Message):
+    """The line that an adaptive survey is to fly next.
+
+    stamp_ns [ns]: time of the decision, sim time
+    number [1]: index of the line in the survey, the first is 0 and known beforehand
+    done: whether nothing is left to fly; the line means nothing then
+    start_enu_m [m]: where to begin it: east, north
+    end_enu_m [m]: where to end it
+    """
+
+    TYPE = "next_line/1"
+    stamp_ns: int = 0
+    number: int = 0
+    done: bool = False
+    start_enu_m: tuple = fixed(0.0, 0.0)
+    end_enu_m: tuple = fixed(0.0, 0.0)
+
+
+@dataclass(eq=False)
+class Coverage(Message):
+    """What soundings have covered so far, by estimate: cells of a rectangle.
+
+    stamp_ns [ns]: time of validity, sim time
+    lines [1]: number of lines flown
+    corner_enu_m [m]: the rectangle's rear port corner: east, north
+    heading_grid_rad [rad]: forward along the rectangle, clockwise from grid north
+    cell_m [m]: side of a cell
+    needed [1]: accepted soundings that a covered cell has at least
+    covered [1]: share of the cells that are covered
+    overlapped [1]: redundancy: how often a covered cell was covered, by lines, on average
+    track_m [m]: length of all lines flown, without turns
+    elapsed_s [s]: from the first sounding to the last
+    soundings [1]: accepted soundings of each cell (starboard x forward), as far as it can count
+    height_m [m]: mean height of each cell's accepted soundings, up from chart datum; NaN: none
+    """
+
+    TYPE = "coverage/1"
+    stamp_ns: int = 0
+    lines: int = 0
+    corner_enu_m: tuple = fixed(0.0, 0.0)
+    heading_grid_rad: float = 0.0
+    cell_m: float = 1.0
+    needed: int = 1
+    covered: float = 0.0
+    overlapped: float = 0.0
+    track_m: float = 0.0
+    elapsed_s: float = 0.0
+    soundings: np.ndarray = array("u2")
+    height_m: np.ndarray = array("f4")
+
+
+@dataclass(eq=False)
 class Pose(Message):
     """Where a vehicle truly is. Truth: acoustics uses it, instruments and records of instruments never do.
 
@@ -149,12 +219,14 @@ class Guidance(Message):
     stamp_ns [ns]: time of the command, sim time
     heading_grid_rad [rad]: heading to steer, clockwise from grid north
     speed_mps [m/s]: speed through the water to reach, forward
+    depth_m [m]: depth of the body origin below the water level to hold; NaN: as before
     """
 
     TYPE = "guidance/1"
     stamp_ns: int = 0
     heading_grid_rad: float = 0.0
     speed_mps: float = 0.0
+    depth_m: float = float("nan")
 
 
 @dataclass(eq=False)
@@ -162,7 +234,7 @@ class MissionState(Message):
     """What the mission is doing.
 
     stamp_ns [ns]: time of the state, sim time
-    state: run_in, on_line, turn or done
+    state: run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done
     line [1]: index of the runline being flown, -1 before the first
     line_count [1]: number of runlines in the mission
     cross_track_m [m]: estimated distance right of the runline, positive to starboard
@@ -950,6 +1022,9 @@ class Chart(Message):
 TYPES = {cls.TYPE: cls for cls in (
     ClockHealth,
     Health,
+    Mark,
+    NextLine,
+    Coverage,
     Pose,
     Guidance,
     MissionState,

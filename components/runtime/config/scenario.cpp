@@ -14,10 +14,6 @@
 namespace ensonify {
 namespace {
 
-using navigation::Vec2;
-
-Vec2 vec2(const std::array<double, 2>& v) { return {v[0], v[1]}; }
-
 Site read_site(ConfigReader from) {
   Site site;
   from.optional("name", site.name);
@@ -122,69 +118,6 @@ Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
   return vehicle;
 }
 
-std::vector<navigation::Runline> read_lines(ConfigReader& from) {
-  std::vector<navigation::Runline> lines;
-  for (auto& item : from.list("runlines")) {
-    std::array<double, 2> start{}, end{};
-    item.required("from_m", start, -kFarAway_m, kFarAway_m);
-    item.required("to_m", end, -kFarAway_m, kFarAway_m);
-    const navigation::Runline line{vec2(start), vec2(end)};
-    if (item.has("from_m") && item.has("to_m") && navigation::length_m(line) < 1.0) {
-      item.problem("to_m", "is less than 1 m from from_m");
-    }
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-std::vector<navigation::Runline> read_lawnmower(ConfigReader from) {
-  std::array<double, 2> centre{};
-  double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
-  int count = 0;
-  from.optional("centre_m", centre, -kFarAway_m, kFarAway_m);
-  from.optional("heading_deg", heading_rad, -360, 360, kDegrees);
-  from.required("length_m", length_m, 1, kFarAway_m);
-  from.required("spacing_m", spacing_m, 0.1, kFarAway_m);
-  from.required("count", count, 1, 1000);
-  return from.good() ? navigation::lawnmower(vec2(centre), heading_rad, length_m, spacing_m, count)
-                     : std::vector<navigation::Runline>{};
-}
-
-AutoPlan read_auto(ConfigReader from) {
-  AutoPlan plan;
-  from.optional("count", plan.count, 1, 1000);
-  from.optional("longest_m", plan.longest_m, 1, kFarAway_m);
-  from.optional("overlap", plan.overlap, 0, 0.95);
-  from.optional("swath_deg", plan.swath_rad, 1, 170, kDegrees);
-  from.optional("spacing_m", plan.spacing_m, 0.1, kFarAway_m);
-  from.optional("heading_deg", plan.heading_rad, -360, 360, kDegrees);
-  return plan;
-}
-
-Mission read_mission(ConfigReader from) {
-  Mission mission;
-  if (from.has("speed_kn") && from.has("speed_mps")) {
-    from.problem("speed_kn", "stands beside speed_mps; give one or the other");
-  }
-  from.optional("speed_mps", mission.speed_mps, 0.01, 30);
-  from.optional("speed_kn", mission.speed_mps, 0.02, 58, kKnots);
-  from.optional("depth_m", mission.depth_m, 0, 11000);
-  from.optional("run_in_m", mission.run_in_m, 0, 10000);
-  const int plans = int{from.has("runlines")} + int{from.has("lawnmower")} + int{from.has("auto")};
-  if (plans != 1) {
-    from.problem(
-        "", std::string(plans == 0 ? "has no plan" : "has several plans") + "; give one of runlines, lawnmower, auto");
-  }
-  mission.runlines = read_lines(from);
-  if (const auto section = from.optional_section("lawnmower")) {
-    mission.runlines = read_lawnmower(*section);
-  }
-  if (const auto section = from.optional_section("auto")) {
-    mission.auto_plan = read_auto(*section);
-  }
-  return mission;
-}
-
 void read_time(ConfigReader from, Scenario& scenario) {
   from.optional("start_utc", scenario.start_utc);
   if (const auto ns = parse_utc_ns(scenario.start_utc)) {
@@ -219,9 +152,8 @@ void check_whole(ConfigReader& from, const Scenario& scenario) {
         from.problem("vehicles", "two vehicles carry a head named " + head);
       }
     }
-    if (vehicle.fastest_mps < scenario.mission.speed_mps) {
-      from.problem("mission", "speed_mps is above what " + vehicle.name + " can do (fastest_mps)");
-    }
+    check_mission(from, scenario.mission, vehicle.name, vehicle.fastest_mps, vehicle.limits,
+                  vehicle.floats.has_value());
   }
   const bool generated = scenario.seabed.kind == Seabed::Kind::kLayers;
   if (scenario.site.origin_from_raster && generated) {
@@ -266,7 +198,8 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
     scenario.vehicles.push_back(read_vehicle(name, vehicle));
   }
   scenario.seabed.layered.seed = scenario.seed;
-  scenario.mission = read_mission(from.section("mission"));
+  const bool placed = !scenario.site.origin_from_raster;
+  scenario.mission = read_mission(from.section("mission"), placed ? std::optional(scenario.site.origin) : std::nullopt);
   check_whole(from, scenario);
   return scenario;
 }

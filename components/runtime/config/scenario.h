@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/runtime/config/config_node.h"
+#include "components/runtime/config/scenario_mission.h"
 #include "components/runtime/config/scenario_seabed.h"
 #include "components/runtime/config/scenario_vertical.h"
 #include "components/runtime/config/scenario_water.h"
@@ -17,7 +18,6 @@
 #include "kernels/motion/current.h"
 #include "kernels/motion/disturbance.h"
 #include "kernels/motion/kinematics.h"
-#include "kernels/navigation/runline.h"
 #include "kernels/vertical/draught.h"
 
 namespace ensonify {
@@ -52,24 +52,6 @@ struct Vehicle {
   /// Not given: at the start of the first runline, at its heading, at mission speed.
   std::optional<motion::State> start;
   std::map<std::string, HeadMounting> mountings;  // by the head's process name
-};
-
-/// `auto` in the file: runlines laid over an imported raster by whoever can read it.
-struct AutoPlan {
-  int count = 5;
-  double longest_m = 500.0;
-  double overlap = 0.2;                // of neighbouring swaths, 0..1
-  double swath_rad = 2.2689280275926;  // 130 deg, from which the spacing follows
-  std::optional<double> spacing_m;     // given: instead of the overlap
-  std::optional<double> heading_rad;   // given: instead of the longer side of the data
-};
-
-struct Mission {
-  double speed_mps = 2.0;
-  double depth_m = 0.0;  // of the vehicle's reference point below the water level
-  double run_in_m = 10.0;
-  std::vector<navigation::Runline> runlines;  // in order; lawnmowers are already laid out
-  std::optional<AutoPlan> auto_plan;          // set: `runlines` is empty until it has been resolved
 };
 
 /// The world of a run. Everybody reads all of it. SI and radians; the file has degrees, and knots where it says so.

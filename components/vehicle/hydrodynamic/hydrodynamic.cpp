@@ -52,10 +52,11 @@ void HydrodynamicDynamics::advance(SimTime now) {
   now_ = now;
 }
 
-void HydrodynamicDynamics::command(double heading_rad, double speed_mps) {
+void HydrodynamicDynamics::command(double heading_rad, double speed_mps, std::optional<double> depth_m) {
   if (grid_ >= next_from_) command_ = next_;
   next_.heading_rad = heading_rad;
   next_.speed_mps = speed_mps;
+  if (depth_m) next_.height_m = -*depth_m;
   next_from_ = now_;
 }
 

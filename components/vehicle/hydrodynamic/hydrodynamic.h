@@ -12,7 +12,7 @@ class HydrodynamicDynamics : public Dynamics {
   HydrodynamicDynamics(const VehicleConfig& config, const motion::State& start, SimTime now);
 
   void advance(SimTime now) override;
-  void command(double heading_rad, double speed_mps) override;
+  void command(double heading_rad, double speed_mps, std::optional<double> depth_m) override;
   frames::MovingPose moving() const override;
 
  private:

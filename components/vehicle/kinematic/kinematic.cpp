@@ -22,9 +22,10 @@ void KinematicDynamics::advance(SimTime now) {
   now_ = now;
 }
 
-void KinematicDynamics::command(double heading_rad, double speed_mps) {
+void KinematicDynamics::command(double heading_rad, double speed_mps, std::optional<double> depth_m) {
   command_.heading_rad = heading_rad;
   command_.speed_mps = speed_mps;
+  if (depth_m) command_.height_m = -*depth_m;
 }
 
 frames::MovingPose KinematicDynamics::moving() const {

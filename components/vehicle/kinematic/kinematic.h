@@ -11,7 +11,7 @@ class KinematicDynamics : public Dynamics {
   KinematicDynamics(const VehicleConfig& config, const motion::State& start, SimTime now);
 
   void advance(SimTime now) override;
-  void command(double heading_rad, double speed_mps) override;
+  void command(double heading_rad, double speed_mps, std::optional<double> depth_m) override;
   frames::MovingPose moving() const override;
 
  private:

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "components/runtime/config/scenario_mission.h"
+#include "components/runtime/sim_time.h"
+#include "kernels/guidance/height.h"
+
+namespace ensonify {
+
+/// How deep to go: at a depth, or above the bottom that the altimeter hears, and never nearer to it than the mission's
+/// obstacle floor. An altimeter that hears nothing for 10 s is no longer believed: an altitude is given up for the
+/// mission's depth, or for the present depth where that is shallower.
+class DepthKeeper {
+ public:
+  DepthKeeper(const Mission& mission, double climb_mps);
+
+  /// Whether depth is steered at all. A mission that says nothing of depths leaves a vehicle where it is.
+  bool steers() const { return steers_; }
+  void go_at(const GoAt& order);
+
+  /// A reading of the altimeter, turned to the vertical, at an own depth.
+  void heard(SimTime at, double altitude_m, double depth_m);
+  /// What to hold at an own depth. Only when steers().
+  guidance::HeightOrder order(SimTime now, double depth_m) const;
+
+ private:
+  bool heard_lately(SimTime now) const;
+
+  bool steers_;
+  double mission_depth_m_, depth_m_;
+  std::optional<double> above_m_;
+  guidance::HeightRules rules_;
+  guidance::BottomTrack bottom_;
+  double altitude_m_ = 0.0;
+  SimTime heard_at_{};
+};
+
+}  // namespace ensonify
