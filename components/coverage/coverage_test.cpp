@@ -1,0 +1,104 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "components/coverage/node.h"
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/config/default_yaml.h"
+#include "components/runtime/testing.h"
+
+using namespace ensonify;
+
+namespace {
+
+/// A rectangle of 1000 x 60 m on a plane from 10 m in the west to 40 m in the east, surveyed northwards and back.
+Scenario slope() {
+  Scenario scenario;
+  AdaptivePlan plan;
+  plan.centre_enu_m = {500, 30};
+  plan.length_m = 60;
+  plan.width_m = 1000;
+  plan.first_line_m = 15;
+  plan.soundings = 4;
+  scenario.mission.adaptive = plan;
+  return scenario;
+}
+
+CoverageConfig config_of(const Scenario& scenario) {
+  ConfigReader from = ConfigReader::from_text("{}", "coverage.yaml");
+  return CoverageConfig::read(from, scenario, "coverage");
+}
+
+double depth_m(double east_m) { return 10.0 + 0.03 * east_m; }
+
+/// Soundings of a fan of 121 beams over 60 degrees either side.
+msg::Soundings ping_at(double east_m, double north_m, SimTime t) {
+  msg::Soundings soundings;
+  soundings.stamp_ns = t.count();
+  soundings.valid = msg::Array<std::uint8_t>({121});
+  soundings.position_enu_m = msg::Array<double>({121, 3});
+  for (std::size_t i = 0; i < 121; ++i) {
+    const double tangent = std::tan((static_cast<double>(i) - 60.0) * 3.14159265358979 / 180.0);
+    const double x = depth_m(east_m) * tangent / (1.0 - 0.03 * tangent);
+    soundings.valid[i] = 1;
+    soundings.position_enu_m(i, 0) = east_m + x;
+    soundings.position_enu_m(i, 1) = north_m;
+    soundings.position_enu_m(i, 2) = -depth_m(east_m + x);
+  }
+  return soundings;
+}
+
+}  // namespace
+
+TEST_CASE("coverage/default.yaml lists every parameter with its default") {
+  CHECK(default_yaml_fault<CoverageConfig>("coverage", slope()) == "");
+}
+
+TEST_CASE("a mission that is not adaptive has nothing to cover") {
+  ConfigReader from = ConfigReader::from_text("{}", "coverage.yaml");
+  CoverageConfig::read(from, Scenario{}, "coverage");
+  CHECK_THROWS_WITH(from.finish(), Catch::Contains("needs a mission that is adaptive"));
+}
+
+TEST_CASE("line after line is laid where coverage ends, until all is covered; the report says what was saved") {
+  const auto folder = std::filesystem::temp_directory_path() / "ensonify_coverage_test";
+  std::filesystem::create_directories(folder);
+  NodeUnderTest<CoverageNode> coverage(config_of(slope()), "test", folder);
+  double east_m = 15.0;
+  SimTime t{0};
+  std::int64_t line = 0;
+  for (; line < 60; ++line) {
+    for (double north_m = 0.5; north_m < 60.0; north_m += 1.0) {
+      coverage.give("soundings", ping_at(east_m, north_m, t));
+      t += 100_ms;
+    }
+    msg::MissionState mission;
+    mission.stamp_ns = t.count();
+    mission.state = "await_line";
+    mission.line = line;
+    coverage.give("mission", mission);
+    t += 4_s;
+    const auto next = coverage.step_until<msg::NextLine>("next_line", t);
+    REQUIRE(next.size() == 1);
+    CHECK(next[0].number == line + 1);
+    if (next[0].done) break;
+    CHECK(next[0].start_enu_m[0] > east_m);
+    CHECK(next[0].start_enu_m[1] == Approx(line % 2 == 0 ? 60.0 : 0.0).margin(1e-9));  // there and back
+    east_m = next[0].start_enu_m[0];
+  }
+  const auto coverages = coverage.step_until<msg::Coverage>("coverage", t + 1_s);
+  REQUIRE_FALSE(coverages.empty());
+  CHECK(coverages.back().covered == 1.0);
+  CHECK(coverages.back().lines == line + 1);
+  CHECK(coverages.back().overlapped > 1.0);
+  CHECK(coverages.back().overlapped < 1.3);
+  // d1 ln(d2 / d1) / (d2 - d1) = 0.462 of the lines that 10 m ask for, 1000 / (1.9 * 10 * 1.732) = 31.
+  CHECK(static_cast<double>(line + 1) < 1.15 * 0.462 * 31);
+
+  coverage.node().finish_run();
+  std::ifstream file(folder / "coverage.json");
+  const std::string report{std::istreambuf_iterator<char>(file), {}};
+  CHECK(report.find("\"holes\": 0") != std::string::npos);
+  CHECK(report.find("\"lines_for_holes\": 0") != std::string::npos);
+}

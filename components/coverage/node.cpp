@@ -1,0 +1,144 @@
+#include "components/coverage/node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "components/runtime/exit_error.h"
+#include "components/runtime/log.h"
+
+namespace ensonify {
+namespace {
+
+constexpr SimTime kSettle = std::chrono::seconds(2);  // until a line's last pings have been worked through; it also
+                                                      // breaks the wiring's cycle through the pilot
+
+survey::Rectangle area_of(const AdaptivePlan& plan) {
+  return {plan.centre_enu_m, plan.heading_rad, plan.length_m, plan.width_m};
+}
+
+}  // namespace
+
+CoverageNode::CoverageNode(const Config& config, Ports& ports)
+    : config_(config),
+      ports_(ports),
+      events_(Rate{config.rate_hz, 1}),
+      area_(area_of(config.plan)),
+      swath_{0.5 * config.plan.swath_rad, config.plan.overlap},
+      covered_(area_, config.plan.cell_m, config.plan.soundings),
+      across_m_(config.plan.first_line_m),
+      coverages_(ports.out<msg::Coverage>(
+          "coverage", {.max_bytes = covered_.columns() * covered_.rows() * 6 + 4096, .rate = Rate{config.rate_hz, 1}})),
+      next_lines_(ports.out<msg::NextLine>("next_line", {.rate = Rate{config.rate_hz, 1}})) {
+  ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) { take(soundings); });
+  ports.in<msg::MissionState>("mission",
+                              [this](const msg::MissionState& mission) {
+                                if (mission.state == "await_line" && mission.line == lines_) awaited_ = mission.line;
+                              },
+                              {.delay = kSettle});
+}
+
+void CoverageNode::take(const msg::Soundings& soundings) {
+  for (std::size_t i = 0; i < soundings.valid.size(); ++i) {
+    if (soundings.valid[i] == 0) continue;
+    covered_.add({soundings.position_enu_m(i, 0), soundings.position_enu_m(i, 1)}, soundings.position_enu_m(i, 2));
+  }
+  if (!first_ns_) first_ns_ = soundings.stamp_ns;
+  last_ns_ = soundings.stamp_ns;
+}
+
+std::optional<double> CoverageNode::next_line() {
+  if (!filling_) {
+    const auto open = covered_.open_rows(across_m_, -config_.head_depth_m);
+    if (!open.empty()) {
+      const double next_m = survey::next_line_across_m(open, swath_, area_.width_m);
+      if (next_m > across_m_ + 0.5 * config_.plan.cell_m) return next_m;  // else the last line left holes at the edge
+    }
+    filling_ = true;
+  }
+  const double least_m = covered_.depths(-config_.head_depth_m).shallowest_cell_m;
+  const double across_m = covered_.take_holes(least_m * std::tan(swath_.half_angle_rad));
+  if (std::isnan(across_m)) return std::nullopt;
+  ++hole_lines_;
+  return across_m;
+}
+
+void CoverageNode::end_line(SimTime now) {
+  awaited_.reset();
+  covered_.end_line();
+  ++lines_;
+  const auto across_m = next_line();
+  msg::NextLine next;
+  next.stamp_ns = now.count();
+  next.number = lines_;
+  next.done = !across_m;
+  if (across_m) {
+    across_m_ = *across_m;
+    const survey::Runline line = survey::line_across(area_, across_m_, lines_ % 2 == 1);
+    next.start_enu_m = {line.start_enu_m.x(), line.start_enu_m.y()};
+    next.end_enu_m = {line.end_enu_m.x(), line.end_enu_m.y()};
+  }
+  next_lines_.send(next);
+  log::event(ports_, "line_done", "lines={} covered={:.4f} next_across_m={:.1f}", lines_, covered_.covered(),
+             across_m.value_or(-1.0));
+}
+
+SimTime CoverageNode::step(SimTime now) {
+  if (!events_.due(now)) return events_.next();
+  coverages_.send(coverage(now));
+  if (awaited_) end_line(now);
+  return events_.next();
+}
+
+msg::Coverage CoverageNode::coverage(SimTime now) const {
+  msg::Coverage message;
+  message.stamp_ns = now.count();
+  message.lines = lines_;
+  message.corner_enu_m = {covered_.corner_enu_m().x(), covered_.corner_enu_m().y()};
+  message.heading_grid_rad = area_.heading_rad;
+  message.cell_m = config_.plan.cell_m;
+  message.needed = config_.plan.soundings;
+  message.covered = covered_.covered();
+  message.overlapped = covered_.overlapped();
+  message.track_m = static_cast<double>(lines_) * area_.length_m;
+  if (first_ns_) message.elapsed_s = seconds(SimTime{*last_ns_ - *first_ns_});
+  message.soundings = msg::Array<std::uint16_t>({covered_.columns(), covered_.rows()});
+  message.height_m = msg::Array<float>({covered_.columns(), covered_.rows()});
+  for (std::size_t column = 0; column < covered_.columns(); ++column) {
+    for (std::size_t row = 0; row < covered_.rows(); ++row) {
+      message.soundings(column, row) =
+          static_cast<std::uint16_t>(std::min<std::uint32_t>(covered_.soundings(column, row), 65535));
+      message.height_m(column, row) = static_cast<float>(covered_.height_m(column, row));
+    }
+  }
+  return message;
+}
+
+void CoverageNode::finish_run() const {
+  const auto depths = covered_.depths(-config_.head_depth_m);
+  const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_cell_m * std::tan(swath_.half_angle_rad);
+  const double fixed_lines = fixed_m > 0.0 ? std::ceil(area_.width_m / fixed_m) : 0.0;
+  nlohmann::ordered_json report;
+  report["lines"] = lines_;
+  report["lines_for_holes"] = hole_lines_;
+  report["track_m"] = static_cast<double>(lines_) * area_.length_m;
+  report["covered"] = covered_.covered();
+  report["holes"] = covered_.holes();
+  report["overlapped"] = covered_.overlapped();
+  report["elapsed_s"] = first_ns_ ? seconds(SimTime{*last_ns_ - *first_ns_}) : 0.0;
+  report["shallowest_m"] = depths.shallowest_cell_m;
+  report["columns_m"] = {depths.shallowest_column_m, depths.deepest_column_m};
+  report["fixed_lines"] = fixed_lines;
+  report["fixed_track_m"] = fixed_lines * area_.length_m;
+  if (fixed_lines > 0.0) {
+    report["share_of_fixed"] = static_cast<double>(lines_) / fixed_lines;
+    report["bound"] = survey::adaptive_share(depths.shallowest_column_m, depths.deepest_column_m);
+  }
+  const auto file = ports_.out_dir() / "coverage.json";
+  std::ofstream stream(file);
+  stream << report.dump(2) << '\n';
+  if (!stream) throw UserError(file.string() + ": cannot be written");
+}
+
+}  // namespace ensonify

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "components/coverage/config.h"
+#include "components/runtime/ports.h"
+#include "kernels/survey/coverage.h"
+#include "messages/mission.h"
+#include "messages/motion.h"
+#include "messages/soundings.h"
+
+namespace ensonify {
+
+/// Keeps what soundings have covered, and says after each line of an adaptive survey where the next one goes.
+class CoverageNode {
+ public:
+  using Config = CoverageConfig;
+  static constexpr const char* kComponent = "coverage";
+
+  CoverageNode(const Config& config, Ports& ports);
+
+  SimTime step(SimTime now);
+  /// Writes coverage.json: what the survey reached, and what lines at a fixed distance would have taken.
+  void finish_run() const;
+
+ private:
+  void take(const msg::Soundings& soundings);
+  void end_line(SimTime now);
+  /// Across position of the next line; nothing when all is done.
+  std::optional<double> next_line();
+  msg::Coverage coverage(SimTime now) const;
+
+  CoverageConfig config_;
+  Ports& ports_;
+  Periodic events_;
+  survey::Rectangle area_;
+  survey::Swath swath_;
+  survey::Coverage covered_;
+  double across_m_;         // of the last line
+  std::int64_t lines_ = 0;  // flown
+  int hole_lines_ = 0;      // of them, flown for holes
+  bool filling_ = false;
+  std::optional<std::int64_t> awaited_;  // the line after which the pilot waits
+  std::optional<std::int64_t> first_ns_, last_ns_;
+  Ports::Out<msg::Coverage> coverages_;
+  Ports::Out<msg::NextLine> next_lines_;
+};
+
+}  // namespace ensonify
