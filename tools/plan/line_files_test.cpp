@@ -1,0 +1,116 @@
+#include "tools/plan/line_files.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "components/runtime/exit_error.h"
+
+using namespace ensonify;
+using namespace ensonify::plan;
+
+namespace {
+
+std::string written(const std::string& name, const std::string& text) {
+  const auto folder = std::filesystem::temp_directory_path() / "ensonify_plan_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name) << text;
+  return (folder / name).string();
+}
+
+std::string refused(const std::string& name, const std::string& text, const std::string& crs = "") {
+  try {
+    read_lines(written(name, text), crs);
+    return "accepted";
+  } catch (const UserError& error) {
+    const std::string why = error.what();
+    return why.substr(why.find(name));
+  }
+}
+
+const std::string kLnw =
+    "LNS 2\r\nLIN 2\r\nPTS 465000.00 5895000.00\r\nPTS 465000.00 5896000.00\r\nLNN 1_main\r\nEOL\r\n"
+    "LIN 3\r\nPTS 465100 5896000\r\nPTS 465100 5895500\r\nPTS 465150 5895000\r\nLNN 2\r\nEOL\r\n";
+
+}  // namespace
+
+TEST_CASE("Hypack lines are world metres, or geodetic with their reference system") {
+  const LineSet metres = read_lines(written("a.lnw", kLnw), "");
+  CHECK_FALSE(metres.geodetic);
+  REQUIRE(metres.lines.size() == 2);
+  CHECK(metres.lines[0].name == "1_main");
+  CHECK(metres.lines[1].places.size() == 3);
+  CHECK(metres.lines[1].places[2] == std::array<double, 2>{465150, 5895000});
+
+  const LineSet placed = read_lines(written("a.lnw", kLnw), "EPSG:32629");
+  CHECK(placed.geodetic);
+  // UTM zone 29, central meridian 9 degrees west: 35 km west of it at 53.2 degrees north.
+  CHECK(placed.lines[0].places[0][0] == Approx(53.204).margin(0.002));
+  CHECK(placed.lines[0].places[0][1] == Approx(-9.524).margin(0.002));
+}
+
+TEST_CASE("a CSV names its columns") {
+  const LineSet set = read_lines(
+      written("a.csv",
+              "name,line,longitude_deg,latitude_deg,depth\nA,1,-9.6,53.2,7\nA,1,-9.6,53.21,7\nB,2,-9.5,53.2,7\n"
+              "B,2,-9.5,53.21,7\n"),
+      "");
+  CHECK(set.geodetic);
+  REQUIRE(set.lines.size() == 2);
+  CHECK(set.lines[1].name == "B");
+  CHECK(set.lines[0].places[1] == std::array<double, 2>{53.21, -9.6});
+  CHECK(refused("b.csv", "x,y\n1,2\n").find("b.csv:1: the header is \"x,y\"; allowed: line, and either") == 0);
+  CHECK(refused("c.csv", "line,east_m,north_m\n1,0,nan\n") == "c.csv:2: \"nan\" is no number");
+}
+
+TEST_CASE("GeoJSON, KML and GPX are read, longitude first, points and tracks left out") {
+  const std::string geojson = R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"name": "A"}, "geometry": {"type": "LineString", "coordinates": [[-9.6, 53.2], [-9.6, 53.21]]}},
+    {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}},
+    {"type": "Feature", "properties": {"name": "B"}, "geometry": {"type": "MultiLineString", "coordinates": [[[-9.5, 53.2], [-9.5, 53.21]]]}}]})";
+  const std::string kml =
+      R"(<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>A</name><LineString>
+      <coordinates>-9.6,53.2,0 -9.6,53.21,0</coordinates></LineString></Placemark><Placemark><name>B</name><LineString>
+      <coordinates>-9.5,53.2,0 -9.5,53.21,0</coordinates></LineString></Placemark></Document></kml>)";
+  const std::string gpx =
+      R"(<?xml version="1.0"?><gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1">
+      <rte><name>A</name><rtept lat="53.2" lon="-9.6"/><rtept lat="53.21" lon="-9.6"/></rte>
+      <rte><name>B</name><rtept lat="53.2" lon="-9.5"/><rtept lat="53.21" lon="-9.5"/></rte>
+      <trk><trkseg><trkpt lat="1" lon="1"/><trkpt lat="2" lon="2"/></trkseg></trk></gpx>)";
+  for (const auto& [name, text] : {std::pair("a.geojson", geojson), std::pair("a.kml", kml), std::pair("a.gpx", gpx)}) {
+    INFO(name);
+    const LineSet set = read_lines(written(name, text), "");
+    CHECK(set.geodetic);
+    REQUIRE(set.lines.size() == 2);
+    CHECK(set.lines[0].name == "A");
+    CHECK(set.lines[1].name == "B");
+    REQUIRE(set.lines[0].places.size() == 2);
+    CHECK(set.lines[0].places[1][0] == Approx(53.21));
+    CHECK(set.lines[0].places[1][1] == Approx(-9.6));
+  }
+}
+
+TEST_CASE("what is no plan is refused with its place, its cause and what is allowed") {
+  CHECK(refused("a.txt", "").find("a.txt: has an ending that is not known; allowed: .lnw, .csv") == 0);
+  CHECK(refused("a.lnw", "hello\n") == "a.lnw:1: is no LNW file; allowed: it begins with LNS and the number of lines");
+  CHECK(refused("b.lnw", "LNS 2\nLIN 2\nPTS 0 0\nPTS 0 9\nLNN 1\nEOL\n") == "b.lnw: has 1 lines, LNS says 2");
+  CHECK(refused("c.lnw", "LNS 1\nLIN 3\nPTS 0 0\nPTS 0 9\nLNN 1\nEOL\n") ==
+        "c.lnw:6: the line has 2 places, LIN says 3");
+  CHECK(refused("d.lnw", "LNS 1\nLIN 2\nPTS 0 0\nPTS 0 0\nLNN 1\nEOL\n") ==
+        "d.lnw: line 1: place 2 is less than 1 m from the one before");
+  CHECK(refused("e.lnw", "LNS 1\nLIN 2\nPTS 0 inf\nPTS 0 0\nLNN 1\nEOL\n") == "e.lnw:3: \"inf\" is no number");
+  CHECK(refused("a.csv", "line,latitude_deg,longitude_deg\n1,-109.6,53.2\n1,-109.6,53.3\n") ==
+        "a.csv: line 1: [-109.6, 53.2] is no latitude and longitude; allowed: up to 89.9 and 180 degrees; are they "
+        "swapped?");
+  CHECK(refused("a.geojson", "{").find("a.geojson: cannot be read") == 0);
+  CHECK(refused("f.lnw", kLnw, "EPSG:1").find("f.lnw") == std::string::npos);
+  CHECK_THROWS_WITH(read_lines(written("f.lnw", kLnw), "nonsense"), Catch::Contains("is no reference system"));
+}
+
+TEST_CASE("CSV that is printed is read again") {
+  const LineSet set = read_lines(written("a.lnw", kLnw), "EPSG:32629");
+  const LineSet again = read_lines(written("again.csv", plan_text(set, {}, {}, Format::kCsv)), "");
+  REQUIRE(again.lines.size() == set.lines.size());
+  CHECK(again.lines[1].places[2][0] == Approx(set.lines[1].places[2][0]).margin(1e-8));
+  CHECK(again.lines[0].name == "1_main");
+}
