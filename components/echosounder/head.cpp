@@ -85,7 +85,7 @@ EchosounderHead::EchosounderHead(const EchosounderConfig& config)
       bottom_(bottom_of(config)) {}
 
 EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSettings& settings,
-                                               const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
+                                               const frames::PoseHistory& vehicle, trace::Scene& seabed) {
   Emission emission;
   emission.shot = shot;
   emission.source_level_db = settings.source_level_db;
@@ -93,9 +93,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   emission.sample_period_s = config_.sample_period_s();
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
   echoes_.move(poses_);
-  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
-  distribution_.fill(echoes_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(settings.range_m), rays_);
-  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
   echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), rays_, hits_);
 
   Heard heard;

@@ -19,6 +19,7 @@ std::size_t ping_bytes(const EchosounderConfig& config) {
 HeadInputs::Start start_of(const EchosounderConfig& config) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
+  start.lod = config.lod;
   start.longest_ping = from_seconds(longest_listening_s(config) + config.processing_latency_s);
   start.sound_speed_mps = config.sound_speed_mps;
   start.channels = {{"", config.start(), config.limits()}};

@@ -96,7 +96,7 @@ void ForwardLookingHead::prepare(double range_m) {
 }
 
 msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                                     const frames::PoseHistory& truth, const trace::Scene& seabed) {
+                                     const frames::PoseHistory& truth, trace::Scene& seabed) {
   prepare(settings.range_m);
   const RangedPulse& ranged = listening_->ranged;
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
@@ -126,13 +126,11 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   return ping;
 }
 
-void ForwardLookingHead::look(const trace::Scene& seabed) {
+void ForwardLookingHead::look(trace::Scene& seabed) {
   const auto& sampling = listening_->ranged.sampling;
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * sampling.count * sampling.period_s;
-  arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
-  listening_->rays.fill(arrivals_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(reach_m), rays_);
-  arrivals_.trace(seabed, rays_, reach_m, hits_);
+  arrivals_.look(seabed, listening_->rays, reach_m, rays_, hits_);
 }
 
 /// Delays are made for the sound speed that the head knows; the true one turns its beams.

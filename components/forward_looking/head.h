@@ -26,7 +26,7 @@ class ForwardLookingHead {
   /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
   /// listens, and the tiles. The track is left to the caller.
   msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                   const frames::PoseHistory& truth, const trace::Scene& seabed);
+                   const frames::PoseHistory& truth, trace::Scene& seabed);
 
   /// What the last ping met.
   const Sight& sight() const { return sight_; }
@@ -49,7 +49,7 @@ class ForwardLookingHead {
   };
 
   void prepare(double range_m);
-  void look(const trace::Scene& seabed);
+  void look(trace::Scene& seabed);
   void point_beams(double known_sound_speed_mps);
   echo::Background background(const Shot& shot, double source_level_db);
   void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);

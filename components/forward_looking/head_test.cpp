@@ -43,10 +43,11 @@ frames::PoseHistory at_rest() {
   return truth;
 }
 
-msg::Ping ping_of(const ForwardLookingConfig& config, const trace::Scene& scene) {
+msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene& scene) {
   ForwardLookingHead head(config);
   return head.listen({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene);
 }
+msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene&& scene) { return ping_of(config, scene); }
 
 double range_of(const msg::Ping& ping, std::size_t sample) {
   return 0.5 * kSpeed_mps * (ping.first_sample_s + static_cast<double>(sample) * ping.sample_period_s);
@@ -234,7 +235,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
   config.beams = 32;
   config.pulse.most_samples = 200;
   config.quality = 0.1;
-  const trace::Scene scene = scene_of([](double, double) { return -15.0; });
+  trace::Scene scene = scene_of([](double, double) { return -15.0; });
   const msg::Ping clear = ping_of(config, scene);
   CHECK(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);
 
@@ -259,7 +260,7 @@ TEST_CASE("without directivity outer beams hear more; without side lobes the far
   config.range_m = 40.0;
   config.beams = 64;
   config.pulse.most_samples = 300;
-  const trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
+  trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
   const msg::Ping full = ping_of(config, scene);
   config.effects.side_lobes = false;
   const msg::Ping shaded = ping_of(config, scene);
@@ -284,7 +285,7 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
   config.range_m = 30.0;
   config.pulse.most_samples = 300;
   ForwardLookingHead head(config);
-  const trace::Scene scene = scene_of(pillar);
+  trace::Scene scene = scene_of(pillar);
   const auto seen_deg = [&](double known_mps) {
     const msg::Ping ping = head.listen({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene);
     const auto all = ping.amplitude_upa.flat();

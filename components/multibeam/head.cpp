@@ -13,8 +13,7 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config) {
 
 const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot, const HeadSettings& settings,
                                                                const Steering& steering,
-                                                               const frames::PoseHistory& truth,
-                                                               const trace::Scene& seabed) {
+                                                               const frames::PoseHistory& truth, trace::Scene& seabed) {
   if (!amplitude_upa_ || amplitude_upa_.use_count() > 1) amplitude_upa_ = std::make_shared<std::vector<float>>();
   const auto samples = static_cast<std::size_t>(config_.samples(shot.range_m, settings.pulse_length_s));
   amplitude_upa_->resize(samples * steering.sin_beams.size());

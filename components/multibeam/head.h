@@ -35,7 +35,7 @@ class MultibeamHead {
   /// One entry per sector; valid until the next call. A function of shot, settings, steering, poses and tiles. `truth`
   /// has a pose.
   const std::vector<Heard>& listen(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                                   const frames::PoseHistory& truth, const trace::Scene& seabed);
+                                   const frames::PoseHistory& truth, trace::Scene& seabed);
 
   /// What the last ping met.
   Sight sight(double range_m, const trace::Scene& seabed) const;

@@ -36,7 +36,7 @@ frames::PoseHistory moving() {
   return truth;
 }
 
-const trace::Scene& seabed() {
+trace::Scene& seabed() {
   static TileSet tiles;
   if (tiles.scene().size() == 0) {
     tiles.insert(tile_of(200.0, 0.5, [](double east, double) { return -22.0 + 0.3 * std::sin(0.3 * east); }));

@@ -115,7 +115,7 @@ SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, doubl
 }
 
 void SectorEchoes::send(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                        const frames::PoseHistory& truth, const trace::Scene& seabed) {
+                        const frames::PoseHistory& truth, trace::Scene& seabed) {
   prepare(shot, settings, truth);
   aim(steering);
   look(seabed);
@@ -167,14 +167,12 @@ void SectorEchoes::aim(const Steering& steering) {
   }
 }
 
-void SectorEchoes::look(const trace::Scene& seabed) {
+void SectorEchoes::look(trace::Scene& seabed) {
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =
       sampling_.start_s + sampling_.count * sampling_.period_s - config_.resolved_s(listening_->pulse_length_s);
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * window_s;
-  arrivals_.trace(seabed, listening_->rays.probes(), reach_m, hits_);
-  listening_->rays.fill(arrivals_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(reach_m), rays_);
-  arrivals_.trace(seabed, rays_, reach_m, hits_);
+  arrivals_.look(seabed, listening_->rays, reach_m, rays_, hits_);
 }
 
 echo::Background SectorEchoes::background(std::int64_t ping, double source_level_db) {

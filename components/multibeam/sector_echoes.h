@@ -33,7 +33,7 @@ class SectorEchoes {
   /// Its transmission: rays from the true pose when it is sent, echoes at the true poses at reception. `truth` has a
   /// pose.
   void send(const Shot& shot, const HeadSettings& settings, const Steering& steering, const frames::PoseHistory& truth,
-            const trace::Scene& seabed);
+            trace::Scene& seabed);
   /// What its beams hear when `all` sectors of the ping, itself among them, have been sent; with noise at the array's
   /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
   void hear(const Shot& shot, const HeadSettings& settings, const std::deque<SectorEchoes>& all);
@@ -65,7 +65,7 @@ class SectorEchoes {
   Listening listening_for(double pulse_length_s, double swath_rad);
   void prepare(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& truth);
   void aim(const Steering& steering);
-  void look(const trace::Scene& seabed);
+  void look(trace::Scene& seabed);
   echo::Background background(std::int64_t ping, double source_level_db);
   void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);
 

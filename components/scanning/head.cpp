@@ -82,16 +82,14 @@ ScanningHead::ScanningHead(const ScanningConfig& config)
                     {config.world.seed, config.process + "/rays"}) {}
 
 msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                               const frames::PoseHistory& truth, const trace::Scene& seabed) {
+                               const frames::PoseHistory& truth, trace::Scene& seabed) {
   const double angle_rad = scan_angle_rad(config_.scan, shot.ping);
   const RangedPulse ranged = pulse_for(settings.range_m);
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
   for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
   echoes_.move(poses_);
-  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
-  distribution_.fill(echoes_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(settings.range_m), rays_);
-  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
   Emission emission;
   emission.shot = shot;
   emission.source_level_db = settings.source_level_db;

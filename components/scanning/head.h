@@ -21,7 +21,7 @@ class ScanningHead {
   /// The row of a ping: a function of the shot, the settings, the sound speed that the head knows, the poses while it
   /// listens, and the tiles. The track is left to the caller.
   msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                   const frames::PoseHistory& truth, const trace::Scene& seabed);
+                   const frames::PoseHistory& truth, trace::Scene& seabed);
 
   /// What the last ping met.
   const Sight& sight() const { return sight_; }

@@ -6,6 +6,7 @@ namespace {
 HeadInputs::Start start_of(const ScanningConfig& config, const ScanningHead& head) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
+  start.lod = config.lod;
   start.longest_ping = from_seconds(head.pulse_for(config.longest_range_m).listening_s() + config.processing_latency_s);
   start.sound_speed_mps = config.sound_speed_mps;
   start.probe = true;

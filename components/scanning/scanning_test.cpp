@@ -94,8 +94,7 @@ TEST_CASE("a post is heard in the ping that points at it, at its range") {
   ScanningHead head(config);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
-  const auto scene =
-      scene_of([&](double e, double n) { return std::hypot(e - east_m, n - north_m) < 0.2 ? -9.0 : -60.0; });
+  auto scene = scene_of([&](double e, double n) { return std::hypot(e - east_m, n - north_m) < 0.2 ? -9.0 : -60.0; });
   double loudest_upa = 0.0, angle_deg = 0.0, range_m = 0.0;
   for (std::int64_t ping = 0; ping < pings_per_sweep(config.scan); ++ping) {
     const msg::Ping row = head.listen({ping, SimTime{0}, 20.0}, config.start(), kSpeed_mps, truth, scene);
@@ -121,8 +120,8 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   ScanningHead head(config);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
-  const msg::Ping row = head.listen({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth,
-                                    scene_of([](double, double) { return -15.0; }));
+  auto scene = scene_of([](double, double) { return -15.0; });
+  const msg::Ping row = head.listen({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
   const double narrow = array::length_in_waves_for(2 * kDeg), tall = array::length_in_waves_for(25 * kDeg);
   const double length_m = 0.5 * kSpeed_mps * head.pulse_for(40.0).length_s, H = 5.0;
   for (const double R : {15.0, 20.0, 30.0}) {

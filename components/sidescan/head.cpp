@@ -93,7 +93,7 @@ SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& 
       pulse_(channel.pulse(channel.pulse_length_s)) {}
 
 SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& settings,
-                                         const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
+                                         const frames::PoseHistory& vehicle, trace::Scene& seabed) {
   if (pulse_length_s_ != settings.pulse_length_s) {
     pulse_length_s_ = settings.pulse_length_s;
     pulse_ = channel_.pulse(pulse_length_s_);
@@ -106,9 +106,7 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
 
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
   echoes_.move(poses_);
-  echoes_.trace(seabed, distribution_.probes(), settings.range_m, hits_);
-  distribution_.fill(echoes_.transmit_pose(), hits_, seabed.objects(), static_cast<float>(settings.range_m), rays_);
-  echoes_.trace(seabed, rays_, settings.range_m, hits_);
+  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
   echo::Image& image = echoes_.listen(emission, pulse_, rays_, hits_);
 
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};

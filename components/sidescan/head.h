@@ -25,7 +25,7 @@ class SidescanHead {
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
   Heard listen(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& vehicle,
-               const trace::Scene& seabed);
+               trace::Scene& seabed);
 
   /// How many rays of the last ping met the seabed within its range.
   int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }

@@ -41,7 +41,7 @@ frames::PoseHistory yawing(double rate_radps) {
 }
 
 struct Sea {
-  TileSet tiles;
+  mutable TileSet tiles;  // a head makes its mesh of them
   explicit Sea(const msg::Tile& tile) { tiles.insert(tile); }
 };
 

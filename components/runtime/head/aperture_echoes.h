@@ -51,13 +51,13 @@ class ApertureEchoes {
   void move(std::span<const frames::HeadPose> poses) { arrivals_.move(poses); }
   const frames::HeadPose& transmit_pose() const { return arrivals_.transmit_pose(); }
 
-  /// The first seabed that each ray meets from the pose of transmission, within a slant range.
-  void trace(const trace::Scene& seabed, std::span<const trace::Ray> rays, double range_m,
-             std::vector<trace::Hit>& hits) {
-    arrivals_.trace(seabed, rays, range_m, hits);
+  /// The rays of the transmission and what they meet (Arrivals::look).
+  void look(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m, std::vector<trace::Ray>& rays,
+            std::vector<trace::Hit>& hits) {
+    arrivals_.look(seabed, distribution, range_m, rays, hits);
   }
 
-  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `rays` and `hits` are those of trace().
+  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `rays` and `hits` are those of look().
   echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const trace::Ray> rays,
                       std::span<const trace::Hit> hits);
 

@@ -37,6 +37,14 @@ void Arrivals::move(std::span<const frames::HeadPose> poses) {
   receivers_.set({0.0, seconds(kTrackPeriod), poses_});
 }
 
+void Arrivals::look(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m,
+                    std::vector<trace::Ray>& rays, std::vector<trace::Hit>& hits) {
+  paths_.adapt(seabed, transmit_pose(), distribution, range_m);
+  paths_.trace(seabed, transmit_pose(), distribution.probes(), range_m, hits);
+  distribution.fill(transmit_pose(), hits, seabed.objects(), static_cast<float>(range_m), rays);
+  paths_.trace(seabed, transmit_pose(), rays, range_m, hits);
+}
+
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
 double Arrivals::sent_db(double source_level_db) const { return source_level_db - 2.0 * environment_.bubble_loss_db(); }
 

@@ -34,14 +34,13 @@ class Arrivals {
   /// The true one, at the head.
   double sound_speed_mps() const { return paths_.sound_speed_mps(transmit_pose()); }
 
-  /// The first seabed that each ray meets from the pose of transmission, within a slant range.
-  void trace(const trace::Scene& seabed, std::span<const trace::Ray> rays, double range_m,
-             std::vector<trace::Hit>& hits) {
-    paths_.trace(seabed, transmit_pose(), rays, range_m, hits);
-  }
+  /// The rays of the transmission, as the seabed asks for them (trace::RayDistribution), and the first seabed that each
+  /// meets from the pose of transmission, within a slant range. The seabed's mesh becomes that of this transmission.
+  void look(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m, std::vector<trace::Ray>& rays,
+            std::vector<trace::Hit>& hits);
 
   /// Echoes with their direction and time, valid until the next call; amplitudes are pressures, or with speckle
-  /// switched off mean squares. `rays` and `hits` are those of trace(), the patches of seabed that answer as one point
+  /// switched off mean squares. `rays` and `hits` are those of look(), the patches of seabed that answer as one point
   /// those of `scatterers`.
   const std::vector<echo::Arrival>& listen(double source_level_db, echo::Scatterers& scatterers,
                                            std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);

@@ -11,6 +11,13 @@ constexpr double kWeakest_db = 40.0;  // below the highest source level, that ca
 constexpr SettingRange kSpreading_db{0.0, 80.0}, kAbsorption_dbpm{0.0, 2.0}, kOffset_db{-200.0, 200.0};
 constexpr double kSlowest_hz = 0.01;
 
+void read_lod(ConfigReader& from, trace::LevelOfDetail& lod) {
+  auto section = from.optional_section("lod");
+  if (!section) return;
+  section->optional("enabled", lod.enabled);
+  section->optional("side_lobes", lod.side_lobes, 0, lod::kCoarsest);
+}
+
 }  // namespace
 
 void read_head(ConfigReader& from, const Scenario& scenario, const std::string& process, double fastest_hz,
@@ -24,6 +31,7 @@ void read_head(ConfigReader& from, const Scenario& scenario, const std::string& 
   from.optional("gain_offset_db", config.gain_offset_db, kOffset_db.least, kOffset_db.most);
   read_converter(from, config.converter);
   read_quality(from, config.quality);
+  read_lod(from, config.lod);
   read_trigger(from, config.trigger);
   config.interference = read_interference(from, scenario, process, config.processing_latency_s);
   read_effects(from, config.effects);
@@ -49,7 +57,7 @@ bool same_parameters(const HeadConfig& a, const HeadConfig& b) {
   return a.ping_rate_hz == b.ping_rate_hz && a.dead_time_s == b.dead_time_s &&
          a.processing_latency_s == b.processing_latency_s && a.gain_spreading_db == b.gain_spreading_db &&
          a.gain_absorption_dbpm == b.gain_absorption_dbpm && a.gain_offset_db == b.gain_offset_db &&
-         a.converter == b.converter && a.quality == b.quality && a.trigger == b.trigger &&
+         a.converter == b.converter && a.quality == b.quality && a.lod == b.lod && a.trigger == b.trigger &&
          a.interference == b.interference && a.effects == b.effects;
 }
 

@@ -10,6 +10,7 @@
 #include "components/runtime/head/settings.h"
 #include "components/runtime/sim_time.h"
 #include "kernels/echo/pulse.h"
+#include "kernels/trace/scene.h"
 
 namespace ensonify {
 
@@ -27,6 +28,7 @@ struct HeadConfig {
   double gain_offset_db = 0.0;          // O
   Converter converter;
   double quality = 1.0;  // of the rays (trace::RaySettings)
+  trace::LevelOfDetail lod;
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it hears
   Effects effects;

@@ -35,6 +35,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
       mounting_(start.mounting),
       truth_((2 * start.longest_ping + 1_s).count()),
       estimate_((2 * start.longest_ping + 1_s).count()),
+      tiles_(start.lod),
       start_mps_(start.sound_speed_mps) {
   for (const Channel& channel : start.channels) {
     names_.push_back(channel.name);

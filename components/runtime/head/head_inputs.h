@@ -30,6 +30,7 @@ class HeadInputs {
     double sound_speed_mps = 1500.0;  // believed, until a probe tells
     bool probe = false;               // there is one
     std::vector<Channel> channels;
+    trace::LevelOfDetail lod;
   };
   HeadInputs(Ports& ports, const Start& start);
   HeadInputs(const HeadInputs&) = delete;
@@ -37,6 +38,7 @@ class HeadInputs {
 
   const frames::PoseHistory& truth() const { return truth_; }
   const frames::PoseHistory& estimate() const { return estimate_; }
+  trace::Scene& seabed() { return tiles_.scene(); }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   const HeadMounting& mounting() const { return mounting_; }
   /// Believed: of the probe, or what the head starts with.

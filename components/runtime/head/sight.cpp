@@ -2,23 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <vector>
-
 namespace ensonify {
-namespace {
-
-constexpr float kDeepest_m = 12000.0F;
-
-}  // namespace
 
 std::optional<double> altitude_m(const trace::Scene& seabed, const frames::HeadPose& head) {
-  const frames::Vec3 down = head.enu_from_head.conjugate() * -frames::Vec3::UnitZ();
-  const std::array<trace::Ray, 1> ray{trace::Ray{down.cast<float>(), 0.0F}};
-  std::vector<trace::Hit> hits;
-  seabed.trace(head, ray, kDeepest_m, hits);
-  if (!hits[0].hit()) return std::nullopt;
-  return hits[0].range_m;
+  const auto height_m = seabed.height_m(head.position_enu_m.head<2>());
+  if (!height_m || *height_m > head.position_enu_m.z()) return std::nullopt;
+  return head.position_enu_m.z() - *height_m;
 }
 
 std::string why_black(const Sight& sight) {

@@ -8,7 +8,8 @@
 
 namespace ensonify {
 
-/// Height of a head above the seabed straight below it; nothing over a hole or where no tile is held.
+/// Height of a head above the seabed straight below it, by the tiles' posts; nothing over a hole, where no tile is held
+/// or below the seabed.
 std::optional<double> altitude_m(const trace::Scene& seabed, const frames::HeadPose& head);
 
 /// What a look met.

@@ -9,13 +9,14 @@ namespace ensonify {
 /// The tiles that a head holds, ready for rays.
 class TileSet {
  public:
-  TileSet() : scene_(frames::Vec2::Zero()) {}
+  explicit TileSet(const trace::LevelOfDetail& detail = {}) : scene_(frames::Vec2::Zero(), detail) {}
 
   void insert(const msg::Tile& tile);
   void release(const msg::TileRelease& release);
 
   /// Whether a tile lies under the place.
   bool covers(const frames::Vec2& place_enu_m) const;
+  trace::Scene& scene() { return scene_; }
   const trace::Scene& scene() const { return scene_; }
 
  private:

@@ -5,7 +5,9 @@
 
 #include "kernels/frames/pose.h"
 #include "kernels/refraction/path_table.h"
+#include "kernels/trace/ray_distribution.h"
 #include "kernels/trace/scene.h"
+#include "kernels/trace/views.h"
 
 namespace ensonify {
 
@@ -18,6 +20,16 @@ class WaterPaths {
 
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
+
+  /// Makes the seabed as fine as a transmission needs it that sends rays by this distribution from this pose.
+  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::RayDistribution& rays,
+             double max_range_m) const {
+    if (!seabed.detail().enabled) return;
+    const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
+    const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
+    const lod::Water water = bent_ ? trace::water_above(profile_, depth_m(head), deepest_m) : lod::Water{};
+    seabed.adapt(trace::views_of(rays.volume(), head, max_range_m, water, seabed.detail().side_lobes));
+  }
 
   /// trace::Scene::trace through this water.
   void trace(const trace::Scene& seabed, const frames::HeadPose& head, std::span<const trace::Ray> rays,
