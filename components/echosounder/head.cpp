@@ -26,7 +26,7 @@ double size_in_waves(const EchosounderConfig& c) {
 double range_resolution_m(const EchosounderConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
 
 AperturePattern pattern_of(const EchosounderConfig& c) {
-  if (!c.effects.directivity) return [](const Eigen::Vector3f&) { return 1.0F; };
+  if (!c.effects.directivity) return [](const Eigen::Vector3f&, float) { return 1.0F; };
   const double size = size_in_waves(c);
   const bool round = circular(c);
   const array::Face face(0.0, kBackLoss_db);
@@ -37,7 +37,7 @@ AperturePattern pattern_of(const EchosounderConfig& c) {
   const auto along = [=](float sine) {
     return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
   };
-  return [=](const Eigen::Vector3f& d) {
+  return [=](const Eigen::Vector3f& d, float) {
     const auto weight = static_cast<float>(face.amplitude(static_cast<double>(d.z())));
     return weight * (round ? along(d.head<2>().norm()) : along(d.x()) * along(d.y()));
   };
@@ -46,7 +46,7 @@ AperturePattern pattern_of(const EchosounderConfig& c) {
 Apertures apertures_of(const EchosounderConfig& config) {
   Apertures a;
   a.frequency_hz = config.frequency_hz;
-  a.patterns = {pattern_of(config)};
+  a.patterns.transmit = a.patterns.receive = {pattern_of(config)};
   a.directivity_index_db = array::directivity_index_db(size_in_waves(config), size_in_waves(config));
   if (circular(config)) a.directivity_index_db += 10.0 * std::log10(0.25 * std::acos(-1.0));  // the lesser area
   a.electronic_noise_db = config.electronic_noise_db;

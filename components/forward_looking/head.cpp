@@ -57,7 +57,7 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
       array_(array_of(config)),
       faces_(config, array_.element_length_m / wavelength_m(config)),
       arrivals_(Environment(config.world, config.frequency_hz), config.frequency_hz, config.effects,
-                [this](const Eigen::Vector3f& direction) { return faces_.transmitted_power(direction); }),
+                [this](const Eigen::Vector3f& direction, float) { return faces_.transmitted_power(direction); }),
       ambient_(config.world.seed, stream_of(config, "noise")),
       electronic_(config.world.seed, stream_of(config, "electronic")),
       volume_(config.world.seed, stream_of(config, "volume")),
@@ -163,7 +163,8 @@ echo::Background ForwardLookingHead::background(const Shot& shot, double source_
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void ForwardLookingHead::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
-  arrivals_.gains([this](const Eigen::Vector3f& direction) { return faces_.element_amplitude(direction); }, gain_);
+  arrivals_.gains([this](const echo::Arrival& arrival) { return faces_.element_amplitude(arrival.direction_head); },
+                  gain_);
   const echo::Sampling& sampling = listening_->ranged.sampling;
   const std::vector<std::vector<float>> weights{weights_};
   if (config_.effects.speckle) {

@@ -67,7 +67,7 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, std::size_t sector)
       delay_s_(config.all_sectors()[sector].delay_s),
       pattern_(config, frequency_hz_),
       arrivals_(Environment(config.world, frequency_hz_), frequency_hz_, config.effects,
-                [this](const Eigen::Vector3f& direction) {
+                [this](const Eigen::Vector3f& direction, float) {
                   return static_cast<double>(pattern_.transmitted_power(direction));
                 }),
       ambient_(config.world.seed, stream_of(config, sector, "noise")),
@@ -196,7 +196,8 @@ echo::Background SectorEchoes::background(std::int64_t ping, double source_level
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void SectorEchoes::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
-  arrivals_.gains([this](const Eigen::Vector3f& direction) { return pattern_.element_amplitude(direction); }, gain_);
+  arrivals_.gains([this](const echo::Arrival& arrival) { return pattern_.element_amplitude(arrival.direction_head); },
+                  gain_);
   if (config_.effects.speckle) {
     receiver_.form({arrivals, gain_, listening_->sampled, sampling_, background}, sin_beams_, weights_, images_);
     return;

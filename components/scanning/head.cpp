@@ -31,7 +31,7 @@ double resolution_m(const ScanningConfig& config) {
 Apertures apertures_of(const ScanningConfig& config) {
   Apertures a;
   a.frequency_hz = config.frequency_hz;
-  a.patterns = {scanning_pattern(config)};
+  a.patterns.transmit = a.patterns.receive = {scanning_pattern(config)};
   a.directivity_index_db = array::directivity_index_db(line_waves(config.horizontal_beamwidth_rad),
                                                        line_waves(config.vertical_beamwidth_rad));
   a.electronic_noise_db = config.electronic_noise_db;
@@ -66,7 +66,7 @@ AperturePattern scanning_pattern(const ScanningConfig& config) {
   const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);
   const bool directivity = config.effects.directivity;
   const array::Face face(0.0, kBackLoss_db);
-  return [=](const Eigen::Vector3f& direction) {
+  return [=](const Eigen::Vector3f& direction, float) {
     if (std::abs(direction.y()) >= first_null) return 0.0F;
     const float narrow = across->amplitude(static_cast<double>(direction.y())).real();
     if (!directivity) return narrow;

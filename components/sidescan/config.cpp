@@ -20,6 +20,9 @@ void check(const ConfigReader& from, const SidescanChannel& c) {
                                      ": a chirp needs at least 4");
   }
   if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
+  if ((c.focus == Focus::kFixed) != (c.focus_m > 0.0)) {
+    from.problem("focus_m", "is the range that focus: fixed is focused at, above 0, and 0 otherwise");
+  }
 }
 
 }  // namespace
@@ -34,6 +37,10 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional("vertical_beamwidth_deg", c.vertical_beamwidth_rad, 5, 150, kDegrees);
   from.optional("depression_deg", c.depression_rad, 0, 90, kDegrees);
   from.optional("back_loss_db", c.back_loss_db, 0, 100);
+  from.optional_choice(
+      "focus", c.focus,
+      {{"ideal", Focus::kIdeal}, {"echo", Focus::kEcho}, {"fixed", Focus::kFixed}, {"off", Focus::kOff}});
+  from.optional("focus_m", c.focus_m, 0, 1000);
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);

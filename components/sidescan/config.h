@@ -11,6 +11,14 @@ namespace ensonify {
 
 class ConfigReader;
 
+/// How a line takes the curvature of wave fronts inside L^2 / lambda.
+enum class Focus {
+  kIdeal,  // pays none: sends and listens focused at every range, with its far-field pattern
+  kEcho,   // sends unfocused; listens focused at the range of each echo
+  kFixed,  // sends unfocused; listens focused at one range
+  kOff,    // sends and listens unfocused
+};
+
 /// One frequency of a sidescan: a line array on each side, along the head's x axis, that sends and listens.
 struct SidescanChannel {
   std::string name = "main";
@@ -19,8 +27,10 @@ struct SidescanChannel {
   double vertical_beamwidth_rad = 50.0 * kDegree;   // one-way, -3 dB
   double depression_rad = 30.0 * kDegree;           // of each side's axis, below the horizontal of the head
   double back_loss_db = 30.0;                       // one-way, behind the face: what keeps the sides apart
-  double source_level_db = 215.0;                   // rms during the pulse, re 1 uPa at 1 m
-  bool chirp = false;                               // a linear sweep and its matched filter; else a tone
+  Focus focus = Focus::kIdeal;
+  double focus_m = 0.0;            // of kFixed
+  double source_level_db = 215.0;  // rms during the pulse, re 1 uPa at 1 m
+  bool chirp = false;              // a linear sweep and its matched filter; else a tone
   double pulse_length_s = 100e-6;
   double bandwidth_hz = 0.0;            // that a chirp sweeps
   double range_m = 100.0;               // the longest that is listened to, slant

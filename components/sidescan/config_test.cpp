@@ -23,6 +23,8 @@ TEST_CASE("a sidescan outside its limits is refused with place and limits") {
       Catch::Contains("a chirp needs at least 4"));
   CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, bandwidth_hz: 1000}]}"),
              Catch::Contains("only a chirp sweeps"));
+  CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, focus: fixed}]}"),
+             Catch::Contains("focus_m: is the range that focus: fixed is focused at, above 0, and 0 otherwise"));
   CHECK_THAT(
       problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, range_m: 1000, pulse_length_s: 1e-5}]}"),
       Catch::Contains("at most 100000 are allowed"));

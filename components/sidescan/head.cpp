@@ -8,6 +8,7 @@
 #include "components/runtime/head/head_motion.h"
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
+#include "kernels/array/near_field.h"
 #include "kernels/array/pattern_table.h"
 
 namespace ensonify {
@@ -15,9 +16,15 @@ namespace {
 
 constexpr double kFarthest_rad = 1.75;  // of rays from the head's down axis: a little above the horizon
 constexpr double kReach = 8.0;          // sines in which rays are sent, in lambda / L
+constexpr double kShadow = 1.0;      // the same, in sqrt(lambda / L): L / 2R where Fresnel's approximation ends is 0.81
+constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
 
 double lines_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.horizontal_beamwidth_rad); }
 double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
+
+double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
+  return config.sound_speed_mps / c.frequency_hz;
+}
 
 /// One dimension of a face, against the direction cosine along it.
 std::function<float(float)> line_pattern(double length_in_waves, bool side_lobes) {
@@ -29,10 +36,68 @@ std::function<float(float)> line_pattern(double length_in_waves, bool side_lobes
   };
 }
 
+/// Amplitude along the track against the direction cosine and the range.
+using AlongTrack = std::function<float(float sine, float range_m)>;
+
+AlongTrack far_field_line(double length_in_waves, bool side_lobes) {
+  return [far = line_pattern(length_in_waves, side_lobes)](float sine, float) { return far(sine); };
+}
+
+/// focus_m of a range. Without side lobes it ends where the geometric shadow of the line's ends does, and a null
+/// beyond.
+AlongTrack near_field_line(double length_in_waves, double wavelength_m, bool side_lobes,
+                           const std::function<double(double range_m)>& focus_m) {
+  const double length_m = length_in_waves * wavelength_m;
+  return [=](float sine, float range_m) {
+    const double u = static_cast<double>(sine), range = std::max(static_cast<double>(range_m), kNearest_m);
+    const double focus = focus_m(range);
+    const double shadow = 0.5 * length_m * std::abs(1.0 / range - 1.0 / focus);
+    if (!side_lobes && std::abs(u) > shadow + 1.0 / length_in_waves) return 0.0F;
+    return static_cast<float>(std::abs(array::near_field_line_amplitude(length_m, wavelength_m, u, range, focus)));
+  };
+}
+
+AlongTrack transmitting_line(const SidescanConfig& config, const SidescanChannel& c) {
+  const double waves = lines_in_waves(c);
+  if (c.focus == Focus::kIdeal) return far_field_line(waves, config.effects.side_lobes);
+  return near_field_line(waves, wavelength_m(config, c), config.effects.side_lobes,
+                         [](double) { return array::kFarAway_m; });
+}
+
+AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c) {
+  const double waves = lines_in_waves(c);
+  if (c.focus == Focus::kIdeal) return far_field_line(waves, config.effects.side_lobes);
+  return near_field_line(waves, wavelength_m(config, c), config.effects.side_lobes, [c](double range_m) {
+    if (c.focus == Focus::kEcho) return range_m;
+    return c.focus == Focus::kFixed ? c.focus_m : array::kFarAway_m;
+  });
+}
+
+/// Both sides of a head whose lines have this pattern.
+std::vector<AperturePattern> sides_of(const AlongTrack& along, const SidescanChannel& channel, const Effects& effects) {
+  const auto across = line_pattern(face_in_waves(channel), true);
+  const array::Face face(0.0, channel.back_loss_db);
+  const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
+  const auto sine = static_cast<float>(std::sin(channel.depression_rad));
+  std::vector<AperturePattern> sides;
+  for (const float side : {-1.0F, 1.0F}) {
+    const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
+    if (!effects.directivity) {  // each side hears its own half of the water
+      sides.push_back([=](const Eigen::Vector3f& d, float r) { return side * d.y() > 0.0F ? along(d.x(), r) : 0.0F; });
+      continue;
+    }
+    sides.push_back([=](const Eigen::Vector3f& d, float r) {
+      const double weight = face.amplitude(static_cast<double>(normal.dot(d)));
+      return along(d.x(), r) * across(up_the_face.dot(d)) * static_cast<float>(weight);
+    });
+  }
+  return sides;
+}
+
 Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel) {
   Apertures a;
   a.frequency_hz = channel.frequency_hz;
-  a.patterns = side_patterns(channel, config.effects);
+  a.patterns = side_patterns(config, channel);
   a.directivity_index_db = array::directivity_index_db(lines_in_waves(channel), face_in_waves(channel));
   a.electronic_noise_db = channel.electronic_noise_db;
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
@@ -44,7 +109,9 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
 
 /// To both sides. Across-track only range tells echoes apart.
 trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel) {
-  const double null = 1.0 / lines_in_waves(channel), reach = std::min(1.0, kReach * null);
+  const double null = 1.0 / lines_in_waves(channel);
+  double reach = std::min(1.0, kReach * null);
+  if (channel.focus != Focus::kIdeal) reach = std::max(reach, std::min(1.0, kShadow * std::sqrt(null)));
   const trace::TransmitVolume volume{
       trace::TransmitVolume::Axis::kForward,
       {-reach, reach, -null, null, channel.horizontal_beamwidth_rad},
@@ -62,25 +129,9 @@ detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
 
 }  // namespace
 
-std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const Effects& effects) {
-  const auto along = line_pattern(lines_in_waves(channel), effects.side_lobes);
-  const auto across = line_pattern(face_in_waves(channel), true);
-  const array::Face face(0.0, channel.back_loss_db);
-  const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
-  const auto sine = static_cast<float>(std::sin(channel.depression_rad));
-  std::vector<AperturePattern> sides;
-  for (const float side : {-1.0F, 1.0F}) {
-    const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
-    if (!effects.directivity) {  // each side hears its own half of the water
-      sides.push_back([=](const Eigen::Vector3f& d) { return side * d.y() > 0.0F ? along(d.x()) : 0.0F; });
-      continue;
-    }
-    sides.push_back([=](const Eigen::Vector3f& d) {
-      const double weight = face.amplitude(static_cast<double>(normal.dot(d)));
-      return along(d.x()) * across(up_the_face.dot(d)) * static_cast<float>(weight);
-    });
-  }
-  return sides;
+AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChannel& channel) {
+  return {sides_of(transmitting_line(config, channel), channel, config.effects),
+          sides_of(receiving_line(config, channel), channel, config.effects)};
 }
 
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)

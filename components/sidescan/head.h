@@ -11,7 +11,7 @@
 namespace ensonify {
 
 /// The patterns of a channel, port then starboard: a uniform line along x, another across the face, the face's back.
-std::vector<AperturePattern> side_patterns(const SidescanChannel& channel, const Effects& effects);
+AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChannel& channel);
 
 /// One channel of a sidescan: what both sides hear of a ping, and where the instrument finds the bottom in it. The
 /// acoustics use the true motion, mounting and water; the track of the bottom only what was heard.

@@ -96,10 +96,10 @@ TEST_CASE("cross-talk has the level of source, isolation, spreading and our own 
   const auto config = beside_another();
   const auto pings = listen(config, {shot_of_other(3_ms)}, 150_ms);
   const double expected_s = 3e-3 + flight_s(config, kLever_m);
-  const auto sides = side_patterns(config.channels[0], config.effects);
+  const auto sides = side_patterns(config, config.channels[0]);
   const auto sample = static_cast<std::size_t>((expected_s + 0.5 * kPulse_s) / pings[0].sample_period_s);
   for (const std::size_t side : {0U, 1U}) {
-    const double pattern_db = 20 * std::log10(std::abs(sides[side](Eigen::Vector3f::UnitY())));
+    const double pattern_db = 20 * std::log10(std::abs(sides.receive[side](Eigen::Vector3f::UnitY(), 1e6F)));
     CHECK(20 * std::log10(pings[0].amplitude_upa(side, sample)) ==
           Approx(220 - 60 - 20 * std::log10(kLever_m) + pattern_db).margin(0.01));
   }

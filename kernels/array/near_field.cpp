@@ -4,9 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/array/fresnel.h"
 #include "kernels/array/line.h"
 
 namespace ensonify::array {
+namespace {
+
+constexpr double kStraight = 1e-4;  // |b| of a front that counts as straight: pi b / 12 = 3e-5 of the amplitude
+
+}  // namespace
 
 std::complex<double> near_field_amplitude(const LineArray& array, double wavelength_m, double sine, double sin_steer,
                                           double range_m, double focus_m) {
@@ -22,6 +28,19 @@ std::complex<double> near_field_amplitude(const LineArray& array, double wavelen
     x += array.spacing_m;
   }
   return sum * (sinc(array.element_length_m / wavelength_m * sine) / sum_of_weights);
+}
+
+std::complex<double> near_field_line_amplitude(double length_m, double wavelength_m, double sine, double range_m,
+                                               double focus_m) {
+  const double s = sine * length_m / wavelength_m;
+  const double signed_bend = length_m * length_m / wavelength_m * ((1.0 - sine * sine) / range_m - 1.0 / focus_m);
+  const double b = std::abs(signed_bend);
+  if (b < kStraight) return sinc(s);
+  // -b t^2 / 2 + s t = -b / 2 (t - s / b)^2 + s^2 / (2 b)
+  const double scale = std::sqrt(2.0 * b);
+  const auto span = fresnel_integral(scale * (0.5 - s / b)) - fresnel_integral(scale * (-0.5 - s / b));
+  const std::complex<double> amplitude = std::polar(1.0 / scale, std::numbers::pi * s * s / b) * std::conj(span);
+  return signed_bend > 0.0 ? amplitude : std::conj(amplitude);  // the line is symmetrical in t
 }
 
 BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,

@@ -20,6 +20,12 @@ inline constexpr double kFarAway_m = std::numeric_limits<double>::infinity();
 std::complex<double> near_field_amplitude(const LineArray& array, double wavelength_m, double sine, double sin_steer,
                                           double range_m, double focus_m = kFarAway_m);
 
+/// The same of a continuous uniform line, unsteered, in closed form: with s = u L / lambda and
+/// b = L^2 / lambda ((1 - u^2) / R - 1 / F) it is the integral of exp(i 2 pi (s t - b t^2 / 2)) dt over -1/2..1/2, by
+/// Fresnel's integrals.
+std::complex<double> near_field_line_amplitude(double length_m, double wavelength_m, double sine, double range_m,
+                                               double focus_m = kFarAway_m);
+
 /// Half-power edges there. Below about L^2 / (7 lambda) an unfocused beam may be weaker on its axis than beside it; the
 /// edges are then where the part around the axis falls to half of the axis.
 BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,

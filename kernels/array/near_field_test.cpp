@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/array/fresnel.h"
+
 using namespace ensonify::array;
 
 namespace {
@@ -120,4 +122,35 @@ TEST_CASE("Fresnel's approximation agrees with exact distances where it says it 
   CHECK(worst_at_limit < 0.2);
   CHECK(worst_at_limit > 0.01);  // it is an approximation: this tells that it was not compared with itself
   CHECK(worst_far < 0.002);      // falls as 1 / R^2
+}
+
+TEST_CASE("a continuous line in closed form is the sum over its elements") {
+  // Elements of a tenth of a wavelength stand for the line: their own pattern is in the sum, and across each the front
+  // is taken as straight, which costs (k d / 2)^2 of the 1000 elements' share of the bend, below 1e-6. A front bent by
+  // less than 1e-4 counts as straight.
+  const LineArray line = long_line();
+  for (const double range_m : {2.0, 12.5, 50.0, 1e4, kFarAway_m}) {
+    for (const double focus_m : {3.0, 12.5, 40.0, kFarAway_m}) {
+      for (double u = -0.1; u <= 0.1; u += 0.00123) {
+        const auto sum = near_field_amplitude(line, kWavelength_m, u, 0.0, range_m, focus_m);
+        const auto closed = near_field_line_amplitude(line.length_m(), kWavelength_m, u, range_m, focus_m);
+        INFO("u " << u << ", range " << range_m << ", focus " << focus_m);
+        CHECK(std::abs(sum - closed) < 1e-4);
+      }
+    }
+  }
+}
+
+TEST_CASE("Fresnel's integrals have the tabulated values") {
+  // [Abramowitz1964], table 7.7: C and S to seven digits.
+  const auto at_1 = fresnel_integral(1.0), at_2 = fresnel_integral(2.0), at_5 = fresnel_integral(5.0);
+  CHECK(at_1.real() == Approx(0.7798934).margin(5e-8));
+  CHECK(at_1.imag() == Approx(0.4382591).margin(5e-8));
+  CHECK(at_2.real() == Approx(0.4882534).margin(5e-8));
+  CHECK(at_2.imag() == Approx(0.3434157).margin(5e-8));
+  CHECK(at_5.real() == Approx(0.5636312).margin(5e-8));
+  CHECK(at_5.imag() == Approx(0.4991914).margin(5e-8));
+  CHECK(fresnel_integral(-5.0) == -at_5);
+  const double edge = 2.0;  // where the series hands over to the fraction
+  CHECK(std::abs(fresnel_integral(edge - 1e-13) - fresnel_integral(edge)) < 1e-12);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/echo/noise.h"
 #include "kernels/water/noise.h"
@@ -11,6 +12,7 @@
 namespace ensonify {
 namespace {
 
+constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
 constexpr double kPatchesPerLobe = 4.0;  // of seabed that answers as one point, across the lobe at the nearest range
 constexpr double kVolumeReach = 4.0;     // widths of the narrow lobe, to either side, in which the water is heard
 
@@ -26,10 +28,10 @@ std::string stream_name(const Apertures& a, const char* what) {
 
 /// Of all apertures at once: the fringes between them, finer than any lobe, are averaged.
 Arrivals::TransmittedPower all_of(const std::vector<AperturePattern>& patterns) {
-  return [patterns](const Eigen::Vector3f& direction) {
+  return [patterns](const Eigen::Vector3f& direction, float range_m) {
     double power = 0.0;
     for (const AperturePattern& pattern : patterns) {
-      const double amplitude = static_cast<double>(pattern(direction));
+      const double amplitude = static_cast<double>(pattern(direction, range_m));
       power += amplitude * amplitude;
     }
     return power;
@@ -43,16 +45,16 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      arrivals_(environment, apertures.frequency_hz, effects, all_of(apertures.patterns)),
+      arrivals_(environment, apertures.frequency_hz, effects, all_of(apertures.patterns.transmit)),
       scatterers_(patch_m(apertures), {apertures.seed, "seabed"}),
-      gains_(apertures.patterns.size()) {
+      gains_(apertures.patterns.receive.size()) {
   if (!arrivals_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
-  const auto transmitted = all_of(apertures.patterns);
-  for (const AperturePattern& pattern : apertures_.patterns) {
+  const auto transmitted = all_of(apertures.patterns.transmit);
+  for (const AperturePattern& pattern : apertures_.patterns.receive) {
     const auto two_way = [&](const Eigen::Vector3f& direction) {
-      const double heard = static_cast<double>(pattern(direction));
-      return transmitted(direction) * heard * heard;
+      const double heard = static_cast<double>(pattern(direction, kFarAway_m));
+      return transmitted(direction, kFarAway_m) * heard * heard;
     };
     volume_directions_.push_back(
         echo::VolumeDirections::of(two_way, apertures.narrow_axis_head, -reach, reach, 0.1 * apertures.narrowest_rad));
@@ -76,9 +78,14 @@ echo::Image& ApertureEchoes::listen(const Emission& emission, const echo::Pulse&
 
 void ApertureEchoes::hear(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse,
                           const echo::Sampling& sampling) {
+  const double half_speed_mps = 0.5 * arrivals_.sound_speed_mps();
   std::vector<std::span<const float>> rows;
   for (std::size_t row = 0; row < gains_.size(); ++row) {
-    arrivals_.gains(apertures_.patterns[row], gains_[row]);
+    const AperturePattern& pattern = apertures_.patterns.receive[row];
+    const auto heard = [&](const echo::Arrival& arrival) {
+      return pattern(arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
+    };
+    arrivals_.gains(heard, gains_[row]);
     rows.push_back(gains_[row]);
   }
   receiver_.form(arrivals, rows, effects_.speckle ? pulse : pulse.squared(), sampling, image_);

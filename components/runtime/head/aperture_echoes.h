@@ -15,14 +15,20 @@
 
 namespace ensonify {
 
-/// Amplitude that a transducer gives a direction (unit vector, head frame), 1 on its axis; the same sent and heard.
-using AperturePattern = std::function<float(const Eigen::Vector3f& direction_head)>;
+/// Amplitude that a transducer gives a direction (unit vector, head frame) to or from a point at this range, besides
+/// spreading; 1 on its axis far away (range infinite).
+using AperturePattern = std::function<float(const Eigen::Vector3f& direction_head, float range_m)>;
+
+/// Of transducers of one frequency, the same of each in the same place.
+struct AperturePatterns {
+  std::vector<AperturePattern> transmit, receive;
+};
 
 /// Transducers of one frequency that send at once and of which each listens for itself: both sides of a sidescan, the
 /// one face of an echosounder.
 struct Apertures {
   double frequency_hz = 0.0;
-  std::vector<AperturePattern> patterns;
+  AperturePatterns patterns;
   double directivity_index_db = 0.0;                            // of each, against noise from all directions
   double electronic_noise_db = -200.0;                          // as sound in the water, dB re 1 uPa^2/Hz
   double narrowest_rad = 0.01;                                  // half-power width of the narrowest lobe

@@ -4,6 +4,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <cmath>
+#include <limits>
 
 #include "components/runtime/head/head_motion.h"
 #include "kernels/echo/multipath.h"
@@ -11,6 +12,7 @@
 namespace ensonify {
 namespace {
 
+constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
 constexpr std::size_t kRaysPerTask = 4096;
 
@@ -57,7 +59,9 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
   arrivals_.clear();
   echo::add_direct_echoes(carrier, pose.position_enu_m, found, receivers_, arrivals_);
   if (effects_.multipath) {
-    const echo::MultipathHead head{.source_level_db = sent_db(source_level_db), .transmit = transmitted_};
+    const echo::MultipathHead head{
+        .source_level_db = sent_db(source_level_db),
+        .transmit = [this](const Eigen::Vector3f& direction) { return transmitted_(direction, kFarAway_m); }};
     echo::SurfaceMirror surface;
     surface.sound_speed_mps = sound_speed_mps();
     surface.rms_height_m = environment_.rms_wave_height_m();
@@ -90,7 +94,7 @@ void Arrivals::light(double source_level_db, std::span<const trace::Ray> rays, s
       [&](const auto& range, Met so_far) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           if (!hits[i].hit()) continue;
-          const double transmitted = transmitted_(rays[i].direction_head);
+          const double transmitted = transmitted_(rays[i].direction_head, hits[i].path_length_m);
           ++so_far.hits;
           so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
           so_far.height_m += hits[i].position_enu_m.z();

@@ -23,8 +23,9 @@ namespace ensonify {
 /// the tiles. What the head hears of it by its receive patterns, and the noise, are the head's.
 class Arrivals {
  public:
-  /// Power of the transmission in a direction (unit vector, head frame), 1 on its axis. Called from several threads.
-  using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head)>;
+  /// Power of the transmission in a direction (unit vector, head frame) as it is at this range, times the range
+  /// squared; 1 on its axis far away (range infinite). Called from several threads.
+  using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head, float range_m)>;
 
   Arrivals(const Environment& environment, double frequency_hz, const Effects& effects, TransmittedPower transmitted);
 
@@ -66,8 +67,8 @@ class Arrivals {
                                                std::span<const echo::VolumeDirections> listeners,
                                                const echo::Pulse& pulse, const echo::Sampling& sampling);
 
-  /// What a receive pattern (amplitude by direction in the head's frame) gives each arrival: that amplitude, or with
-  /// speckle switched off its square.
+  /// What a receive pattern (amplitude by arrival) gives each arrival: that amplitude, or with speckle switched off its
+  /// square.
   template <class Pattern>
   void gains(const Pattern& pattern, std::vector<float>& gains) const {
     constexpr std::size_t kPerTask = 4096;
@@ -76,7 +77,7 @@ class Arrivals {
         tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),
         [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const float amplitude = pattern(arrivals_[i].direction_head);
+            const float amplitude = pattern(arrivals_[i]);
             gains[i] = effects_.speckle ? amplitude : amplitude * amplitude;
           }
         },
