@@ -45,6 +45,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
   from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
+  read_window(from, c.window);
   from.optional("range_m", c.range_m, 1, 1000);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   // Two-way, the half-power width of a uniform line is 36.55 of the 50.76 lambda / L degrees.
@@ -54,8 +55,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
 }
 
 echo::Pulse SidescanChannel::pulse(double length_s) const {
-  return chirp ? echo::compressed_chirp(length_s, bandwidth_hz, echo::Window::kHamming)
-               : echo::rectangular_pulse(length_s);
+  return chirp ? echo::compressed_chirp(length_s, bandwidth_hz, window) : echo::rectangular_pulse(length_s);
 }
 
 SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {

@@ -38,3 +38,16 @@ TEST_CASE("a two-way beam width makes a line that is wider one-way") {
   from.finish();
   CHECK(config.channels.at(0).horizontal_beamwidth_rad / SidescanChannel::kDegree == Approx(50.76 / 36.55));
 }
+
+TEST_CASE("the window of a channel's chirp weighs its filter") {
+  auto from = ConfigReader::from_text(
+      "{channels: [{name: a, frequency_hz: 100e3, pulse: chirp, pulse_length_s: 1e-2, bandwidth_hz: 1e4, window: "
+      "hann}, "
+      "{name: b, frequency_hz: 100e3, pulse: chirp, pulse_length_s: 1e-2, bandwidth_hz: 1e4}]}",
+      "head.yaml");
+  const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
+  from.finish();
+  // 20 dB of B T = 100, less what each window costs [Harris1978]: 1.76 and 1.34 dB.
+  CHECK(config.channels.at(0).pulse(1e-2).processing_gain_db == Approx(20.0 - 1.76).margin(0.02));
+  CHECK(config.channels.at(1).pulse(1e-2).processing_gain_db == Approx(20.0 - 1.34).margin(0.02));
+}

@@ -23,7 +23,7 @@ RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_spe
 }
 
 echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse) {
-  return design.chirp ? echo::compressed_chirp(pulse.length_s, pulse.band_hz, echo::Window::kHamming)
+  return design.chirp ? echo::compressed_chirp(pulse.length_s, pulse.band_hz, design.window)
                       : echo::rectangular_pulse(pulse.length_s);
 }
 

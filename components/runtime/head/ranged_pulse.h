@@ -9,10 +9,11 @@ namespace ensonify {
 /// operator sees a picture of some hundred rows. Two samples are taken per 1 / B; where they would not reach the range,
 /// B is lowered: a chirp sweeps less, a tone lasts longer.
 struct PulseDesign {
-  bool chirp = false;         // a linear sweep and its matched filter (Hamming); else a tone
-  double length_s = 100e-6;   // of a tone, the shortest
-  double bandwidth_hz = 0.0;  // that a chirp sweeps at most
-  int most_samples = 2000;    // per beam
+  bool chirp = false;                            // a linear sweep and its matched filter; else a tone
+  double length_s = 100e-6;                      // of a tone, the shortest
+  double bandwidth_hz = 0.0;                     // that a chirp sweeps at most
+  echo::Window window = echo::Window::kHamming;  // of its filter
+  int most_samples = 2000;                       // per beam
 
   bool operator==(const PulseDesign&) const = default;
 };
