@@ -87,7 +87,8 @@ TEST_CASE("a mission stands in a file of its own, and what the scenario says as 
 
 TEST_CASE("wrong places are told with their distance, and swapped ones recognised") {
   CHECK(problems_of("  positions: geodetic\n  steps:\n    - line: [[53.2, -9.6], [-9.6, 53.21]]\n") ==
-        "bay.yaml:8:13: mission.steps[0].line: [-9.6, 53.21] is 9136 km from the site's origin; allowed: 100 km; are latitude "
+        "bay.yaml:8:13: mission.steps[0].line: [-9.6, 53.21] is 9136 km from the site's origin; allowed: 100 km; are "
+        "latitude "
         "and longitude swapped?");
   CHECK(problems_of("  positions: geodetic\n  steps:\n    - line: [[53.2, -9.6], [53.2, 9.6]]\n")
             .find("is 1275 km from the site's origin; allowed: 100 km") != std::string::npos);
