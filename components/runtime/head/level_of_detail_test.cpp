@@ -37,7 +37,7 @@ Look look(TileSet& tiles, const WaterProfile& profile) {
   scenario.water.profile = profile;
   scenario.seabed.sediments[0] = seabed::Lambert{-25.0};
   const Environment environment(scenario, 300e3);
-  Arrivals arrivals(environment, 300e3, {.motion = false}, [](const auto&) { return 1.0; });
+  Arrivals arrivals(environment, 300e3, {.motion = false}, [](const auto&, float) { return 1.0; });
   const frames::HeadPose pose{{3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   arrivals.move(std::vector{pose, pose});
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
