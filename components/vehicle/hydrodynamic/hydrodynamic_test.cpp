@@ -103,7 +103,7 @@ TEST_CASE("every vehicle comes to the heading and the speed it is told, and hold
     config.water.current.profile = {{0.0, {0.2, -0.1}}};
     config.water.tide = vertical::Tide(1.5);
     HydrodynamicDynamics dynamics(config, {{0, 0, vehicle.height_m}, 0.0, vehicle.speed_mps}, 0_s);
-    dynamics.command(1.2, vehicle.speed_mps);
+    dynamics.command(1.2, vehicle.speed_mps, std::nullopt);
     dynamics.advance(120_s);
     const frames::MovingPose moving = dynamics.moving();
     INFO(vehicle.name);
@@ -117,7 +117,7 @@ TEST_CASE("every vehicle comes to the heading and the speed it is told, and hold
 TEST_CASE("asking often does not change the path of a hydrodynamic vehicle") {
   const VehicleConfig config = config_of("remus_100");
   HydrodynamicDynamics a(config, {{0, 0, -5}, 0.0, 1.5}, 0_s), b(config, {{0, 0, -5}, 0.0, 1.5}, 0_s);
-  for (auto* dynamics : {&a, &b}) dynamics->command(1.0, 2.0);
+  for (auto* dynamics : {&a, &b}) dynamics->command(1.0, 2.0, std::nullopt);
   for (SimTime t = 0_s; t <= 20_s; t += 7_ms) a.advance(t);
   a.advance(20_s);
   b.advance(20_s);
