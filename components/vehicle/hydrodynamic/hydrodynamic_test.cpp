@@ -126,7 +126,7 @@ TEST_CASE("asking often does not change the path of a hydrodynamic vehicle") {
 
 TEST_CASE("what moves between two poses is the integral of what they say of it") {
   HydrodynamicDynamics dynamics(config_of("remus_100"), {{0, 0, -5}, 0.0, 1.5}, 0_s);
-  dynamics.command(1.0, 2.0);
+  dynamics.command(1.0, 2.0, std::nullopt);
   dynamics.advance(3_s);
   const frames::MovingPose before = dynamics.moving();
   dynamics.advance(3_s + 5_ms);
