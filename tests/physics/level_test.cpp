@@ -52,7 +52,7 @@ Tone transmission_of(const SidescanChannel& channel) {
 TEST_CASE("sidescan: the mean level of a level seabed is that of the area integral, 20-100 m, 100-900 kHz") {
   // As a sum of mean squares. A metre of slant range holds 13 pulses with some 12 rays each in strata that leave 30 %
   // of scatter: 2.4 %, 0.1 dB.
-  const trace::Scene seabed = level_seabed(-22.0);
+  trace::Scene seabed = level_seabed(-22.0);
   for (const double frequency_hz : kFrequencies_hz) {
     SidescanConfig config = sidescan_of(frequency_hz);
     config.effects.speckle = false;
@@ -77,7 +77,7 @@ TEST_CASE("sidescan: the mean level of a level seabed is that of the area integr
 TEST_CASE("multibeam: the mean level of a level seabed is that of the area integral, 0-70 degrees, 100-900 kHz") {
   // Mean over the echo between the first nulls of the beam, and at its axis (three pulses). Rays of reference quality,
   // 48 to a resolution cell: at the axis 0.3 / sqrt(3 x 48) = 2.5 %, 0.1 dB.
-  const trace::Scene seabed = level_seabed(-20.0);
+  trace::Scene seabed = level_seabed(-20.0);
   const std::vector<double> beams_deg{0, 5, 10, 20, 30, 45, 60, 70};
   std::vector<float> sines;
   for (const double deg : beams_deg) sines.push_back(static_cast<float>(std::sin(deg * kDeg)));
@@ -114,7 +114,7 @@ TEST_CASE("multibeam: the mean level of a level seabed is that of the area integ
 TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the level of the integral") {
   // Beams of a uniform line from 25 to 60 degrees during the first pulse from below: through side lobes of -25 to
   // -40 dB, as mean over beams, for a single beam may stand in a null. Before that there is silence.
-  const trace::Scene seabed = level_seabed(-20.0);
+  trace::Scene seabed = level_seabed(-20.0);
   const LevelSeabed sand = medium_sand(300e3, 20.0);
   const MillsCross cross{.absorption_dbpm = sand.absorption_dbpm, .quality = 4.0};
   std::vector<float> sines;
@@ -147,7 +147,7 @@ TEST_CASE("the range at which a sidescan's signal is as strong as its noise is t
   // SNR 0 dB by EL = NL + 10 log10(1 / tau) - DI. Signal and noise as the head records them together, less the noise,
   // which is measured where nothing answers; speckle off. 130 samples to 5 m: the noise's mean is good to 0.4 dB,
   // where 5 % of the range is 2 dB and more.
-  const trace::Scene seabed = level_seabed(-22.0);
+  trace::Scene seabed = level_seabed(-22.0);
   for (const auto& [frequency_hz, source_level_db] : {std::pair{100e3, 166.0}, {300e3, 172.0}, {900e3, 196.0}}) {
     SidescanConfig config = sidescan_of(frequency_hz);
     config.effects.speckle = false;

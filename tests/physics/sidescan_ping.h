@@ -17,8 +17,8 @@ inline SidescanConfig sidescan_of(double frequency_hz) {
 }
 
 /// What the head hears at rest, heading north.
-inline msg::Ping sidescan_ping(const SidescanConfig& config, const trace::Scene& seabed,
-                               const frames::Vec3& position_enu_m, std::int64_t ping = 0) {
+inline msg::Ping sidescan_ping(const SidescanConfig& config, trace::Scene& seabed, const frames::Vec3& position_enu_m,
+                               std::int64_t ping = 0) {
   frames::PoseHistory at_rest(1'000'000'000);
   at_rest.push(0, {position_enu_m, frames::enu_from_ned()});
   SidescanHead head(config, config.channels[0]);

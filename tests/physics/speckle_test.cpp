@@ -21,8 +21,8 @@ namespace {
 constexpr double kAltitude_m = 10.0;
 constexpr std::size_t kPulse = 2;  // samples: echoes of samples so far apart share no seabed
 
-const trace::Scene& level_sand() {
-  static const trace::Scene scene = scene_of(256.0, 1.0, [](double, double) { return -12.0 - kAltitude_m; });
+trace::Scene& level_sand() {
+  static trace::Scene scene = scene_of(256.0, 1.0, [](double, double) { return -12.0 - kAltitude_m; });
   return scene;
 }
 
