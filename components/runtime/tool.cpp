@@ -1,8 +1,10 @@
 #include "components/runtime/tool.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "components/runtime/exit_error.h"
@@ -35,12 +37,25 @@ int failed(const CLI::App& app, int code, const char* why) {
   return code;
 }
 
+/// NaN is inside every range, as comparisons go; no number that is typed means it, nor infinity.
+void ask_for_finite_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().find("FLOAT") == std::string::npos) continue;
+    option->check([](const std::string& text) {
+      const double value = std::strtod(text.c_str(), nullptr);  // what is no number at all is told when it is parsed
+      return std::isfinite(value) ? std::string{} : text + " is not a finite number";
+    });
+  }
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) ask_for_finite_numbers(*verb);
+}
+
 }  // namespace
 
 bool interrupted() { return interrupts != 0; }
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   app.set_version_flag("--version", kVersion);
+  ask_for_finite_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
