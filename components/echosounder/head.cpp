@@ -107,8 +107,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   heard.ping.applied.frequency_hz = config_.frequency_hz;
   heard.ping.applied.transmit_beamwidth_rad = heard.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
   heard.ping.applied.sound_speed_mps = config_.sound_speed_mps;
-  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
-  write_samples(tvg_of(settings, config_.sound_speed_mps), converter, sampling, image, heard.ping);
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);
   return heard;
 }
 

@@ -113,8 +113,7 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   ping.ping = shot.ping;
   ping.kind = "forward_looking";
   ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
-  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
-  write_samples(tvg_of(settings, known_sound_speed_mps), converter, ranged.sampling, images_[0], ping);
+  write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, images_[0], ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
   ping.applied.pulse = config_.pulse.chirp ? "fm_up" : "cw";

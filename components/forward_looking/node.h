@@ -1,14 +1,11 @@
 #pragma once
 
 #include "components/forward_looking/head.h"
-#include "components/runtime/head/head_inputs.h"
-#include "components/runtime/head/ping_cycle.h"
-#include "components/runtime/ports.h"
+#include "components/runtime/head/single_channel.h"
 
 namespace ensonify {
 
-/// Two kinds of event: a transmission, at which the settings of the ping are fixed, and the end of its processing, at
-/// which every pose it needs has arrived and its image is computed and published.
+/// An image per ping.
 class ForwardLookingNode {
  public:
   using Config = ForwardLookingConfig;
@@ -19,14 +16,9 @@ class ForwardLookingNode {
   SimTime step(SimTime now);
 
  private:
-  void transmit(SimTime now);
-  void publish(const PingUnderWay& ping);
-
   Config config_;
   ForwardLookingHead head_;
-  HeadInputs inputs_;
-  PingCycle cycle_;
-  Ports::Out<msg::Ping> ping_out_;
+  SingleChannel channel_;
 };
 
 }  // namespace ensonify

@@ -62,11 +62,10 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot, const HeadSettings& sett
   ping.applied = applied(shot, settings, steering);
   const echo::Sampling sampling{0.0, 1.0 / config_.sample_rate_hz,
                                 config_.samples(shot.range_m, settings.pulse_length_s)};
-  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
   echo::TvgLaw gain = tvg_of(settings, steering.sound_speed_mps);
   gain.spreading_db = ping.applied.gain_spreading_db;
   gain.absorption_dbpm = ping.applied.gain_absorption_dbpm;
-  write_samples(gain, converter, sampling, amplitude_upa_, ping);
+  write_samples(gain, config_.converter_in_use(), sampling, amplitude_upa_, ping);
   if (phase && config_.effects.speckle) {
     const auto values = phase_rad();
     ping.phase_rad = msg::Array<float>::view({steering.sin_beams.size(), static_cast<std::size_t>(sampling.count)},

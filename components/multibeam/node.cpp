@@ -63,9 +63,8 @@ MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
 }
 
 SimTime MultibeamNode::step(SimTime now) {
-  while (const auto ping = cycle_.ready(now)) publish(*ping);
-  if (cycle_.may_transmit(now)) transmit(now);
-  return cycle_.next();
+  return cycle_.step(
+      now, [&] { transmit(now); }, [this](const PingUnderWay& ping) { publish(ping); });
 }
 
 void MultibeamNode::transmit(SimTime now) {

@@ -103,8 +103,7 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   ping.ping = shot.ping;
   ping.kind = "scanning";
   ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
-  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
-  write_samples(tvg_of(settings, known_sound_speed_mps), converter, ranged.sampling, image, ping);
+  write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
   ping.applied.pulse_length_s = ranged.length_s;

@@ -164,8 +164,7 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
   Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, config_.sound_speed_mps)};
   heard.bottom.stamp_ns = shot.transmit.count();
   heard.bottom.ping = shot.ping;
-  const Converter converter = config_.effects.quantisation ? config_.converter : Converter{};
-  write_samples(tvg_of(settings, config_.sound_speed_mps), converter, sampling, image, heard.ping);
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);
   return heard;
 }
 

@@ -40,9 +40,8 @@ SidescanNode::SidescanNode(const Config& config, Ports& ports)
 }
 
 SimTime SidescanNode::step(SimTime now) {
-  while (const auto ping = cycle_.ready(now)) publish(*ping);
-  if (cycle_.may_transmit(now)) transmit(now);
-  return cycle_.next();
+  return cycle_.step(
+      now, [&] { transmit(now); }, [this](const PingUnderWay& ping) { publish(ping); });
 }
 
 void SidescanNode::transmit(SimTime now) {

@@ -43,6 +43,9 @@ struct HeadConfig {
             interference};
   }
 
+  /// None with quantisation switched off.
+  Converter converter_in_use() const { return effects.quantisation ? converter : Converter{}; }
+
   /// Settings to start with. Pulse length and swath are the head's to add.
   HeadSettings start_at(double range_m, double source_level_db) const;
   /// What commands can make of them: up to that range, and down to 40 dB below that source level.

@@ -38,17 +38,19 @@ struct PingUnderWay {
 };
 
 /// The pings of a head from transmission to publication, and its ports `transmit`, `trigger` and `transmits`
-/// (PingClock, Interference). A node asks in each step for the
-/// pings that are ready, transmits if it may, and sleeps until next().
+/// (PingClock, Interference).
 class PingCycle {
  public:
   PingCycle(Ports& ports, const HeadInputs& inputs, const PingTiming& timing);
 
-  /// The oldest ping that is ready by now; each is given once.
-  std::optional<PingUnderWay> ready(SimTime now);
-
-  /// Whether to transmit now. A beat at which something stands in the way passes, and health says what it is.
-  bool may_transmit(SimTime now);
+  /// A step of a node: publish(ping) of every ping that is ready by now, then transmit() if a ping may go out. Returns
+  /// the time of the next step.
+  template <class Transmit, class Publish>
+  SimTime step(SimTime now, const Transmit& transmit, const Publish& publish) {
+    while (const auto ping = ready(now)) publish(*ping);
+    if (may_transmit(now)) transmit();
+    return next();
+  }
 
   /// The next ping goes out. Each channel is told in transmit/1 now, with its own time, the earliest first. The first
   /// channel's settings tell the ping rate.
@@ -57,10 +59,14 @@ class PingCycle {
   /// A ping was published. Health tells `trouble`, or if there is none, whether the ping lacks its track.
   void published(const std::string& trouble);
 
+ private:
+  /// The oldest ping that is ready by now; each is given once.
+  std::optional<PingUnderWay> ready(SimTime now);
+  /// Whether to transmit now. A beat at which something stands in the way passes, and health says what it is.
+  bool may_transmit(SimTime now);
   /// Time of the next transmission or of the next ping that is ready.
   SimTime next() const;
 
- private:
   Ports& ports_;
   const HeadInputs& inputs_;
   SimTime processing_latency_;
