@@ -53,7 +53,7 @@ def visible_folders(path):
         "launch": [own, "components/runtime", "messages", "kernels"],
         "tools": [own, "launch", "components/runtime", "messages", "kernels"],
     }[area]
-    return seen + ["tests/support"] if is_test(path) else seen
+    return seen + ["tests/support"] if is_test(path) or is_bench(path) else seen
 
 
 def problem_of_project_include(root, path, target):
@@ -102,7 +102,7 @@ def problems(root):
 PLANTED = {
     "kernels/a/a.h": [("<vector>", None), ("<Eigen/Core>", None), ('"messages/m.h"', "out of sight"),
                       ("<sys/socket.h>", "numeric libraries only"), ("<embree3/rtcore.h>", "kernels/trace")],
-    "kernels/a/bench.cpp": [("<benchmark/benchmark.h>", None)],
+    "kernels/a/bench.cpp": [("<benchmark/benchmark.h>", None), ('"tests/support/s.h"', None)],
     "kernels/a/a_test.cpp": [("<catch2/catch.hpp>", None), ('"kernels/a/a.h"', None), ('"a.h"', "does not exist")],
     "kernels/trace/t.cpp": [("<embree3/rtcore.h>", None)],
     "messages/m.h": [("<cstdint>", None), ("<msgpack.hpp>", "messages/*.cpp"), ('"kernels/a/a.h"', "out of sight")],

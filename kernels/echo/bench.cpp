@@ -17,6 +17,7 @@
 #include "kernels/echo/line_receiver.h"
 #include "kernels/seabed/lambert.h"
 #include "kernels/trace/embree_alone.h"
+#include "tests/support/fan.h"
 
 using namespace ensonify;
 

@@ -7,6 +7,7 @@
 #include "kernels/echo/aperture.h"
 #include "kernels/echo/line_receiver.h"
 #include "kernels/seabed/lambert.h"
+#include "tests/support/fan.h"
 
 // Mean levels against the closed forms of docs/physics/echo.md, as sums of mean squares: no speckle, no draws.
 

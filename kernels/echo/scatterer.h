@@ -8,7 +8,7 @@
 #include "kernels/echo/partition.h"
 #include "kernels/frames/pose.h"
 #include "kernels/random/stream.h"
-#include "kernels/trace/fan.h"
+#include "kernels/trace/ray.h"
 #include "kernels/trace/scene.h"
 
 namespace ensonify::echo {

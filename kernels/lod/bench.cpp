@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/trace/fan.h"
 #include "kernels/trace/scene.h"
 #include "kernels/trace/views.h"
+#include "tests/support/fan.h"
 
 using namespace ensonify;
 

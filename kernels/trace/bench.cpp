@@ -11,9 +11,9 @@
 
 #include "kernels/refraction/thermocline.h"
 #include "kernels/trace/embree_alone.h"
-#include "kernels/trace/fan.h"
 #include "kernels/trace/ray_distribution.h"
 #include "kernels/trace/scene.h"
+#include "tests/support/fan.h"
 
 using namespace ensonify;
 

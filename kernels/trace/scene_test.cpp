@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "kernels/trace/fan.h"
+#include "tests/support/fan.h"
 
 using namespace ensonify::trace;
 using namespace ensonify::terrain;

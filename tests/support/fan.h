@@ -20,8 +20,8 @@ struct FanShape {
       0.7;  // share of the rows spread equally in slant range on a flat seabed; the rest equally in angle
 };
 
-/// Rays over the transmit volume of a Mills cross, a fixed number whatever they meet: for tests and benchmarks, and for
-/// whoever brings a seabed of formulas (ray_distribution.h asks the seabed).
+/// Rays over the transmit volume of a Mills cross, a fixed number whatever they meet: what tests and benchmarks send
+/// where heads ask the seabed (kernels/trace/ray_distribution.h).
 ///
 /// A direction is (u, sqrt(1-u^2) sin phi, sqrt(1-u^2) cos phi): u the sine of the along-track angle, phi the
 /// across-track angle about the head's x axis. Then dOmega = du dphi exactly. The volume is cut into along x across

@@ -1,4 +1,4 @@
-#include "kernels/trace/fan.h"
+#include "tests/support/fan.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
