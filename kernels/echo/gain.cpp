@@ -1,7 +1,5 @@
 #include "kernels/echo/gain.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,15 +9,6 @@ namespace {
 
 void require(bool good, const char* problem) {
   if (!good) throw std::invalid_argument(problem);
-}
-
-/// on_sample(value, sample) for every value of an image.
-template <class OnSample>
-void each_value(Image& image, const OnSample& on_sample) {
-  tbb::parallel_for(0, image.beams, [&](int beam) {
-    std::size_t k = 0;
-    for (auto& value : image.row(beam)) on_sample(value, k++);
-  });
 }
 
 }  // namespace
@@ -40,27 +29,14 @@ void tvg_db(const TvgLaw& law, const Sampling& sampling, std::vector<float>& gai
   }
 }
 
-void apply_gain(std::span<const float> gain_db, Image& image) {
-  require(gain_db.size() == static_cast<std::size_t>(image.samples), "a gain needs one value per sample");
-  each_value(image, [&](std::complex<float>& p, std::size_t k) { p *= std::pow(10.0F, 0.05F * gain_db[k]); });
-}
-
-void saturate(double limit_upa, Image& image) {
-  require(limit_upa > 0.0, "a saturation level must be positive");
-  const auto limit = static_cast<float>(limit_upa);
-  each_value(image, [limit](std::complex<float>& p, std::size_t) {
-    const float magnitude = std::sqrt(p.real() * p.real() + p.imag() * p.imag());
-    if (magnitude > limit) p *= limit / magnitude;
-  });
-}
-
-void digitise(const Digitiser& digitiser, Image& image) {
-  require(digitiser.bits >= 2 && digitiser.bits <= 24, "a digitiser has 2 to 24 bits");
-  require(digitiser.full_scale_upa > 0.0, "a digitiser's full scale must be positive");
-  const auto step = static_cast<float>(digitiser.step_upa());
-  const auto half = static_cast<float>(std::int64_t{1} << (digitiser.bits - 1));
-  const auto part = [=](float x) { return step * std::clamp(std::round(x / step), -half, half - 1.0F); };
-  each_value(image, [&](std::complex<float>& p, std::size_t) { p = {part(p.real()), part(p.imag())}; });
+void apply_gain(std::span<const float> gain_db, std::span<float> amplitude) {
+  const std::size_t samples = gain_db.size();
+  require(samples > 0 ? amplitude.size() % samples == 0 : amplitude.empty(), "a gain needs one value per sample");
+  std::vector<float> gain(gain_db.begin(), gain_db.end());
+  for (float& value : gain) value = std::pow(10.0F, 0.05F * value);
+  for (std::size_t row = 0; row < amplitude.size(); row += samples) {
+    for (std::size_t k = 0; k < samples; ++k) amplitude[row + k] *= gain[k];
+  }
 }
 
 void amplitude_counts(std::span<const float> amplitude, double step, int bits, std::vector<std::uint16_t>& counts) {

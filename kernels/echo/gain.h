@@ -31,28 +31,13 @@ struct TvgLaw {
 /// limits or ranges the wrong way round, or a negative step.
 void tvg_db(const TvgLaw& law, const Sampling& sampling, std::vector<float>& gain_db);
 
-/// Multiplies every row by the gain.
-void apply_gain(std::span<const float> gain_db, Image& image);
+/// Multiplies amplitudes by the gain, row after row of one value per sample. Throws std::invalid_argument unless the
+/// rows are whole.
+void apply_gain(std::span<const float> gain_db, std::span<float> amplitude);
 
-/// Limits the magnitude of every sample, its phase kept: an amplifier in saturation. +infinity changes nothing.
-void saturate(double limit_upa, Image& image);
-
-/// Real and imaginary part each as a signed integer of `bits`: multiples of step_upa() from -2^(bits-1) to
-/// 2^(bits-1) - 1, the nearest; what is beyond takes the end value. An error of rounding is uniform: its mean square
-/// in both parts together is step^2 / 6.
-struct Digitiser {
-  int bits = 16;                // 2..24
-  double full_scale_upa = 1e6;  // of one part, after gain
-
-  double step_upa() const { return full_scale_upa / static_cast<double>(std::int64_t{1} << (bits - 1)); }
-};
-
-/// Replaces every sample by what the converter gives, in uPa. Throws std::invalid_argument for bits outside 2..24 or a
-/// full scale that is not positive.
-void digitise(const Digitiser& digitiser, Image& image);
-
-/// Magnitudes as counts 0..2^bits - 1 of `step`, the nearest, for records that keep amplitudes only; resized.
-/// bits 1..16.
+/// Amplitudes as counts 0..2^bits - 1 of `step`, the nearest; what is beyond takes the end value, as in a receiver in
+/// saturation. An error of rounding is uniform: its mean square is step^2 / 12. Resized. Throws std::invalid_argument
+/// for bits outside 1..16 or a step that is not positive.
 void amplitude_counts(std::span<const float> amplitude, double step, int bits, std::vector<std::uint16_t>& counts);
 
 }  // namespace ensonify::echo

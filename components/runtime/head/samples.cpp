@@ -1,6 +1,5 @@
 #include "components/runtime/head/samples.h"
 
-#include <cmath>
 #include <memory>
 
 #include "components/runtime/config/config_reader.h"
@@ -48,11 +47,9 @@ void write_samples(const echo::TvgLaw& gain, const Converter& converter, const e
     ping.amplitude_upa = array_of(sampling.count, std::move(amplitude_upa));
     return;
   }
-  std::vector<float> gains;
-  echo::tvg_db(gain, sampling, gains);
-  for (float& value : gains) value = std::pow(10.0F, 0.05F * value);
-  std::vector<float> behind_gain(amplitude_upa->size());
-  for (std::size_t i = 0; i < behind_gain.size(); ++i) behind_gain[i] = (*amplitude_upa)[i] * gains[i % gains.size()];
+  std::vector<float> gain_db, behind_gain(*amplitude_upa);
+  echo::tvg_db(gain, sampling, gain_db);
+  echo::apply_gain(gain_db, behind_gain);
   auto counts = std::make_shared<std::vector<std::uint16_t>>();
   ping.count_upa = converter.full_scale_upa / ((1 << converter.bits) - 1);
   echo::amplitude_counts(behind_gain, ping.count_upa, converter.bits, *counts);
