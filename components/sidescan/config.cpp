@@ -20,6 +20,7 @@ void check(const ConfigReader& from, const SidescanChannel& c) {
                                      ": a chirp needs at least 4");
   }
   if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
+  if (c.chirp && c.tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
   if ((c.focus == Focus::kFixed) != (c.focus_m > 0.0)) {
     from.problem("focus_m", "is the range that focus: fixed is focused at, above 0, and 0 otherwise");
   }
@@ -44,6 +45,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
+  from.optional("tapered_fraction", c.tapered_fraction, 0, 1);
   from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
   read_window(from, c.window);
   from.optional("range_m", c.range_m, 1, 1000);
@@ -55,7 +57,8 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
 }
 
 echo::Pulse SidescanChannel::pulse(double length_s) const {
-  return chirp ? echo::compressed_chirp(length_s, bandwidth_hz, window) : echo::rectangular_pulse(length_s);
+  if (chirp) return echo::compressed_chirp(length_s, bandwidth_hz, window);
+  return echo::tapered_pulse(length_s, tapered_fraction);
 }
 
 SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {

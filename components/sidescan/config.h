@@ -32,7 +32,8 @@ struct SidescanChannel {
   double source_level_db = 215.0;  // rms during the pulse, re 1 uPa at 1 m
   bool chirp = false;              // a linear sweep and its matched filter; else a tone
   double pulse_length_s = 100e-6;
-  double bandwidth_hz = 0.0;                     // that a chirp sweeps
+  double tapered_fraction = 0.0;  // of a tone's length that rises and falls; its level is that in between
+  double bandwidth_hz = 0.0;      // that a chirp sweeps
   echo::Window window = echo::Window::kHamming;  // of its matched filter
   double range_m = 100.0;                        // the longest that is listened to, slant
   double electronic_noise_db = -200.0;           // as sound in the water, re 1 uPa^2/Hz

@@ -23,8 +23,18 @@ TEST_CASE("a sidescan outside its limits is refused with place and limits") {
       Catch::Contains("a chirp needs at least 4"));
   CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, bandwidth_hz: 1000}]}"),
              Catch::Contains("only a chirp sweeps"));
+  CHECK(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, focus: sharp}]}") ==
+        "head.yaml:1:51: channels[0].focus: is \"sharp\", not one of ideal, echo, fixed, off");
+  CHECK(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, window: kaiser}]}") ==
+        "head.yaml:1:52: channels[0].window: is \"kaiser\", not one of none, hann, hamming, blackman");
+  CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, focus_m: 30}]}"),
+             Catch::Contains("focus_m: is the range that focus: fixed is focused at, above 0, and 0 otherwise"));
   CHECK_THAT(problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, focus: fixed}]}"),
              Catch::Contains("focus_m: is the range that focus: fixed is focused at, above 0, and 0 otherwise"));
+  CHECK_THAT(
+      problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, pulse: chirp, pulse_length_s: 1e-2, "
+                                  "bandwidth_hz: 1e4, tapered_fraction: 0.2}]}"),
+      Catch::Contains("tapered_fraction: is of tones; chirps have a window"));
   CHECK_THAT(
       problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3, range_m: 1000, pulse_length_s: 1e-5}]}"),
       Catch::Contains("at most 100000 are allowed"));
@@ -37,6 +47,15 @@ TEST_CASE("a two-way beam width makes a line that is wider one-way") {
   const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
   from.finish();
   CHECK(config.channels.at(0).horizontal_beamwidth_rad / SidescanChannel::kDegree == Approx(50.76 / 36.55));
+}
+
+TEST_CASE("a tapered tone brings less energy") {
+  auto from =
+      ConfigReader::from_text("{channels: [{name: a, frequency_hz: 100e3, tapered_fraction: 0.4}]}", "head.yaml");
+  const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
+  from.finish();
+  // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.
+  CHECK(config.channels.at(0).pulse(1e-3).equivalent_length_s() == Approx(0.75e-3).epsilon(1e-3));
 }
 
 TEST_CASE("the window of a channel's chirp weighs its filter") {

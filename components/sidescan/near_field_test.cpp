@@ -1,16 +1,16 @@
-#include "kernels/array/near_field.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
-#include <vector>
+#include <complex>
+#include <limits>
+#include <numbers>
 
 #include "components/runtime/head/tile_set.h"
 #include "components/sidescan/head.h"
 #include "kernels/array/line.h"
 
-// A line inside L^2 / lambda, through the whole head, against the sum over its elements: a bright strip across the
-// track of a dark level seabed, as the head passes it. Sums of mean squares: the mean over the strip's phases.
+// A line inside L^2 / lambda, through the whole head, against the sum over its elements by exact distances: a bright
+// strip across the track of a dark level seabed, as the head passes it. Sums of mean squares: the mean over the strip's
+// phases.
 
 using namespace ensonify;
 
@@ -19,9 +19,10 @@ namespace {
 constexpr double kWavelength_m = 0.00375;  // 400 kHz in 1500 m/s
 constexpr double kLength_m = 0.4743;       // of the line: L^2 / lambda is 60 m
 constexpr double kRange_m = 15.0;          // a quarter of it
+constexpr double kUnfocused_m = std::numeric_limits<double>::infinity();
 constexpr double kAltitude_m = 10.0;
-constexpr double kPost_m = 0.02;
-constexpr double kStrip_m = 0.06;  // wide: three posts, half of a focused beam
+constexpr double kWindow_m = 0.6;  // before and behind it
+constexpr double kStrip_m = 0.06;  // wide: one row of posts, half of a focused beam
 
 SidescanConfig sidescan(Focus focus) {
   SidescanConfig config;
@@ -29,7 +30,7 @@ SidescanConfig sidescan(Focus focus) {
   config.world.seabed.sediments = {{0, seabed::Lambert{-120.0}}, {1, seabed::Lambert{-10.0}}};
   config.effects.directivity = config.effects.speckle = config.effects.noise = false;
   config.effects.multipath = config.effects.absorption = false;
-  config.quality = 8.0;
+  config.quality = 4;
   SidescanChannel& channel = config.channels[0];
   channel.focus = focus;
   channel.focus_m = focus == Focus::kFixed ? 40.0 : 0.0;
@@ -40,23 +41,21 @@ SidescanConfig sidescan(Focus focus) {
 
 /// To starboard of the head, 1 m fore and aft of the strip.
 TileSet strip_across_the_track() {
-  constexpr std::size_t kAlong = 101, kAcross = 801, kMiddle = kAlong / 2;
+  constexpr std::size_t kAlong = 35, kAcross = 268, kMiddle = kAlong / 2;
   msg::Tile tile;
-  tile.origin_north_m = -kPost_m * kMiddle;
-  tile.spacing_m = kPost_m;
+  tile.origin_north_m = -kStrip_m * kMiddle;
+  tile.spacing_m = kStrip_m;
   tile.height_m = msg::Array<float>({kAlong, kAcross});
   tile.sediment = msg::Array<std::uint8_t>({kAlong, kAcross});
   for (float& height : tile.height_m.flat()) height = static_cast<float>(-kAltitude_m);
-  for (std::size_t col = 0; col < kAcross; ++col) {
-    for (const std::size_t row : {kMiddle - 1, kMiddle, kMiddle + 1}) tile.sediment(row, col) = 1;
-  }
+  for (std::size_t col = 0; col < kAcross; ++col) tile.sediment(kMiddle, col) = 1;
   TileSet tiles;
   tiles.insert(tile);
   return tiles;
 }
 
 /// The power that comes back from about the range when the head is so far north of the strip's middle, any unit.
-double found(const SidescanConfig& config, const TileSet& tiles, double north_m) {
+double found(const SidescanConfig& config, TileSet& tiles, double north_m) {
   frames::PoseHistory at_rest(1'000'000'000);
   at_rest.push(0, {{0.0, north_m, 0.0}, frames::enu_from_ned()});
   SidescanHead head(config, config.channels[0]);
@@ -65,42 +64,40 @@ double found(const SidescanConfig& config, const TileSet& tiles, double north_m)
   double sum = 0.0;
   for (std::size_t k = 0; k < ping.amplitude_upa.cols(); ++k) {
     const double slant_m = 750.0 * static_cast<double>(k) * static_cast<double>(ping.sample_period_s);
-    if (std::abs(slant_m - kRange_m) < 0.6) sum += std::pow(static_cast<double>(ping.amplitude_upa(1, k)), 2);
+    if (std::abs(slant_m - kRange_m) < kWindow_m) sum += std::pow(static_cast<double>(ping.amplitude_upa(1, k)), 2);
   }
   return sum;
 }
 
-/// The same by the sums over elements, of sending and of listening, over the strip.
+/// Power that a point so far along the track has in the line, over that of the far field's axis.
+double element_sum(double along_m, double range_m, double focus_m) {
+  constexpr int kElements = 200;
+  std::complex<double> sum = 0.0;
+  for (int n = 0; n < kElements; ++n) {
+    const double x = kLength_m * ((n + 0.5) / kElements - 0.5);
+    const double longer_m = std::sqrt(range_m * range_m - 2.0 * along_m * x + x * x) - range_m;
+    const double delayed_m = std::isfinite(focus_m) ? std::sqrt(focus_m * focus_m + x * x) - focus_m : 0.0;
+    sum += std::polar(1.0, 2.0 * std::numbers::pi / kWavelength_m * (longer_m - delayed_m));
+  }
+  return std::norm(sum) / (kElements * kElements);
+}
+
+/// The same power by the sums over elements, of sending and of listening, over the strip within the window. A width of
+/// it is y dy = R dR across the track, scatters sin^2 = (H / R)^2 by Lambert's law, and spreads R^-4.
 double theory(Focus focus, double north_m) {
-  static const array::LineArray line{
-      .spacing_m = kLength_m / 500, .weights = std::vector<double>(500, 1.0), .element_length_m = kLength_m / 500};
-  const double focus_m = focus == Focus::kFixed ? 40.0 : array::kFarAway_m;
+  constexpr int kRanges = 9, kAlongs = 8;
   double sum = 0.0;
-  for (int step = 0; step < 12; ++step) {
-    const double strip_m = kStrip_m * ((step + 0.5) / 12.0 - 0.5);
-    const double u = (strip_m - north_m) / kRange_m;
-    const auto power = [&](double focused_at_m) {
-      return std::norm(array::near_field_amplitude(line, kWavelength_m, u, 0.0, kRange_m, focused_at_m));
-    };
-    const double sent = power(focus == Focus::kIdeal ? kRange_m : array::kFarAway_m);
-    sum += sent * power(focus == Focus::kIdeal || focus == Focus::kEcho ? kRange_m : focus_m);
+  for (int i = 0; i < kRanges; ++i) {
+    const double R = kRange_m + kWindow_m * ((2 * i + 1.0) / kRanges - 1.0);
+    const double weight = std::pow(R, -5) / std::sqrt(R * R - kAltitude_m * kAltitude_m);
+    const double sending = focus == Focus::kIdeal ? R : kUnfocused_m;
+    const double listening = focus == Focus::kFixed ? 40.0 : focus == Focus::kOff ? kUnfocused_m : R;
+    for (int j = 0; j < kAlongs; ++j) {
+      const double along_m = kStrip_m * ((j + 0.5) / kAlongs - 0.5) - north_m;
+      sum += weight * element_sum(along_m, R, sending) * element_sum(along_m, R, listening);
+    }
   }
   return sum;
-}
-
-constexpr double kStep_m = 0.03;
-
-std::vector<double> profile(const std::function<double(double north_m)>& power) {
-  std::vector<double> powers;
-  for (int i = 0; i <= 9; ++i) powers.push_back(power(i * kStep_m));
-  return powers;
-}
-
-/// Where it falls to a half of its first, from straight lines between.
-double half_width_m(const std::vector<double>& powers) {
-  std::size_t i = 1;
-  while (i + 1 < powers.size() && powers[i] > 0.5 * powers[0]) ++i;
-  return kStep_m * (static_cast<double>(i) - (0.5 * powers[0] - powers[i]) / (powers[i - 1] - powers[i]));
 }
 
 double db(double ratio) { return 10.0 * std::log10(ratio); }
@@ -108,22 +105,18 @@ double db(double ratio) { return 10.0 * std::log10(ratio); }
 }  // namespace
 
 TEST_CASE("at a quarter of L^2 / lambda a sidescan's line is as weak and as wide as the sum over its elements says") {
-  // 4.0 dB below the ideal line on the axis where only transmission is unfocused, 8.1 dB where nothing is. Some four
-  // hundred rays meet the strip: 0.15 dB; patches of seabed, which answer as one point, are a quarter of a beam at 10
-  // m.
-  const TileSet tiles = strip_across_the_track();
+  // 4.0 dB below the ideal line on the axis where only transmission is unfocused, 7.9 dB where nothing is; beside the
+  // axis an unfocused line has a shoulder at -4 dB, so that half widths would tell little. Patches of seabed of 17 mm,
+  // which answer as one point, blur the strip: 0.15 dB at -6 dB, and more in nulls, which are left out. Some hundred
+  // rays beside the main lobe: 0.1 dB.
+  TileSet tiles = strip_across_the_track();
   const double ideal_found = found(sidescan(Focus::kIdeal), tiles, 0.0), ideal = theory(Focus::kIdeal, 0.0);
   for (const Focus focus : {Focus::kIdeal, Focus::kEcho, Focus::kFixed, Focus::kOff}) {
-    const auto heard = profile([&](double north_m) { return found(sidescan(focus), tiles, north_m); });
-    const auto expected = profile([&](double north_m) { return theory(focus, north_m); });
-    INFO("focus " << static_cast<int>(focus) << ": " << db(heard[0] / ideal_found) << " dB, expected "
-                  << db(expected[0] / ideal) << "; half width " << half_width_m(heard) << " m, expected "
-                  << half_width_m(expected));
-    CHECK(db(heard[0] / ideal_found) == Approx(db(expected[0] / ideal)).margin(0.5));
-    CHECK(half_width_m(heard) == Approx(half_width_m(expected)).epsilon(0.07));
-    for (std::size_t i = 1; i < heard.size(); ++i) {
-      if (expected[i] < 0.1 * expected[0]) continue;
-      CHECK(db(heard[i] / heard[0]) == Approx(db(expected[i] / expected[0])).margin(0.7));
+    for (const double north_m : {0.0, 0.03, 0.06, 0.12, 0.18}) {
+      const double expected_db = db(theory(focus, north_m) / ideal);
+      if (expected_db < -20.0) continue;
+      INFO("focus " << static_cast<int>(focus) << ", " << north_m << " m beside the strip");
+      CHECK(db(found(sidescan(focus), tiles, north_m) / ideal_found) == Approx(expected_db).margin(0.3));
     }
   }
 }
