@@ -99,8 +99,10 @@ def echogram(record, axes):
 
 def chart(record, axes):
     """Soundings of a multibeam on the middle of its lines, gridded: depth in colours, lit from the north-west."""
-    soundings = read_survey(record).soundings
-    middle = np.abs(soundings.north_m) < 30
+    survey = read_survey(record)
+    soundings = survey.soundings
+    on_line = np.any([(soundings.t_s >= begin) & (soundings.t_s <= end) for begin, end in survey.on_line_s], axis=0)
+    middle = on_line & (np.abs(soundings.north_m) < 30)
     east_m, north_m, up_m = (values[middle] for values in (soundings.east_m, soundings.north_m, soundings.up_m))
     frame = grid.frame_around(east_m, north_m, 1.0)
     mean_m = grid.Gridder(frame, east_m, north_m).mean(up_m)
@@ -151,7 +153,7 @@ def ahead(record, axes):
 FISH = "mission.depth_m=5"  # 15 m above the bed
 NO_SURFACE = "side.effects.multipath=false"  # where its echoes would distract
 CAST = "water.profile=[{depth_m: 0, sound_speed_mps: 1500}, {depth_m: 6, sound_speed_mps: 1500}, {depth_m: 10, sound_speed_mps: 1475}]"
-THREE_LINES = "mission={speed_mps: 4, run_in_m: 10, lawnmower: {centre_m: [0, 0], heading_deg: 0, length_m: 60, spacing_m: 40, count: 3}}"
+THREE_LINES = "mission={speed_mps: 4, run_in_m: 10, lawnmower: {centre_m: [0, 0], heading_deg: 0, length_m: 60, spacing_m: 55, count: 3}}"
 STILL = "mission.runlines=[{from_m: [0, -6], to_m: [0, 6]}]"
 SECTORS = "bow.sectors=[{frequency_hz: 290e3}, {frequency_hz: 300e3}, {frequency_hz: 310e3}]"
 
@@ -165,6 +167,8 @@ ARTEFACTS = (
              off=("sounder.effects.multipath=false",), limits=(70, 160)),
     Artefact("surface_return", "sidescan", slant, ("as it is: a line at 5 m", "multipath switched off"),
              always=(FISH,), off=("side.effects.multipath=false",), limits=(95, 160)),
+    Artefact("cross_talk", "cross_talk", slant, ("as it is: lines of a multibeam's pings", "interference switched off"),
+             always=(FISH, NO_SURFACE), off=("side.effects.interference=false",), limits=(95, 160)),
     Artefact("refraction", "multibeam", chart, ("applied: 1500 m/s everywhere", "applied: the true profile"),
              always=(CAST, THREE_LINES), on=("water.applied.sound_speed_mps=1500",), size_in=(10.0, 3.0)),
     Artefact("roll_wobble", "multibeam", chart, ("attitude 0.1 s late", "attitude in time"),
