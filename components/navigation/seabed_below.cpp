@@ -1,8 +1,31 @@
 #include "components/navigation/seabed_below.h"
 
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace ensonify {
+namespace {
+
+constexpr double kHalfWidth_rad = 1e-3;
+
+/// What a ray along a direction looks at.
+lod::View view_along(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m) {
+  lod::View view;
+  lod::Frustum& cone = view.frustum;
+  cone.apex_enu_m = from.position_enu_m;
+  cone.axis_enu = (from.enu_from_head * direction).normalized();
+  cone.zero_enu = cone.axis_enu.unitOrthogonal();
+  cone.side_enu = cone.axis_enu.cross(cone.zero_enu);
+  cone.low_sine = std::cos(kHalfWidth_rad);
+  cone.low_angle_rad = -std::numbers::pi;
+  cone.high_angle_rad = std::numbers::pi;
+  cone.max_range_m = longest_m;
+  return view;
+}
+
+}  // namespace
 
 void SeabedBelow::connect(Ports& ports, bool optional) {
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); }, {.optional = optional});
@@ -11,8 +34,10 @@ void SeabedBelow::connect(Ports& ports, bool optional) {
 }
 
 std::optional<double> SeabedBelow::distance_m(const frames::HeadPose& from, const frames::Vec3& direction,
-                                              double longest_m) const {
+                                              double longest_m) {
   if (tiles_.scene().empty()) return std::nullopt;
+  tiles_.scene().centre_near(from.position_enu_m.head<2>());
+  tiles_.scene().adapt(std::array{view_along(from, direction, longest_m)});
   const std::vector<trace::Ray> ray{{direction.cast<float>(), 0.0F}};
   std::vector<trace::Hit> hit;
   tiles_.scene().trace(from, ray, static_cast<float>(longest_m), hit);

@@ -14,11 +14,12 @@ class SeabedBelow {
   /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed.
   void connect(Ports& ports, bool optional);
 
-  /// From `from` along a direction of its frame; empty where nothing is as near as `longest_m`.
-  std::optional<double> distance_m(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m) const;
+  /// From `from` along a direction of its frame; empty where nothing is as near as `longest_m`. A function of these and
+  /// of the tiles.
+  std::optional<double> distance_m(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m);
 
  private:
-  TileSet tiles_;
+  TileSet tiles_{trace::LevelOfDetail{.enabled = true, .looks = 8}};  // fine along the beams of a measurement alone
 };
 
 }  // namespace ensonify

@@ -14,8 +14,8 @@ SimTime next_of(const std::optional<T>& carried) {
 }  // namespace
 
 WaterInstruments::WaterInstruments(const Instruments& carried, const TrueWater& water, const Heights& heights,
-                                   const SeabedBelow& seabed, std::uint64_t seed, const std::string& process,
-                                   Ports& ports, std::function<void(const msg::SoundSpeed&)> sound_speeds)
+                                   SeabedBelow& seabed, std::uint64_t seed, const std::string& process, Ports& ports,
+                                   std::function<void(const msg::SoundSpeed&)> sound_speeds)
     : water_(water), heights_(heights), seabed_(seabed), sound_speeds_(std::move(sound_speeds)) {
   const auto stream = [&](const char* name) { return random::Stream(seed, process + "/" + name); };
   const auto rate = [](const Instrument& instrument) { return OutOptions{.rate = rate_of(instrument.rate_hz)}; };

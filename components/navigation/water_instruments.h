@@ -15,8 +15,8 @@ namespace ensonify {
 class WaterInstruments {
  public:
   /// `sound_speeds` is where the probe's readings go: their port belongs to the node.
-  WaterInstruments(const Instruments& carried, const TrueWater& water, const Heights& heights,
-                   const SeabedBelow& seabed, std::uint64_t seed, const std::string& process, Ports& ports,
+  WaterInstruments(const Instruments& carried, const TrueWater& water, const Heights& heights, SeabedBelow& seabed,
+                   std::uint64_t seed, const std::string& process, Ports& ports,
                    std::function<void(const msg::SoundSpeed&)> sound_speeds);
 
   SimTime next() const;
@@ -34,7 +34,7 @@ class WaterInstruments {
 
   TrueWater water_;
   Heights heights_;
-  const SeabedBelow& seabed_;
+  SeabedBelow& seabed_;
   std::function<void(const msg::SoundSpeed&)> sound_speeds_;
   std::optional<Carried<SoundSpeedConfig, sensors::ScalarSensor>> probe_;
   std::optional<Carried<CtdConfig, CtdSensors>> ctd_;

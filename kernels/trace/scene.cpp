@@ -17,6 +17,8 @@ namespace {
 using frames::Vec2;
 using frames::Vec3;
 
+constexpr double kLattice_m = 2048.0;  // of Embree's origins: none of a head's tiles is 4 km away
+
 Heights heights_of(const terrain::Tile& tile) {
   Heights heights{.lowest_m = std::numeric_limits<double>::infinity(),
                   .highest_m = -std::numeric_limits<double>::infinity()};
@@ -80,7 +82,9 @@ bool Scene::remove(const terrain::TileKey& key) {
   return removed;
 }
 
-void Scene::recentre(const Vec2& origin_enu_m) {
+void Scene::centre_near(const Vec2& place_enu_m) {
+  const Vec2 origin_enu_m = kLattice_m * (place_enu_m / kLattice_m).array().round().matrix();
+  if (origin_enu_m == impl_->origin_enu_m) return;
   impl_->origin_enu_m = origin_enu_m;
   for (const auto& [key, entry] : impl_->tiles) impl_->change(key);
   impl_->show_all();

@@ -81,8 +81,10 @@ class Scene {
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order.
   std::span<const Object> objects() const;
 
-  /// Moves the origin of Embree's coordinates; everything is built anew.
-  void recentre(const frames::Vec2& origin_enu_m);
+  /// Moves the origin of Embree's coordinates to the corner of a lattice of 2048 m that is nearest to a place; when
+  /// that is another one, everything is built anew. So the place of a head says by how much coordinates are rounded,
+  /// whatever way it took.
+  void centre_near(const frames::Vec2& place_enu_m);
 
   /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere.
   /// A ray within a view of level 0 hits what it would hit with all tiles at full detail, to the bit. With level of

@@ -31,19 +31,25 @@ struct Look {
 
 const trace::TransmitVolume kFan = trace::mills_cross_volume(50.0, 50.0, 1.0);
 
-/// 20 m above the seabed, turned, rolled and pitched, in water whose speed changes with depth.
-Look look(TileSet& tiles, const WaterProfile& profile) {
+/// 20 m above the seabed, turned, rolled and pitched.
+Look look(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) {
   Scenario scenario;
   scenario.water.profile = profile;
   scenario.seabed.sediments[0] = seabed::Lambert{-25.0};
   const Environment environment(scenario, 300e3);
   Arrivals arrivals(environment, 300e3, {.motion = false}, [](const auto&, float) { return 1.0; });
-  const frames::HeadPose pose{{3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
+  const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   arrivals.move(std::vector{pose, pose});
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
   Look look;
   arrivals.look(tiles.scene(), distribution, 45.0, look.rays, look.hits);
   return look;
+}
+
+bool same(const Look& a, std::size_t i, const Look& b, std::size_t j) {
+  return a.rays[i].direction_head == b.rays[j].direction_head && a.hits[i].position_enu_m == b.hits[j].position_enu_m &&
+         a.hits[i].travel_time_s == b.hits[j].travel_time_s && a.hits[i].tube_m2 == b.hits[j].tube_m2 &&
+         a.hits[i].sin_grazing == b.hits[j].sin_grazing;
 }
 
 bool in_main_lobe(const trace::Ray& ray) {
@@ -87,17 +93,38 @@ TEST_CASE("with level of detail the main lobe sees the same to the bit, and side
     REQUIRE(main_of_all.size() > 10'000);
     std::size_t different = 0;
     for (std::size_t i = 0; i < main_of_all.size(); ++i) {
-      const std::size_t a = main_of_all[i], b = main_of_some[i];
-      different += all.rays[a].direction_head == some.rays[b].direction_head &&
-                           all.hits[a].position_enu_m == some.hits[b].position_enu_m &&
-                           all.hits[a].travel_time_s == some.hits[b].travel_time_s &&
-                           all.hits[a].tube_m2 == some.hits[b].tube_m2 &&
-                           all.hits[a].sin_grazing == some.hits[b].sin_grazing
-                       ? 0U
-                       : 1U;
+      different += same(all, main_of_all[i], some, main_of_some[i]) ? 0U : 1U;
     }
     CHECK(different == 0);
     CHECK(all.rays.size() != some.rays.size());  // side lobes do see another mesh
     CHECK(side_lobes_db(some) == Approx(side_lobes_db(all)).margin(0.1));
+  }
+}
+
+TEST_CASE("kilometres from the world's origin a ping is the same whatever way the head took") {
+  const WaterProfile water{.sound_speed_mps = 1500.0};
+  const auto tile_at = [](std::int64_t col) {
+    msg::Tile tile = tile_of(102.4, 0.1, rough);
+    tile.col = col;
+    tile.origin_east_m += 102.4 * static_cast<double>(col);
+    return tile;
+  };
+  for (const bool enabled : {true, false}) {
+    CAPTURE(enabled);
+    TileSet fresh({.enabled = enabled}), wandered({.enabled = enabled});
+    for (const std::int64_t col : {0, 31}) {  // as far as 3.2 km
+      wandered.insert(tile_at(col));
+      look(wandered, water, 102.4 * static_cast<double>(col));
+    }
+    for (TileSet* tiles : {&wandered, &fresh}) tiles->insert(tile_at(50));
+    const Look a = look(wandered, water, 5120.0), b = look(fresh, water, 5120.0);
+    REQUIRE(a.rays.size() == b.rays.size());
+    std::size_t different = 0, hits = 0;
+    for (std::size_t i = 0; i < a.rays.size(); ++i) {
+      different += same(a, i, b, i) ? 0U : 1U;
+      hits += a.hits[i].hit() ? 1U : 0U;
+    }
+    CHECK(different == 0);
+    CHECK(hits > 10'000);
   }
 }

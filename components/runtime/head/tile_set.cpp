@@ -1,11 +1,7 @@
 #include "components/runtime/head/tile_set.h"
 
-#include <cmath>
-
 namespace ensonify {
 namespace {
-
-constexpr double kFar_m = 3000.0;  // from Embree's origin: floats still tell 0.13 mm apart within 4 km (trace::Scene)
 
 terrain::TileKey key_of(std::int64_t col, std::int64_t row) {
   return {static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)};
@@ -28,9 +24,7 @@ void TileSet::insert(const msg::Tile& message) {
   grid_.cells = tile.columns - 1;
   grid_.origin_enu_m = tile.origin_enu_m - grid_.side_m() * frames::Vec2(static_cast<double>(message.col),
                                                                          static_cast<double>(message.row));
-  if ((tile.origin_enu_m - scene_.origin_enu_m()).lpNorm<Eigen::Infinity>() > kFar_m) {
-    scene_.recentre(tile.origin_enu_m);
-  }
+  if (scene_.empty()) scene_.centre_near(tile.origin_enu_m);  // where the head will be: nothing is built twice
   scene_.insert(key_of(message.col, message.row), tile);
 }
 

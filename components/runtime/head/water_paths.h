@@ -21,9 +21,11 @@ class WaterPaths {
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
 
-  /// Makes the seabed as fine as a transmission needs it that sends rays by this distribution from this pose.
+  /// Makes the seabed as a transmission needs it that sends rays by this distribution from this pose: fine where it
+  /// looks, and its coordinates near the head.
   void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::RayDistribution& rays,
              double max_range_m) const {
+    seabed.centre_near(head.position_enu_m.head<2>());
     if (!seabed.detail().enabled) return;
     const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
     const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
