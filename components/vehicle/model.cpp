@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/runtime/pose_message.h"
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 #include "components/vehicle/kinematic/kinematic.h"
 
@@ -34,17 +35,7 @@ void VehicleModel::command(const msg::Guidance& guidance) {
 
 msg::Pose VehicleModel::pose() const {
   const double t_s = seconds(now_);
-  const auto moving = motion::superimpose(dynamics_->moving(), waves_.at(t_s) + disturbance_.at(t_s));
-  const auto plain = [](const frames::Vec3& v) { return std::array{v.x(), v.y(), v.z()}; };
-  msg::Pose pose;
-  pose.stamp_ns = now_.count();
-  pose.position_enu_m = plain(moving.pose.position_enu_m);
-  pose.enu_from_body = frames::wxyz_of(moving.pose.enu_from_body);
-  pose.velocity_enu_mps = plain(moving.velocity_enu_mps);
-  pose.rate_body_radps = plain(moving.angular_rate_body_radps);
-  pose.acceleration_enu_mps2 = plain(moving.acceleration_enu_mps2);
-  pose.angular_acceleration_body_radps2 = plain(moving.angular_acceleration_body_radps2);
-  return pose;
+  return pose_message(now_, motion::superimpose(dynamics_->moving(), waves_.at(t_s) + disturbance_.at(t_s)));
 }
 
 }  // namespace ensonify

@@ -1,0 +1,131 @@
+#include "components/nav_feed/fed_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ensonify {
+namespace {
+
+constexpr double kFarAway_m = 100e3;
+constexpr double kDay_s = 86400.0;
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// Outside what is known an attitude stays; only the way goes on.
+motion::Moving held(const motion::SampledCurve& curve, double t_s) {
+  if (curve.size() == 0) return {};
+  const bool known = t_s >= curve.oldest_s() && t_s <= curve.newest_s();
+  return known ? curve.at(t_s) : motion::Moving{curve.at(std::clamp(t_s, curve.oldest_s(), curve.newest_s())).value};
+}
+
+}  // namespace
+
+FedTrack::FedTrack(const NavFeedConfig& config, const frames::LocalProjection& world, Count count)
+    : config_(config), world_(world), count_(std::move(count)) {}
+
+void FedTrack::take(std::string_view text, SimTime now) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    if (line.find_first_not_of("\r\n") == std::string_view::npos) continue;
+    std::visit(Overloaded{[&](const nmea::Other&) { count_("sentences_of_other_kinds"); },
+                          [&](const nmea::Empty&) { count_("sentences_without_data"); },
+                          [&](const nmea::BadChecksum&) { count_("sentences_with_bad_checksum"); },
+                          [&](const nmea::Malformed&) { count_("sentences_malformed"); },
+                          [&](const auto& sentence) { take(sentence, now); }},
+               nmea::parse(line));
+  }
+}
+
+double FedTrack::unwrapped_s(double time_of_day_s) const {
+  if (!anchor_utc_s_) return time_of_day_s;
+  const double days = std::round((told_s_ - time_of_day_s) / kDay_s);
+  return time_of_day_s + kDay_s * days;
+}
+
+void FedTrack::tell(double utc_s, SimTime now) {
+  told_s_ = utc_s;
+  told_at_ = now;
+}
+
+void FedTrack::take(const nmea::Fix& fix, SimTime now) {
+  if (fix.quality == 0) return count_("fixes_invalid");
+  const frames::Vec2 place = world_.enu_of({fix.latitude_deg, fix.longitude_deg});
+  if (!(place.norm() < kFarAway_m)) return count_("fixes_far_from_the_site");
+  const double utc_s = unwrapped_s(fix.time_s);
+  if (east_m_.size() > 0) {
+    const double since_s = utc_s - east_m_.newest_s();
+    if (since_s <= 0.0) return count_("sentences_late");
+    const frames::Vec2 way = place - frames::Vec2(east_m_.newest(), north_m_.newest());
+    if (way.norm() > config_.fastest_mps * since_s) return count_("fixes_beyond_the_fastest_speed");
+  }
+  if (!anchor_utc_s_) {
+    anchor_utc_s_ = utc_s;
+    anchor_ = now;
+  }
+  tell(utc_s, now);
+  east_m_.push(utc_s, place.x());
+  north_m_.push(utc_s, place.y());
+  count_("fixes_taken");
+
+  fix_.emplace();
+  fix_->stamp_ns = (anchor_ + from_seconds(utc_s - *anchor_utc_s_ + config_.delay_s)).count();
+  fix_->position_enu_m = {place.x(), place.y(), 0.0};
+  fix_->latitude_deg = fix.latitude_deg;
+  fix_->longitude_deg = fix.longitude_deg;
+  fix_->quality = fix.quality;
+  fix_->hdop = fix.hdop;
+  fix_->height_above_geoid_m = fix.height_above_geoid_m;
+}
+
+bool FedTrack::push_heading(double utc_s, double true_heading_rad) {
+  const frames::Vec2 place(east_m_.newest(), north_m_.newest());
+  const double grid_rad = true_heading_rad - world_.convergence_rad(place);
+  const double before_rad = heading_rad_.size() == 0 ? grid_rad : heading_rad_.newest();
+  return heading_rad_.push(utc_s, before_rad + frames::wrap_pi(grid_rad - before_rad));
+}
+
+void FedTrack::take(const nmea::Heading& heading, SimTime now) {
+  if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
+  heading_by_gyro_ = true;
+  count_(push_heading(untold_s(now), heading.true_heading_rad) ? "headings_taken" : "sentences_late");
+}
+
+void FedTrack::take(const nmea::Motion& motion, SimTime now) {
+  if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
+  const double utc_s = motion.time_s ? unwrapped_s(*motion.time_s) : untold_s(now);
+  if (!roll_rad_.push(utc_s, motion.roll_rad)) return count_("sentences_late");
+  pitch_rad_.push(utc_s, motion.pitch_rad);
+  heave_m_.push(utc_s, motion.heave_m);
+  if (motion.true_heading_rad && !heading_by_gyro_) push_heading(utc_s, *motion.true_heading_rad);
+  if (motion.time_s) tell(utc_s, now);
+  count_("motions_taken");
+}
+
+std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
+  if (!anchor_utc_s_ || heading_rad_.size() == 0 || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
+  const double t_s = delayed_s(now);
+  // Off a body that lies level at the world's origin with its bow to north.
+  const motion::Excursion way{north_m_.at(t_s),     east_m_.at(t_s),       held(heave_m_, t_s),
+                              held(roll_rad_, t_s), held(pitch_rad_, t_s), held(heading_rad_, t_s)};
+  return motion::superimpose(frames::MovingPose{}, way);
+}
+
+bool FedTrack::starves(SimTime now) const {
+  return !anchor_utc_s_ || heading_rad_.size() == 0 || delayed_s(now) > east_m_.newest_s();
+}
+
+void FedTrack::forget(SimTime now) {
+  if (!anchor_utc_s_) return;
+  const double t_s = delayed_s(now);
+  for (auto* curve : {&east_m_, &north_m_, &heading_rad_, &roll_rad_, &pitch_rad_, &heave_m_})
+    curve->forget_before(t_s);
+}
+
+}  // namespace ensonify

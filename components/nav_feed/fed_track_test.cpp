@@ -1,0 +1,143 @@
+#include "components/nav_feed/fed_track.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "components/nav_feed/node.h"
+#include "components/runtime/config/default_yaml.h"
+
+using namespace ensonify;
+
+namespace {
+
+const frames::Geodetic kOrigin{53.21, -9.37};  // no whole degrees, whose minutes would round to 60
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+std::string sentence(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  char tail[8];
+  std::snprintf(tail, sizeof tail, "*%02X\r\n", sum);
+  return "$" + body + tail;
+}
+
+std::string time_of(double t_s) {
+  const int whole = static_cast<int>(std::floor(t_s + 1e-9)) % 86400;
+  char text[16];
+  std::snprintf(text, sizeof text, "%02d%02d%02d.000", whole / 3600, whole / 60 % 60, whole % 60);
+  return text;
+}
+
+/// GGA of a place in the world, with seven decimals of a minute: 0.2 mm.
+std::string fix(double utc_s, double east_m, double north_m) {
+  const auto place = frames::LocalProjection(kOrigin).geodetic_of({east_m, north_m});
+  const double latitude = std::abs(place.latitude_deg), longitude = std::abs(place.longitude_deg);
+  char text[128];
+  std::snprintf(text, sizeof text, "GPGGA,%s,%02d%010.7f,N,%03d%010.7f,W,4,12,0.7,1.0,M,50,M,,", time_of(utc_s).c_str(),
+                static_cast<int>(latitude), 60.0 * std::fmod(latitude, 1.0), static_cast<int>(longitude),
+                60.0 * std::fmod(longitude, 1.0));
+  return sentence(text);
+}
+
+std::string heading(double degrees) { return sentence("HEHDT," + std::to_string(degrees) + ",T"); }
+
+struct Fed {
+  std::map<std::string, int> counts;
+  FedTrack feed{NavFeedConfig{}, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
+};
+
+SimTime at_s(double t_s) { return from_seconds(t_s); }
+
+}  // namespace
+
+TEST_CASE("nav_feed/default.yaml lists every parameter with its default") {
+  Scenario scenario;
+  scenario.vehicles = {{"boat"}};
+  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", scenario) == "");
+}
+
+TEST_CASE(
+    "a vehicle follows its fixes with the delay, across midnight, and what it says of its motion is the derivative") {
+  Fed fed;
+  const auto east = [](double t) { return 3.0 * t; };
+  const auto north = [](double t) { return 100.0 + 20.0 * std::sin(0.1 * t); };
+  const double before_midnight_s = 86390.0;
+  for (int i = 0; i <= 30; ++i) {
+    fed.feed.take(fix(before_midnight_s + i, east(i), north(i)) + heading(359.0 + 0.5 * i - (i > 1 ? 360 : 0)),
+                  at_s(5 + i));
+  }
+  CHECK(fed.counts["fixes_taken"] == 31);
+  CHECK(fed.counts["headings_taken"] == 31);
+  CHECK_FALSE(fed.feed.at(at_s(7.4)));  // the first fix came at 5 s and is flown 2.5 s later
+  for (double t = 9.0; t < 33.0; t += 0.37) {
+    const auto moving = fed.feed.at(at_s(t));
+    REQUIRE(moving);
+    // Of a curve through samples h = 1 s apart, by (w h)^3 / 12 of the amplitude at most: 20 * 0.001 / 12.
+    REQUIRE(moving->pose.position_enu_m.x() == Approx(east(t - 7.5)).margin(0.002));
+    REQUIRE(moving->pose.position_enu_m.y() == Approx(north(t - 7.5)).margin(0.004));
+    const auto later = fed.feed.at(at_s(t + 1e-3));
+    const frames::Vec3 rate = (later->pose.position_enu_m - moving->pose.position_enu_m) / 1e-3;
+    REQUIRE((rate - moving->velocity_enu_mps).norm() < 1e-3);
+    const double grid_rad = frames::attitude_of(moving->pose.enu_from_body).heading_rad;
+    const double convergence = frames::LocalProjection(kOrigin).convergence_rad({east(t - 7.5), north(t - 7.5)});
+    REQUIRE(frames::wrap_pi(grid_rad + convergence - (359.0 + 0.5 * (t - 7.5)) * kDegree) == Approx(0.0).margin(1e-4));
+  }
+}
+
+TEST_CASE("roll, pitch and heave come from motion sentences; their heading gives way to the gyro's") {
+  Fed fed;
+  for (int i = 0; i <= 6; ++i) {
+    fed.feed.take(fix(100 + i, 0.0, i), at_s(i));
+    fed.feed.take(sentence("PASHR," + time_of(100 + i) + ",90.00,T,+2.00,-1.00,+0.25,0.1,0.1,0.1,1,1"), at_s(i));
+  }
+  const auto moving = *fed.feed.at(at_s(6.0));
+  const auto attitude = frames::attitude_of(moving.pose.enu_from_body);
+  CHECK(attitude.roll_rad == Approx(2.0 * kDegree));
+  CHECK(attitude.pitch_rad == Approx(-1.0 * kDegree));
+  CHECK(attitude.heading_rad == Approx(90.0 * kDegree).margin(1e-6));
+  CHECK(moving.pose.position_enu_m.z() == Approx(0.25));
+  fed.feed.take(heading(45.0), at_s(7));
+  fed.feed.take(sentence("PASHR," + time_of(107) + ",90.00,T,+2.00,-1.00,+0.25,0.1,0.1,0.1,1,1"), at_s(7.1));
+  CHECK(fed.counts["motions_taken"] == 8);
+  CHECK(frames::attitude_of(fed.feed.at(at_s(12))->pose.enu_from_body).heading_rad ==
+        Approx(45.0 * kDegree).margin(1e-6));
+}
+
+TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
+  Fed fed;
+  fed.feed.take(heading(10.0), at_s(0));  // nothing tells what time that is
+  for (int i = 0; i <= 6; ++i) fed.feed.take(fix(100 + i, i, 0.0) + heading(90.0), at_s(i));
+  const auto before = fed.feed.at(at_s(6))->pose.position_enu_m;
+  fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPVTG,1,T") + sentence("GPHDT,,T") +
+                    sentence("GPGGA,000150.00,,,,,0,,,,M,,M,,") + sentence("HEHDT,999,T") + fix(105, 0.0, 0.0) +
+                    fix(107, 500.0, 0.0) + fix(107, 200e3, 0.0),
+                at_s(6));
+  CHECK(fed.feed.at(at_s(6))->pose.position_enu_m == before);
+  const std::map<std::string, int> expected{{"sentences_before_the_first_fix", 1},
+                                            {"fixes_taken", 7},
+                                            {"headings_taken", 7},
+                                            {"sentences_malformed", 2},
+                                            {"sentences_with_bad_checksum", 1},
+                                            {"sentences_of_other_kinds", 1},
+                                            {"sentences_without_data", 1},
+                                            {"fixes_invalid", 1},
+                                            {"sentences_late", 1},
+                                            {"fixes_beyond_the_fastest_speed", 1},
+                                            {"fixes_far_from_the_site", 1}};
+  CHECK(fed.counts == expected);
+}
+
+TEST_CASE(
+    "when fixes stop it goes straight on and says so; when they come again, also from elsewhere, it is led again") {
+  Fed fed;
+  for (int i = 0; i <= 10; ++i) fed.feed.take(fix(100 + i, 2.0 * i, 0.0) + heading(90.0), at_s(i));
+  CHECK_FALSE(fed.feed.starves(at_s(12.5)));
+  CHECK(fed.feed.starves(at_s(12.6)));
+  CHECK(fed.feed.at(at_s(22.5))->pose.position_enu_m.x() == Approx(40.0).margin(0.01));  // 10 s at 2 m/s
+  for (int i = 25; i <= 40; ++i) fed.feed.take(fix(100 + i, 60.0, 5.0), at_s(i));
+  CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.x() == Approx(60.0).margin(0.01));
+  fed.feed.forget(at_s(40));
+  CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.y() == Approx(5.0).margin(0.01));
+}

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+/// Sentences of NMEA 0183 [NMEA0183] that tell where a vehicle is and how it lies. Times are seconds of the UTC day.
+namespace ensonify::nmea {
+
+/// GGA of any talker. Quality 0: there is no fix, and the place means nothing.
+struct Fix {
+  double time_s = 0.0;
+  int quality = 0;
+  double latitude_deg = 0.0, longitude_deg = 0.0;
+  double hdop = 0.0;                  // 0: not told
+  double height_above_geoid_m = 0.0;  // 0: not told
+};
+
+/// HDT of any talker.
+struct Heading {
+  double true_heading_rad = 0.0;
+};
+
+/// PASHR, or PSXN,23, which has no time. Signs are those that both use: roll with port up, pitch with bow up, heave up.
+struct Motion {
+  std::optional<double> time_s;
+  std::optional<double> true_heading_rad;
+  double roll_rad = 0.0, pitch_rad = 0.0, heave_m = 0.0;
+};
+
+struct Other {};        // a good sentence of another kind
+struct Empty {};        // one of these kinds without what it is for: its source knows nothing yet
+struct BadChecksum {};  // another sum than it tells, or none told
+struct Malformed {};    // no sentence, or a field that cannot be
+using Sentence = std::variant<Fix, Heading, Motion, Other, Empty, BadChecksum, Malformed>;
+
+/// One line, with or without its CR LF. A `$`, fields between commas, `*` and the sum of all between as two hexadecimal
+/// digits of either case. Fields beyond those that are needed are not looked at.
+Sentence parse(std::string_view line);
+
+}  // namespace ensonify::nmea

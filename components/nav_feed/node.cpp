@@ -1,0 +1,72 @@
+#include "components/nav_feed/node.h"
+
+#include "components/runtime/log.h"
+#include "components/runtime/pose_message.h"
+
+namespace ensonify {
+namespace {
+
+constexpr int kMostDatagrams = 1000;  // at an event: a flood must not stop the run
+
+}  // namespace
+
+NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
+    : config_(config),
+      ports_(ports),
+      poses_due_(Rate{config.pose_rate_hz, 1}),
+      poses_(ports.out<msg::Pose>("pose", {.rate = Rate{config.pose_rate_hz, 1}})),
+      fixes_(ports.out<msg::Position>("fix", {.rate = Rate{config.pose_rate_hz, 1}})) {
+  const auto start = [this](const frames::Geodetic& origin) {
+    track_.emplace(config_, frames::LocalProjection(origin), [this](const std::string& what) { ports_.count(what); });
+  };
+  if (config.origin) {
+    start(*config.origin);
+  } else {
+    ports.in<msg::Chart>("chart", [start](const msg::Chart& chart) {
+      start({chart.origin_latitude_deg, chart.origin_longitude_deg});
+    });
+  }
+}
+
+SimTime NavFeedNode::step(SimTime now) {
+  if (!poses_due_.due(now)) return poses_due_.next();
+  if (!listener_) listener_.emplace(config_.port);
+  if (!track_) return poses_due_.next();
+  hear(now);
+  if (const auto moving = track_->at(now)) poses_.send(pose_message(now, afloat(*moving, seconds(now))));
+  if (track_->starves(now)) {
+    ports_.count("poses_guessed");
+    ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
+  } else {
+    ports_.health("ok", "");
+  }
+  track_->forget(now);
+  return poses_due_.next();
+}
+
+void NavFeedNode::hear(SimTime now) {
+  for (int i = 0; i < kMostDatagrams; ++i) {
+    const auto datagram = listener_->take();
+    if (!datagram) break;
+    track_->take(*datagram, now);
+    if (const auto fix = track_->take_fix()) {
+      log::event(ports_, "fix", "stamp_s={:.3f} latitude_deg={:.7f} longitude_deg={:.7f} quality={}",
+                 seconds(SimTime{fix->stamp_ns}), fix->latitude_deg, fix->longitude_deg, fix->quality);
+      fixes_.send(*fix);
+    }
+  }
+}
+
+/// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by.
+frames::MovingPose NavFeedNode::afloat(frames::MovingPose moving, double t_s) const {
+  vertical::Level level = config_.tide.at(t_s);
+  if (config_.floats) {
+    const frames::Vec2 through_water = moving.velocity_enu_mps.head<2>() - config_.current.velocity_enu_mps(0.0, t_s);
+    level.height_m -= vertical::sinkage_m(*config_.floats, through_water.norm(), t_s);
+  }
+  moving.pose.position_enu_m.z() += level.height_m;
+  moving.velocity_enu_mps.z() += level.rate_mps;
+  return moving;
+}
+
+}  // namespace ensonify

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "components/nav_feed/config.h"
+#include "components/nav_feed/fed_track.h"
+#include "components/nav_feed/udp_listener.h"
+#include "components/runtime/ports.h"
+#include "messages/motion.h"
+#include "messages/terrain.h"
+
+namespace ensonify {
+
+/// Stands in for a vehicle: its true pose is what sentences from outside tell.
+class NavFeedNode {
+ public:
+  using Config = NavFeedConfig;
+  static constexpr const char* kComponent = "nav_feed";
+
+  NavFeedNode(const Config& config, Ports& ports);
+
+  SimTime step(SimTime now);
+
+ private:
+  void hear(SimTime now);
+  frames::MovingPose afloat(frames::MovingPose moving, double t_s) const;
+
+  Config config_;
+  Ports& ports_;
+  Periodic poses_due_;
+  std::optional<UdpListener> listener_;  // from the first event on: a check of the launch file takes no port
+  std::optional<FedTrack> track_;        // from when the world's origin is known on
+  Ports::Out<msg::Pose> poses_;
+  Ports::Out<msg::Position> fixes_;
+};
+
+}  // namespace ensonify

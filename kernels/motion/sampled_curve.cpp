@@ -1,0 +1,46 @@
+#include "kernels/motion/sampled_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ensonify::motion {
+
+bool SampledCurve::push(double t_s, double value) {
+  if (!std::isfinite(t_s) || !std::isfinite(value) || (!samples_.empty() && t_s <= newest_s())) return false;
+  samples_.push_back({t_s, value});
+  return true;
+}
+
+void SampledCurve::forget_before(double t_s) {
+  while (samples_.size() > 3 && samples_[2].t_s <= t_s) samples_.pop_front();  // one before the piece tells its slope
+}
+
+/// Of the parabola through a sample and its neighbours; at the ends that of the straight line.
+double SampledCurve::slope(std::size_t i) const {
+  const auto chord = [&](std::size_t from) {
+    return (samples_[from + 1].value - samples_[from].value) / (samples_[from + 1].t_s - samples_[from].t_s);
+  };
+  if (samples_.size() == 1) return 0.0;
+  if (i == 0) return chord(0);
+  if (i + 1 == samples_.size()) return chord(i - 1);
+  const double before_s = samples_[i].t_s - samples_[i - 1].t_s, behind_s = samples_[i + 1].t_s - samples_[i].t_s;
+  return (behind_s * chord(i - 1) + before_s * chord(i)) / (before_s + behind_s);
+}
+
+Moving SampledCurve::at(double t_s) const {
+  const auto next = std::upper_bound(samples_.begin(), samples_.end(), t_s,
+                                     [](double t, const Sample& sample) { return t < sample.t_s; });
+  if (next == samples_.begin() || next == samples_.end()) {
+    const std::size_t end = next == samples_.begin() ? 0 : samples_.size() - 1;
+    return {samples_[end].value + slope(end) * (t_s - samples_[end].t_s), slope(end), 0.0};
+  }
+  const auto i = static_cast<std::size_t>(next - samples_.begin()) - 1;
+  const Sample &a = samples_[i], &b = samples_[i + 1];
+  const double h = b.t_s - a.t_s, u = t_s - a.t_s;
+  const double chord = (b.value - a.value) / h, from = slope(i), to = slope(i + 1);
+  const double square = (3.0 * chord - 2.0 * from - to) / h, cube = (from + to - 2.0 * chord) / (h * h);
+  return {a.value + u * (from + u * (square + u * cube)), from + u * (2.0 * square + 3.0 * u * cube),
+          2.0 * square + 6.0 * u * cube};
+}
+
+}  // namespace ensonify::motion
