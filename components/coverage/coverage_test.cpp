@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "components/coverage/node.h"
 #include "components/runtime/config/config_error.h"
@@ -22,6 +23,7 @@ Scenario slope() {
   plan.first_line_m = 15;
   plan.soundings = 4;
   scenario.mission.adaptive = plan;
+  scenario.vehicles = {{"boat"}};
   return scenario;
 }
 
@@ -101,4 +103,11 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
   const std::string report{std::istreambuf_iterator<char>(file), {}};
   CHECK(report.find("\"holes\": 0") != std::string::npos);
   CHECK(report.find("\"lines_for_holes\": 0") != std::string::npos);
+  // Pings 1 m apart, beams up to 4 x 40 m x 1 degree / cos^2 = 2.8 m: 4 soundings take two of each, but for the rows
+  // at the rectangle's ends no more than 2 x 2.8 m and the two cells that are not told.
+  const auto cube = nlohmann::json::parse(report)["cube_m"];
+  CHECK(cube["everywhere"].get<double>() > 2.0);
+  CHECK(cube["everywhere"].get<double>() < 6.1);
+  CHECK(cube["in_95_percent"] <= cube["everywhere"]);
+  CHECK(cube["share_found_of_1_m"] < cube["share_found_of_2_m"]);
 }

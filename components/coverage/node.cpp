@@ -27,6 +27,7 @@ CoverageNode::CoverageNode(const Config& config, Ports& ports)
       area_(area_of(config.plan)),
       swath_{0.5 * config.plan.swath_rad, config.plan.overlap},
       covered_(area_, config.plan.cell_m, config.plan.soundings),
+      cubes_(area_, config.cube_step_m),
       across_m_(config.plan.first_line_m),
       coverages_(ports.out<msg::Coverage>(
           "coverage", {.max_bytes = covered_.columns() * covered_.rows() * 6 + 4096, .rate = Rate{config.rate_hz, 1}})),
@@ -42,7 +43,9 @@ CoverageNode::CoverageNode(const Config& config, Ports& ports)
 void CoverageNode::take(const msg::Soundings& soundings) {
   for (std::size_t i = 0; i < soundings.valid.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
-    covered_.add({soundings.position_enu_m(i, 0), soundings.position_enu_m(i, 1)}, soundings.position_enu_m(i, 2));
+    const survey::Vec2 place(soundings.position_enu_m(i, 0), soundings.position_enu_m(i, 1));
+    covered_.add(place, soundings.position_enu_m(i, 2));
+    cubes_.add(place);
   }
   if (!first_ns_) first_ns_ = soundings.stamp_ns;
   last_ns_ = soundings.stamp_ns;
@@ -115,10 +118,33 @@ msg::Coverage CoverageNode::coverage(SimTime now) const {
   return message;
 }
 
+/// So many lines at one distance over the whole width.
+std::vector<survey::Runline> CoverageNode::lines_at(std::size_t count) const {
+  std::vector<survey::Runline> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double across_m = area_.width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    lines.push_back(survey::line_across(area_, across_m, i % 2 == 1));
+  }
+  return lines;
+}
+
+/// Sides of the smallest cubes that hold the soundings needed, everywhere and in 95 % of all places; null: none does.
+nlohmann::ordered_json CoverageNode::cube_report() const {
+  nlohmann::ordered_json report;
+  report["soundings"] = config_.plan.soundings;
+  report["everywhere"] = cubes_.smallest_side_m(config_.plan.soundings, 1.0);
+  report["in_95_percent"] = cubes_.smallest_side_m(config_.plan.soundings, 0.95);
+  for (const double side_m : {1.0, 2.0}) {  // what S-44 asks to be found: Special Order; Order 1a down to 40 m
+    report[side_m == 1.0 ? "share_found_of_1_m" : "share_found_of_2_m"] = cubes_.found(side_m, config_.plan.soundings);
+  }
+  return report;
+}
+
 void CoverageNode::finish_run() const {
   const auto depths = covered_.depths(-config_.head_depth_m);
   const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_cell_m * std::tan(swath_.half_angle_rad);
-  const double fixed_lines = fixed_m > 0.0 ? std::ceil(area_.width_m / fixed_m) : 0.0;
+  const auto fixed_lines = static_cast<std::size_t>(fixed_m > 0.0 ? std::ceil(area_.width_m / fixed_m) : 0.0);
+  const double elapsed_s = first_ns_ ? seconds(SimTime{*last_ns_ - *first_ns_}) : 0.0;
   nlohmann::ordered_json report;
   report["lines"] = lines_;
   report["lines_for_holes"] = hole_lines_;
@@ -126,13 +152,18 @@ void CoverageNode::finish_run() const {
   report["covered"] = covered_.covered();
   report["holes"] = covered_.holes();
   report["overlapped"] = covered_.overlapped();
-  report["elapsed_s"] = first_ns_ ? seconds(SimTime{*last_ns_ - *first_ns_}) : 0.0;
+  report["elapsed_s"] = elapsed_s;
+  report["cost"] = config_.cost_per_day * elapsed_s / 86400.0;
+  report["cube_m"] = cube_report();
   report["shallowest_m"] = depths.shallowest_cell_m;
   report["columns_m"] = {depths.shallowest_column_m, depths.deepest_column_m};
   report["fixed_lines"] = fixed_lines;
-  report["fixed_track_m"] = fixed_lines * area_.length_m;
-  if (fixed_lines > 0.0) {
-    report["share_of_fixed"] = static_cast<double>(lines_) / fixed_lines;
+  if (fixed_lines > 0) {
+    const survey::RunCost fixed = survey::run_cost(lines_at(fixed_lines), config_.run);
+    report["fixed_track_m"] = fixed.line_m;
+    report["fixed_elapsed_s"] = fixed.total_s;
+    report["fixed_cost"] = fixed.cost;
+    report["share_of_fixed"] = static_cast<double>(lines_) / static_cast<double>(fixed_lines);
     report["bound"] = survey::adaptive_share(depths.shallowest_column_m, depths.deepest_column_m);
   }
   const auto file = ports_.out_dir() / "coverage.json";

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <vector>
 
 #include "components/coverage/config.h"
 #include "components/runtime/ports.h"
 #include "kernels/survey/coverage.h"
+#include "kernels/survey/cubes.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
@@ -29,6 +32,8 @@ class CoverageNode {
   /// Across position of the next line; nothing when all is done.
   std::optional<double> next_line();
   msg::Coverage coverage(SimTime now) const;
+  std::vector<survey::Runline> lines_at(std::size_t count) const;
+  nlohmann::ordered_json cube_report() const;
 
   CoverageConfig config_;
   Ports& ports_;
@@ -36,6 +41,7 @@ class CoverageNode {
   survey::Rectangle area_;
   survey::Swath swath_;
   survey::Coverage covered_;
+  survey::CubeSearch cubes_;
   double across_m_;         // of the last line
   std::int64_t lines_ = 0;  // flown
   int hole_lines_ = 0;      // of them, flown for holes

@@ -135,10 +135,13 @@ void check_tide(ConfigReader& from, const Scenario& scenario) {
   const double least_s = way_m / mission.speed_mps;
   const vertical::Tide& tide = scenario.vertical.tide;
   if (tide.first_s() > 0.0) {
-    from.problem("vertical", fmt::format("the tide's first reading is {:.0f} s after the start", tide.first_s()));
+    from.problem("vertical",
+                 fmt::format("the tide's first reading is {:.0f} s after the start; allowed: one at the start "
+                             "or before",
+                             tide.first_s()));
   } else if (tide.last_s() < least_s) {
     from.problem("vertical", fmt::format("the tide's last reading is {:.0f} s after the start, and the mission's lines "
-                                         "take {:.0f} s without their turns",
+                                         "take {:.0f} s without their turns; allowed: a file that covers the survey",
                                          tide.last_s(), least_s));
   }
 }

@@ -1,0 +1,159 @@
+"""What cannot be flown, measured or believed is refused before time starts: exit code 2, with the place, the cause and what is
+allowed. One row a case."""
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+BIN = pathlib.Path(os.environ.get("ENSONIFY_BUILD", "build/dev")).resolve() / "bin"
+
+# Ground falls to the east by 5 degrees from a shore at x = -114 m; 10 m deep at the origin.
+WORLD = """
+ensonify: scenario/1
+site: { latitude_deg: 53, longitude_deg: -9 }
+seed: 1
+water: { sound_speed_mps: 1500 }
+vertical: { tide: { constant_m: 0 } }
+current: { profile: [{ depth_m: 0, speed_mps: 0.2, heading_deg: 90 }] }
+seabed:
+  kind: layers
+  post_spacing_m: 1
+  size_m: [600, 600]
+  layers: { ground: { plane: { depth_m: 10, slope_deg: 5, downhill_heading_deg: 90 } } }
+vehicles:
+  boat: { VEHICLE }
+mission: { MISSION }
+"""
+VEHICLE = "turning_radius_m: 10, fastest_mps: 8, mountings: { sounder: { actual: { position_m: [0, 0, 0.5] } } }"
+LINE = "runlines: [{ from_m: [0, -50], to_m: [0, 50] }]"
+LAUNCH = """
+ensonify: launch/1
+scenario: world.yaml
+duration_s: 20
+processes:
+  boat:    { run: vehicle }
+  nav:     { run: navigation, config: { NAVIGATION } }
+  pilot:   { run: autopilot }
+  pager:   { run: terrain_pager }
+  sounder: { run: echosounder, config: { HEAD } }
+"""
+
+# What is wrong; where it is written; the file that is blamed; the cause and what is allowed, as they are told.
+MISSIONS = [
+    ("a line through land", "runlines: [{ from_m: [-200, 0], to_m: [100, 0] }]", "mission runline 1.*is land.*allowed is water"),
+    ("a line below the seabed", f"depth_m: 15, {LINE}", "the vehicle would be 15.0 m deep and the seabed is at 10.0 m; allowed"),
+    ("a depth above the water", f"depth_m: -2, {LINE}", r"mission.depth_m: -2 is outside \[0, 11000\]"),
+    ("a step below the seabed", "steps: [{ depth_m: 30 }, { line: [[0, 0], [0, 50]] }]", "30.0 m deep.*allowed"),
+    ("a line that leaves the terrain", "runlines: [{ from_m: [0, 0], to_m: [0, 900] }]", "outside the terrain; allowed is east"),
+    ("a station on land", "steps: [{ line: [[0, 0], [0, 50]] }, { keep: [-200, 0], for_s: 5 }]", "is land.*allowed is water"),
+    ("an orbit over land", "steps: [{ line: [[0, 0], [0, 50]] }, { orbit: [-90, 0], radius_m: 50 }]", "is land"),
+    ("an adaptive survey beyond the terrain", "adaptive: { centre_m: [0, 0], length_m: 60, width_m: 3000, first_line_m: 10 }",
+     "outside the terrain"),
+    ("a line of no length", "runlines: [{ from_m: [5, 5], to_m: [5, 5] }]", "to_m: is less than 1 m from from_m"),
+    ("a step's line of no length", "steps: [{ line: [[5, 5], [5, 5]] }]", "line: place 2 is less than 1 m from the one before"),
+    ("a lawnmower of no length", "lawnmower: { length_m: 0, spacing_m: 10, count: 2 }", r"length_m: 0 is outside \[1,"),
+    ("no plan", "speed_mps: 2", "has no plan; give one of runlines"),
+    ("a speed beyond the vehicle's", f"speed_mps: 9, {LINE}", "speed_mps is above what boat can do"),
+    ("a speed below nothing", f"speed_mps: -1, {LINE}", r"speed_mps: -1 is outside \[0.01, 30\]"),
+    ("an orbit tighter than the vehicle turns", "steps: [{ line: [[0, 0], [0, 50]] }, { orbit: [50, 0], radius_m: 4 }]",
+     "step 2: radius_m 4 is less than boat can turn .* allowed: 10 m or more"),
+    ("latitude and longitude swapped", "positions: geodetic, steps: [{ line: [[-9, 53], [-9, 53.001]] }]",
+     "allowed: 100 km; are latitude and longitude swapped?"),
+    ("another zone", "positions: geodetic, steps: [{ line: [[53, -3], [53.001, -3]] }]", "is 401 km from the site's origin; allowed: 100 km"),
+    ("projected metres", "runlines: [{ from_m: [500000, 5900000], to_m: [500000, 5901000] }]", r"is outside \[-100000, 100000\]"),
+    ("no number", "runlines: [{ from_m: [.nan, 0], to_m: [0, 50] }]", "from_m"),
+    ("no speed", f"speed_mps: .nan, {LINE}", "speed_mps: .nan"),
+    ("no abort", f"abort: {{ after_s: .nan }}, {LINE}", "abort.after_s: .nan"),
+    ("no width", "adaptive: { centre_m: [0, 0], length_m: 60, width_m: .nan, first_line_m: 10 }", "width_m: .nan"),
+]
+VEHICLES = [
+    ("no turning", "turning_radius_m: -5", r"turning_radius_m: -5 is outside \[0.1, 1000\]"),
+    ("no turning radius", "turning_radius_m: .nan", "turning_radius_m: .nan"),
+    ("no brakes", "deceleration_mps2: 0", "deceleration_mps2: 0 is outside"),
+    ("no sea", "disturbance: { heave: { oscillation_m: .nan } }", "oscillation_m: .nan"),
+    ("no start", "start: { position_m: [0, .inf, 0] }", "position_m"),
+    ("no mounting", "mountings: { sounder: { actual: { position_m: [0, 0, .nan] } } }", "position_m"),
+    ("an altitude for what floats", "floats: {}", "altitude_m .*need a vehicle that dives; boat floats"),
+]
+WORLDS = [
+    ("no current", "speed_mps: 0.2, heading", "speed_mps: .nan, heading", "speed_mps: .nan"),
+    ("no tide", "constant_m: 0", "constant_m: .nan", "constant_m: .nan"),
+    ("a tide that ends before the survey", "constant_m: 0", "gauge: tide.csv", "the tide's last reading is 10 s after the start.*allowed: a file that covers"),
+    ("no origin", "latitude_deg: 53", "latitude_deg: .nan", "latitude_deg: .nan"),
+    ("no sound", "sound_speed_mps: 1500", "sound_speed_mps: .nan", "sound_speed_mps: .nan"),
+    ("no ground", "depth_m: 10, slope", "depth_m: .nan, slope", "depth_m: .nan"),
+]
+SENSORS = [
+    ("a rate below nothing", "NAVIGATION", "gnss: { rate_hz: -5 }", r"gnss.rate_hz: -5 is outside \[0.01, 1000\]"),
+    ("a rate of no number", "NAVIGATION", "imu: { rate_hz: .nan }", "imu.rate_hz: .nan"),
+    ("a grade that nobody makes", "NAVIGATION", "imu: { grade: quantum }", '"quantum" is no grade .* allowed: fog, mems'),
+    ("an outage that ends before it begins", "NAVIGATION", "gnss: { outages_s: [10, 5] }", "outages_s: is not"),
+    ("an error of no number", "NAVIGATION", "depth: { errors: { white_m: .nan } }", "white_m: .nan"),
+    ("an attitude rate of nothing", "NAVIGATION", "attitude_rate_hz: 0", "attitude_rate_hz: 0 is outside"),
+    ("a head that pings backwards", "HEAD", "ping_rate_hz: -1", "ping_rate_hz: -1 is outside"),
+    ("a head of no range", "HEAD", "range_m: .nan", "range_m: .nan"),
+]
+
+
+class Refused(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="ensonify-refused-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
+
+    def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):
+        text = WORLD.replace("MISSION", mission).replace("VEHICLE", vehicle)
+        self.assertIn(world[0], text)
+        (self.folder / "world.yaml").write_text(text.replace(*world) if world[0] else text)
+        (self.folder / "launch.yaml").write_text(launch.replace("NAVIGATION", "").replace("HEAD", ""))
+        return self.folder / "launch.yaml"
+
+    def check(self, launch):
+        done = subprocess.run([BIN / "ensonify", "check", launch], capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout + done.stderr
+
+    def expect(self, launch, blamed, cause):
+        code, told = self.check(launch)
+        self.assertEqual(code, 2, told)
+        lines = [line for line in told.splitlines() if re.search(cause, line)]
+        self.assertTrue(lines, told)
+        self.assertIn(blamed, lines[0])  # the file, and where it is known the line
+
+    def test_without_a_fault_nothing_is_refused(self):
+        self.assertEqual(self.check(self.write())[0], 0)
+
+    def test_missions(self):
+        for what, mission, cause in MISSIONS:
+            with self.subTest(what):
+                self.expect(self.write(mission=mission), "world.yaml", cause)
+
+    def test_vehicles(self):
+        for what, vehicle, cause in VEHICLES:
+            with self.subTest(what):
+                self.expect(self.write(vehicle=vehicle, mission=f"altitude_m: 4, {LINE}"), "world.yaml", cause)
+
+    def test_worlds(self):
+        for what, good, wrong, cause in WORLDS:
+            with self.subTest(what):
+                self.expect(self.write(world=(good, wrong)), "world.yaml" if "gauge" not in wrong else "", cause)
+
+    def test_sensors(self):
+        for what, place, config, cause in SENSORS:
+            with self.subTest(what):
+                self.expect(self.write(launch=LAUNCH.replace(place, config)), "launch.yaml:", cause)
+
+    def test_a_run_is_refused_before_time_starts(self):
+        launch = self.write(mission=MISSIONS[0][1])
+        done = subprocess.run([BIN / "ensonify", "run", launch, "--out", self.folder / "out"], capture_output=True, text=True,
+                              timeout=60, env=dict(os.environ, XDG_RUNTIME_DIR=str(self.folder)))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, MISSIONS[0][2])
+        log = self.folder / "out/log/clock.log"
+        self.assertNotIn(" go ", log.read_text() if log.exists() else "")
+
+
+if __name__ == "__main__":
+    unittest.main()
