@@ -54,7 +54,7 @@ TEST_CASE("a gap decides what is found everywhere, and little of what is found i
   const double square_m = 4.0 / std::sqrt(2.0), side_m = search.smallest_side_m(1, 1.0);
   CHECK(side_m > square_m);
   CHECK(side_m <= square_m + 3 * 0.25);
-  CHECK(search.smallest_side_m(1, 0.95) == 0.5);          // the least that cells of 0.25 m tell
+  CHECK(search.smallest_side_m(1, 0.95) == 0.5);  // the least that cells of 0.25 m tell
 }
 
 TEST_CASE("without soundings nothing is found; a step of nothing is refused") {

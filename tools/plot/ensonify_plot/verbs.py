@@ -4,6 +4,7 @@ import math
 
 import ensonify
 from ensonify_plot import angular_response, scanning, water_column, waterfall
+from ensonify_plot.coverage import coverage_picture
 from ensonify_plot.forward_looking import forward_looking_picture
 from ensonify_plot.heard import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
                                  soundings_of)
@@ -46,6 +47,7 @@ def add_verbs(verbs) -> None:
     _verb(verbs, "navigation", plot_navigation,
           "How good the navigation was: error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
           "Allan deviation of the inertial sensors, spectra of the motion.")
+    _add_coverage(verbs)
     add_seabed(verbs)
     add_lod(verbs)
 
@@ -70,6 +72,12 @@ def _add_water_column(verbs) -> None:
     column.add_argument("--angle", type=_number(-90, 90), default=0.0, metavar="DEG",
                         help="of the beam that is drawn over time, in degrees from straight down, positive to starboard; "
                         "default: 0")
+
+
+def _add_coverage(verbs) -> None:
+    command = _verb(verbs, "coverage", plot_coverage,
+                    "An adaptive survey from above: depths (m) with the lines flown, and the soundings of each cell.")
+    command.add_argument("--plan", metavar="FILE", help="lines of `ensonify plan lines --json` to draw above; default: none")
 
 
 def _add_angular_response(verbs) -> None:
@@ -261,4 +269,11 @@ def plot_navigation(options) -> int:
     """`ensonify plot navigation`."""
     record = open_record(options.record)
     save_picture(record, options.out, "navigation.png", navigation_picture(record))
+    return 0
+
+
+def plot_coverage(options) -> int:
+    """`ensonify plot coverage`."""
+    record = open_record(options.record)
+    save_picture(record, options.out, "coverage.png", coverage_picture(record, options.plan))
     return 0
