@@ -80,8 +80,7 @@ detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
 
 EchosounderHead::EchosounderHead(const EchosounderConfig& config)
     : config_(config),
-      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects),
-      distribution_(rays_of(config)),
+      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)),
       bottom_(bottom_of(config)) {}
 
 EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSettings& settings,
@@ -92,9 +91,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   emission.listening_s = config_.listening_s(settings);
   emission.sample_period_s = config_.sample_period_s();
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
-  echoes_.move(poses_);
-  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
-  echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), rays_, hits_);
+  echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), poses_, seabed);
 
   Heard heard;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};

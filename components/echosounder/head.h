@@ -5,7 +5,6 @@
 #include "components/echosounder/config.h"
 #include "components/runtime/head/aperture_echoes.h"
 #include "components/runtime/head/bottom_finder.h"
-#include "kernels/trace/ray_distribution.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -30,11 +29,8 @@ class EchosounderHead {
  private:
   EchosounderConfig config_;
   ApertureEchoes echoes_;
-  trace::RayDistribution distribution_;
   BottomFinder bottom_;
-  std::vector<trace::Ray> rays_;
   std::vector<frames::HeadPose> poses_;
-  std::vector<trace::Hit> hits_;
 };
 
 }  // namespace ensonify

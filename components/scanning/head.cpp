@@ -43,7 +43,7 @@ Apertures apertures_of(const ScanningConfig& config) {
   return a;
 }
 
-trace::TransmitVolume volume_of(const ScanningConfig& config) {
+trace::RayDistribution rays_of(const ScanningConfig& config) {
   const double narrow = line_waves(config.horizontal_beamwidth_rad), tall = line_waves(config.vertical_beamwidth_rad);
   const double axis = std::sin(config.tilt_rad);
   const double null_rad = std::asin(std::min(1.0, 1.0 / narrow)), reach_rad = std::asin(std::min(1.0, kReach / narrow));
@@ -52,7 +52,7 @@ trace::TransmitVolume volume_of(const ScanningConfig& config) {
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
                  2.0 * array::half_power_half_width(tall)};
   volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return volume;
+  return {volume, {config.quality, resolution_m(config)}, {config.world.seed, config.process + "/rays"}};
 }
 
 }  // namespace
@@ -77,9 +77,7 @@ AperturePattern scanning_pattern(const ScanningConfig& config) {
 
 ScanningHead::ScanningHead(const ScanningConfig& config)
     : config_(config),
-      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects),
-      distribution_(volume_of(config), {config.quality, resolution_m(config)},
-                    {config.world.seed, config.process + "/rays"}) {}
+      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)) {}
 
 msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
                                const frames::PoseHistory& truth, trace::Scene& seabed) {
@@ -88,14 +86,12 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
   for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
-  echoes_.move(poses_);
-  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
   Emission emission;
   emission.shot = shot;
   emission.source_level_db = settings.source_level_db;
   emission.sample_period_s = ranged.sampling.period_s;
   emission.listening_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
-  echo::Image& image = echoes_.listen(emission, echo_pulse(config_.pulse, ranged), rays_, hits_);
+  echo::Image& image = echoes_.listen(emission, echo_pulse(config_.pulse, ranged), poses_, seabed);
   sight_ = echoes_.arrivals().sight(settings.range_m, seabed);
 
   msg::Ping ping;

@@ -5,7 +5,6 @@
 #include "components/runtime/head/aperture_echoes.h"
 #include "components/runtime/head/sight.h"
 #include "components/scanning/config.h"
-#include "kernels/trace/ray_distribution.h"
 
 namespace ensonify {
 
@@ -32,10 +31,7 @@ class ScanningHead {
  private:
   ScanningConfig config_;
   ApertureEchoes echoes_;
-  trace::RayDistribution distribution_;
   std::vector<frames::HeadPose> poses_;
-  std::vector<trace::Ray> rays_;
-  std::vector<trace::Hit> hits_;
   Sight sight_;
 };
 

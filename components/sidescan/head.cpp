@@ -137,8 +137,8 @@ AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChann
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)
     : config_(config),
       channel_(channel),
-      echoes_(apertures_of(config, channel), Environment(config.world, channel.frequency_hz), config.effects),
-      distribution_(rays_of(config, channel)),
+      echoes_(apertures_of(config, channel), Environment(config.world, channel.frequency_hz), config.effects,
+              rays_of(config, channel)),
       bottom_(bottom_of(config)),
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}
@@ -156,9 +156,7 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
   emission.sample_period_s = channel_.sample_period_s();
 
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
-  echoes_.move(poses_);
-  echoes_.look(seabed, distribution_, settings.range_m, rays_, hits_);
-  echo::Image& image = echoes_.listen(emission, pulse_, rays_, hits_);
+  echo::Image& image = echoes_.listen(emission, pulse_, poses_, seabed);
 
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
   Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, config_.sound_speed_mps)};

@@ -5,7 +5,6 @@
 #include "components/runtime/head/aperture_echoes.h"
 #include "components/runtime/head/bottom_finder.h"
 #include "components/sidescan/config.h"
-#include "kernels/trace/ray_distribution.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -37,15 +36,12 @@ class SidescanHead {
   SidescanConfig config_;
   SidescanChannel channel_;
   ApertureEchoes echoes_;
-  trace::RayDistribution distribution_;
   BottomFinder bottom_;
   double pulse_length_s_;
   echo::Pulse pulse_;
 
   // Memory of the ping path.
   std::vector<frames::HeadPose> poses_;
-  std::vector<trace::Hit> hits_;
-  std::vector<trace::Ray> rays_;
 };
 
 }  // namespace ensonify

@@ -40,13 +40,15 @@ Arrivals::TransmittedPower all_of(const std::vector<AperturePattern>& patterns) 
 
 }  // namespace
 
-ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects)
+ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
+                               const trace::RayDistribution& rays)
     : apertures_(apertures),
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
       arrivals_(environment, apertures.frequency_hz, effects, all_of(apertures.patterns.transmit)),
       scatterers_(patch_m(apertures), {apertures.seed, "seabed"}),
+      distribution_(rays),
       gains_(apertures.patterns.receive.size()) {
   if (!arrivals_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
@@ -62,11 +64,13 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
 }
 
 echo::Image& ApertureEchoes::listen(const Emission& emission, const echo::Pulse& pulse,
-                                    std::span<const trace::Ray> rays, std::span<const trace::Hit> hits) {
+                                    std::span<const frames::HeadPose> poses, trace::Scene& seabed) {
+  arrivals_.move(poses);
+  arrivals_.look(seabed, distribution_, emission.shot.range_m, rays_, hits_);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.listening_s / emission.sample_period_s))};
   const echo::SampledPulse sampled(pulse, sampling.period_s);
-  arrivals_.listen(emission.source_level_db, scatterers_, rays, hits);
+  arrivals_.listen(emission.source_level_db, scatterers_, rays_, hits_);
   hear(arrivals_.add_interference(emission.shot.foreign, pulse), sampled, sampling);
   if (arrivals_.water_scatters()) {
     const auto& volume = arrivals_.reverberation_upa2(emission.source_level_db, volume_directions_, pulse, sampling);

@@ -12,6 +12,7 @@
 #include "kernels/echo/scatterer.h"
 #include "kernels/echo/volume.h"
 #include "kernels/random/stream.h"
+#include "kernels/trace/ray_distribution.h"
 
 namespace ensonify {
 
@@ -48,24 +49,17 @@ struct Emission {
 };
 
 /// The echoes of one transmission as each aperture hears them, by the true motion and the true water: seabed, surface,
-/// water column and noise. A function of the emission, the poses, the rays and the tiles.
+/// water column and noise. A function of the emission, the poses and the tiles.
 class ApertureEchoes {
  public:
-  ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects);
+  /// `rays` are those of its transmissions.
+  ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
+                 const trace::RayDistribution& rays);
 
-  /// Where the head truly is from transmission on; frames::HeadPose per kTrackPeriod. Comes before the others.
-  void move(std::span<const frames::HeadPose> poses) { arrivals_.move(poses); }
-  const frames::HeadPose& transmit_pose() const { return arrivals_.transmit_pose(); }
-
-  /// The rays of the transmission and what they meet (Arrivals::look).
-  void look(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m, std::vector<trace::Ray>& rays,
-            std::vector<trace::Hit>& hits) {
-    arrivals_.look(seabed, distribution, range_m, rays, hits);
-  }
-
-  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `rays` and `hits` are those of look().
-  echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const trace::Ray> rays,
-                      std::span<const trace::Hit> hits);
+  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `poses` are where the head truly is
+  /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
+  echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
+                      trace::Scene& seabed);
 
   /// What the rays of the last ping met.
   const Arrivals& arrivals() const { return arrivals_; }
@@ -79,11 +73,14 @@ class ApertureEchoes {
   random::Stream noise_, volume_;
   Arrivals arrivals_;
   echo::Scatterers scatterers_;
+  trace::RayDistribution distribution_;
   echo::ApertureReceiver receiver_;
   echo::RowReverberation reverberation_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
 
   // Memory of the ping path.
+  std::vector<trace::Ray> rays_;
+  std::vector<trace::Hit> hits_;
   std::vector<std::vector<float>> gains_;
   echo::Image image_;
 };
