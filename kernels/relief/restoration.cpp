@@ -18,15 +18,15 @@ Detail detail_below(const relief_statistics::Surface& guide, double hurst, doubl
   relief_statistics::RadialSpectrum spectrum;
   for (int window = 128; window >= 16 && spectrum.density_m4.empty(); window /= 2)
     spectrum = relief_statistics::radial_spectrum(guide, window);
+  const double last_trusted_radpm = 2.0 * std::numbers::pi / (band_start_cells * guide.spacing_m);
   Detail detail;
-  detail.band_start_radpm = 2.0 * std::numbers::pi / (band_start_cells * guide.spacing_m);
   detail.spectrum = {.rms_m = 0.0, .hurst = hurst, .outer_scale_m = 2.0 * band_start_cells * guide.spacing_m};
   const double gamma = 2.0 * hurst + 2.0;
   double sum = 0.0;
   int bins = 0;
   for (std::size_t i = 0; i < spectrum.density_m4.size(); ++i) {
     const double k = spectrum.wave_number_radpm[i];
-    if (k < 0.5 * detail.band_start_radpm || k > 0.9 * detail.band_start_radpm) continue;
+    if (k < 0.5 * last_trusted_radpm || k > 0.9 * last_trusted_radpm) continue;
     if (!(spectrum.density_m4[i] > 0.0)) continue;
     sum += std::log(spectrum.density_m4[i]) + gamma * std::log(k);
     ++bins;

@@ -16,9 +16,8 @@ namespace ensonify::relief {
 /// Empty where the guide has no whole window of 16 cells. A survey product is often smooth below 6 to 8 of its cells:
 /// then `band_start_cells` says where its spectrum can still be believed (2: at Nyquist's wave length).
 struct Detail {
-  Spectrum spectrum;              // rms 0 if there is nothing to go on
-  double strength_si = 0.0;       // W = strength K^-(2 H + 2)
-  double band_start_radpm = 0.0;  // where it takes over: the guide's last trusted wave number
+  Spectrum spectrum;         // rms 0 if there is nothing to go on
+  double strength_si = 0.0;  // W = strength K^-(2 H + 2)
 };
 Detail detail_below(const relief_statistics::Surface& guide, double hurst = 0.625, double band_start_cells = 2.0);
 

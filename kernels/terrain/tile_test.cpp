@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <utility>
+
+#include "kernels/random/stream.h"
 
 using namespace ensonify::terrain;
 
@@ -61,4 +64,25 @@ TEST_CASE("a tile with wrong sizes is named as such") {
   Tile tile = plane_tile();
   tile.height_m.pop_back();
   CHECK(fault_of(tile) == std::string("the number of heights is not columns x rows"));
+}
+
+TEST_CASE("steps of height are a dither where posts differ by half a step or more") {
+  // Errors of rounding where neighbours differ by s steps rms: uniform, and correlated by 6/pi^2 sum exp(-2 pi^2 k^2
+  // s^2)/k^2 [Widrow2008]: 0.178 for s = 0.25, 0.0044 for 0.5, 0 for 1. Of 200,000 posts: 0.0022 sd, and 0.2 % for the
+  // variance.
+  const ensonify::random::Stream draw{1, "dither"};
+  for (const auto& [s, correlation] : {std::pair{0.25, 0.178}, {0.5, 0.0044}, {1.0, 0.0}}) {
+    constexpr int kPosts = 200000;
+    constexpr double kStep = 0.5;  // so that the lattice itself is exact in float
+    double steps = 0.3, before = 0.0, squares = 0.0, products = 0.0;
+    for (int n = 0; n < kPosts; ++n) {
+      steps += s * draw.normal(static_cast<std::uint64_t>(n));
+      const double error = static_cast<double>(on_lattice(steps * kStep, kStep)) / kStep - steps;
+      squares += error * error;
+      products += error * before;
+      before = error;
+    }
+    CHECK(squares / kPosts == Approx(1.0 / 12.0).epsilon(0.01));
+    CHECK(products / squares == Approx(correlation).margin(0.01));
+  }
 }

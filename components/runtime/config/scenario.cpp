@@ -162,9 +162,6 @@ void check_whole(ConfigReader& from, const Scenario& scenario) {
   if (scenario.site.origin_from_raster && generated) {
     from.problem("site", "origin: raster needs seabed.kind: raster or tiles");
   }
-  if (scenario.mission.auto_plan && generated) {
-    from.problem("mission", "auto needs seabed.kind: raster or tiles");
-  }
 }
 
 }  // namespace

@@ -255,7 +255,7 @@ layers::Form read_restored(ConfigReader from, const Names& earlier) {
   from.required("guide", restored.guide);
   read_earlier(from, "guide", earlier, restored.guide);
   from.optional("hurst", restored.hurst, 0.01, 1);
-  from.optional("band_start_cells", restored.band_start_cells, 2, 100);
+  from.optional("band_start_cells", restored.band_start_cells, 2, 16);
   return restored;
 }
 

@@ -91,6 +91,15 @@ TEST_CASE("a measured mounting starts from the actual one and differs where it s
   CHECK_FALSE(scenario_of(kBay).mounting("keel").has_value());
 }
 
+TEST_CASE("lines can be laid over a generated seabed too") {
+  std::string text = kBay;
+  const std::string lines = "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}";
+  text.replace(text.find(lines), lines.size(), "auto: {count: 2}");
+  const Scenario scenario = scenario_of(text);
+  REQUIRE(scenario.mission.auto_plan);
+  CHECK(scenario.mission.auto_plan->count == 2);
+}
+
 TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
   CHECK(problems_of(kBay, "scenario/1", "scenario/2") ==
         "bay.yaml:1:11: ensonify: scenario/2 is not a format known here; allowed: scenario/1");
@@ -110,8 +119,6 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
   CHECK(problems_of(kBay, "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}",
                     "runlines: [{from_m: [0, 0], to_m: [0, 0]}]") ==
         "bay.yaml:17:58: mission.runlines[0].to_m: is less than 1 m from from_m");
-  CHECK(problems_of(kBay, "lawnmower: {centre_m: [0, 0], length_m: 200, spacing_m: 50, count: 3}", "auto: {}") ==
-        "bay.yaml:17:10: mission: auto needs seabed.kind: raster or tiles");
   CHECK(problems_of(kBay, "latitude_deg: 42.5, longitude_deg: -70.5", "origin: raster") ==
         "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster or tiles");
   CHECK(
