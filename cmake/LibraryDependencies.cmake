@@ -22,6 +22,12 @@ if(NOT TARGET fftwf)  # FFTW in single precision
   target_link_libraries(fftwf INTERFACE ${FFTWF_LIBRARY})
 endif()
 
+if(NOT TARGET openmesh)
+  find_package(OpenMesh REQUIRED)
+  add_library(openmesh INTERFACE IMPORTED)
+  target_link_libraries(openmesh INTERFACE OpenMeshTools OpenMeshCore)
+endif()
+
 if(NOT TARGET msgpack_cxx)  # headers only
   find_path(MSGPACK_INCLUDE msgpack.hpp REQUIRED)
   add_library(msgpack_cxx INTERFACE IMPORTED)

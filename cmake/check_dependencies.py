@@ -23,7 +23,7 @@ HEAVY = (
     ("yaml-cpp", r"^yaml-cpp/", r"^components/runtime/config/", "components/runtime/config"),
     ("ZeroMQ", r"^zmq", r"^(components/runtime/bus|bench|tests)/", "components/runtime/bus, bench, tests"),
     ("Embree", r"^embree\d/", r"^kernels/trace/", "kernels/trace"),
-    ("OpenMesh", r"^OpenMesh/", r"^kernels/terrain/", "kernels/terrain"),
+    ("OpenMesh", r"^OpenMesh/", r"^kernels/progressive/", "kernels/progressive"),
     ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/runtime/terrain|components/terrain_pager|tools)/",
      "components/runtime/terrain, components/terrain_pager, tools"),
     ("OpenSSL", r"^openssl/", r"^components/runtime/tiles/", "components/runtime/tiles"),

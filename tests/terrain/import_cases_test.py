@@ -208,6 +208,28 @@ class Cases(Import):
         # a node of 8 m stands for 4 m to each side; the slope is 2 / 90 at most along north
         self.assertLess(np.abs(ours - gdals)[both].max(), 4 * 2 / 90 + 4 * 0.004 + 0.01)
 
+    def test_a_mesh_in_millimetres_becomes_its_highest_surface(self):
+        lines = [f"v {500 * i} {500 * j} {-20000 + 50 * i}" for j in range(21) for i in range(21)]
+        lines += [f"f {v} {v + 1} {v + 22} {v + 21}" for j in range(20) for v in range(21 * j + 1, 21 * j + 21)]
+        # A table 2 m above, on one upright side.
+        lines += [f"v {x} {y} {z}" for x, y, z in ((3000, 3000, -17700), (5000, 3000, -17700), (5000, 5000, -17700), (3000, 5000, -17700),
+                                                   (3000, 3000, -19700), (5000, 3000, -19500))]
+        lines += ["f 442 443 444 445", "f 442 446 447 443"]
+        mesh = self.folder / "table.obj"
+        mesh.write_text("\n".join(lines))
+        folder, report = self.run_import(mesh, "--crs", "plane", "--origin", "50,-5", "--units", "mm", "--positive", "up",
+                                         "--points-cell", 0.25, "--spacing", 0.25)
+        # The plane's middle, 5.125 m of the 41 cells, is at the origin: these are (2, 2), (4, 4) and (8, 1.5).
+        told = terrain("sample", folder, "--points", "-", text="-3.125,-3.125\n-1.125,-1.125\n2.875,-3.625\n").stdout.splitlines()[1:]
+        heights = [float(line.split(",")[2]) for line in told]
+        for height, known in zip(heights, (-19.8, -17.7, -19.2)):
+            self.assertAlmostEqual(height, known, delta=2e-3)
+        # What lies under the table is lost: 2 m at its west, where its middle of cells begins, 0.125 m from the edge.
+        self.assertAlmostEqual(report["sources"][0]["points"]["widest_spread_m"], 2.0 - 0.0125, delta=1e-3)
+        self.assertEqual(report["sources"][0]["unit"], "mm")
+        (self.folder / "none.obj").write_text("v 0 0 -3\n")
+        self.refused(self.folder / "none.obj", "--crs", "plane", "--origin", "50,-5", causes=["none.obj", "holds no triangle"])
+
     # What is refused
 
     def test_rasters_without_a_seabed_are_refused(self):

@@ -180,5 +180,47 @@ class Terrain(SystemTest):
         self.assertIn("origin: is 42.25", result.stderr)
 
 
+    def test_a_scenario_is_sampled_as_the_tiles_made_of_it_are(self):
+        text = "".join(f"{x},{y}\n" for x, y in np.random.default_rng(2).uniform(-200, 200, (50, 2)))
+        told = [terrain("sample", seabed, "--points", "-", text=text) for seabed in (SCENARIO, self.build())]
+        self.assertEqual(told[0].returncode, 0, told[0].stderr)
+        self.assertEqual(told[0].stdout, told[1].stdout)
+        coarse = terrain("sample", SCENARIO, "--points", "-", "--spacing", 8, text=text)
+        heights = [[float(line["elevation_m"]) for line in csv.DictReader(io.StringIO(done.stdout))] for done in (told[0], coarse)]
+        difference = np.abs(np.subtract(*heights))
+        self.assertGreater(difference.max(), 0.01)  # a mesh of 8 m has not all of it ...
+        self.assertLess(np.median(difference), 0.2)  # ... and is the same seabed
+
+
+class LevelOfDetail(SystemTest):
+    def lod(self, *words):
+        done = terrain("lod", self.mesh, *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_a_mesh_is_prepared_once_and_again_when_it_changes(self):
+        side = 60
+        lines = [f"v {i} {j} {3 * np.sin(0.3 * i) * np.cos(0.2 * j) - 20:.3f}" for j in range(side) for i in range(side)]
+        lines += [f"f {v} {v + 1} {v + side + 1} {v + side}" for j in range(side - 1) for v in range(side * j + 1, side * (j + 1))]
+        self.mesh = self.folder / "waves.obj"
+        self.mesh.write_text("\n".join(lines))
+        first = self.lod("--at", 30, 30, 0, "--range", 40)
+        self.assertEqual((first["cached"], first["triangles"]), (False, 2 * (side - 1) ** 2))
+        self.assertLess(first["coarsest_triangles"], 10)
+        self.assertLess(first["ping"]["triangles"], first["triangles"] / 4)
+        again = self.lod("--at", 30, 30, 0, "--range", 40)
+        self.assertEqual(again, {**first, "cached": True})
+        file = self.folder / "waves.obj.lod"
+        file.write_bytes(file.read_bytes()[:-100])  # damaged
+        self.assertFalse(self.lod()["cached"])
+        self.assertFalse(self.lod("--unit-m", 0.001)["cached"])
+        self.mesh.write_text("\n".join(lines[:-1]))
+        self.assertEqual(self.lod()["triangles"], first["triangles"] - 2)
+        self.mesh.write_text("f 1 2 3\n")
+        done = terrain("lod", self.mesh)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("waves.obj:1", done.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

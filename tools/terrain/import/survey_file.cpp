@@ -9,7 +9,9 @@
 #include <numbers>
 #include <utility>
 
+#include "components/runtime/terrain/mesh_file.h"
 #include "tools/terrain/import/cell_grid.h"
+#include "tools/terrain/import/mesh_cells.h"
 
 namespace ensonify::terrain_import {
 namespace {
@@ -75,10 +77,11 @@ SurveyFile read_survey_file(const FileOptions& file, const ImportOptions& option
   SurveyFile survey;
   survey.options = file;
   source::RasterOptions how = raster_options(file, options.origin, options.box);
-  if (is_scattered(file.path)) {
+  const bool mesh = source::is_mesh_file(file.path);
+  if (mesh || is_scattered(file.path)) {
     how.path = fmt::format("/vsimem/ensonify-import/{}.tif", number);
     how.called = file.path;
-    survey.points = grid_points(file, options.points, how.path);
+    survey.points = mesh ? grid_mesh(file, options.points, how.path) : grid_points(file, options.points, how.path);
     survey.files = {file.path};
   }
   auto raster = opened(how);

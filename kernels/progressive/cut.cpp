@@ -1,0 +1,121 @@
+#include "kernels/progressive/cut.h"
+
+#include <algorithm>
+
+namespace ensonify::progressive {
+namespace {
+
+const Split& at(const Hierarchy& hierarchy, std::int32_t split) {
+  return hierarchy.splits[static_cast<std::size_t>(split)];
+}
+
+bool too_far(const Split& split, double tolerance_m) {
+  return tolerance_m <= 0.0 || static_cast<double>(split.deviation_m) > tolerance_m;
+}
+
+/// Whether a view can meet a triangle: by spheres around quarters of quarters of it, so that a long one beside a narrow
+/// view need not come back.
+bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& corner, int quarters) {
+  Eigen::AlignedBox3d box;
+  for (const frames::Vec3& place : corner) box.extend(place);
+  if (!lod::meets(frustum, {box.center(), 0.5 * box.diagonal().norm()})) return false;
+  if (quarters == 0) return true;
+  const auto& [a, b, c] = corner;
+  const frames::Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+  return stands_in(frustum, {a, ab, ca}, quarters - 1) || stands_in(frustum, {ab, b, bc}, quarters - 1) ||
+         stands_in(frustum, {ca, bc, c}, quarters - 1) || stands_in(frustum, {ab, bc, ca}, quarters - 1);
+}
+
+constexpr int kQuarters = 4;
+
+}  // namespace
+
+/// With all that must be undone before it.
+void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
+  for (; split != kNone && undone_[static_cast<std::size_t>(split)] == 0; split = at(hierarchy, split).parent) {
+    undone_[static_cast<std::size_t>(split)] = 1;
+    all_undone_.push_back(split);
+  }
+}
+
+/// Down the tree, as far as views meet what lies below.
+void Cut::look(const Hierarchy& hierarchy, std::span<const View> views) {
+  undone_.assign(hierarchy.splits.size(), 0);
+  all_undone_.clear();
+  pending_.clear();
+  for (std::size_t s = 0; s < hierarchy.splits.size(); ++s) {
+    if (hierarchy.splits[s].parent == kNone) pending_.push_back(static_cast<std::int32_t>(s));
+  }
+  while (!pending_.empty()) {
+    const std::int32_t s = pending_.back();
+    pending_.pop_back();
+    const Split& split = at(hierarchy, s);
+    const lod::Sphere sphere = sphere_around(split.box_m, hierarchy.mesh.origin_enu_m);
+    if (std::none_of(views.begin(), views.end(), [&](const View& view) {
+          return too_far(split, view.tolerance_m) && lod::meets(view.frustum, sphere);
+        }))
+      continue;
+    undo(hierarchy, s);
+    for (const std::int32_t child : split.child) {
+      if (child != kNone) pending_.push_back(child);
+    }
+  }
+}
+
+/// What a vertex has become.
+std::uint32_t Cut::shown(const Hierarchy& hierarchy, std::uint32_t vertex) const {
+  for (;;) {
+    const std::int32_t split = hierarchy.split_of[vertex];
+    if (split == kNone || undone_[static_cast<std::size_t>(split)] != 0) return vertex;
+    vertex = at(hierarchy, split).kept;
+  }
+}
+
+void Cut::gather(const Hierarchy& hierarchy) {
+  sources_ = hierarchy.coarsest;
+  for (const std::int32_t s : all_undone_) {
+    const auto first = hierarchy.born.begin() + at(hierarchy, s).first_born;
+    sources_.insert(sources_.end(), first, first + at(hierarchy, s).born);
+  }
+  std::sort(sources_.begin(), sources_.end());
+  triangles_.clear();
+  for (const std::uint32_t source : sources_) {
+    const auto& [a, b, c] = hierarchy.mesh.triangle[source];
+    triangles_.push_back({shown(hierarchy, a), shown(hierarchy, b), shown(hierarchy, c)});
+  }
+}
+
+/// Brings a vertex near enough to its place. False if it was.
+bool Cut::ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m) {
+  std::int32_t split = hierarchy.split_of[vertex];
+  while (split != kNone && !too_far(at(hierarchy, split), tolerance_m)) split = at(hierarchy, split).parent;
+  if (split == kNone || undone_[static_cast<std::size_t>(split)] != 0) return false;
+  undo(hierarchy, split);
+  return true;
+}
+
+/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does.
+bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
+  bool changed = false;
+  const auto& place = hierarchy.mesh.vertex_m;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Triangle& source = hierarchy.mesh.triangle[sources_[i]];
+    if (triangles_[i] == source) continue;
+    std::array<frames::Vec3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c)
+      corners[c] = hierarchy.mesh.origin_enu_m + place[triangles_[i][c]].cast<double>();
+    for (const View& view : views) {
+      if (!stands_in(view.frustum, corners, kQuarters)) continue;
+      for (const std::uint32_t corner : source) changed = ask_back(hierarchy, corner, view.tolerance_m) || changed;
+    }
+  }
+  return changed;
+}
+
+void Cut::choose(const Hierarchy& hierarchy, std::span<const View> views) {
+  look(hierarchy, views);
+  gather(hierarchy);
+  while (settle(hierarchy, views)) gather(hierarchy);
+}
+
+}  // namespace ensonify::progressive

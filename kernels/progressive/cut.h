@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/lod/frustum.h"
+#include "kernels/progressive/hierarchy.h"
+
+namespace ensonify::progressive {
+
+/// Where a mesh matters, and how far the surface may be off there; 0: not at all.
+struct View {
+  lod::Frustum frustum;
+  double tolerance_m = 0.0;
+};
+
+/// The mesh of one ping: fine where views look and as coarse as it can be elsewhere. A function of the hierarchy and
+/// the views; what was chosen before leaves nothing but memory.
+class Cut {
+ public:
+  /// A path of a view of tolerance 0 meets what it would meet in the source, the same triangles: first every split
+  /// whose box the view meets is undone, then, round by round, what has been moved and still stands in the view.
+  void choose(const Hierarchy& hierarchy, std::span<const View> views);
+
+  /// Their corners are vertices of the mesh.
+  std::span<const Triangle> triangles() const { return triangles_; }
+  /// Which of the source each of them is, or stands for.
+  std::span<const std::uint32_t> sources() const { return sources_; }
+
+ private:
+  void undo(const Hierarchy& hierarchy, std::int32_t split);
+  void look(const Hierarchy& hierarchy, std::span<const View> views);
+  void gather(const Hierarchy& hierarchy);
+  bool settle(const Hierarchy& hierarchy, std::span<const View> views);
+  bool ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m);
+  std::uint32_t shown(const Hierarchy& hierarchy, std::uint32_t vertex) const;
+
+  std::vector<std::uint8_t> undone_;  // by split
+  std::vector<std::int32_t> all_undone_;
+  std::vector<std::int32_t> pending_;
+  std::vector<std::uint32_t> sources_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace ensonify::progressive
