@@ -38,6 +38,8 @@ struct Soundings {
   Array<std::uint8_t> flags;
   Array<std::uint8_t> valid;
   Array<double> position_enu_m;
+  Array<float> tvu_m;
+  Array<float> thu_m;
   AppliedSettings applied;
   HeadTrack track;
 
@@ -77,6 +79,10 @@ struct Soundings {
     visit("position_enu_m", "m",
           "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",
           self.position_enu_m);
+    visit("tvu_m", "m",
+          "predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not told",
+          self.tvu_m);
+    visit("thu_m", "m", "the same of the horizontal error, as a radius; empty: not told", self.thu_m);
     AppliedSettings::fields(self.applied, visit);
     HeadTrack::fields(self.track, visit);
   }

@@ -77,7 +77,9 @@ void detections(benchmark::State& state) {
   const auto truth = at_rest();
   const Shot shot{0, SimTime{0}, 75.0};
   const auto& heard = head.listen(shot, settings, steering, truth, tiles.scene());
-  for (auto _ : state) benchmark::DoNotOptimize(maker.make(shot, settings, steering, heard, truth).valid.data());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        maker.make(shot, settings, steering, heard, truth, config.uncertainty.untold()).valid.data());
   if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

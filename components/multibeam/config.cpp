@@ -80,6 +80,29 @@ void read_receiver(ConfigReader& from, MultibeamConfig& c) {
   }
 }
 
+void read_uncertainty(ConfigReader& from, MultibeamConfig::Uncertainty& u) {
+  auto section = from.optional_section("uncertainty");
+  if (!section) return;
+  section->optional("position_m", u.position_m, 0, 1000);
+  section->optional("height_m", u.height_m, 0, 1000);
+  section->optional("level_deg", u.level_rad, 0, 10, kDegrees);
+  section->optional("heading_deg", u.heading_rad, 0, 10, kDegrees);
+  uncertainty::Sources& s = u.sources;
+  section->optional("heave_m", s.heave_m, 0, 10);
+  section->optional("draught_m", s.draught_m, 0, 10);
+  section->optional("squat_m", s.squat_m, 0, 10);
+  section->optional("tide_m", s.tide_m, 0, 10);
+  section->optional("cast_mps", s.cast_mps, 0, 100);
+  section->optional("face_mps", s.face_mps, 0, 100);
+  section->optional("lever_arm_m", s.lever_arm_m, 0, 10);
+  section->optional("roll_deg", s.roll_rad, 0, 10, kDegrees);
+  section->optional("pitch_deg", s.pitch_rad, 0, 10, kDegrees);
+  section->optional("yaw_deg", s.yaw_rad, 0, 10, kDegrees);
+  section->optional("position_latency_s", s.position_latency_s, 0, 10);
+  section->optional("attitude_latency_s", s.attitude_latency_s, 0, 10);
+  section->optional("along_deg", s.along_rad, 0, 10, kDegrees);
+}
+
 void check_pulse(ConfigReader& from, const MultibeamConfig& c) {
   if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
   if (c.chirp && c.bandwidth_hz * c.pulse_length_s < kLeastSweep) {
@@ -115,11 +138,19 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
   read_sectors(from, c);
   read_ping(from, c);
   read_receiver(from, c);
+  read_uncertainty(from, c.uncertainty);
 
   read_head(from, scenario, process, kFastest_hz, c);
   c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
   check(from, c);
   return c;
+}
+
+uncertainty::Navigation MultibeamParameters::Uncertainty::untold() const {
+  uncertainty::Navigation navigation;
+  navigation.position_enu_m2.diagonal() << position_m * position_m, position_m * position_m, height_m * height_m;
+  navigation.rotation_enu_rad2.diagonal() << level_rad * level_rad, level_rad * level_rad, heading_rad * heading_rad;
+  return navigation;
 }
 
 /// The gain's settings stand whether it is applied or not: soundings use the absorption.

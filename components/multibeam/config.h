@@ -5,6 +5,7 @@
 
 #include "components/runtime/head/head_config.h"
 #include "kernels/echo/pulse.h"
+#include "kernels/uncertainty/sounding.h"
 
 namespace ensonify {
 
@@ -33,6 +34,29 @@ struct MultibeamParameters {
 
     bool operator==(const Image&) const = default;
   };
+
+  /// What goes into the stated uncertainty of soundings, besides what detection and estimate say of their own errors.
+  struct Uncertainty {
+    uncertainty::Sources sources{.cast_mps = 0.3,
+                                 .face_mps = 0.05,
+                                 .lever_arm_m = {0.005, 0.005, 0.005},
+                                 .roll_rad = 0.01 * kDegree,
+                                 .pitch_rad = 0.03 * kDegree,
+                                 .yaw_rad = 0.03 * kDegree,
+                                 .position_latency_s = 0.005,
+                                 .attitude_latency_s = 0.0005,
+                                 .along_rad = 0.1 * kDegree};
+    // Of an estimate that does not tell.
+    double position_m = 0.02;  // each horizontal axis
+    double height_m = 0.02;
+    double level_rad = 0.02 * kDegree;
+    double heading_rad = 0.05 * kDegree;
+
+    uncertainty::Navigation untold() const;
+    bool operator==(const Uncertainty&) const = default;
+  };
+
+  static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
   double frequency_hz = 300e3;
   int beams = 256;
@@ -66,10 +90,9 @@ struct MultibeamParameters {
   int phase_every = 0;                           // and has the phase in every n-th ping; 0: never
   bool snippets = false;                         // snippets/1 of every ping
   Image image;
+  Uncertainty uncertainty;
 
   bool operator==(const MultibeamParameters&) const = default;
-
-  static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 };
 
 /// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis. Its

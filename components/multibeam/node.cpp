@@ -27,7 +27,7 @@ std::size_t most_entries(const MultibeamConfig& config) {
 
 std::size_t soundings_bytes(const MultibeamConfig& config) {
   const auto poses = static_cast<std::size_t>(config.longest_listening_s() / seconds(kTrackPeriod)) + 3;  // 8 numbers
-  return most_entries(config) * 80 + poses * 64 + 8192;
+  return most_entries(config) * 88 + poses * 64 + 8192;
 }
 
 /// Every sample of every entry's beam, at worst.
@@ -121,7 +121,8 @@ void MultibeamNode::publish(const PingUnderWay& ping) {
     inputs_.fill_track(message.track, ping.transmit, sent.listening);
     ping_out_.send(message);
   }
-  msg::Soundings soundings = soundings_.make(shot, sent.settings, steering, heard, inputs_.estimate());
+  msg::Soundings soundings = soundings_.make(shot, sent.settings, steering, heard, inputs_.estimate(),
+                                             inputs_.navigation_errors().value_or(config_.uncertainty.untold()));
   soundings.applied = head_.applied(shot, sent.settings, steering);
   inputs_.fill_track(soundings.track, ping.transmit, sent.listening);
   soundings_out_.send(soundings);

@@ -35,6 +35,8 @@ msg::Soundings without_measurements(std::size_t entries) {
   soundings.flags = msg::Array<std::uint8_t>({entries});
   soundings.valid = msg::Array<std::uint8_t>({entries});
   soundings.position_enu_m = nothing<double>({entries, 3});
+  soundings.tvu_m = nothing<float>({entries});
+  soundings.thu_m = nothing<float>({entries});
   return soundings;
 }
 
@@ -78,9 +80,9 @@ frames::HeadPose SoundingMaker::believed_pose(const frames::PoseHistory& estimat
 }
 
 msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                                   const std::vector<MultibeamHead::Heard>& heard,
-                                   const frames::PoseHistory& estimate) {
-  const Ping ping{shot, settings, steering, estimate};
+                                   const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate,
+                                   const uncertainty::Navigation& navigation) {
+  const Ping ping{shot, settings, steering, estimate, navigation};
   detect(ping, heard);
 
   const double period_s = heard.front().image.period_s;
@@ -108,7 +110,42 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& setting
     measure(ping, i, period_s, soundings);
     place(ping, i, soundings);
   }
+  state_uncertainty(ping, motion(ping), soundings);
   return soundings;
+}
+
+/// How the head lies and moves at transmission, by the estimate: over 0.2 s, longer than the noise of attitudes and
+/// shorter than waves.
+uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
+  constexpr double kSpan_s = 0.2;
+  const auto body_at = [&](SimTime t) { return *ping.estimate.at(t.count(), frames::PoseHistory::Outside::kNearest); };
+  const frames::Pose now = body_at(ping.shot.transmit), before = body_at(ping.shot.transmit - from_seconds(kSpan_s));
+  const frames::HeadPose head = frames::head_pose(now, config_.mounting.measured);
+  const frames::Quaternion turn = now.enu_from_body * before.enu_from_body.conjugate();
+  uncertainty::Geometry motion;
+  motion.lever_enu_m = head.position_enu_m - now.position_enu_m;
+  motion.enu_from_head = head.enu_from_head;
+  motion.velocity_enu_mps = (now.position_enu_m - before.position_enu_m) / kSpan_s;
+  motion.rate_enu_radps = (turn.w() < 0.0 ? -2.0 : 2.0) / kSpan_s * turn.vec();  // a small turn
+  motion.sound_speed_mps = ping.steering.sound_speed_mps;
+  return motion;
+}
+
+void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion,
+                                      msg::Soundings& soundings) const {
+  const frames::Vec3 head = believed_pose(ping.estimate, ping.shot.transmit).position_enu_m;
+  uncertainty::Geometry geometry = motion;
+  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    if (soundings.valid[i] == 0) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      geometry.away_enu_m[k] = soundings.position_enu_m(i, axis) - head[k];
+    }
+    const uncertainty::Matrix3 covariance_enu_m2 = uncertainty::covariance_enu_m2(
+        geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i]}, ping.navigation, config_.uncertainty.sources);
+    soundings.tvu_m[i] = static_cast<float>(uncertainty::tvu_m(covariance_enu_m2));
+    soundings.thu_m[i] = static_cast<float>(uncertainty::thu_m(covariance_enu_m2));
+  }
 }
 
 void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard) {

@@ -31,9 +31,11 @@ class SoundingMaker {
  public:
   explicit SoundingMaker(const MultibeamConfig& config);
 
-  /// Soundings of a ping, without settings and track. Without an estimate none is valid.
+  /// Soundings of a ping, without settings and track. Without an estimate none is valid. `navigation`: what the
+  /// estimate says of its own errors.
   msg::Soundings make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                      const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate);
+                      const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate,
+                      const uncertainty::Navigation& navigation);
 
   /// The detections behind the entries of the last soundings.
   const std::vector<Echo>& echoes() const { return echoes_; }
@@ -50,6 +52,7 @@ class SoundingMaker {
     const HeadSettings& settings;
     const Steering& steering;
     const frames::PoseHistory& estimate;
+    const uncertainty::Navigation& navigation;
   };
 
   frames::HeadPose believed_pose(const frames::PoseHistory& estimate, SimTime t) const;
@@ -59,6 +62,8 @@ class SoundingMaker {
   void flag(const Steering& steering, msg::Soundings& soundings) const;
   void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
   void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
+  uncertainty::Geometry motion(const Ping& ping) const;
+  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings) const;
 
   MultibeamConfig config_;
   refraction::SoundSpeedProfile applied_;

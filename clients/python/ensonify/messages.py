@@ -747,6 +747,8 @@ class Soundings(Message):
     flags [1]: why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side lobe; empty: not told
     valid [1]: 1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
+    tvu_m [m]: predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not told
+    thu_m [m]: the same of the horizontal error, as a radius; empty: not told
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
@@ -790,6 +792,8 @@ class Soundings(Message):
     flags: np.ndarray = array("u1")
     valid: np.ndarray = array("u1")
     position_enu_m: np.ndarray = array("f8")
+    tvu_m: np.ndarray = array("f4")
+    thu_m: np.ndarray = array("f4")
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0

@@ -28,6 +28,15 @@ void note_reach(Ports& ports, const HeadInputs::Start& start) {
   if (follows) ports.note("auto_range", 1.0);
 }
 
+/// Covariances that are all zero are not told.
+std::optional<uncertainty::Navigation> errors_of(const msg::Estimate& estimate) {
+  uncertainty::Navigation errors;
+  errors.position_enu_m2 = Eigen::Map<const Eigen::Matrix3d>(estimate.position_covariance_enu_m2.data());
+  errors.rotation_enu_rad2 = Eigen::Map<const Eigen::Matrix3d>(estimate.rotation_covariance_enu_rad2.data());
+  if (errors.position_enu_m2.isZero(0.0) && errors.rotation_enu_rad2.isZero(0.0)) return std::nullopt;
+  return errors;
+}
+
 }  // namespace
 
 HeadInputs::HeadInputs(Ports& ports, const Start& start)
@@ -43,7 +52,11 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
   }
   note_reach(ports, start);
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
-  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { push(estimate_, estimate); },
+  ports.in<msg::Estimate>("estimate",
+                          [this](const msg::Estimate& estimate) {
+                            push(estimate_, estimate);
+                            navigation_errors_ = errors_of(estimate);
+                          },
                           {.optional = true});
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });

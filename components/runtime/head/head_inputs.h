@@ -9,6 +9,7 @@
 #include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
 #include "kernels/frames/pose.h"
+#include "kernels/uncertainty/sounding.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -38,6 +39,8 @@ class HeadInputs {
 
   const frames::PoseHistory& truth() const { return truth_; }
   const frames::PoseHistory& estimate() const { return estimate_; }
+  /// What the newest estimate says of its own errors; nothing where it does not tell.
+  const std::optional<uncertainty::Navigation>& navigation_errors() const { return navigation_errors_; }
   trace::Scene& seabed() { return tiles_.scene(); }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   const HeadMounting& mounting() const { return mounting_; }
@@ -61,6 +64,7 @@ class HeadInputs {
   Ports& ports_;
   HeadMounting mounting_;
   frames::PoseHistory truth_, estimate_;
+  std::optional<uncertainty::Navigation> navigation_errors_;
   TileSet tiles_;
   double start_mps_;
   std::optional<double> probe_mps_;

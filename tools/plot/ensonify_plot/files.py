@@ -23,17 +23,20 @@ def world_crs(origin: tuple | None) -> osr.SpatialReference:
     return crs
 
 
-def write_geotiff(file: str, frame: Frame, up_m, count, origin: tuple | None, facts: dict) -> None:
-    """Band 1: mean elevation up from chart datum, NaN without soundings. Band 2: number of soundings."""
+def write_geotiff(file: str, frame: Frame, up_m, count, tvu_m, origin: tuple | None, facts: dict) -> None:
+    """Band 1: mean elevation up from chart datum, NaN without soundings. Band 2: number of soundings. Band 3, unless `tvu_m` is None:
+    mean predicted uncertainty."""
     driver = gdal.GetDriverByName("GTiff")
     options = ["COMPRESS=DEFLATE", "ZLEVEL=1", "TILED=YES", "BIGTIFF=IF_SAFER"]
-    raster = driver.Create(file, frame.cols, frame.rows, 2, gdal.GDT_Float32, options)
+    raster = driver.Create(file, frame.cols, frame.rows, 2 if tvu_m is None else 3, gdal.GDT_Float32, options)
     west, _, _, north = frame.extent_m
     raster.SetGeoTransform((west, frame.cell_m, 0.0, north, 0.0, -frame.cell_m))
     raster.SetProjection(world_crs(origin).ExportToWkt())
     raster.SetMetadata({key: str(value) for key, value in facts.items()})
-    bands = ((up_m, "elevation, m, up from chart datum (mean of accepted soundings)", "metre"),
-             (count, "number of accepted soundings", "1"))
+    bands = [(up_m, "elevation, m, up from chart datum (mean of accepted soundings)", "metre"),
+             (count, "number of accepted soundings", "1")]
+    if tvu_m is not None:
+        bands.append((tvu_m, "total vertical uncertainty of a sounding, m, 95 % (mean of those predicted)", "metre"))
     for number, (values, text, unit) in enumerate(bands, start=1):
         band = raster.GetRasterBand(number)
         band.SetDescription(text)

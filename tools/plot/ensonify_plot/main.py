@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 import ensonify
-from ensonify_plot import files, grid, pictures
+from ensonify_plot import files, grid, pictures, uncertainty
 from ensonify_plot.heard import choose_ping, heads_with_soundings, process_of, soundings_of
 from ensonify_plot.ping import ping_picture
 from ensonify_plot.results import Writer, folder_of, open_record
@@ -93,10 +93,13 @@ def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
     up_m = gridder.mean(s.up_m)
     facts = {"ENSONIFY_VERSION": survey.info.get("version", ""), "SEED": survey.info.get("seed", ""), "CELL_SIZE_M": cell_m,
              "VERTICAL_DATUM": "chart datum of the scenario"}
-    files.write_geotiff(out.path("bathymetry.tif"), frame, up_m, gridder.count, survey.origin, facts)
+    stated = uncertainty.stated(s.tvu_m, s.thu_m, -s.up_m)
+    tvu_m = gridder.mean(s.tvu_m) if stated else None
+    files.write_geotiff(out.path("bathymetry.tif"), frame, up_m, gridder.count, tvu_m, survey.origin, facts)
     files.write_csv(out.path("soundings.csv"), [
         ("t_s", s.t_s, 6), ("head", s.head, survey.heads), ("ping", s.ping, 0), ("beam", s.beam, 0),
-        ("east_m", s.east_m, 3), ("north_m", s.north_m, 3), ("depth_m", -s.up_m, 3), ("backscatter_db", s.backscatter_db, 2)])
+        ("east_m", s.east_m, 3), ("north_m", s.north_m, 3), ("depth_m", -s.up_m, 3), ("backscatter_db", s.backscatter_db, 2),
+        ("tvu_m", s.tvu_m, 3), ("thu_m", s.thu_m, 3)])
     relief = pictures.Relief(up_m, cell_m)
     out.picture("survey.png", pictures.survey_picture(survey, frame, up_m, relief))
     statistics = None
@@ -108,13 +111,14 @@ def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
         statistics = depth_statistics(s.up_m, true_up_m)
         if statistics:
             error_m = s.up_m - true_up_m
+            statistics |= uncertainty.kept(error_m, s.tvu_m, s.beam_angle_rad) or {}
             picture = pictures.difference_picture(survey, frame, gridder.mean(error_m), error_m, statistics)
             out.picture("difference.png", picture)
     return {
         "heads": survey.heads, "pings": survey.ping_count, "beams": survey.beam_count, "soundings": len(s),
         "accepted": len(s) / survey.beam_count, "cell_m": cell_m, "end_s": survey.end_s,
         "depth_m": {"least": float(-s.up_m.max()), "mean": float(-s.up_m.mean()), "greatest": float(-s.up_m.min())},
-        "coverage": coverage(survey, frame), "depth_against_truth": statistics,
+        "coverage": coverage(survey, frame), "uncertainty": stated, "depth_against_truth": statistics,
     }
 
 
@@ -144,7 +148,13 @@ def in_words(summary: dict) -> str:
              f"{summary['depth_m']['least']:.2f} to {summary['depth_m']['greatest']:.2f} m, cells of {summary['cell_m']:g} m",
              f"coverage {summary['coverage']['share']:.1%} of {summary['coverage']['area_m2'] / 1e4:.2f} ha "
              f"({summary['coverage']['of']})"]
-    truth = summary["depth_against_truth"]
+    stated, truth = summary["uncertainty"], summary["depth_against_truth"]
+    if stated:
+        lines.append(f"predicted at 95 %: TVU {stated['tvu_m']:.3f} m, THU {stated['thu_m']:.3f} m (medians); IHO S-44 (6th edition), "
+                     f"uncertainty only: {stated['order'] or 'no order'}")
+    if truth and "inside_tvu" in truth:
+        shares = truth["inside_tvu_by_angle"]
+        lines.append(f"errors inside the predicted TVU: {truth['inside_tvu']:.1%}; by beam angle {min(shares):.1%} to {max(shares):.1%}")
     if truth:
         lines.append(f"against the true seabed: bias {truth['bias_m']:+.3f} m, standard deviation {truth['std_m']:.3f} m, 95 % "
                      f"within {truth['within_95_m']:.3f} m, {truth['inside_special_order']:.1%} inside IHO S-44 Special Order")

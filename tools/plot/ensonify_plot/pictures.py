@@ -177,7 +177,7 @@ def difference_picture(survey, frame: Frame, difference_m, error_m, statistics: 
     colour_bar(left, mappable, axes, "survey minus truth (m); blue: too shallow, red: too deep")
     histogram, by_angle = right.subplots(2, 1)
     _draw_histogram(histogram, error_m, statistics)
-    _draw_by_angle(by_angle, survey.soundings.beam_angle_rad, error_m)
+    _draw_by_angle(by_angle, survey.soundings, error_m)
     return figure
 
 
@@ -206,8 +206,8 @@ def _draw_histogram(axes, error_m, statistics):
     axes.tick_params(labelsize=8)
 
 
-def _draw_by_angle(axes, angle_rad, error_m):
-    angle = np.degrees(angle_rad)
+def _draw_by_angle(axes, soundings, error_m):
+    angle = np.degrees(soundings.beam_angle_rad)
     edges = np.linspace(angle.min(), angle.max() + 1e-6, 66)
     number = np.clip(np.digitize(angle, edges) - 1, 0, 64)
     known = np.isfinite(error_m)
@@ -219,6 +219,12 @@ def _draw_by_angle(axes, angle_rad, error_m):
     axes.fill_between(middle, mean - 2 * spread, mean + 2 * spread, color="#3a86bd", alpha=0.3, linewidth=0,
                       label="mean ± 2 standard deviations")
     axes.plot(middle, mean, color="#2b2a66", linewidth=1.2, label="mean")
+    told = np.isfinite(soundings.tvu_m)
+    if told.any():
+        with np.errstate(invalid="ignore", divide="ignore"):
+            tvu_m = np.bincount(number[told], soundings.tvu_m[told], 65) / np.bincount(number[told], minlength=65)
+        for side, label in ((1, "predicted TVU, 95 %"), (-1, None)):
+            axes.plot(middle, side * tvu_m, color="#c0392b", linewidth=1.0, linestyle="--", label=label)
     axes.axhline(0, color="black", linewidth=0.8)
     reach = 3 * float(np.nanmedian(np.abs(mean) + 2 * spread))
     axes.set_ylim(-reach, reach)

@@ -27,6 +27,8 @@ class Soundings:
     north_m: np.ndarray
     up_m: np.ndarray  # from chart datum
     backscatter_db: np.ndarray
+    tvu_m: np.ndarray  # predicted at 95 %; NaN: not told
+    thu_m: np.ndarray
 
     def __len__(self) -> int:
         return len(self.t_s)
@@ -79,6 +81,10 @@ def _flattened(parts: list) -> Soundings:
     position = whole([message.position_enu_m for message in messages], np.float64).reshape(-1, 3)
     valid &= np.isfinite(position).all(axis=1)
 
+    def of_soundings(field):
+        parts = (getattr(message, field) for message in messages)
+        return whole([part if len(part) == length else np.full(length, np.nan) for part, length in zip(parts, lengths)], np.float32)[valid]
+
     def each(values, dtype):
         return np.repeat(np.array(values, dtype), lengths)[valid]
 
@@ -92,6 +98,8 @@ def _flattened(parts: list) -> Soundings:
         north_m=position[valid, 1],
         up_m=position[valid, 2],
         backscatter_db=whole([message.backscatter_db for message in messages], np.float32)[valid],
+        tvu_m=of_soundings("tvu_m"),
+        thu_m=of_soundings("thu_m"),
     )
 
 

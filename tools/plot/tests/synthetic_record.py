@@ -39,7 +39,8 @@ def soundings_of(ping, t_ns, east_m, north_m, heading, angles, noise_m, bias_m, 
     return ensonify.Soundings(stamp_ns=t_ns, ping=ping, beam_angle_rad=angles.astype("f4"), valid=valid,
                               travel_time_s=(2 * range_m / SOUND_SPEED_MPS).astype("f4"),
                               backscatter_db=np.full(len(angles), 100, "f4"), quality_db=np.full(len(angles), 20, "f4"),
-                              position_enu_m=position), range_m
+                              position_enu_m=position, thu_m=np.full(len(angles), 1.5, "f4"),
+                              tvu_m=(1.96 * np.hypot(bias_m, noise_m / np.cos(angles))).astype("f4")), range_m
 
 
 def ping_of(soundings, range_m, samples, random):

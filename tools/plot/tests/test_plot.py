@@ -73,6 +73,17 @@ class OfARecord(unittest.TestCase):
         self.assertEqual(truth["soundings"], self.summary["soundings"])
         self.assertAlmostEqual(self.summary["accepted"], 0.99, delta=0.005)
 
+    def test_predicted_uncertainty_is_held_against_errors_and_orders(self):
+        truth, stated = self.summary["depth_against_truth"], self.summary["uncertainty"]
+        # Bias counts as if drawn: 95.4 % at nadir, 95.1 % outside, scatter of 14,000 soundings a class 0.2 %.
+        for share in [truth["inside_tvu"], *truth["inside_tvu_by_angle"]]:
+            self.assertAlmostEqual(share, 0.95, delta=0.012)
+        self.assertEqual(stated["thu_m"], 1.5)  # beyond the 1 m of Exclusive Order
+        # At 65 degrees 1.96 x sqrt(0.02^2 + (0.05 / cos)^2) = 0.235 m, inside sqrt(0.25^2 + (0.0075 x 20)^2) = 0.29 m.
+        self.assertEqual((stated["order"], stated["share_that_keeps"]["Exclusive Order"]), ("Special Order", 0.0))
+        self.assertEqual(stated["share_that_keeps"]["Special Order"], 1.0)
+        self.assertIn("uncertainty only: Special Order", self.printed)
+
     def test_coverage_sees_a_gap_between_lines(self):
         with tempfile.TemporaryDirectory() as out:
             record = pathlib.Path(out) / "gap.mcap"
@@ -92,7 +103,8 @@ class OfARecord(unittest.TestCase):
 
     def test_the_geotiff_lies_where_it_should(self):
         raster = gdal.Open(str(self.root / "bathymetry.tif"))
-        up_m, count = raster.ReadAsArray()
+        up_m, count, tvu_m = raster.ReadAsArray()
+        self.assertAlmostEqual(float(tvu_m[count > 0].min()), 1.96 * np.hypot(NOISE_M, BIAS_M), delta=0.002)  # at nadir
         self.assertEqual(int(count.sum()), self.summary["soundings"])
         west, cell_m, _, north, _, minus_cell_m = raster.GetGeoTransform()
         self.assertEqual((cell_m, minus_cell_m), (self.summary["cell_m"], -self.summary["cell_m"]))
@@ -109,7 +121,8 @@ class OfARecord(unittest.TestCase):
         with open(self.root / "soundings.csv", newline="") as stream:
             rows = list(csv.DictReader(stream))
         self.assertEqual(len(rows), self.summary["soundings"])
-        self.assertEqual(list(rows[0]), ["t_s", "head", "ping", "beam", "east_m", "north_m", "depth_m", "backscatter_db"])
+        self.assertEqual(list(rows[0]), ["t_s", "head", "ping", "beam", "east_m", "north_m", "depth_m", "backscatter_db", "tvu_m",
+                                         "thu_m"])
         depths = np.array([float(row["depth_m"]) for row in rows])
         self.assertAlmostEqual(depths.mean(), self.summary["depth_m"]["mean"], places=3)
         self.assertEqual(rows[-1]["head"], "bow")
