@@ -208,8 +208,11 @@ class LevelOfDetail(SystemTest):
         self.assertEqual((first["cached"], first["triangles"]), (False, 2 * (side - 1) ** 2))
         self.assertLess(first["coarsest_triangles"], 10)
         self.assertLess(first["ping"]["triangles"], first["triangles"] / 4)
-        again = self.lod("--at", 30, 30, 0, "--range", 40)
+        again = self.lod("--at", 30, 30, 0, "--range", 40, "--ping-out", self.folder / "ping.obj")
         self.assertEqual(again, {**first, "cached": True})
+        source, moved = (self.folder / "ping.obj").read_text().split("g source\n")[1].split("g moved\n")
+        self.assertEqual(source.count("f "), first["ping"]["of_the_source"])
+        self.assertEqual(moved.count("f "), first["ping"]["triangles"] - first["ping"]["of_the_source"])
         file = self.folder / "waves.obj.lod"
         file.write_bytes(file.read_bytes()[:-100])  # damaged
         self.assertFalse(self.lod()["cached"])

@@ -13,6 +13,7 @@
 #include "components/runtime/exit_error.h"
 #include "components/runtime/terrain/lod_file.h"
 #include "components/runtime/terrain/mesh_file.h"
+#include "components/runtime/tiles/file_bytes.h"
 #include "components/runtime/tiles/lattice_png.h"
 #include "components/runtime/tiles/sha256.h"
 #include "kernels/frames/attitude.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Options {
-  std::string mesh, out;
+  std::string mesh, out, ping_out;
   double unit_m = 1.0;
   std::vector<double> at;
   double heading_deg = 0.0, pitch_deg = 0.0, swath_deg = 130.0, beamwidth_deg = 1.0, range_m = 100.0;
@@ -74,6 +75,24 @@ progressive::View view_of(const Options& options) {
   return view;
 }
 
+/// As OBJ, in two groups: triangles of the source, and those that stand for others.
+void write_ping(const std::string& path, const progressive::TriangleMesh& mesh, const progressive::Cut& cut) {
+  std::string text;
+  for (const auto& vertex : mesh.vertex_m) {
+    const frames::Vec3 place = mesh.origin_enu_m + vertex.cast<double>();
+    text += fmt::format("v {:.4f} {:.4f} {:.4f}\n", place.x(), place.y(), place.z());
+  }
+  for (const bool own : {true, false}) {
+    text += own ? "g source\n" : "g moved\n";
+    for (std::size_t i = 0; i < cut.triangles().size(); ++i) {
+      const auto& [a, b, c] = cut.triangles()[i];
+      if ((cut.triangles()[i] == mesh.triangle[cut.sources()[i]]) == own)
+        text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    }
+  }
+  tiles::write_file(path, text);
+}
+
 nlohmann::ordered_json ping_of(const progressive::Hierarchy& hierarchy, const Options& options) {
   const std::vector<progressive::View> views = {view_of(options)};
   progressive::Cut cut;
@@ -81,6 +100,7 @@ nlohmann::ordered_json ping_of(const progressive::Hierarchy& hierarchy, const Op
   std::size_t own = 0;
   for (std::size_t i = 0; i < cut.triangles().size(); ++i)
     own += cut.triangles()[i] == hierarchy.mesh.triangle[cut.sources()[i]] ? 1U : 0U;
+  if (!options.ping_out.empty()) write_ping(options.ping_out, hierarchy.mesh, cut);
   return {{"triangles", cut.triangles().size()}, {"of_the_source", own}};
 }
 
@@ -127,6 +147,7 @@ Verb add_lod(CLI::App& parent) {
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
   app->add_option("--at", options->at, "EAST NORTH UP in m, as the mesh counts: where the head is")->expected(3);
+  app->add_option("--ping-out", options->ping_out, "OBJ file for that ping's mesh")->needs("--at");
   app->add_option("--heading", options->heading_deg, "degrees from north")->capture_default_str();
   app->add_option("--pitch", options->pitch_deg, "degrees, bow up; 90 looks along the heading")->capture_default_str();
   app->add_option("--swath", options->swath_deg, "degrees")->check(CLI::Range(1.0, 180.0))->capture_default_str();
