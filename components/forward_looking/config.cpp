@@ -23,6 +23,7 @@ void read_pulse(ConfigReader& from, ForwardLookingConfig& c) {
   from.optional("pulse_length_s", c.pulse.length_s, 2e-6, 20e-3);
   from.optional("bandwidth_hz", c.pulse.bandwidth_hz, 1e3, 1e6);
   read_window(from, c.pulse.window);
+  from.optional("samples_per_pulse", c.pulse.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
   from.optional("most_samples", c.pulse.most_samples, 64, 20000);
   if (!c.pulse.chirp && from.has("bandwidth_hz")) {
     from.problem("bandwidth_hz", "only a chirp sweeps; leave it out or set pulse: chirp");

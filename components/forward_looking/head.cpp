@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/runtime/head/head_motion.h"
+#include "components/runtime/head/patch.h"
 #include "kernels/array/beam_layout.h"
 #include "kernels/array/line.h"
 #include "kernels/array/near_field.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr double kNominalSpeed_mps = 1500.0;  // for which arrays are built
 constexpr double kBeyondAperture_rad = 0.15;  // to where rays go, for the beams' side lobes
 constexpr double kWidest_rad = 1.5;
-constexpr double kCellsPerResolution = 2.0;  // of seabed that answers as one point
 constexpr double kVolumeStep_rad = 0.5 * std::numbers::pi / 180.0;
 
 double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
@@ -89,10 +89,11 @@ void ForwardLookingHead::prepare(double range_m) {
   const echo::Pulse pulse = echo_pulse(config_.pulse, ranged);
   const echo::SampledPulse sampled(pulse, ranged.sampling.period_s);
   const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
-  listening_.emplace(Listening{ranged, pulse, sampled, sampled.squared(),
-                               echo::Scatterers(resolution_m / kCellsPerResolution, {config_.world.seed, "seabed"}),
-                               trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
-                                                      {config_.world.seed, stream_of(config_, "rays")})});
+  listening_.emplace(
+      Listening{ranged, pulse, sampled, sampled.squared(),
+                echo::Scatterers(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
+                                       {config_.world.seed, stream_of(config_, "rays")})});
 }
 
 msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,

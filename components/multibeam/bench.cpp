@@ -41,6 +41,9 @@ void one_ping(benchmark::State& state) {
   MultibeamConfig config = head_in_plain_water();
   config.quality = 0.01 * static_cast<double>(state.range(0));
   config.world.water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
+  for (int sector = 0; state.range(2) > 1 && sector < state.range(2); ++sector) {
+    config.sectors.push_back({.frequency_hz = config.frequency_hz + 20e3 * sector, .delay_s = 200e-6 * sector});
+  }
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
   MultibeamHead head(config);
@@ -59,10 +62,12 @@ void one_ping(benchmark::State& state) {
   }
 }
 BENCHMARK(one_ping)
-    ->ArgNames({"quality_pct", "calm"})
-    ->Args({25, 0})
-    ->Args({25, 1})
-    ->Args({100, 0})
+    ->ArgNames({"quality_pct", "calm", "sectors"})
+    ->Args({25, 0, 1})
+    ->Args({25, 0, 3})
+    ->Args({25, 1, 1})
+    ->Args({100, 0, 1})
+    ->Args({100, 0, 3})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 

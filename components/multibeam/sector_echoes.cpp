@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/runtime/head/head_motion.h"
+#include "components/runtime/head/patch.h"
 #include "kernels/array/stabilisation.h"
 
 namespace ensonify {
@@ -101,14 +102,13 @@ SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, doubl
   const trace::RaySettings rays{.quality = config_.quality,
                                 .range_resolution_m = resolution_m,
                                 .fewest_rays = kFewestRays / config_.all_sectors().size()};
-  // Cells of the range resolution: finer ones would have too few rays each to be found again by the next ping.
   return {pulse_length_s,
           swath_rad,
           sectors_of(config_, swath_rad)[sector_].centre_rad,
           pulse,
           sampled,
           sampled.squared(),
-          echo::Scatterers(resolution_m, {config_.world.seed, "seabed"}),
+          echo::Scatterers(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
           trace::RayDistribution(volume_of(config_, sector_, swath_rad), rays,
                                  {config_.world.seed, stream_of(config_, sector_, "rays")}),
           std::move(directions)};

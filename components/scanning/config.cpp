@@ -28,6 +28,7 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   from.optional("tilt_deg", c.tilt_rad, -90, 90, kDegrees);
   read_scan(from, c.scan);
   from.optional("pulse_length_s", c.pulse.length_s, 1e-6, 20e-3);
+  from.optional("samples_per_pulse", c.pulse.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
   from.optional("most_samples", c.pulse.most_samples, 64, 20000);
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional("range_m", c.range_m, 0.5, 1000);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/ranged_pulse.h"
 
 namespace ensonify {
 namespace {
@@ -48,6 +49,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional("tapered_fraction", c.tapered_fraction, 0, 1);
   from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
   read_window(from, c.window);
+  from.optional("samples_per_pulse", c.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
   from.optional("range_m", c.range_m, 1, 1000);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   // Two-way, the half-power width of a uniform line is 36.55 of the 50.76 lambda / L degrees.

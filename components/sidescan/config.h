@@ -35,6 +35,7 @@ struct SidescanChannel {
   double tapered_fraction = 0.0;  // of a tone's length that rises and falls; its level is that in between
   double bandwidth_hz = 0.0;      // that a chirp sweeps
   echo::Window window = echo::Window::kHamming;  // of its matched filter
+  double samples_per_pulse = 2.0;                // of a tone, or per 1 / bandwidth of a chirp
   double range_m = 100.0;                        // the longest that is listened to, slant
   double electronic_noise_db = -200.0;           // as sound in the water, re 1 uPa^2/Hz
 
@@ -42,9 +43,9 @@ struct SidescanChannel {
   bool operator==(const SidescanChannel&) const = default;
 
   echo::Pulse pulse(double length_s) const;
-  /// Of the echo of one point: two samples per inverse of it are taken.
+  /// Of the echo of one point: samples_per_pulse are taken per inverse of it.
   double band_hz() const { return chirp ? bandwidth_hz : 1.0 / pulse_length_s; }
-  double sample_period_s() const { return 0.5 / band_hz(); }
+  double sample_period_s() const { return 1.0 / (samples_per_pulse * band_hz()); }
   /// c / 2B of a chirp, c tau / 2 of a tone.
   double resolution_m(double sound_speed_mps) const { return 0.5 * sound_speed_mps / band_hz(); }
 

@@ -3,91 +3,125 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/forward_looking/head.h"
+#include "components/multibeam/head.h"
 #include "components/runtime/head/tile_set.h"
 #include "kernels/array/line.h"
-#include "tests/physics/area_integral.h"
+#include "tests/physics/dip.h"
 #include "tests/physics/sidescan_ping.h"
+#include "tests/physics/strips.h"
 
-// Two bright strips of a dark level seabed through the whole sidescan head, rays and patches of seabed included, as
-// sums of mean squares: the mean over the strips' phases. resolution_test.cpp has the same for points and kernels.
+// Two bright strips of a dark level seabed through whole heads, rays and patches of seabed included.
+// resolution_test.cpp has the same for points and kernels.
 
 using namespace ensonify;
 using namespace ensonify::physics;
 
 namespace {
 
-constexpr double kAltitude_m = 10.0;
-constexpr double kPost_m = 0.01;  // a strip is two posts wide
+constexpr double kAltitude_m = 10.0, kSpeed_mps = 1500.0;
+constexpr double kPulse_s = 100e-6, kCell_m = 0.5 * kSpeed_mps * kPulse_s;
+constexpr double kSixPerPulse = 6.0, kEightPerPulse = 8.0;
+constexpr double kPost_m = 0.01, kFine_m = 0.005;  // a strip is two posts wide
+constexpr int kPlaces = 16;       // between two samples
 
-/// Level seabed to starboard of a head at the origin, as far as `reach_m` and `half_m` fore and aft; bright where told.
-template <class Bright>
-msg::Tile seabed(double reach_m, double half_m, const Bright& bright) {
-  const auto along = static_cast<std::size_t>(2.0 * half_m / kPost_m) + 1;
-  const auto across = static_cast<std::size_t>(reach_m / kPost_m) + 1;
-  msg::Tile tile;
-  tile.origin_north_m = -half_m;
-  tile.spacing_m = kPost_m;
-  tile.height_m = msg::Array<float>({along, across});
-  tile.sediment = msg::Array<std::uint8_t>({along, across});
-  for (float& height : tile.height_m.flat()) height = static_cast<float>(-kAltitude_m);
-  for (std::size_t row = 0; row < along; ++row) {
-    for (std::size_t col = 0; col < across; ++col) {
-      const double east_m = kPost_m * static_cast<double>(col), north_m = kPost_m * static_cast<double>(row) - half_m;
-      tile.sediment(row, col) = bright(east_m, north_m) ? 1 : 0;
-    }
-  }
-  return tile;
+double ground_m(double slant_m) { return std::sqrt(slant_m * slant_m - kAltitude_m * kAltitude_m); }
+
+/// Two strips across the view, `apart_m` of slant range apart.
+auto strips_at(double slant_m, double apart_m, double post_m) {
+  return [near_m = ground_m(slant_m), far_m = ground_m(slant_m + apart_m), post_m](double away_m) {
+    return std::abs(away_m - near_m) < post_m || std::abs(away_m - far_m) < post_m;
+  };
+}
+
+std::vector<double> powers_of(std::span<const float> amplitudes) {
+  std::vector<double> powers;
+  for (const float a : amplitudes) powers.push_back(double(a) * double(a));
+  return powers;
+}
+
+frames::PoseHistory resting_at(const frames::Vec3& position_enu_m) {
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {position_enu_m, frames::enu_from_ned()});
+  return truth;
 }
 
 /// Patches of seabed are a fortieth of the beam at 100 m: 4 mm for 0.1 degrees.
-SidescanConfig over_strips(double width_deg, double range_m) {
+SidescanConfig sidescan_over_strips(double width_deg, double range_m) {
   SidescanConfig config = sidescan_of(400e3);
-  config.world.seabed.sediments[0] = seabed::Lambert{-120.0};
-  config.world.seabed.sediments[1] = seabed::Lambert{-10.0};
+  hear_strips(config);
   config.channels[0].horizontal_beamwidth_rad = width_deg * SidescanChannel::kDegree;
   config.channels[0].range_m = range_m;
-  config.effects.speckle = config.effects.absorption = false;
   config.quality = 2.0;
   return config;
 }
 
-/// How far the signal falls between its highest point and another that is half as high at least, dB; 0 for one peak.
-double dip_db(const std::vector<double>& signal) {
-  const auto peak = std::max_element(signal.begin(), signal.end());
-  double dip = 0.0;
-  const auto outward = [&](auto from, auto to) {
-    double lowest = *peak;
-    for (auto at = from; at != to; ++at) {
-      lowest = std::min(lowest, *at);
-      if (*at > 0.5 * *peak) dip = std::max(dip, db(*at / std::max(lowest, 1e-9 * *peak)));
-    }
-  };
-  outward(peak, signal.end());
-  outward(std::make_reverse_iterator(peak), signal.rend());
-  return dip;
+/// Of two strips along the track, `apart_m` of slant range apart and 50 m away.
+Dips of_sidescan(const SidescanConfig& config, double apart_m) {
+  constexpr double kHalf_m = 0.25, kNear_m = 50.0;
+  const auto strips = strips_at(kNear_m, apart_m, kPost_m);
+  TileSet tiles;
+  tiles.insert(striped({kAltitude_m, kPost_m, 48.85, -kHalf_m, 49.25, kHalf_m},
+                       [&](double east_m, double) { return strips(east_m); }));
+  const double sample_m = 0.5 * kSpeed_mps * config.channels[0].sample_period_s();
+  Dips dips;
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto ping = sidescan_ping(config, tiles.scene(), {i * sample_m / kPlaces, 0.0, 0.0});
+    dips.add(dip_db(powers_of(ping.amplitude_upa.row(1))));
+  }
+  return dips;
 }
 
-struct Dips {
-  double shallowest = 1e9, deepest = 0.0;
-};
-
-/// Of two strips along the track, `apart_m` of slant range apart and 50 m away, wherever they lie between samples.
-Dips across_track(double apart_m) {
-  constexpr double kNear_m = 50.0, kHalf_m = 0.25;
-  const auto ground_m = [](double slant_m) { return std::sqrt(slant_m * slant_m - kAltitude_m * kAltitude_m); };
+/// A multibeam's beam 45 degrees to starboard, over strips along the track.
+Dips of_multibeam(double apart_m) {
+  MultibeamConfig config;
+  hear_strips(config);
+  config.frequency_hz = 400e3;
+  config.sample_rate_hz = kEightPerPulse / kPulse_s;
+  config.quality = 4.0;
+  const double slant_m = std::numbers::sqrt2 * kAltitude_m;
+  const auto strips = strips_at(slant_m, apart_m, kFine_m);
   TileSet tiles;
-  tiles.insert(seabed(52.0, kHalf_m, [&](double east_m, double) {
-    return std::abs(east_m - ground_m(kNear_m)) < kPost_m || std::abs(east_m - ground_m(kNear_m + apart_m)) < kPost_m;
-  }));
-  const SidescanConfig config = over_strips(0.1, 51.0);
+  tiles.insert(
+      striped({kAltitude_m, kFine_m, 9.97, -0.1, 10.25, 0.1}, [&](double east_m, double) { return strips(east_m); }));
+  const HeadSettings settings = config.start();
+  const Steering steering = steer(config, config.swath_rad, {.sound_speed_mps = kSpeed_mps});
+  MultibeamHead head(config);
   Dips dips;
-  for (int i = 0; i < 4; ++i) {
-    const double sample_m = 0.5 * 0.5 * 1500.0 * config.channels[0].pulse_length_s;
-    const auto ping = sidescan_ping(config, tiles.scene(), {i * sample_m / 4.0, 0.0, 0.0});
-    std::vector<double> powers;
-    for (const float a : ping.amplitude_upa.row(1)) powers.push_back(double(a) * double(a));
-    const double dip = dip_db(powers);
-    dips.shallowest = std::min(dips.shallowest, dip), dips.deepest = std::max(dips.deepest, dip);
+  for (int i = 0; i < kPlaces; ++i) {
+    const double sample_m = 0.5 * kSpeed_mps / config.sample_rate_hz;
+    const auto truth = resting_at({std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0, 0.0});
+    const Shot shot{0, SimTime{0}, 17.0};
+    head.listen(shot, settings, steering, truth, tiles.scene());
+    const auto ping = head.ping_message(shot, settings, steering, false);
+    std::size_t beam = 0;
+    while (double(ping.beam_angle_rad[beam]) < 0.25 * std::numbers::pi) ++beam;
+    dips.add(dip_db(powers_of(ping.amplitude_upa.row(beam))));
+  }
+  return dips;
+}
+
+/// A forward-looking head's middle beam, over strips across its view.
+Dips of_forward_looking(double apart_m) {
+  ForwardLookingConfig config;
+  hear_strips(config);
+  config.pulse = {.length_s = kPulse_s, .samples_per_pulse = kEightPerPulse};
+  config.tilt_rad = 0.25 * std::numbers::pi;
+  config.aperture_rad = 0.35;
+  config.beams = 21;
+  config.range_m = 17.0;
+  config.quality = 4.0;
+  const auto strips = strips_at(std::numbers::sqrt2 * kAltitude_m, apart_m, kFine_m);
+  TileSet tiles;
+  tiles.insert(
+      striped({kAltitude_m, kFine_m, -0.1, 9.97, 0.1, 10.25}, [&](double, double north_m) { return strips(north_m); }));
+  ForwardLookingHead head(config);
+  Dips dips;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double sample_m = 0.5 * kSpeed_mps * kPulse_s / kEightPerPulse;
+    const auto truth = resting_at({0.0, std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0});
+    const auto ping = head.listen({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene());
+    dips.add(dip_db(powers_of(ping.amplitude_upa.row(static_cast<std::size_t>(config.beams) / 2))));
   }
   return dips;
 }
@@ -102,8 +136,8 @@ AlongTrack along_track(double apart_in_widths) {
   const double width_rad = kWidth_deg * std::numbers::pi / 180.0, apart_m = apart_in_widths * kRange_m * width_rad;
   const auto bright = [&](double, double north_m) { return std::abs(std::abs(north_m) - 0.5 * apart_m) < kPost_m; };
   TileSet tiles;
-  tiles.insert(seabed(31.0, kHalf_m, bright));
-  const SidescanConfig config = over_strips(kWidth_deg, 31.0);
+  tiles.insert(striped({kAltitude_m, kPost_m, 0.0, -kHalf_m, 31.0, kHalf_m}, bright));
+  const SidescanConfig config = sidescan_over_strips(kWidth_deg, 31.0);
   const double waves = array::length_in_waves_for(width_rad);
   std::vector<double> found, theory;
   for (int step = -6; step <= 6; ++step) {
@@ -121,14 +155,51 @@ AlongTrack along_track(double apart_in_widths) {
 
 }  // namespace
 
+TEST_CASE("with six samples a pulse a sidescan parts strips 1.2 x c tau / 2 apart wherever they lie, and not 0.7 x") {
+  // The strips are 20 mm wide in slant range, a quarter of c tau / 2: their echoes pass half
+  // power where those of points in their middle end and begin, so a fifth of a pulse lies between them.
+  SidescanConfig config = sidescan_over_strips(0.1, 51.0);
+  config.channels[0].samples_per_pulse = kSixPerPulse;
+  CHECK(of_sidescan(config, 1.2 * kCell_m).shallowest > 3.0);
+  CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
+}
+
 TEST_CASE(
-    "a sidescan parts strips 1.5 x c tau / 2 apart wherever they lie, 1.2 x where a sample falls between, 0.7 x "
-    "never") {
-  // It takes two samples a pulse. The strips are 10 mm wide in slant range, a seventh of c tau / 2.
-  constexpr double kCell_m = 0.075;
-  CHECK(across_track(1.65 * kCell_m).shallowest > 3.0);
-  CHECK(across_track(1.2 * kCell_m).deepest > 3.0);
-  CHECK(across_track(0.7 * kCell_m).deepest < 1.0);
+    "with two samples a pulse a sidescan parts strips 1.65 x c tau / 2 apart wherever they lie, and 1.2 x by luck") {
+  const SidescanConfig config = sidescan_over_strips(0.1, 51.0);
+  CHECK(of_sidescan(config, 1.65 * kCell_m).shallowest > 3.0);
+  const Dips near = of_sidescan(config, 1.2 * kCell_m);
+  CHECK(near.deepest > 3.0);
+  CHECK(near.shallowest < 3.0);
+  CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
+}
+
+TEST_CASE("a sidescan's chirp parts strips 1.2 x c / 2B apart wherever they lie, and not 0.7 x") {
+  // Points dip by 3.04 dB at the instant between them (resolution_test.cpp). 20 samples per 1 / B miss it by 1 / 40 at
+  // most; strips a quarter of a cell wide on posts of their own move it by half a dB either way.
+  SidescanConfig config = sidescan_over_strips(0.1, 51.0);
+  config.channels[0].chirp = true;
+  config.channels[0].pulse_length_s = 4e-3;
+  config.channels[0].bandwidth_hz = 1.0 / kPulse_s;
+  config.channels[0].window = echo::Window::kNone;
+  config.channels[0].samples_per_pulse = 20.0;
+  const Dips two = of_sidescan(config, 1.2 * kCell_m);
+  CHECK(two.shallowest > 2.5);
+  CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
+}
+
+TEST_CASE("at reference, with eight samples a pulse, a multibeam parts strips 1.2 x c tau / 2 apart, and not 0.7 x") {
+  // Patches of seabed are a quarter of c tau / 2 wide then, and answer from anywhere in them: of the fifth of a pulse
+  // between points, strips leave half.
+  const Dips two = of_multibeam(1.2 * kCell_m), one = of_multibeam(0.7 * kCell_m);
+  CHECK(two.shallowest > 3.0);
+  CHECK(one.deepest < 1.0);
+}
+
+TEST_CASE("at reference, with eight samples a pulse, a forward-looking head parts them too") {
+  const Dips two = of_forward_looking(1.2 * kCell_m), one = of_forward_looking(0.7 * kCell_m);
+  CHECK(two.shallowest > 3.0);
+  CHECK(one.deepest < 1.0);
 }
 
 TEST_CASE("a sidescan parts strips 1.2 beam widths apart along the track, and not 0.7") {

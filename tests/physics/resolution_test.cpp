@@ -5,7 +5,7 @@
 
 #include "kernels/array/line.h"
 #include "kernels/echo/aperture.h"
-#include "tests/physics/area_integral.h"
+#include "tests/physics/dip.h"
 
 // Two equal points, seen by a line of 0.5 degrees that sends and hears, as sums of mean squares: the mean over the
 // points' phases.
@@ -51,34 +51,12 @@ std::vector<double> hear(const std::vector<Vec3>& points_enu_m, double forward_m
   return heard;
 }
 
-/// How deep the signal falls between its two halves' peaks, dB; 0 for one peak.
-double dip_db(const std::vector<double>& signal) {
-  const auto peak = std::max_element(signal.begin(), signal.end());
-  // The second point's peak: the highest value that a lower one parts from the first.
-  double dip = 0.0, lowest = *peak;
-  for (auto at = peak; at != signal.end(); ++at) {
-    lowest = std::min(lowest, *at);
-    dip = std::max(dip, *at > 0.5 * *peak ? db(*at / lowest) : 0.0);
-  }
-  lowest = *peak;
-  for (auto at = peak;; --at) {
-    lowest = std::min(lowest, *at);
-    dip = std::max(dip, *at > 0.5 * *peak ? db(*at / lowest) : 0.0);
-    if (at == signal.begin()) break;
-  }
-  return dip;
-}
-
-/// Of two points `apart_m` of slant range apart, wherever they lie between samples: the shallowest and the deepest dip.
-struct Dips {
-  double shallowest, deepest;
-};
+/// Of two points `apart_m` of slant range apart, at 16 places between samples.
 Dips across_track(const echo::Pulse& pulse, double period_s, double apart_m) {
-  Dips dips{1e9, 0.0};
+  Dips dips;
   for (int i = 0; i < 16; ++i) {
     const double near_m = kRange_m + i * 0.5 * kSpeed_mps * period_s / 16;
-    const double dip = dip_db(hear({{near_m, 0.0, 0.0}, {near_m + apart_m, 0.0, 0.0}}, 0.0, pulse, period_s));
-    dips.shallowest = std::min(dips.shallowest, dip), dips.deepest = std::max(dips.deepest, dip);
+    dips.add(dip_db(hear({{near_m, 0.0, 0.0}, {near_m + apart_m, 0.0, 0.0}}, 0.0, pulse, period_s)));
   }
   return dips;
 }
@@ -96,12 +74,11 @@ double along_track(double apart_m) {
 }  // namespace
 
 TEST_CASE("across track, tones part points 1.2 x c tau / 2 apart and not 0.7 x") {
-  // 10 samples a pulse, so that one falls into the silence of 0.2 tau between the two; with the two samples a pulse
-  // that heads take it is missed by chance (below).
+  // 6 samples a pulse, so that one falls into the silence of 0.2 tau between the two wherever they lie.
   constexpr double kPulse_s = 100e-6, kCell_m = 0.5 * kSpeed_mps * kPulse_s;
   const echo::Pulse tone = echo::rectangular_pulse(kPulse_s);
-  CHECK(across_track(tone, 10e-6, 1.2 * kCell_m).shallowest > 3.0);
-  CHECK(across_track(tone, 10e-6, 0.7 * kCell_m).deepest < 1e-3);
+  CHECK(across_track(tone, kPulse_s / 6.0, 1.2 * kCell_m).shallowest > 3.0);
+  CHECK(across_track(tone, kPulse_s / 6.0, 0.7 * kCell_m).deepest < 1e-3);
 }
 
 TEST_CASE("at two samples a pulse, points must be 1.5 x c tau / 2 apart to part wherever they lie") {

@@ -13,10 +13,10 @@ constexpr double kLeastSweep = 4.000001;  // bandwidth x length: over the 4 that
 RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_speed_mps) {
   const double listening_s = 2.0 * range_m / sound_speed_mps;
   RangedPulse pulse;
-  pulse.band_hz =
-      std::min(design.chirp ? design.bandwidth_hz : 1.0 / design.length_s, 0.5 * design.most_samples / listening_s);
+  pulse.band_hz = std::min(design.chirp ? design.bandwidth_hz : 1.0 / design.length_s,
+                           design.most_samples / (design.samples_per_pulse * listening_s));
   pulse.length_s = design.chirp ? std::max(design.length_s, kLeastSweep / pulse.band_hz) : 1.0 / pulse.band_hz;
-  pulse.sampling.period_s = 0.5 / pulse.band_hz;
+  pulse.sampling.period_s = 1.0 / (design.samples_per_pulse * pulse.band_hz);
   const double samples = std::ceil(listening_s / pulse.sampling.period_s - 1e-6);
   pulse.sampling.count = std::clamp(static_cast<int>(samples), 1, design.most_samples);
   return pulse;

@@ -5,14 +5,20 @@
 
 namespace ensonify {
 
+/// Complex samples per pulse of a tone, or per 1 / B of a chirp. Fewer would let echoes fall between them. Rectangular
+/// tones that arrive 1.2 pulses apart leave a fifth of a pulse between them: from 6 on, a sample finds it wherever
+/// it lies.
+constexpr double kFewestPerPulse = 2.0, kMostPerPulse = 20.0;
+
 /// The pulse of a head that records a limited number of samples per beam, whatever its range: an imaging head, whose
-/// operator sees a picture of some hundred rows. Two samples are taken per 1 / B; where they would not reach the range,
-/// B is lowered: a chirp sweeps less, a tone lasts longer.
+/// operator sees a picture of some hundred rows. samples_per_pulse are taken per 1 / B; where they would not reach the
+/// range, B is lowered: a chirp sweeps less, a tone lasts longer.
 struct PulseDesign {
   bool chirp = false;                            // a linear sweep and its matched filter; else a tone
   double length_s = 100e-6;                      // of a tone, the shortest
   double bandwidth_hz = 0.0;                     // that a chirp sweeps at most
   echo::Window window = echo::Window::kHamming;  // of its filter
+  double samples_per_pulse = kFewestPerPulse;    // of a tone, or per 1 / B of a chirp
   int most_samples = 2000;                       // per beam
 
   bool operator==(const PulseDesign&) const = default;
