@@ -44,6 +44,7 @@ void one_ping(benchmark::State& state) {
   for (int sector = 0; state.range(2) > 1 && sector < state.range(2); ++sector) {
     config.sectors.push_back({.frequency_hz = config.frequency_hz + 20e3 * sector, .delay_s = 200e-6 * sector});
   }
+  config.sample_rate_hz = static_cast<double>(state.range(3)) / config.pulse_length_s;
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
   MultibeamHead head(config);
@@ -62,12 +63,13 @@ void one_ping(benchmark::State& state) {
   }
 }
 BENCHMARK(one_ping)
-    ->ArgNames({"quality_pct", "calm", "sectors"})
-    ->Args({25, 0, 1})
-    ->Args({25, 0, 3})
-    ->Args({25, 1, 1})
-    ->Args({100, 0, 1})
-    ->Args({100, 0, 3})
+    ->ArgNames({"quality_pct", "calm", "sectors", "per_pulse"})
+    ->Args({25, 0, 1, 2})
+    ->Args({25, 0, 1, 6})
+    ->Args({25, 0, 3, 2})
+    ->Args({25, 1, 1, 2})
+    ->Args({100, 0, 1, 2})
+    ->Args({100, 0, 3, 2})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 

@@ -23,7 +23,7 @@ constexpr double kAltitude_m = 10.0, kSpeed_mps = 1500.0;
 constexpr double kPulse_s = 100e-6, kCell_m = 0.5 * kSpeed_mps * kPulse_s;
 constexpr double kSixPerPulse = 6.0, kEightPerPulse = 8.0;
 constexpr double kPost_m = 0.01, kFine_m = 0.005;  // a strip is two posts wide
-constexpr int kPlaces = 16;       // between two samples
+constexpr int kPlaces = 16;                        // between two samples
 
 double ground_m(double slant_m) { return std::sqrt(slant_m * slant_m - kAltitude_m * kAltitude_m); }
 
@@ -136,7 +136,7 @@ AlongTrack along_track(double apart_in_widths) {
   const double width_rad = kWidth_deg * std::numbers::pi / 180.0, apart_m = apart_in_widths * kRange_m * width_rad;
   const auto bright = [&](double, double north_m) { return std::abs(std::abs(north_m) - 0.5 * apart_m) < kPost_m; };
   TileSet tiles;
-  tiles.insert(striped({kAltitude_m, kPost_m, 0.0, -kHalf_m, 31.0, kHalf_m}, bright));
+  tiles.insert(striped({kAltitude_m, kPost_m, 20.0, -kHalf_m, 31.0, kHalf_m}, bright));
   const SidescanConfig config = sidescan_over_strips(kWidth_deg, 31.0);
   const double waves = array::length_in_waves_for(width_rad);
   std::vector<double> found, theory;

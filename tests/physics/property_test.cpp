@@ -46,17 +46,43 @@ std::string effects_yaml(Draws& draw) {
   return yaml;
 }
 
+std::string lod_yaml(Draws& draw) {
+  return fmt::format("lod: {{ enabled: {}, side_lobes: {} }}\n", draw.yes(), draw.whole(0, 5));
+}
+
+/// The length of a pulse, and half of the time the sweep that makes a chirp of it.
+struct RandomPulse {
+  double length_s, band_hz;
+  std::string yaml;
+};
+RandomPulse random_pulse(Draws& draw, const char* indent) {
+  const char* const windows[] = {"none", "hann", "hamming", "blackman"};
+  RandomPulse pulse{draw.scale(3e-5, 1e-3), 0.0, {}};
+  const double sweep_hz = draw.between(4.1, 6.0) / pulse.length_s;
+  const bool chirp = draw.yes();
+  pulse.band_hz = chirp ? sweep_hz : 1.0 / pulse.length_s;
+  pulse.yaml = fmt::format("{}pulse_length_s: {}\n", indent, pulse.length_s);
+  if (chirp) {
+    pulse.yaml += fmt::format("{0}pulse: chirp\n{0}bandwidth_hz: {1}\n{0}window: {2}\n", indent, sweep_hz,
+                              windows[draw.whole(0, 3)]);
+  } else {
+    pulse.yaml += fmt::format("{}pulse: tone\n", indent);
+  }
+  return pulse;
+}
+
 // Ranges and samples are kept small, for speed; all else goes to the ends of what the heads' readers allow.
 
 std::string multibeam_yaml(Draws& draw) {
-  const double pulse_s = draw.scale(3e-5, 1e-3);
+  const RandomPulse pulse = random_pulse(draw, "");
   const char* const spacings[] = {"equiangle", "equidistant", "high_density"};
   std::string yaml = fmt::format(
       "frequency_hz: {}\nbeams: {}\nswath_deg: {}\nspacing: {}\ntransmit_beamwidth_deg: {}\nreceive_beamwidth_deg: {}\n"
-      "pulse_length_s: {}\nsample_rate_hz: {}\nsource_level_db: {}\nauto_range: {}\nrange_m: {}\nquality: 0.05\n",
+      "sample_rate_hz: {}\nsource_level_db: {}\nauto_range: {}\nrange_m: {}\nquality: 0.05\n",
       draw.scale(50e3, 1e6), draw.whole(2, 100), draw.between(1, 170), spacings[draw.whole(0, 2)], draw.scale(0.5, 20),
-      draw.scale(0.5, 20), pulse_s, draw.between(2.0, 4.0) / pulse_s, draw.between(-300, 250), draw.yes(),
+      draw.scale(0.5, 20), draw.between(2.0, 4.0) * pulse.band_hz, draw.between(-300, 250), draw.yes(),
       draw.scale(1, 40));
+  yaml += pulse.yaml + lod_yaml(draw);
   yaml += fmt::format(
       "detections_per_beam: {}\nback_loss_db: {}\nconverter:\n  bits: {}\nphase_every: {}\nsnippets: {}\n"
       "seabed_image:\n  published: true\nleast_range_m: {}\n",
@@ -73,25 +99,27 @@ std::string multibeam_yaml(Draws& draw) {
 }
 
 std::string sidescan_yaml(Draws& draw) {
-  return fmt::format(
-             "channels:\n  - name: main\n    frequency_hz: {}\n    horizontal_beamwidth_deg: {}\n"
-             "    vertical_beamwidth_deg: {}\n    depression_deg: {}\n    back_loss_db: {}\n    source_level_db: {}\n"
-             "    pulse_length_s: {}\n    range_m: {}\nconverter:\n  bits: {}\nquality: 0.1\n",
-             draw.scale(50e3, 1e6), draw.scale(0.05, 10), draw.between(5, 150), draw.between(0, 90),
-             draw.between(0, 100), draw.between(-300, 250), draw.scale(2e-5, 1e-3), draw.scale(1, 40),
-             draw.yes() ? 0 : draw.whole(1, 16)) +
-         effects_yaml(draw);
+  const char* const focuses[] = {"ideal", "echo", "off", "fixed\n    focus_m: 10"};
+  std::string yaml = fmt::format(
+      "channels:\n  - name: main\n    frequency_hz: {}\n    horizontal_beamwidth_deg: {}\n"
+      "    vertical_beamwidth_deg: {}\n    depression_deg: {}\n    back_loss_db: {}\n    source_level_db: {}\n"
+      "    range_m: {}\n    samples_per_pulse: {}\n    focus: {}\n",
+      draw.scale(50e3, 1e6), draw.scale(0.05, 10), draw.between(5, 150), draw.between(0, 90), draw.between(0, 100),
+      draw.between(-300, 250), draw.scale(1, 40), draw.between(2, 6), focuses[draw.whole(0, 3)]);
+  yaml += random_pulse(draw, "    ").yaml;
+  yaml += fmt::format("converter:\n  bits: {}\nquality: 0.1\n", draw.yes() ? 0 : draw.whole(1, 16));
+  return yaml + lod_yaml(draw) + effects_yaml(draw);
 }
 
 std::string forward_looking_yaml(Draws& draw) {
   return fmt::format(
              "frequency_hz: {}\nbeams: {}\naperture_deg: {}\nbeamwidth_deg: {}\ntransmit_vertical_deg: {}\n"
-             "receive_vertical_deg: {}\ntilt_deg: {}\npulse: tone\npulse_length_s: {}\nmost_samples: {}\n"
+             "receive_vertical_deg: {}\ntilt_deg: {}\nsamples_per_pulse: {}\nmost_samples: {}\n"
              "source_level_db: {}\nrange_m: {}\nconverter:\n  bits: {}\nquality: 0.05\n",
              draw.scale(50e3, 3e6), draw.whole(16, 64), draw.between(10, 160), draw.scale(1, 10), draw.scale(1, 90),
-             draw.scale(1, 90), draw.between(-90, 90), draw.scale(2e-5, 1e-3), draw.whole(64, 300),
+             draw.scale(1, 90), draw.between(-90, 90), draw.between(2, 20), draw.whole(64, 300),
              draw.between(-300, 250), draw.scale(0.5, 40), draw.yes() ? 0 : draw.whole(1, 16)) +
-         effects_yaml(draw);
+         random_pulse(draw, "").yaml + lod_yaml(draw) + effects_yaml(draw);
 }
 
 std::string scanning_yaml(Draws& draw) {
@@ -212,6 +240,10 @@ int check_finite(const Run& run) {
     for (std::size_t i = 0; i < s.valid.size(); ++i) {
       if (s.valid[i] == 0) continue;
       REQUIRE(std::isfinite(s.travel_time_s[i]));
+      for (const auto* values : {&s.backscatter_db, &s.backscatter_strength_db, &s.quality_db, &s.range_sd_m,
+                                 &s.angle_sd_rad, &s.window_s}) {
+        if (values->size() > 0) REQUIRE(std::isfinite((*values)[i]));
+      }
       for (std::size_t axis = 0; axis < 3; ++axis) REQUIRE(std::isfinite(s.position_enu_m(i, axis)));
     }
   }
