@@ -39,11 +39,15 @@ msg::Soundings ping_at(double east_m, double north_m, SimTime t) {
   msg::Soundings soundings;
   soundings.stamp_ns = t.count();
   soundings.valid = msg::Array<std::uint8_t>({121});
+  soundings.tvu_m = msg::Array<float>({121});
+  soundings.thu_m = msg::Array<float>({121});
   soundings.position_enu_m = msg::Array<double>({121, 3});
   for (std::size_t i = 0; i < 121; ++i) {
     const double tangent = std::tan((static_cast<double>(i) - 60.0) * 3.14159265358979 / 180.0);
     const double x = depth_m(east_m) * tangent / (1.0 - 0.03 * tangent);
     soundings.valid[i] = 1;
+    soundings.tvu_m[i] = i < 110 ? 0.2F : 0.5F;  // 9 % of the beams beyond Special Order, as far down as 40 m
+    soundings.thu_m[i] = 1.0F;
     soundings.position_enu_m(i, 0) = east_m + x;
     soundings.position_enu_m(i, 1) = north_m;
     soundings.position_enu_m(i, 2) = -depth_m(east_m + x);
@@ -110,4 +114,10 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
   CHECK(cube["everywhere"].get<double>() < 6.1);
   CHECK(cube["in_95_percent"] <= cube["everywhere"]);
   CHECK(cube["share_found_of_1_m"] < cube["share_found_of_2_m"]);
+  const auto uncertainty = nlohmann::json::parse(report)["uncertainty"];
+  CHECK(uncertainty["soundings"] == (line + 1) * 60 * 121);
+  CHECK(uncertainty["tvu_95_m"].get<double>() == Approx(0.5));
+  CHECK(uncertainty["thu_95_m"] == 1.0);
+  CHECK(uncertainty["share_in_special_order"].get<double>() == Approx(110.0 / 121.0));
+  CHECK(uncertainty["share_in_order_1a"] == 1.0);
 }

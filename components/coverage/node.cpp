@@ -46,6 +46,13 @@ void CoverageNode::take(const msg::Soundings& soundings) {
     const survey::Vec2 place(soundings.position_enu_m(i, 0), soundings.position_enu_m(i, 1));
     covered_.add(place, soundings.position_enu_m(i, 2));
     cubes_.add(place);
+    if (i < soundings.tvu_m.size() && i < soundings.thu_m.size()) {
+      const double depth_m = std::max(0.0, -soundings.position_enu_m(i, 2));
+      tvu_m_.push_back(soundings.tvu_m[i]);
+      thu_m_.push_back(soundings.thu_m[i]);
+      in_special_order_ += survey::meets(survey::kSpecialOrder, depth_m, tvu_m_.back(), thu_m_.back());
+      in_order_1a_ += survey::meets(survey::kOrder1a, depth_m, tvu_m_.back(), thu_m_.back());
+    }
   }
   if (!first_ns_) first_ns_ = soundings.stamp_ns;
   last_ns_ = soundings.stamp_ns;
@@ -140,6 +147,24 @@ nlohmann::ordered_json CoverageNode::cube_report() const {
   return report;
 }
 
+/// What 95 % of the soundings are less uncertain than, as the head predicts them, and the shares that S-44 would take.
+nlohmann::ordered_json CoverageNode::uncertainty_report() const {
+  nlohmann::ordered_json report;
+  if (tvu_m_.empty()) return report;
+  const auto within_95 = [](std::vector<float> values) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(tvu_m_.size()); };
+  report["soundings"] = tvu_m_.size();
+  report["tvu_95_m"] = within_95(tvu_m_);
+  report["thu_95_m"] = within_95(thu_m_);
+  report["share_in_special_order"] = share(in_special_order_);
+  report["share_in_order_1a"] = share(in_order_1a_);
+  return report;
+}
+
 void CoverageNode::finish_run() const {
   const auto depths = covered_.depths(-config_.head_depth_m);
   const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_cell_m * std::tan(swath_.half_angle_rad);
@@ -154,6 +179,7 @@ void CoverageNode::finish_run() const {
   report["overlapped"] = covered_.overlapped();
   report["elapsed_s"] = elapsed_s;
   report["cost"] = config_.cost_per_day * elapsed_s / 86400.0;
+  report["uncertainty"] = uncertainty_report();
   report["cube_m"] = cube_report();
   report["shallowest_m"] = depths.shallowest_cell_m;
   report["columns_m"] = {depths.shallowest_column_m, depths.deepest_column_m};

@@ -8,6 +8,7 @@
 #include "components/runtime/ports.h"
 #include "kernels/survey/coverage.h"
 #include "kernels/survey/cubes.h"
+#include "kernels/survey/order.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
@@ -34,6 +35,7 @@ class CoverageNode {
   msg::Coverage coverage(SimTime now) const;
   std::vector<survey::Runline> lines_at(std::size_t count) const;
   nlohmann::ordered_json cube_report() const;
+  nlohmann::ordered_json uncertainty_report() const;
 
   CoverageConfig config_;
   Ports& ports_;
@@ -46,7 +48,9 @@ class CoverageNode {
   std::int64_t lines_ = 0;  // flown
   int hole_lines_ = 0;      // of them, flown for holes
   bool filling_ = false;
-  std::optional<std::int64_t> awaited_;  // the line after which the pilot waits
+  std::vector<float> tvu_m_, thu_m_;                    // of accepted soundings, where they are told
+  std::size_t in_special_order_ = 0, in_order_1a_ = 0;  // of them
+  std::optional<std::int64_t> awaited_;                 // the line after which the pilot waits
   std::optional<std::int64_t> first_ns_, last_ns_;
   Ports::Out<msg::Coverage> coverages_;
   Ports::Out<msg::NextLine> next_lines_;
