@@ -12,6 +12,7 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   from.optional("position_rate_hz", config.position_rate_hz, 1, 100);
   from.optional("position_gain", config.position_gain, 0.001, 1);
   from.optional("motion_latency_s", config.motion_latency_s, 0, 10);
+  from.optional("position_latency_s", config.position_latency_s, 0, 10);
   NavigationErrors& sigma = config.sigma;
   from.optional("sigma_roll_deg", sigma.roll_rad, 0, 10, kDegrees);
   from.optional("sigma_pitch_deg", sigma.pitch_rad, 0, 10, kDegrees);

@@ -44,8 +44,9 @@ struct SoundSpeedProbe {
 struct NavigationConfig {
   int attitude_rate_hz = 100;  // attitude and estimate
   int position_rate_hz = 5;
-  double position_gain = 0.2;     // how much of a fix's difference from the estimate is taken over, 0..1
-  double motion_latency_s = 0.0;  // age of attitude and velocity at their stamp: a sensor that does not tell its own
+  double position_gain = 0.2;       // how much of a fix's difference from the estimate is taken over, 0..1
+  double motion_latency_s = 0.0;    // age of attitude and velocity at their stamp: a sensor that does not tell its own
+  double position_latency_s = 0.0;  // the same of the estimate's east and north
   NavigationErrors sigma;
   SoundSpeedProbe probe;
   Instruments instruments;
@@ -61,8 +62,8 @@ struct NavigationConfig {
   /// The parameters that have a default in default.yaml.
   bool operator==(const NavigationConfig& other) const {
     return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&
-           position_gain == other.position_gain && motion_latency_s == other.motion_latency_s && sigma == other.sigma &&
-           probe == other.probe;
+           position_gain == other.position_gain && motion_latency_s == other.motion_latency_s &&
+           position_latency_s == other.position_latency_s && sigma == other.sigma && probe == other.probe;
   }
 };
 

@@ -183,6 +183,21 @@ TEST_CASE("an origin left to the raster comes with the chart; nothing is measure
   CHECK(positions[0].latitude_deg == Approx(10.0).margin(1e-4));
 }
 
+TEST_CASE("a latency of positions makes the estimate's east and north late, and nothing else") {
+  NavigationConfig late = config_of(0);
+  late.position_latency_s = 0.155;  // between two estimates
+  const auto last_of = [](const NavigationConfig& config) {
+    NodeUnderTest<NavigationNode> navigation(config);
+    give_truth(navigation, 3);
+    return navigation.step_until<msg::Estimate>("estimate", 2_s).back();
+  };
+  const msg::Estimate old = last_of(late), now = last_of(config_of(0));
+  CHECK(old.stamp_ns == now.stamp_ns);
+  CHECK(now.position_enu_m[1] - old.position_enu_m[1] == Approx(2.0 * 0.155).margin(1e-6));  // north at 2 m/s
+  CHECK(old.position_enu_m[2] == now.position_enu_m[2]);
+  CHECK(old.enu_from_body == now.enu_from_body);
+}
+
 TEST_CASE("a latency of the motion sensor makes attitude and heave late, the position's fixes not") {
   // A sixth of the heave's 5 s. The roll turns with time: 2 degrees per second.
   NavigationConfig config = config_of(0);

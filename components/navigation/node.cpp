@@ -35,6 +35,8 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       sound_speed_due_(Rate{config.probe.rate_hz, 1}),
       motion_latency_(from_seconds(config.motion_latency_s)),
       sound_speed_latency_(from_seconds(config.probe.latency_s)),
+      // What makes its own estimate of old attitudes has their age in it.
+      output_age_(from_seconds(config.position_latency_s), config.instruments.imu ? motion_latency_ : SimTime{0}),
       attitudes_(ports.out<msg::Attitude>("attitude", {.rate = attitude_rate(config)})),
       positions_(ports.out<msg::Position>("position", {.rate = position_rate(config)})),
       sound_speeds_(ports.out<msg::SoundSpeed>("sound_speed", {.rate = sound_speed_rate(config)})),
@@ -165,7 +167,7 @@ void NavigationNode::estimate(const msg::Attitude& attitude) {
     if (!estimator_->ready()) return;
     const msg::Estimate estimate = estimator_->estimate(*world_);
     believe(estimate);
-    return estimates_.send(estimate);
+    return estimates_.send(output_age_.aged(estimate));
   }
   if (!filter_.ready()) return;
   msg::Estimate estimate;
@@ -175,7 +177,7 @@ void NavigationNode::estimate(const msg::Attitude& attitude) {
       frames::enu_from_body(frames::Attitude{attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad}));
   estimate.velocity_enu_mps = plain(filter_.velocity_enu_mps());
   believe(estimate);
-  estimates_.send(estimate);
+  estimates_.send(output_age_.aged(estimate));
 }
 
 }  // namespace ensonify

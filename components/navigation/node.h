@@ -7,6 +7,7 @@
 #include "components/navigation/dead_reckoning.h"
 #include "components/navigation/estimator.h"
 #include "components/navigation/motion_sensor.h"
+#include "components/navigation/output_age.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
 #include "components/navigation/usbl_tracker.h"
@@ -37,6 +38,7 @@ class NavigationNode {
   DeadReckoning filter_;
   Periodic imu_due_, attitude_due_, position_due_, sound_speed_due_;
   SimTime motion_latency_, sound_speed_latency_;
+  OutputAge output_age_;
   std::deque<std::pair<SimTime, msg::SoundSpeed>> sound_speeds_under_way_;
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;

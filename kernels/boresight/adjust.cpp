@@ -19,6 +19,23 @@ constexpr int kChoosing =
 constexpr double kTypical = 20.0;       // soundings that the typical cell counts for in the variance of each
 constexpr double kLeastSigmaM = 0.003;  // of a plane fit: few soundings can lie on it by luck
 
+/// Variances of the unknowns, and by how many degrees of freedom each is known [Satterthwaite1946].
+struct Spread {
+  Unknowns variance, freedom;
+  Unknowns expected;  // variances if soundings erred on their own, all of a cell alike
+};
+
+constexpr double kMany = 1e9;  // degrees of freedom
+
+/// Quantile 0.975 of Student's t, by Cornish and Fisher's series in 1 / freedom (to 1 % from 3 on)
+/// [Abramowitz1964].
+double student_95(double freedom) {
+  constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+  const double f = std::max(freedom, 3.0);
+  return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f) +
+         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * f * f * f);
+}
+
 class Adjustment {
  public:
   Adjustment(const std::vector<Line>& lines, const AdjustSettings& settings)
@@ -103,23 +120,20 @@ class Adjustment {
   void gather(bool anew) {
     const Places places = placed();
     if (anew) choose(places);
-    std::vector<Plane> planes;
+    planes_.clear();
     std::vector<double> variances;
     for (const Members& members : chosen_) {
-      planes.emplace_back(members, places);
-      variances.push_back(planes.back().sigma_m() * planes.back().sigma_m());
+      planes_.emplace_back(members, places);
+      variances.push_back(planes_.back().sigma_m() * planes_.back().sigma_m());
     }
     const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
     std::nth_element(variances.begin(), middle, variances.end());
     typical_m2_ = std::max(*middle, kLeastSigmaM * kLeastSigmaM);
-    normal_ = scatter_ = prior_;
+    normal_ = information_ = prior_;
     gradient_ = Vector::Zero(state_.size());
     squares_ = 0.0;
     used_ = 0;
-    for (std::size_t n = 0; n < planes.size(); ++n) {
-      const std::vector<Eigen::Index> where = unknowns_of_cell(chosen_[n]);
-      accumulate(chosen_[n], planes[n], where, equations(chosen_[n], planes[n], where));
-    }
+    for (std::size_t n = 0; n < planes_.size(); ++n) accumulate(n);
   }
 
   /// The unknowns that matter in a cell, rising.
@@ -155,36 +169,80 @@ class Adjustment {
     return rows;
   }
 
-  void accumulate(const Members& members, const Plane& plane, const std::vector<Eigen::Index>& where,
-                  const Matrix& rows) {
-    const double free = static_cast<double>(members.size()) - 3.0, square = plane.residual_m().squaredNorm();
-    const double weight = (kTypical + free) / (kTypical * typical_m2_ + square);
-    squares_ += square;
-    used_ += members.size();
-    const Matrix products = weight * rows.transpose() * rows;
-    const Matrix pulls = weight * std::sqrt((free + 3.0) / free) * plane.residual_m().asDiagonal() * rows;
-    const Matrix scatter = pulls.transpose() * pulls;  // outer beams err more than those beside them from other lines
+  /// Cells weigh by their scatter, as of Student's t with kTypical degrees of freedom.
+  double freedom(std::size_t cell) const { return static_cast<double>(chosen_[cell].size()) - 3.0; }
+  double weight(std::size_t cell) const {
+    return (kTypical + freedom(cell)) / (kTypical * typical_m2_ + planes_[cell].residual_m().squaredNorm());
+  }
+
+  void accumulate(std::size_t cell) {
+    const std::vector<Eigen::Index> where = unknowns_of_cell(chosen_[cell]);
+    const Matrix rows = equations(chosen_[cell], planes_[cell], where);
+    squares_ += planes_[cell].residual_m().squaredNorm();
+    used_ += chosen_[cell].size();
+    const Matrix products = weight(cell) * rows.transpose() * rows;
+    // A weight that is made of what it weighs tells less [LangeLittleTaylor1989].
+    const double free = freedom(cell), told = (kTypical + free) / (kTypical + free + 2.0);
     const Eigen::Index last = rows.cols() - 1;
     for (Eigen::Index a = 0; a < last; ++a) {
-      gradient_[where[static_cast<std::size_t>(a)]] += products(a, last);
+      const Eigen::Index to = where[static_cast<std::size_t>(a)];
+      gradient_[to] += products(a, last);
       for (Eigen::Index b = 0; b < last; ++b) {
-        normal_(where[static_cast<std::size_t>(a)], where[static_cast<std::size_t>(b)]) += products(a, b);
-        scatter_(where[static_cast<std::size_t>(a)], where[static_cast<std::size_t>(b)]) += scatter(a, b);
+        normal_(to, where[static_cast<std::size_t>(b)]) += products(a, b);
+        information_(to, where[static_cast<std::size_t>(b)]) += told * products(a, b);
       }
     }
   }
 
   double rms() const { return used_ > 0 ? std::sqrt(squares_ / static_cast<double>(used_)) : 0.0; }
 
-  /// Deviations by what is left of each sounding (heteroscedasticity-consistent [White1980]).
+  /// How far the unknowns move with what is left of the soundings of each stretch of time (soundings of unequal
+  /// quality [White1980] that err together [LiangZeger1986]), and with the navigation's wander.
+  Spread spread() const {
+    const Matrix inverse =
+        information_.llt().solve(Matrix::Identity(information_.rows(), static_cast<Eigen::Index>(kUnknowns)));
+    std::vector<std::vector<Unknowns>> pulls(lines_.size());
+    for (std::size_t n = 0; n < chosen_.size(); ++n) {
+      const Members& members = chosen_[n];
+      const std::vector<Eigen::Index> where = unknowns_of_cell(members);
+      const Matrix rows = equations(members, planes_[n], where);
+      const double few = std::sqrt((freedom(n) + 3.0) / freedom(n));
+      const Matrix moves = weight(n) * few * rows.leftCols(rows.cols() - 1) * inverse(where, Eigen::all);
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        const double since_s = sounding(members[i]).time_s - lines_[members[i].line].soundings.front().time_s;
+        const auto stretch = static_cast<std::size_t>(since_s / settings_.together_s);
+        std::vector<Unknowns>& of_line = pulls[members[i].line];
+        if (stretch >= of_line.size()) of_line.resize(stretch + 1, Unknowns::Zero());
+        const auto row = static_cast<Eigen::Index>(i);
+        of_line[stretch] += planes_[n].residual_m()[row] * moves.row(row).transpose();
+      }
+    }
+    Spread spread;
+    spread.variance = (inverse.transpose() * prior_ * inverse).diagonal();
+    Unknowns fourth = Unknowns::Zero();
+    for (const auto& of_line : pulls) {
+      for (const Unknowns& pull : of_line) {
+        spread.variance += pull.cwiseAbs2();
+        fourth += pull.cwiseAbs2().cwiseAbs2();
+      }
+    }
+    // A square of one normal pull has the variance of twice its expectation's square, its fourth power thrice that
+    // square.
+    spread.freedom = 3.0 * spread.variance.cwiseAbs2().cwiseQuotient(fourth);
+    spread.expected = inverse.topRows<static_cast<int>(kUnknowns)>().diagonal();
+    return spread;
+  }
+
   void finish(Adjusted& result) const {
-    const Matrix inverse = normal_.llt().solve(Matrix::Identity(normal_.rows(), normal_.cols()));
-    const Matrix covariance = inverse * scatter_ * inverse;
+    const Spread found = spread();
     result.offsets = offsets_of(state_.head<kUnknowns>());
     for (std::size_t k = 0; k < kUnknowns; ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       if (!settings_.solve[k]) continue;
-      result.sd[i] = std::sqrt(covariance(i, i));
+      // What is left of soundings that an unknown follows is too small: never less than what is expected.
+      const double expected_sd = std::sqrt(found.expected[i]), seen_sd = std::sqrt(found.variance[i]);
+      result.sd[i] = std::max(expected_sd, seen_sd);
+      result.half_95[i] = std::max(student_95(kMany) * expected_sd, student_95(found.freedom[i]) * seen_sd);
     }
     result.rms_after_m = rms();
     result.cells = chosen_.size();
@@ -195,8 +253,10 @@ class Adjustment {
   const AdjustSettings& settings_;
   const Drift drift_;
   Vector state_, gradient_;
-  Matrix prior_, normal_, scatter_;
+  Matrix prior_, normal_;
+  Matrix information_;           // what the soundings tell of the unknowns, and the prior
   std::vector<Members> chosen_;  // by cell
+  std::vector<Plane> planes_;    // likewise
   double typical_m2_ = 1.0;      // variance about a cell's plane
   double squares_ = 0.0;
   std::size_t used_ = 0;
@@ -205,9 +265,10 @@ class Adjustment {
 void check(const std::vector<Line>& lines, const AdjustSettings& settings) {
   if (lines.size() < 2) throw std::invalid_argument("a patch test compares at least two lines");
   if (!(settings.cell_m > 0.0) || !(settings.piece_s > 0.0) || !(settings.height_piece_s > 0.0) ||
-      !(settings.wander_s > 0.0) || !(settings.gate_sds > 0.0) || settings.least < 3 || settings.most_rounds < 1) {
+      !(settings.wander_s > 0.0) || !(settings.turn_wander_s > 0.0) || !(settings.together_s > 0.0) ||
+      !(settings.gate_sds > 0.0) || settings.least < 3 || settings.most_rounds < 1) {
     throw std::invalid_argument(
-        "cell, pieces, wander and gate are positive, a cell takes at least 3 soundings of a line");
+        "cell, pieces, wanders, stretches and gate are positive, a cell takes at least 3 soundings of a line");
   }
   for (const Line& line : lines) {
     for (const Sounding& s : line.soundings) {

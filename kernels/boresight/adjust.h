@@ -27,20 +27,24 @@ Offsets offsets_of(const Unknowns& unknowns);
 Unknowns unknowns_of(const Offsets& offsets);
 
 struct AdjustSettings {
-  double cell_m = 3.0;          // side of the squares in which lines are compared
-  std::size_t least = 5;        // soundings of a line in a cell
-  double piece_s = 10.0;        // pieces of a line, each of which may be shifted and turned
-  double height_piece_s = 1.0;  // the same for heights
-  double wander_s = 60.0;       // correlation time of those shifts (Gauss-Markov)
-  double gate_sds = 4.0;        // soundings further off their cell's plane are left out
+  double cell_m = 3.0;           // side of the squares in which lines are compared
+  std::size_t least = 5;         // soundings of a line in a cell
+  double piece_s = 10.0;         // pieces of a line, each of which may be shifted and turned
+  double height_piece_s = 1.0;   // the same for heights
+  double wander_s = 60.0;        // correlation time of those shifts (Gauss-Markov), of positions
+  double turn_wander_s = 600.0;  // and of attitudes: what lasts all through a survey looks like the mounting
+  double together_s = 0.1;       // soundings of a line within such a stretch of time may err together: a ping
+  double gate_sds = 4.0;         // soundings further off their cell's plane are left out
   std::array<bool, kUnknowns> solve = {true, true, true, true, true};  // the others stay zero
   int most_rounds = 30;
 };
 
 struct Adjusted {
   Offsets offsets;
-  Unknowns sd = Unknowns::Zero();  // standard deviations; zero of what was not solved for
-  double rms_before_m = 0.0;       // about the cells' planes
+  Unknowns sd = Unknowns::Zero();       // standard deviations; zero of what was not solved for
+  Unknowns half_95 = Unknowns::Zero();  // half widths of the 95 % intervals: 1.96 sd where many stretches of time tell,
+                                        // more where few do (a rock is passed in seconds)
+  double rms_before_m = 0.0;            // about the cells' planes
   double rms_after_m = 0.0;
   std::size_t cells = 0;
   std::size_t soundings = 0;  // used
@@ -51,7 +55,8 @@ struct Adjusted {
 /// Least-squares adjustment of all unknowns at once [Bjorke2005], on planes through the soundings of each cell
 /// [SeubeKeyetieu2017]; the attitude's latency shows in the same way [Milac2018]. Each piece of a line may besides
 /// be shifted and turned by what its navigation may be off, weighted by the stated deviations as a Gauss-Markov
-/// process: what such a wander could explain, the intervals contain.
+/// process that goes on from line to line: what such a wander could explain, the intervals contain. So they do what
+/// soundings of unequal quality [White1980] have in common within a stretch of time [LiangZeger1986].
 ///
 /// What the lines do not tell comes out with a wide deviation. Throws std::invalid_argument for
 /// fewer than two lines, settings that are not positive, places that are not finite, and when no cell has two lines.

@@ -12,7 +12,7 @@ TEST_CASE("with a fibre-optic gyro and RTK the offsets are right, and the interv
     const Adjusted found = adjust(survey_all(kPatchTest, calibration_site, kTruth, kFogRtk, seed), kCoarse);
     const Unknowns error = error_of(found);
     for (Eigen::Index k = 0; k < 5; ++k) {
-      covered[k] += std::abs(error[k]) <= 1.96 * found.sd[k];
+      covered[k] += std::abs(error[k]) <= found.half_95[k];
       good[k] += std::abs(error[k]) <= kLimits[k];
     }
     squares += error.cwiseProduct(error) / kSeeds;

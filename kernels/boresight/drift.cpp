@@ -1,16 +1,18 @@
 #include "kernels/boresight/drift.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ensonify::boresight {
 
 namespace {
 
-constexpr double kFixed = 1e24;  // inverse variance of what is known
+constexpr double kKnown = 1e-12;  // deviation of what does not err
 
 }  // namespace
 
-Drift::Drift(const std::vector<Line>& lines, const AdjustSettings& settings) : wander_s_(settings.wander_s) {
+Drift::Drift(const std::vector<Line>& lines, const AdjustSettings& settings) {
+  for (std::size_t k = 0; k < kAxes; ++k) wander_s_[k] = k < 3 ? settings.wander_s : settings.turn_wander_s;
   for (const Line& line : lines) {
     const double start_s = line.soundings.empty() ? 0.0 : line.soundings.front().time_s;
     const double lasts_s = line.soundings.empty() ? 0.0 : line.soundings.back().time_s - start_s;
@@ -36,15 +38,26 @@ Drift::Columns Drift::columns(std::size_t line, double time_s) const {
 
 Eigen::MatrixXd Drift::inverse_covariance() const {
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(size_, size_);
-  for (const auto& line : pieces_) {
-    for (const Pieces& p : line) {
-      // Three diagonals: a piece tells of its neighbours, and through them of the rest.
-      const double keep = std::exp(-p.length_s / wander_s_);
-      const double fresh = p.sd > 0.0 ? 1.0 / (p.sd * p.sd * (1.0 - keep * keep)) : kFixed;
-      for (Eigen::Index i = p.first; i < p.first + p.count; ++i) {
-        const bool inner = i > p.first && i + 1 < p.first + p.count;
-        inverse(i, i) = fresh * (p.count == 1 ? 1.0 - keep * keep : inner ? 1.0 + keep * keep : 1.0);
-        if (i > p.first) inverse(i, i - 1) = inverse(i - 1, i) = -fresh * keep;
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    Eigen::Index before = -1;
+    double before_s = 0.0, before_sd = 1.0;
+    for (const auto& line : pieces_) {
+      const Pieces& p = line[k];
+      const double sd = std::max(p.sd, kKnown);
+      for (Eigen::Index i = 0; i < p.count; ++i) {
+        // x = keep x_before + fresh: a piece tells of its neighbours, and through them of the rest.
+        const double at_s = p.start_s + static_cast<double>(i) * p.length_s;
+        const double keep = before >= 0 && at_s > before_s ? std::exp((before_s - at_s) / wander_s_[k]) : 0.0;
+        const double fresh = 1.0 / (1.0 - keep * keep);
+        const Eigen::Index here = p.first + i;
+        inverse(here, here) += fresh / (sd * sd);
+        if (keep > 0.0) {
+          inverse(before, before) += keep * keep * fresh / (before_sd * before_sd);
+          inverse(here, before) = inverse(before, here) = -keep * fresh / (sd * before_sd);
+        }
+        before = here;
+        before_s = at_s;
+        before_sd = sd;
       }
     }
   }

@@ -9,7 +9,8 @@
 namespace ensonify::boresight {
 
 /// What the navigation of each line may be off, as unknowns behind the global ones: east, north, up, roll, pitch and
-/// heading, constant over pieces of time. Heights wander with every wave that heave misses, so theirs are short.
+/// heading, constant over pieces of time. Heights wander with every wave that heave misses, so theirs are short. A line
+/// goes on from where the one before it ended; lines that overlap in time are of different surveys.
 class Drift {
  public:
   static constexpr std::size_t kAxes = 6;
@@ -20,7 +21,7 @@ class Drift {
   Eigen::Index size() const { return size_; }  // of the state
   Columns columns(std::size_t line, double time_s) const;
 
-  /// Of a stationary first-order process along each line and axis; zero for the global unknowns.
+  /// Of a stationary first-order process through all lines, for each axis; zero for the global unknowns.
   Eigen::MatrixXd inverse_covariance() const;
 
  private:
@@ -29,7 +30,7 @@ class Drift {
     double start_s, length_s, sd;
   };
   std::vector<std::array<Pieces, kAxes>> pieces_;  // by line
-  double wander_s_;
+  std::array<double, kAxes> wander_s_;
   Eigen::Index size_ = static_cast<Eigen::Index>(kUnknowns);
 };
 

@@ -22,11 +22,12 @@ Placed place(const Sounding& sounding, const Offsets& offsets) {
   const Vec3 heard_body = sounding.enu_from_body.conjugate() * (sounding.place_enu_m - sounding.head_enu_m);
   const Vec3 away_body = mounting * heard_body;
   const Vec3 away_enu = enu_from_body * away_body;
-  const Vec3 course(sounding.velocity_enu_mps.x(), sounding.velocity_enu_mps.y(), 0.0);
+  const Vec3 heave(0.0, 0.0, sounding.velocity_enu_mps.z()), course = sounding.velocity_enu_mps - heave;
 
   Placed placed;
-  placed.place_enu_m = sounding.head_enu_m + course * offsets.position_latency_s + away_enu;
-  placed.rates << course, sounding.rate_enu_radps.cross(away_enu),
+  placed.place_enu_m =
+      sounding.head_enu_m + course * offsets.position_latency_s + heave * offsets.attitude_latency_s + away_enu;
+  placed.rates << course, heave + sounding.rate_enu_radps.cross(away_enu),
       enu_from_body * (yaw_pitch * Vec3::UnitX()).cross(away_body),
       enu_from_body * (yaw * Vec3::UnitY()).cross(away_body), enu_from_body * Vec3::UnitZ().cross(away_body);
   return placed;

@@ -22,18 +22,18 @@ struct Sounding {
 
 /// What the installation has wrong. Zero: nothing.
 struct Offsets {
-  double position_latency_s = 0.0;  // age of a position at its stamp: the vehicle was further on by v times this
-  double attitude_latency_s = 0.0;  // age of an attitude at its stamp
+  double position_latency_s = 0.0;  // age of east and north at their stamp: the vehicle was further on by v times this
+  double attitude_latency_s = 0.0;  // age of an attitude and of heave at their stamp
   double roll_rad = 0.0;            // actual minus measured mounting: starboard down,
   double pitch_rad = 0.0;           // bow up,
   double yaw_rad = 0.0;             // clockwise from above, as rotations about the vehicle's axes
 };
 
-/// Where the sounding lies if the offsets are as given: moved on along the track, and turned about the head as one
-/// piece, by the vehicle's turning during the latency and by yaw, pitch and roll of the mounting. The head's own way
-/// when the mounting turns (lever arms) is not touched, nor is the ray bent anew: where sound is 10 m/s faster 30 m
-/// below, 1 degree at a beam of 60 degrees so misplaces by 6 mm, 3.5 degrees by 22 mm (closed form of the arc); after a
-/// large offset, survey again with the mounting corrected.
+/// Where the sounding lies if the offsets are as given: moved on along the track and with heave, and turned about the
+/// head as one piece, by the vehicle's turning during the latency and by yaw, pitch and roll of the mounting. The
+/// head's own way when the mounting turns (lever arms) is not touched, nor is the ray bent anew: where sound is 10 m/s
+/// faster 30 m below, 1 degree at a beam of 60 degrees so misplaces by 6 mm, 3.5 degrees by 22 mm (closed form of the
+/// arc); after a large offset, survey again with the mounting corrected.
 struct Placed {
   Vec3 place_enu_m;
   Eigen::Matrix<double, 3, 5>

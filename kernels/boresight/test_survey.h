@@ -30,7 +30,8 @@ inline double calibration_site(double x, double y) {
 
 /// What the sensors err by, standard deviations. All but the white ones wander with `wander_s`.
 struct Errors {
-  double range_m = 0.0, angle_rad = 0.0;  // white, each sounding
+  double range_m = 0.0, angle_rad = 0.0;                // white, each sounding
+  double ping_level_rad = 0.0, ping_heading_rad = 0.0;  // white, each ping
   double position_m = 0.0, height_m = 0.0;
   double level_rad = 0.0, heading_rad = 0.0;
   double wander_s = 60.0;
@@ -96,7 +97,9 @@ inline Line survey(const Course& course, const Ground& ground, const Offsets& tr
     const Vec3 head = boat.at(t);
     const Quaternion true_head = boat.attitude(t, 0, 0) * mounting;
     const double then = t - truth.attitude_latency_s;
-    const Quaternion said = boat.attitude(then, errors.heading_rad * w[3][n], errors.level_rad * w[4][n]);
+    const Quaternion said =
+        boat.attitude(then, errors.heading_rad * w[3][n] + errors.ping_heading_rad * stream.normal(12, n),
+                      errors.level_rad * w[4][n] + errors.ping_level_rad * stream.normal(13, n));
     const Vec3 said_at = boat.at(t - truth.position_latency_s) +
                          Vec3(errors.position_m * w[0][n], errors.position_m * w[1][n], errors.height_m * w[2][n]);
     for (std::size_t beam = 0; beam < 32; ++beam) {
@@ -143,7 +146,7 @@ inline constexpr Offsets kTruth{.position_latency_s = 0.15,
 inline const Unknowns kLimits = (Unknowns() << 0.020, 0.002, 0.02 * kDegree, 0.1 * kDegree, 0.1 * kDegree).finished();
 
 /// For the sparse soundings of these tests, one per 5 m2.
-inline constexpr AdjustSettings kCoarse{.cell_m = 6.0, .least = 4};
+inline constexpr AdjustSettings kCoarse{.cell_m = 6.0, .least = 4, .turn_wander_s = 60.0};
 
 inline Unknowns error_of(const Adjusted& adjusted) { return unknowns_of(adjusted.offsets) - unknowns_of(kTruth); }
 

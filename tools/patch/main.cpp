@@ -39,7 +39,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--cell", o.settings.cell_m, "side of the squares in which lines are compared, m")
       ->capture_default_str();
   app.add_option("--most", o.reading.most, "soundings to use at most; more are thinned evenly")->capture_default_str();
-  app.add_option("--wander", o.settings.wander_s, "correlation time of the navigation's errors, s")
+  app.add_option("--wander", o.settings.wander_s, "correlation time of the errors of positions, s")
+      ->capture_default_str();
+  app.add_option("--turn-wander", o.settings.turn_wander_s, "the same of attitudes, s")->capture_default_str();
+  app.add_option("--together", o.settings.together_s, "stretch of time in which soundings may err together besides, s")
       ->capture_default_str();
   app.add_option("--position-sd", o.position_sd_m, "of positions, m, where the estimate does not tell")
       ->capture_default_str();

@@ -10,7 +10,6 @@ namespace ensonify::patch_tool {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr double k95 = 1.96;
 
 /// How an unknown is written: in ms or degrees.
 struct Writing {
@@ -49,7 +48,7 @@ std::string as_text(const Finding& f) {
     const auto i = static_cast<Eigen::Index>(k);
     if (a.sd[i] == 0.0) continue;
     text += fmt::format("{:<17} {:>9.3f} +- {:.3f} {}  ({})\n", w.name, found[i] / w.per_unit,
-                        k95 * a.sd[i] / w.per_unit, w.unit, w.meaning);
+                        a.half_95[i] / w.per_unit, w.unit, w.meaning);
   }
   return text;
 }
@@ -62,7 +61,7 @@ std::string as_json(const Finding& f) {
     const auto i = static_cast<Eigen::Index>(k);
     if (a.sd[i] == 0.0) continue;
     const std::string key = std::string(boresight::kUnknownNames[k]) + (k < 2 ? "_s" : "_rad");
-    json[key] = {{"value", found[i]}, {"half_interval_95", k95 * a.sd[i]}};
+    json[key] = {{"value", found[i]}, {"half_interval_95", a.half_95[i]}};
   }
   json["lines"] = nlohmann::ordered_json::array();
   for (std::size_t n = 0; n < f.lines.size(); ++n) {
