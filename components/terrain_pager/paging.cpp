@@ -14,16 +14,17 @@ Paging::Decision Paging::look(const paging::Motion& motion) {
   for (const TileKey& key : exchange.take) at_heads_.erase(key);
 
   Decision decision;
-  decision.in_memory = paging::to_hold(needed(motion, exchange.give), in_memory_, rules_.most);
+  const std::vector<TileKey> needed_now = needed(motion, exchange.give);
+  decision.in_memory = paging::to_hold(needed_now, in_memory_, rules_.most);
   decision.publish = std::move(exchange.give);
   decision.release = std::move(exchange.take);
-  paging::LastEnsonified now;
+  const std::set<TileKey> wanted(needed_now.begin(), needed_now.end());
+  paging::LastWanted now;
   for (const TileKey& key : decision.in_memory) {
     const auto before = in_memory_.find(key);
-    now[key] = before == in_memory_.end() ? paging::kNever : before->second;
-    if (paging::distance_m(paging::box_of(grid_, key), motion.position_enu_m) <= rules_.margins.feed_m) {
-      now[key] = looks_;
-    }
+    const bool within_reach =
+        paging::distance_m(paging::box_of(grid_, key), motion.position_enu_m) <= rules_.margins.feed_m;
+    now[key] = within_reach || wanted.contains(key) ? looks_ : before->second;
     if (before != in_memory_.end()) continue;
     ++decision.fetched;
     if (!ever_fetched_.insert(key).second) ++decision.fetched_again;

@@ -47,7 +47,7 @@ class Paging {
   Rules rules_;
   std::int64_t looks_ = 0;
   std::set<TileKey> at_heads_;
-  paging::LastEnsonified in_memory_;
+  paging::LastWanted in_memory_;
   std::set<TileKey> ever_fetched_, ever_at_heads_;
 };
 

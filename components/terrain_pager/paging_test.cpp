@@ -59,6 +59,24 @@ TEST_CASE("what was ensonified last is kept until the budget needs its place") {
   CHECK(kept.size() == 40);
 }
 
+TEST_CASE("a track that sways to and fro fetches no tile twice once memory is full") {
+  // In 60 s the predicted arcs sweep 36 m to both sides: a tile needed at one look is not at the next.
+  Paging paging(kGrid, kTerrain, rules(40));
+  int again = 0;
+  std::size_t fewest = 100, most = 0;
+  for (int look = 0; look < 800; ++look) {
+    Motion motion = eastward(look);
+    motion.turn_rate_radps = 0.005 * std::sin(0.7 * look);
+    const auto decision = paging.look(motion);
+    again += decision.fetched_again;
+    if (look > 400) fewest = std::min(fewest, decision.in_memory.size());
+    most = std::max(most, decision.in_memory.size());
+  }
+  CHECK(fewest == 40);
+  CHECK(most == 40);
+  CHECK(again == 0);
+}
+
 TEST_CASE("a turning vehicle fetches no tile twice") {
   // Two turns of 30 m radius, then a straight line, then two turns the other way; the budget has room for all around.
   Paging paging(kGrid, kTerrain, rules(100));

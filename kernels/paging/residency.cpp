@@ -7,7 +7,7 @@
 
 namespace ensonify::paging {
 
-std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastEnsonified& held, std::size_t most) {
+std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastWanted& held, std::size_t most) {
   std::vector<TileKey> keep;
   std::set<TileKey> kept;
   const auto add = [&](const TileKey& key) {

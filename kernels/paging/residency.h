@@ -10,15 +10,12 @@
 
 namespace ensonify::paging {
 
-/// When tiles last lay within reach of the heads, in looks counted from the start; kNever for those fetched and not yet
-/// reached.
-using LastEnsonified = std::map<TileKey, std::int64_t>;
-inline constexpr std::int64_t kNever = -1;
+/// When tiles last lay within reach of the heads or were needed, in looks counted from the start.
+using LastWanted = std::map<TileKey, std::int64_t>;
 
 /// Which tiles memory is to hold now, at most `most`: those needed, in their order; then what it holds already, the
-/// last ensonified first (the least recently ensonified are given up first), equally old ones by key. In order of
-/// importance.
-std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastEnsonified& held, std::size_t most);
+/// last wanted first (the least recently wanted are given up first), equally old ones by key. In order of importance.
+std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastWanted& held, std::size_t most);
 
 /// What heads hold changes only at a distance: tiles nearer than `feed_m` are given to them, those beyond `release_m`
 /// taken away, and between the two all stays as it is, so that a vehicle at the border does not send tiles to and fro.

@@ -30,16 +30,16 @@ std::size_t exchanged_while_circling(const Vec2& centre, double radius_m, const 
 
 }  // namespace
 
-TEST_CASE("what is needed is held first, then what was ensonified last") {
+TEST_CASE("what is needed is held first, then what was wanted last") {
   const std::vector<TileKey> needed = {{5, 0}, {6, 0}};
-  const LastEnsonified held = {{{1, 0}, 10}, {{2, 0}, 30}, {{3, 0}, 20}, {{4, 0}, kNever}, {{5, 0}, kNever}};
+  const LastWanted held = {{{1, 0}, 10}, {{2, 0}, 30}, {{3, 0}, 20}, {{4, 0}, 5}, {{5, 0}, 5}};
   CHECK(to_hold(needed, held, 100) == std::vector<TileKey>{{5, 0}, {6, 0}, {2, 0}, {3, 0}, {1, 0}, {4, 0}});
   CHECK(to_hold(needed, held, 4) == std::vector<TileKey>{{5, 0}, {6, 0}, {2, 0}, {3, 0}});
   CHECK(to_hold(needed, held, 1) == std::vector<TileKey>{{5, 0}});
 }
 
-TEST_CASE("tiles ensonified at the same time are held in the order of their keys") {
-  const LastEnsonified held = {{{2, 0}, 7}, {{1, 1}, 7}, {{1, 0}, 7}};
+TEST_CASE("tiles wanted at the same time are held in the order of their keys") {
+  const LastWanted held = {{{2, 0}, 7}, {{1, 1}, 7}, {{1, 0}, 7}};
   CHECK(to_hold({}, held, 2) == std::vector<TileKey>{{1, 0}, {1, 1}});
 }
 
