@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 from bus_benches import bench_free, bench_observers, bench_python, bench_round, bench_start, bench_stream
+from drive_bench import bench_drive
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
 from navigation_bench import bench_navigation
@@ -36,7 +37,7 @@ def bench_kernels(b):
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
            "python": bench_python, "observers": bench_observers, "heads": bench_heads,
-           "navigation": bench_navigation,
+           "navigation": bench_navigation, "drive": bench_drive,
            "kernels": bench_kernels}
 
 

@@ -1,0 +1,99 @@
+"""Ten kilometres over ten billion posts: how long until the first ping, what stays in memory, and what a large world costs."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import time
+
+from harness import ROOT, row
+
+# A square of rock 20 m deep; all of the swath fits on one tile of it.
+WORLD = """
+ensonify: scenario/1
+site: {{ name: Square, latitude_deg: 57.5, longitude_deg: -1.5 }}
+seed: 10
+seabed:
+  kind: layers
+  post_spacing_m: 0.1
+  size_m: [{side_m}, {side_m}]
+  layers: {{ plane: {{ plane: {{ depth_m: 20 }} }}, rock: {{ spectral: {{ rms_m: 0.3, outer_scale_m: 50 }} }} }}
+vehicles: {{ boat: {{ turning_radius_m: 30, mountings: {{ bow: {{ actual: {{ position_m: [1.5, 0.2, 0.8] }} }} }} }} }}
+mission: {{ speed_mps: 4, run_in_m: 0, runlines: [{{ from_m: [-45, 0], to_m: [45, 0] }}] }}
+"""
+PINGS_HZ = 5
+LAUNCH = """
+ensonify: launch/1
+scenario: world.yaml
+clock: {{ rate: free }}
+duration_s: {seconds}
+processes:
+  boat:  {{ run: vehicle }}
+  nav:   {{ run: navigation }}
+  pilot: {{ run: autopilot }}
+  pager: {{ run: terrain_pager }}
+  bow:   {{ run: multibeam, config: {{ ping_rate_hz: {pings_hz}, amplitude_every: 1000 }} }}
+"""
+
+
+def descendants(pid):
+    children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [pid] + [d for child in children for d in descendants(int(child))]
+
+
+class Watched:
+    """A run, watched from outside: wall time, and of each program the most memory and the processor time."""
+
+    def __init__(self, b, launch, *options):
+        self.peak_mb, self.cpu_s = {}, {}
+        with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as out:
+            began = time.monotonic()
+            run = subprocess.Popen([str(b.build / "bin" / "ensonify-run"), str(launch), "--free", "--out", out, *map(str, options)],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            while run.poll() is None:
+                self.look(run.pid)
+                time.sleep(0.05)
+            self.wall_s = time.monotonic() - began
+            if run.returncode != 0:
+                raise RuntimeError(f"{launch}: exit {run.returncode}: {run.stderr.read()}")
+
+    def look(self, pid):
+        try:
+            for process in descendants(pid):
+                name = pathlib.Path(os.readlink(f"/proc/{process}/exe")).name
+                status = pathlib.Path(f"/proc/{process}/status").read_text().split("VmHWM:")
+                times = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
+                self.peak_mb[name] = max(self.peak_mb.get(name, 0.0), 1.024e-3 * float(status[1].split()[0]))
+                self.cpu_s[name] = (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
+        except (OSError, IndexError):
+            pass  # one has just ended
+
+
+def bench_drive(b):
+    survey = ROOT / "launch" / "survey_10km.yaml"
+    rows = []
+    # In a second of sim time there are two pings; nothing of the seabed is on disk, so that no start is warmer than another.
+    start_s = min(Watched(b, survey, "--arg", "seconds=1").wall_s for _ in range(b.repeat))
+    rows.append(row("survey_10km: from nothing to the end of 1 s of sim time", start_s, "s", target="<= 5", ok=start_s <= 5))
+    # Its expectations are those of the launch: no ping lost, none empty.
+    drive = Watched(b, survey, *(["--arg", "seconds=120"] if b.quick else []), "--arg", "pings_hz=0.5")
+    for program in ("ensonify-terrain_pager", "ensonify-multibeam"):
+        peak = drive.peak_mb[program]
+        rows.append(row(f"survey_10km: {program} at its most", peak, "MB", target="<= 1500", ok=peak <= 1500))
+    rows.append(row(f"survey_10km: {480 if b.quick else 9960} m, 8 m between pings", drive.wall_s, "s"))
+    large, small = cost_per_ping_s(b, 10_000), cost_per_ping_s(b, 102.4)
+    rows.append(row("processor time of a ping and its paging over 10^10 posts", 1e3 * large, "ms", 1e3 * small,
+                    large / small, "<= 1.2 x that over 10^6", large <= 1.2 * small))
+    return rows
+
+
+def cost_per_ping_s(b, side_m):
+    """Of pager and head, once they are under way: what 20 s cost more than 5 s."""
+    with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as folder:
+        world, launch = pathlib.Path(folder) / "world.yaml", pathlib.Path(folder) / "launch.yaml"
+        world.write_text(WORLD.format(side_m=side_m))
+        cost_s = []
+        for seconds in (5, 20):
+            launch.write_text(LAUNCH.format(seconds=seconds, pings_hz=PINGS_HZ))
+            run = Watched(b, launch)
+            cost_s.append(run.cpu_s["ensonify-terrain_pager"] + run.cpu_s["ensonify-multibeam"])
+        return (cost_s[1] - cost_s[0]) / (15 * PINGS_HZ)
