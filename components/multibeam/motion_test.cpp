@@ -8,7 +8,9 @@
 using namespace ensonify;
 
 TEST_CASE("motion during the ping does not disturb depths when the navigation is right") {
-  const auto soundings = survey(shallow(), {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5, .depth_m = 1.0}, 5_s);
+  auto config = shallow();
+  config.effects.multipath = false;  // one beam in 10,000 takes the second echo, at 40 m, for the seabed
+  const auto soundings = survey(config, {.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5, .depth_m = 1.0}, 5_s);
   const Spread port_and_starboard = depth_error(soundings, 0.0, 60.0);
   CHECK(std::abs(port_and_starboard.mean) < 0.01);
   CHECK(port_and_starboard.sd < 0.06);

@@ -28,7 +28,7 @@ struct HeadConfig {
   double gain_offset_db = 0.0;          // O
   Converter converter;
   double quality = 1.0;  // of the rays (trace::RaySettings)
-  trace::LevelOfDetail lod;
+  trace::LevelOfDetail lod{.enabled = true};
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it hears
   Effects effects;
