@@ -224,7 +224,7 @@ struct SonarSettings {
     visit("stamp_ns", "ns", "time of the command, sim time", self.stamp_ns);
     visit("range_m", "m", "range to listen to; 0: the head chooses, where it can", self.range_m);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
-    visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
+    visit("pulse_length_s", "s", "pulse length; 0: the head chooses, where it can", self.pulse_length_s);
     visit("gain_spreading_db", "dB", "S of the gain S log10(R) + 2 A R + O at range R in m", self.gain_spreading_db);
     visit("gain_absorption_dbpm", "dB/m", "A of that gain", self.gain_absorption_dbpm);
     visit("gain_offset_db", "dB", "O of that gain", self.gain_offset_db);

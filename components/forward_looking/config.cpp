@@ -18,13 +18,11 @@ void read_faces(ConfigReader& from, ForwardLookingConfig& c) {
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
 }
 
-void read_pulse(ConfigReader& from, ForwardLookingConfig& c) {
+void read_transmission(ConfigReader& from, ForwardLookingConfig& c) {
   from.optional_choice("pulse", c.pulse.chirp, {{"tone", false}, {"chirp", true}});
-  from.optional("pulse_length_s", c.pulse.length_s, 2e-6, 20e-3);
   from.optional("bandwidth_hz", c.pulse.bandwidth_hz, 1e3, 1e6);
   read_window(from, c.pulse.window);
-  from.optional("samples_per_pulse", c.pulse.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
-  from.optional("most_samples", c.pulse.most_samples, 64, 20000);
+  read_pulse(from, c.pulse);
   if (!c.pulse.chirp && from.has("bandwidth_hz")) {
     from.problem("bandwidth_hz", "only a chirp sweeps; leave it out or set pulse: chirp");
   }
@@ -45,7 +43,7 @@ ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const Scenar
                                                 const std::string& process) {
   ForwardLookingConfig c;
   read_faces(from, c);
-  read_pulse(from, c);
+  read_transmission(from, c);
   read_ranges(from, c);
   read_head(from, scenario, process, kFastest_hz, c);
   read_sound_speed(from, c);
@@ -66,6 +64,11 @@ HeadSettings ForwardLookingConfig::start() const {
   return start;
 }
 
-SettingLimits ForwardLookingConfig::limits() const { return limits_up_to(0.5, longest_range_m, source_level_db); }
+SettingLimits ForwardLookingConfig::limits() const {
+  SettingLimits limits = limits_up_to(0.5, longest_range_m, source_level_db);
+  allow_held_pulses(pulse, sound_speed_mps, limits);
+  limits.swath_rad = {aperture_rad, aperture_rad};
+  return limits;
+}
 
 }  // namespace ensonify

@@ -83,8 +83,8 @@ double ForwardLookingHead::near_field_m() const {
   return array::near_field_range_m(array_, kNominalSpeed_mps / config_.frequency_hz);
 }
 
-void ForwardLookingHead::prepare(double range_m) {
-  const RangedPulse ranged = pulse_for(range_m);
+void ForwardLookingHead::prepare(const HeadSettings& settings) {
+  const RangedPulse ranged = pulse_for(settings);
   if (listening_ && listening_->ranged == ranged) return;
   const echo::Pulse pulse = echo_pulse(config_.pulse, ranged);
   const echo::SampledPulse sampled(pulse, ranged.sampling.period_s);
@@ -98,7 +98,7 @@ void ForwardLookingHead::prepare(double range_m) {
 
 msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
                                      const frames::PoseHistory& truth, trace::Scene& seabed) {
-  prepare(settings.range_m);
+  prepare(settings);
   const RangedPulse& ranged = listening_->ranged;
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
   arrivals_.move(poses_);

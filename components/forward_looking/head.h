@@ -31,7 +31,9 @@ class ForwardLookingHead {
   /// What the last ping met.
   const Sight& sight() const { return sight_; }
 
-  RangedPulse pulse_for(double range_m) const { return pulse_at(config_.pulse, range_m, config_.sound_speed_mps); }
+  RangedPulse pulse_for(const HeadSettings& settings) const {
+    return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
+  }
   std::size_t max_ping_bytes() const;
   /// Beam axes, azimuth from the head's x axis, positive to starboard.
   const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
@@ -39,7 +41,7 @@ class ForwardLookingHead {
   double near_field_m() const;
 
  private:
-  /// What a range needs that other pings of the same range use again.
+  /// What a pulse and its samples need, for the next pings with the same.
   struct Listening {
     RangedPulse ranged;
     echo::Pulse pulse;
@@ -48,7 +50,7 @@ class ForwardLookingHead {
     trace::RayDistribution rays;
   };
 
-  void prepare(double range_m);
+  void prepare(const HeadSettings& settings);
   void look(trace::Scene& seabed);
   void point_beams(double known_sound_speed_mps);
   echo::Background background(const Shot& shot, double source_level_db);

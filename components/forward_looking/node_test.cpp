@@ -130,6 +130,30 @@ TEST_CASE("a command changes range and rate from the next ping on; what cannot b
   CHECK(pings[2].stamp_ns - pings[1].stamp_ns == 200'000'000);
 }
 
+TEST_CASE("a commanded pulse holds, 0 lets it follow the range again; the swath is fixed") {
+  Head head(small());
+  give_motion(head, -10.0, 2_s);
+  head.give("tile", flat_tile(-15.0));
+  const auto command = [&](SimTime at, double pulse_length_s) {
+    msg::SonarSettings wanted;
+    wanted.stamp_ns = at.count();
+    wanted.pulse_length_s = pulse_length_s;
+    wanted.swath_rad = 1.0;
+    head.give("settings", wanted);
+  };
+  command(0_s, 2e-3);
+  command(300_ms, 0.0);
+  command(600_ms, 100e-6);  // at 20 m and 200 samples a chirp has 3.75 kHz: 4 / B is 1.07 ms
+  const auto pings = head.step_until<msg::Ping>("ping", 1_s);
+  REQUIRE(pings.size() > 8);
+  CHECK(pings[0].applied.pulse_length_s == Approx(4 / 3750.0));
+  CHECK(pings[1].applied.pulse_length_s == 2e-3);
+  CHECK(pings[1].applied.bandwidth_hz == pings[0].applied.bandwidth_hz);
+  CHECK(pings[4].applied.pulse_length_s == pings[0].applied.pulse_length_s);
+  CHECK(pings[8].applied.pulse_length_s == pings[0].applied.pulse_length_s);
+  CHECK(pings[8].applied.swath_rad == pings[0].applied.swath_rad);
+}
+
 TEST_CASE("the ping interval obeys 2 R / c plus dead time, always") {
   auto config = small();
   config.range_m = 75.0;  // 0.1 s; a sweep of 1 kHz takes 4 ms

@@ -13,7 +13,7 @@ void read_scan(ConfigReader& from, Scan& scan) {
   from.optional("step_deg", scan.step_rad, 0.05, 30, kDegrees);
   from.optional("steps_per_ping", scan.steps_per_ping, 1, 100);
   from.optional_choice("turning", scan.reversing, {{"continuous", false}, {"reversing", true}});
-  if (scan.step_rad * scan.steps_per_ping > scan.width_rad) {
+  if (stride_rad(scan) > scan.width_rad) {
     from.problem("sector_width_deg", "is less than what the head turns between two pings");
   }
 }
@@ -27,9 +27,7 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   from.optional("vertical_beamwidth_deg", c.vertical_beamwidth_rad, 0.2, 90, kDegrees);
   from.optional("tilt_deg", c.tilt_rad, -90, 90, kDegrees);
   read_scan(from, c.scan);
-  from.optional("pulse_length_s", c.pulse.length_s, 1e-6, 20e-3);
-  from.optional("samples_per_pulse", c.pulse.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
-  from.optional("most_samples", c.pulse.most_samples, 64, 20000);
+  read_pulse(from, c.pulse);
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional("range_m", c.range_m, 0.5, 1000);
   from.optional("longest_range_m", c.longest_range_m, 0.5, 1000);
@@ -55,6 +53,11 @@ HeadSettings ScanningConfig::start() const {
   return start;
 }
 
-SettingLimits ScanningConfig::limits() const { return limits_up_to(0.5, longest_range_m, source_level_db); }
+SettingLimits ScanningConfig::limits() const {
+  SettingLimits limits = limits_up_to(0.5, longest_range_m, source_level_db);
+  allow_held_pulses(pulse, sound_speed_mps, limits);
+  limits.swath_rad = {stride_rad(scan), 360.0 * Scan::kDegree};
+  return limits;
+}
 
 }  // namespace ensonify

@@ -81,8 +81,10 @@ ScanningHead::ScanningHead(const ScanningConfig& config)
 
 msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
                                const frames::PoseHistory& truth, trace::Scene& seabed) {
-  const double angle_rad = scan_angle_rad(config_.scan, shot.ping);
-  const RangedPulse ranged = pulse_for(settings.range_m);
+  Scan scan = config_.scan;
+  scan.width_rad = settings.swath_rad;
+  const double angle_rad = scan_angle_rad(scan, shot.ping);
+  const RangedPulse ranged = pulse_for(settings);
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
   for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;

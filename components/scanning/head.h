@@ -25,7 +25,9 @@ class ScanningHead {
   /// What the last ping met.
   const Sight& sight() const { return sight_; }
 
-  RangedPulse pulse_for(double range_m) const { return pulse_at(config_.pulse, range_m, config_.sound_speed_mps); }
+  RangedPulse pulse_for(const HeadSettings& settings) const {
+    return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
+  }
   std::size_t max_ping_bytes() const;
 
  private:

@@ -5,16 +5,17 @@ namespace ensonify {
 ScanningNode::ScanningNode(const Config& config, Ports& ports)
     : frequency_hz_(config.frequency_hz),
       head_(config),
-      channel_(config,
-               {.longest_listening_s = head_.pulse_for(config.longest_range_m).listening_s(),
-                .max_ping_bytes = head_.max_ping_bytes(),
-                .finest_beam_rad = config.horizontal_beamwidth_rad,
-                .probe = true},
-               ports) {}
+      channel_(
+          config,
+          {.longest_listening_s = longest_listening_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
+           .max_ping_bytes = head_.max_ping_bytes(),
+           .finest_beam_rad = config.horizontal_beamwidth_rad,
+           .probe = true},
+          ports) {}
 
 SimTime ScanningNode::step(SimTime now) {
   const auto send = [this](const HeadSettings& settings) -> Transmission {
-    const RangedPulse pulse = head_.pulse_for(settings.range_m);
+    const RangedPulse pulse = head_.pulse_for(settings);
     return {frequency_hz_, pulse.length_s, from_seconds(pulse.listening_s()), settings};
   };
   const auto listen = [this](const PingUnderWay& ping, const HeadSettings& settings) -> SingleChannel::Heard {

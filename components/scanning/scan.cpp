@@ -9,8 +9,6 @@
 namespace ensonify {
 namespace {
 
-double stride_rad(const Scan& scan) { return scan.step_rad * scan.steps_per_ping; }
-
 bool full_turn(const Scan& scan) { return scan.width_rad > 2.0 * std::numbers::pi - 1e-9; }
 
 /// Strides that fit into the sector.
@@ -29,6 +27,8 @@ std::int64_t place(const Scan& scan, std::int64_t ping) {
 }
 
 }  // namespace
+
+double stride_rad(const Scan& scan) { return scan.step_rad * scan.steps_per_ping; }
 
 std::int64_t pings_per_sweep(const Scan& scan) {
   return full_turn(scan) && !scan.reversing ? strides(scan) : strides(scan) + 1;

@@ -17,6 +17,9 @@ struct Scan {
   static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 };
 
+/// Turned between two pings.
+double stride_rad(const Scan& scan);
+
 /// Pings from one end of the sector to the other; in a full turn, pings of the turn. At least 1.
 std::int64_t pings_per_sweep(const Scan& scan);
 

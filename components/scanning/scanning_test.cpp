@@ -123,7 +123,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   auto scene = scene_of([](double, double) { return -15.0; });
   const msg::Ping row = head.listen({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
   const double narrow = array::length_in_waves_for(2 * kDeg), tall = array::length_in_waves_for(25 * kDeg);
-  const double length_m = 0.5 * kSpeed_mps * head.pulse_for(40.0).length_s, H = 5.0;
+  const double length_m = 0.5 * kSpeed_mps * head.pulse_for(config.start()).length_s, H = 5.0;
   for (const double R : {15.0, 20.0, 30.0}) {
     double sum = 0.0;
     constexpr int kSteps = 40000;
@@ -147,6 +147,37 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
     INFO("range " << R);
     CHECK(10.0 * std::log10(mean_square / count) == Approx(expected_db).margin(0.5));
   }
+}
+
+TEST_CASE("a command holds the tone and sets the sector's width") {
+  ScanningConfig config = quiet();
+  config.scan = {.width_rad = 90 * kDeg, .step_rad = 9 * kDeg};
+  ScanningHead head(config);
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  auto scene = scene_of([](double, double) { return -15.0; });
+  const auto ping = [&](std::int64_t number, double pulse_length_s, double swath_rad) {
+    msg::SonarSettings wanted;
+    wanted.pulse_length_s = pulse_length_s;
+    wanted.swath_rad = swath_rad;
+    CommandedSettings settings(config.start(), config.limits());
+    settings.command(wanted);
+    return head.listen({number, SimTime{0}, 20.0}, settings.at_ping(), kSpeed_mps, truth, scene);
+  };
+  const double by_range_s = 2 * 2 * 20.0 / kSpeed_mps / 1200;  // two of 1200 samples
+  CHECK(ping(0, msg::kUnchanged, msg::kUnchanged).applied.pulse_length_s == Approx(by_range_s));
+  CHECK(ping(0, 1e-3, msg::kUnchanged).applied.pulse_length_s == Approx(1e-3));
+  CHECK(ping(0, 1e-3, msg::kUnchanged).sample_period_s == Approx(0.5e-3));
+  CHECK(ping(0, 0.0, msg::kUnchanged).applied.pulse_length_s == Approx(by_range_s));
+
+  const auto angle_deg = [&](std::int64_t number, double swath_deg) {
+    return static_cast<double>(ping(number, msg::kUnchanged, swath_deg * kDeg).beam_angle_rad[0]) / kDeg;
+  };
+  CHECK(angle_deg(0, 90) == Approx(-45));
+  CHECK(angle_deg(0, 36) == Approx(-18));
+  CHECK(angle_deg(4, 36) == Approx(18));
+  CHECK(angle_deg(5, 36) == Approx(-18));
+  CHECK(angle_deg(1, 1) == Approx(4.5));  // no narrower than a step
 }
 
 TEST_CASE("pings carry their angle, and a head that can only see black says why") {

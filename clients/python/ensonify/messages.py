@@ -703,7 +703,7 @@ class SonarSettings(Message):
     stamp_ns [ns]: time of the command, sim time
     range_m [m]: range to listen to; 0: the head chooses, where it can
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
-    pulse_length_s [s]: pulse length
+    pulse_length_s [s]: pulse length; 0: the head chooses, where it can
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O at range R in m
     gain_absorption_dbpm [dB/m]: A of that gain
     gain_offset_db [dB]: O of that gain

@@ -100,11 +100,11 @@ SetSonar read_sonar(ConfigReader& from) {
   from.required("set_sonar", sonar.head);
   from.optional("range_m", sonar.range_m, 0, 20000);
   from.optional("source_level_db", sonar.source_level_db, 100, 260);
-  from.optional("pulse_length_s", sonar.pulse_length_s, 1e-6, 1);
+  from.optional("pulse_length_s", sonar.pulse_length_s, 0, 1);
   from.optional("gain_spreading_db", sonar.gain_spreading_db, 0, 60);
   from.optional("gain_absorption_dbpm", sonar.gain_absorption_dbpm, 0, 1);
   from.optional("gain_offset_db", sonar.gain_offset_db, -200, 200);
-  from.optional("swath_deg", sonar.swath_rad, 1, 180, kDegrees);
+  from.optional("swath_deg", sonar.swath_rad, 0.1, 360, kDegrees);
   from.optional("ping_rate_hz", sonar.ping_rate_hz, 0.01, 200);
   from.optional("mode", sonar.mode);
   return sonar;

@@ -16,6 +16,10 @@ void take(const char* name, double wanted, const std::optional<SettingRange>& ra
     remarks.push_back(fmt::format("{}={} refused: this head has no such setting", name, wanted));
     return;
   }
+  if (range->least == range->most && wanted != range->least) {
+    remarks.push_back(fmt::format("{}={} refused: on this head it is fixed at {:.6g}", name, wanted, range->least));
+    return;
+  }
   setting = std::clamp(wanted, range->least, range->most);
   if (setting != wanted) {
     remarks.push_back(
@@ -38,6 +42,25 @@ void take_range(double wanted_m, const SettingLimits& limits, HeadSettings& sett
   }
   take("range_m", wanted_m, limits.range_m, settings.range_m, remarks);
   if (limits.range_m) settings.auto_range = false;
+}
+
+void take_pulse(double wanted_s, const SettingLimits& limits, HeadSettings& settings,
+                std::vector<std::string>& remarks) {
+  if (wanted_s != 0.0 || !limits.pulse_length_s) {
+    take("pulse_length_s", wanted_s, limits.pulse_length_s, settings.pulse_length_s, remarks);
+  } else if (limits.auto_pulse) {
+    settings.pulse_length_s = 0.0;
+  } else {
+    remarks.push_back("pulse_length_s=0 refused: this head does not choose its pulse length");
+  }
+}
+
+void tell_longer_pulse(const SettingLimits& limits, const HeadSettings& settings, std::vector<std::string>& remarks) {
+  if (!limits.shortest_pulse_s || settings.pulse_length_s == 0.0) return;
+  const double shortest_s = limits.shortest_pulse_s(settings.range_m);
+  if (settings.pulse_length_s >= (1.0 - 1e-9) * shortest_s) return;
+  remarks.push_back(fmt::format("pulse_length_s={} is too short for range_m={}: {:.4g} is sent",
+                                settings.pulse_length_s, settings.range_m, shortest_s));
 }
 
 void take_mode(const std::string& wanted, const std::vector<std::string>& modes, std::string& mode,
@@ -64,7 +87,8 @@ std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& co
   };
   take_range(command.range_m, limits_, next_, remarks);
   number("source_level_db", command.source_level_db, limits_.source_level_db, next_.source_level_db);
-  number("pulse_length_s", command.pulse_length_s, limits_.pulse_length_s, next_.pulse_length_s);
+  take_pulse(command.pulse_length_s, limits_, next_, remarks);
+  if (!std::isnan(command.range_m) || !std::isnan(command.pulse_length_s)) tell_longer_pulse(limits_, next_, remarks);
   number("gain_spreading_db", command.gain_spreading_db, limits_.gain_spreading_db, next_.gain_spreading_db);
   number("gain_absorption_dbpm", command.gain_absorption_dbpm, limits_.gain_absorption_dbpm,
          next_.gain_absorption_dbpm);

@@ -97,6 +97,47 @@ TEST_CASE("a range of 0 lets the head choose up to the longest, where it can") {
   CHECK(manual.at_ping() == start());
 }
 
+TEST_CASE("a pulse length of 0 lets the head choose again, where it can") {
+  SettingLimits by_range = limits();
+  by_range.auto_pulse = true;
+  CommandedSettings settings(start(), by_range);
+  msg::SonarSettings command;
+  command.pulse_length_s = 0.0;
+  CHECK(settings.command(command).empty());
+  CHECK(settings.at_ping().pulse_length_s == 0.0);
+
+  CommandedSettings manual(start(), limits());
+  CHECK(manual.command(command) == Remarks{"pulse_length_s=0 refused: this head does not choose its pulse length"});
+  CHECK(manual.at_ping() == start());
+}
+
+TEST_CASE("a pulse that the range does not allow is told, whichever of the two was commanded, and kept") {
+  SettingLimits by_range = limits();
+  by_range.shortest_pulse_s = [](double range_m) { return 1e-6 * range_m; };
+  CommandedSettings settings(start(), by_range);
+  msg::SonarSettings pulse, farther, nearer;
+  pulse.pulse_length_s = 50e-6;
+  CHECK(settings.command(pulse) == Remarks{"pulse_length_s=5e-05 is too short for range_m=100: 0.0001 is sent"});
+  farther.range_m = 200.0;
+  CHECK(settings.command(farther) == Remarks{"pulse_length_s=5e-05 is too short for range_m=200: 0.0002 is sent"});
+  nearer.range_m = 50.0;
+  CHECK(settings.command(nearer).empty());
+  CHECK(settings.at_ping().pulse_length_s == 50e-6);
+  CHECK(settings.command(msg::SonarSettings{}).empty());
+}
+
+TEST_CASE("what is fixed says at what") {
+  SettingLimits fixed = limits();
+  fixed.swath_rad = {2.0, 2.0};
+  CommandedSettings settings(start(), fixed);
+  msg::SonarSettings command;
+  command.swath_rad = 1.0;
+  CHECK(settings.command(command) == Remarks{"swath_rad=1 refused: on this head it is fixed at 2"});
+  CHECK(settings.at_ping() == start());
+  command.swath_rad = 2.0;
+  CHECK(settings.command(command).empty());
+}
+
 TEST_CASE("a ping tells its settings") {
   msg::Ping ping;
   ping.applied.frequency_hz = 300e3;
