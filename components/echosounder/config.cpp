@@ -1,6 +1,7 @@
 #include "components/echosounder/config.h"
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -17,6 +18,7 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
   from.optional("beamwidth_deg", c.beamwidth_rad, 0.5, 40, kDegrees);
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional("pulse_length_s", c.pulse_length_s, 10e-6, kLongestPulse_s);
+  read_taper(from, false, c.tapered_fraction);
   from.optional("range_m", c.range_m, 1, 2000);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
@@ -28,8 +30,8 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
 bool EchosounderConfig::operator==(const EchosounderConfig& o) const {
   return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
          face == o.face && beamwidth_rad == o.beamwidth_rad && source_level_db == o.source_level_db &&
-         pulse_length_s == o.pulse_length_s && range_m == o.range_m && electronic_noise_db == o.electronic_noise_db &&
-         bottom_threshold_db == o.bottom_threshold_db;
+         pulse_length_s == o.pulse_length_s && tapered_fraction == o.tapered_fraction && range_m == o.range_m &&
+         electronic_noise_db == o.electronic_noise_db && bottom_threshold_db == o.bottom_threshold_db;
 }
 
 HeadSettings EchosounderConfig::start() const {

@@ -17,6 +17,7 @@ struct EchosounderConfig : HeadConfig {
   double beamwidth_rad = 8.0 * kDegree;  // one-way, -3 dB; of a square along its sides
   double source_level_db = 215.0;        // rms during the pulse, re 1 uPa at 1 m
   double pulse_length_s = 100e-6;
+  double tapered_fraction = 0.0;  // of its length, that rises and falls; its level is that in between
   double range_m = 100.0;
   double electronic_noise_db = -200.0;  // as sound in the water, re 1 uPa^2/Hz
   double bottom_threshold_db = 12.0;    // first return over the water column

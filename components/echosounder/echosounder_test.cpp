@@ -58,8 +58,8 @@ struct Survey {
   }
 };
 
-msg::Tile flat() {
-  return tile_of(128, 1.0, [](double, double) { return -22.0; });
+msg::Tile flat(double height_m = -22.0) {
+  return tile_of(128, 1.0, [=](double, double) { return height_m; });
 }
 
 }  // namespace
@@ -86,16 +86,24 @@ TEST_CASE("the depth below the piston is found to a sample, also when the boat r
   }
 }
 
-TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces") {
+TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces, of a tapered tone too") {
   // Sum of p^2 dt = SL tau R^-4 sigma |b|^2 dA over the beam, on a flat seabed dA = H^2 dOmega / cos^3 of the angle
   // from the vertical. The rays' strata leave some 0.1 dB.
-  for (const auto face : {EchosounderConfig::Face::kCircular, EchosounderConfig::Face::kSquare}) {
+  using Face = EchosounderConfig::Face;
+  for (const auto& [face, taper] : {std::pair{Face::kCircular, 0.0}, {Face::kSquare, 0.0}, {Face::kCircular, 0.5}}) {
     EchosounderConfig config = over_lambert();
     config.face = face;
+    config.tapered_fraction = taper;
     config.effects.speckle = config.effects.noise = config.effects.multipath = false;
-    const Survey survey(config, flat());
+    // Two samples of a tapered tone bring its energy but for where they lie: over half a sample of depth that is no
+    // more.
     double energy = 0.0;
-    for (const float a : survey.pings.at(0).amplitude_upa.flat()) energy += double(a) * a * config.sample_period_s();
+    for (const double deeper_m : {0.0, 0.5 * 750.0 * config.sample_period_s()}) {
+      const Survey survey(config, flat(-22.0 - deeper_m));
+      for (const float a : survey.pings.at(0).amplitude_upa.flat()) {
+        energy += 0.5 * double(a) * a * config.sample_period_s();
+      }
+    }
 
     const double waves = array::length_in_waves_for(config.beamwidth_rad);
     const double diameter = waves * 58.96 / 50.76;
@@ -104,15 +112,16 @@ TEST_CASE("the energy of the bottom echo is that of the area integral, for both 
     for (double u = -0.4; u <= 0.4; u += kStep) {
       for (double v = -0.4; v <= 0.4; v += kStep) {
         const double cosine = std::sqrt(1.0 - u * u - v * v), range = 20.0 / cosine;
-        const double b = face == EchosounderConfig::Face::kCircular
-                             ? std::pow(array::piston_amplitude(diameter, std::hypot(u, v)), 2)
-                             : array::line_power(waves, u) * array::line_power(waves, v);
+        const double b = face == Face::kCircular ? std::pow(array::piston_amplitude(diameter, std::hypot(u, v)), 2)
+                                                 : array::line_power(waves, u) * array::line_power(waves, v);
         const double area = range * range / cosine * (kStep * kStep / cosine);
         expected += b * b * seabed::lambert_backscatter(-25.0, cosine) * area * std::pow(range, -4) *
                     std::pow(10.0, -0.2 * 0.05 * range);
       }
     }
-    expected *= std::pow(10.0, 21.5) * config.pulse_length_s;
+    // The square of a raised cosine has a mean of 3/8.
+    expected *= std::pow(10.0, 21.5) * config.pulse_length_s * (1.0 - 5.0 / 8.0 * taper);
+    INFO("taper " << taper);
     CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
   }
 }

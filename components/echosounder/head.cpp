@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "components/runtime/head/head_motion.h"
+#include "components/runtime/head/tone_shape.h"
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
 #include "kernels/array/pattern_table.h"
@@ -91,7 +92,8 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   emission.listening_s = config_.listening_s(settings);
   emission.sample_period_s = config_.sample_period_s();
   head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
-  echo::Image& image = echoes_.listen(emission, echo::rectangular_pulse(settings.pulse_length_s), poses_, seabed);
+  const echo::Pulse pulse = echo::tapered_pulse(settings.pulse_length_s, config_.tapered_fraction);
+  echo::Image& image = echoes_.listen(emission, pulse, poses_, seabed);
 
   Heard heard;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
@@ -102,6 +104,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   heard.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
   fill(heard.ping.applied, settings);
   heard.ping.applied.frequency_hz = config_.frequency_hz;
+  heard.ping.applied.pulse = pulse_word(false, config_.tapered_fraction);
   heard.ping.applied.transmit_beamwidth_rad = heard.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
   heard.ping.applied.sound_speed_mps = config_.sound_speed_mps;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);

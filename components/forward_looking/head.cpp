@@ -6,6 +6,7 @@
 
 #include "components/runtime/head/head_motion.h"
 #include "components/runtime/head/patch.h"
+#include "components/runtime/head/tone_shape.h"
 #include "kernels/array/beam_layout.h"
 #include "kernels/array/line.h"
 #include "kernels/array/near_field.h"
@@ -117,7 +118,7 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, images_[0], ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
-  ping.applied.pulse = config_.pulse.chirp ? "fm_up" : "cw";
+  ping.applied.pulse = pulse_word(config_.pulse.chirp, config_.pulse.tapered_fraction);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.bandwidth_hz = config_.pulse.chirp ? ranged.band_hz : 0.0;
   ping.applied.transmit_beamwidth_rad = config_.transmit_vertical_rad;

@@ -171,6 +171,27 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   }
 }
 
+TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its shorter effective length") {
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.range_m = 30.0;
+  config.tilt_rad = 10 * kDeg;
+  config.beams = 32;
+  config.pulse.chirp = false;
+  config.pulse.most_samples = 300;
+  trace::Scene scene = scene_of([](double, double) { return -15.0; });
+  const msg::Ping rectangular = ping_of(config, scene);
+  config.pulse.tapered_fraction = 0.5;
+  const msg::Ping tapered = ping_of(config, scene);
+  CHECK(rectangular.applied.pulse == "cw");
+  CHECK(tapered.applied.pulse == "cw_tapered");
+  for (const double R : {10.0, 15.0, 25.0}) {
+    const auto level_db = [&](const msg::Ping& ping) { return db(mean_square(ping, -60, 60, R - 1.0, R + 1.0)); };
+    // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.
+    CHECK(level_db(tapered) - level_db(rectangular) == Approx(db(1.0 - 5.0 / 16.0)).margin(0.2));
+  }
+}
+
 TEST_CASE("a block stands at its azimuth and range, and throws a shadow as long as geometry says") {
   // 5 m of altitude. North of the head a wall 1 m high and 8 m wide, its top from 20 to 20.5 m.
   const auto wall = [](double east, double north) {

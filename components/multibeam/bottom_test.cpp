@@ -254,6 +254,20 @@ TEST_CASE("a beam over the top of a wall detects both the wall and the seabed be
   CHECK(both);
 }
 
+TEST_CASE("a tapered tone finds the same flat seabed, and the same strength") {
+  MultibeamConfig config = shallow();
+  config.range_m = 50.0;
+  config.beams = 128;
+  config.effects.speckle = false;  // else tones of another shape have other speckle
+  const double rectangular_db = lambert_mu_db(survey(config, {.speed_mps = 3.0}, 1_s));
+  config.tapered_fraction = 0.5;
+  const auto pings = survey(config, {.speed_mps = 3.0}, 1_s);
+  CHECK(pings.back().applied.pulse == "cw_tapered");
+  // It brings 10 log(1 - 5/8 / 2) = 1.63 dB less energy.
+  CHECK(lambert_mu_db(pings) == Approx(rectangular_db).margin(0.2));
+  CHECK(std::abs(depth_error(pings, 0.0, 45.0).mean) < 0.015);
+}
+
 TEST_CASE("a chirp finds the same flat seabed, and the same strength") {
   MultibeamConfig config = shallow();
   config.range_m = 50.0;

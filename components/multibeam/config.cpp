@@ -5,6 +5,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/environment.h"
+#include "components/runtime/head/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -52,6 +53,7 @@ void read_sectors(ConfigReader& from, MultibeamConfig& c) {
 void read_ping(ConfigReader& from, MultibeamConfig& c) {
   from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
+  read_taper(from, c.chirp, c.tapered_fraction);
   from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
   read_window(from, c.window);
   from.optional("source_level_db", c.source_level_db, -300, 250);
@@ -182,7 +184,8 @@ std::vector<MultibeamConfig::Sector> MultibeamConfig::all_sectors() const {
 }
 
 echo::Pulse MultibeamConfig::pulse(double of_length_s) const {
-  return chirp ? echo::compressed_chirp(of_length_s, bandwidth_hz, window) : echo::rectangular_pulse(of_length_s);
+  if (chirp) return echo::compressed_chirp(of_length_s, bandwidth_hz, window);
+  return echo::tapered_pulse(of_length_s, tapered_fraction);
 }
 
 double MultibeamConfig::last_start_s(double of_range_m) const {

@@ -72,7 +72,8 @@ struct MultibeamParameters {
   double sector_rejection_db = 80.0;              // by a sector's filter, of what lies outside its band
   bool chirp = false;                             // a linear sweep and its matched filter; else a tone
   double pulse_length_s = 100e-6;
-  double bandwidth_hz = 0.0;                     // that a chirp sweeps
+  double tapered_fraction = 0.0;  // of a tone's length that rises and falls; its level is that in between
+  double bandwidth_hz = 0.0;      // that a chirp sweeps
   echo::Window window = echo::Window::kHamming;  // of its matched filter
   double source_level_db = 215.0;                // rms during the pulse, re 1 uPa at 1 m; the most that can be set
   bool roll_stabilised = true;                   // beams and sectors are steered against the measured roll

@@ -17,6 +17,9 @@ TEST_CASE("a head outside its limits is refused with place and limits") {
   CHECK(problems_of<MultibeamConfig>("quality: 0") == "head.yaml:1:10: quality: 0 is outside [0.05, 10]");
   CHECK(problems_of<MultibeamConfig>("pulse_length_s: 0.00005").find("is below two samples per pulse, 40000") !=
         std::string::npos);
+  CHECK_THAT(
+      problems_of<MultibeamConfig>("pulse: chirp\nbandwidth_hz: 5e4\nsample_rate_hz: 1e5\ntapered_fraction: 0.2"),
+      Catch::Contains("tapered_fraction: is of tones; chirps have a window"));
   CHECK(problems_of<MultibeamConfig>("pulse: chirp\npulse_length_s: 0.0005\nbandwidth_hz: 20000")
             .find("is below two samples per 1 / bandwidth, 40000") != std::string::npos);
   CHECK(problems_of<MultibeamConfig>("pulse: chirp\nbandwidth_hz: 10000").find("a chirp needs at least 4") !=

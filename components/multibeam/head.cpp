@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/runtime/head/tone_shape.h"
+
 namespace ensonify {
 
 MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config) {
@@ -32,11 +34,13 @@ const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot,
       echo::amplitude_upa(whole, part_);
       std::ranges::copy(part_, rows.begin());
     }
-    const double echo_s = config_.chirp ? sector.pulse().equivalent_length_s() : settings.pulse_length_s;
-    const double start_s = sector.sampling().start_s + (config_.chirp ? 0.5 * echo_s : 0.0);
+    const echo::Pulse& pulse = sector.pulse();
+    const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
+    const double start_s = sector.sampling().start_s + (0.5 * echo_s - middle_s);
     heard_.push_back({{whole.beams, whole.samples, start_s, sector.sampling().period_s, rows},
                       {sector.starboard().envelope_upa, sector.port().envelope_upa},
-                      echo_s});
+                      echo_s,
+                      middle_s});
   }
   return heard_;
 }
@@ -94,7 +98,7 @@ msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const HeadSettings
   if (!config_.effects.tvg) applied.gain_spreading_db = applied.gain_absorption_dbpm = 0.0;
   applied.range_m = shot.range_m;
   applied.frequency_hz = config_.frequency_hz;
-  applied.pulse = config_.chirp ? "fm_up" : "cw";
+  applied.pulse = pulse_word(config_.chirp, config_.tapered_fraction);
   applied.bandwidth_hz = config_.bandwidth_hz;
   applied.transmit_beamwidth_rad = config_.transmit_beamwidth_rad;
   applied.receive_beamwidth_rad = config_.receive_beamwidth_rad;

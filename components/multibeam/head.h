@@ -25,12 +25,13 @@ class MultibeamHead {
 
   /// Beams of one sector against time after that sector's transmission, as all of the receive line and as each half of
   /// it hears them: before gain and converter.
-  /// A point's echo lasts echo_s, from the time on that the image's samples tell: a chirp's, whose peak stands at its
-  /// arrival, is given the start that a tone of the same length would have.
+  /// A point's echo counts as a rectangle of its energy, echo_s long about its middle. The times of the image's samples
+  /// are such that this rectangle begins at the point's arrival. The middle comes middle_s after it: half a tone's
+  /// length, 0 of a chirp, whose peak stands there.
   struct Heard {
     detect::Amplitudes image;
     detect::HalfApertures halves;
-    double echo_s = 0.0;
+    double echo_s = 0.0, middle_s = 0.0;
   };
   /// One entry per sector; valid until the next call. A function of shot, settings, steering, poses and tiles. `truth`
   /// has a pose.

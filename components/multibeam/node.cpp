@@ -138,7 +138,7 @@ void MultibeamNode::publish_images(const HeadSettings& settings, const Steering&
   snippets.applied = soundings.applied;
   if (snippets_out_) snippets_out_->send(snippets);
   if (!image_out_) return;
-  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front().echo_s, snippets, soundings);
+  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front(), snippets, soundings);
   image.applied = soundings.applied;
   image_out_->send(image);
 }

@@ -56,11 +56,12 @@ msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const 
 }
 
 msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettings& settings, const Steering& steering,
-                                 double echo_s, const msg::Snippets& snippets, const msg::Soundings& soundings) {
+                                 const MultibeamHead::Heard& heard, const msg::Snippets& snippets,
+                                 const msg::Soundings& soundings) {
   const auto sectors = config.all_sectors();
   detect::FlatteningModel model;
   model.source_level_db = settings.source_level_db;
-  model.pulse_length_s = echo_s;
+  model.pulse_length_s = heard.echo_s;
   model.sound_speed_mps = steering.sound_speed_mps;
   model.absorption_dbpm = settings.gain_absorption_dbpm;
   model.nearest_range_m = 0.5 * nearest_s(soundings) * steering.sound_speed_mps;
@@ -82,8 +83,7 @@ msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettin
     model.receive_length_in_waves = receive_length_in_waves(config, sector.frequency_hz);
     const std::size_t from = snippets.offset[i], count = snippets.offset[i + 1] - from;
     // A sample holds the echoes that began within a tone before it, or those of chirps about it.
-    const double before_s = config.chirp ? 0.0 : 0.5 * echo_s;
-    const double first_s = static_cast<double>(snippets.first_sample_s[i]) - sector.delay_s - before_s;
+    const double first_s = static_cast<double>(snippets.first_sample_s[i]) - sector.delay_s - heard.middle_s;
     const double step_s = snippets.sample_period_s;
     detect::seabed_image_db(model, snippets.amplitude_upa.flat().subspan(from, count),
                             0.5 * std::max(first_s, step_s) * steering.sound_speed_mps,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/runtime/head/head_motion.h"
+#include "components/runtime/head/tone_shape.h"
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
 #include "kernels/array/pattern_table.h"
@@ -104,6 +105,7 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
+  ping.applied.pulse = pulse_word(false, config_.pulse.tapered_fraction);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;

@@ -149,6 +149,34 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   }
 }
 
+TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its shorter effective length") {
+  ScanningConfig config = quiet();
+  config.tilt_rad = 10 * kDeg;
+  config.range_m = 40.0;
+  config.quality = 1.0;
+  auto scene = scene_of([](double, double) { return -15.0; });
+  frames::PoseHistory truth(1'000'000'000);
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  const auto ping = [&] {
+    ScanningHead head(config);
+    return head.listen({200, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
+  };
+  const msg::Ping rectangular = ping();
+  config.pulse.tapered_fraction = 0.5;
+  const msg::Ping tapered = ping();
+  CHECK(tapered.applied.pulse == "cw_tapered");
+  const auto level_db = [](const msg::Ping& row) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {
+      const double a = static_cast<double>(row.amplitude_upa[k]);
+      if (range_of(row, k) > 12.0 && range_of(row, k) < 35.0) sum += a * a;
+    }
+    return 10.0 * std::log10(sum);
+  };
+  // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.
+  CHECK(level_db(tapered) - level_db(rectangular) == Approx(10.0 * std::log10(1.0 - 5.0 / 16.0)).margin(0.2));
+}
+
 TEST_CASE("a command holds the tone and sets the sector's width") {
   ScanningConfig config = quiet();
   config.scan = {.width_rad = 90 * kDeg, .step_rad = 9 * kDeg};

@@ -5,6 +5,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/ranged_pulse.h"
+#include "components/runtime/head/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -21,7 +22,6 @@ void check(const ConfigReader& from, const SidescanChannel& c) {
                                      ": a chirp needs at least 4");
   }
   if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
-  if (c.chirp && c.tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
   if ((c.focus == Focus::kFixed) != (c.focus_m > 0.0)) {
     from.problem("focus_m", "is the range that focus: fixed is focused at, above 0, and 0 otherwise");
   }
@@ -46,7 +46,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional("source_level_db", c.source_level_db, -300, 250);
   from.optional_choice("pulse", c.chirp, {{"tone", false}, {"chirp", true}});
   from.optional("pulse_length_s", c.pulse_length_s, 5e-6, kLongestPulse_s);
-  from.optional("tapered_fraction", c.tapered_fraction, 0, 1);
+  read_taper(from, c.chirp, c.tapered_fraction);
   from.optional("bandwidth_hz", c.bandwidth_hz, 0, 500e3);
   read_window(from, c.window);
   from.optional("samples_per_pulse", c.samples_per_pulse, kFewestPerPulse, kMostPerPulse);

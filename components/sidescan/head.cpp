@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/runtime/head/head_motion.h"
+#include "components/runtime/head/tone_shape.h"
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
 #include "kernels/array/near_field.h"
@@ -175,7 +176,7 @@ msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& setti
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
   fill(ping.applied, settings);
   ping.applied.frequency_hz = channel_.frequency_hz;
-  ping.applied.pulse = channel_.chirp ? "fm_up" : channel_.tapered_fraction > 0.0 ? "cw_tapered" : "cw";
+  ping.applied.pulse = pulse_word(channel_.chirp, channel_.tapered_fraction);
   ping.applied.bandwidth_hz = channel_.bandwidth_hz;
   ping.applied.transmit_beamwidth_rad = channel_.horizontal_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = channel_.vertical_beamwidth_rad;

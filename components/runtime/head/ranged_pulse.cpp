@@ -5,6 +5,7 @@
 #include <string>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kLeastSweep = 4.000001;  // bandwidth x length: over the 4 that
 void read_pulse(ConfigReader& from, PulseDesign& design) {
   from.optional("pulse_length_s", design.length_s, kShortest_s, kLongest_s);
   from.optional("longest_pulse_length_s", design.longest_s, kShortest_s, kLongest_s);
+  read_taper(from, design.chirp, design.tapered_fraction);
   from.optional("samples_per_pulse", design.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
   from.optional("most_samples", design.most_samples, 64, 20000);
   if (design.length_s > design.longest_s) {
@@ -54,7 +56,7 @@ double longest_listening_s(const PulseDesign& design, double longest_range_m, do
 
 echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse) {
   return design.chirp ? echo::compressed_chirp(pulse.length_s, pulse.band_hz, design.window)
-                      : echo::rectangular_pulse(pulse.length_s);
+                      : echo::tapered_pulse(pulse.length_s, design.tapered_fraction);
 }
 
 }  // namespace ensonify

@@ -21,6 +21,7 @@ struct PulseDesign {
   bool chirp = false;                            // a linear sweep and its matched filter; else a tone
   double length_s = 100e-6;                      // unless held; of a tone, the shortest
   double longest_s = 20e-3;                      // that can be held
+  double tapered_fraction = 0.0;                 // of a tone's length, that rises and falls
   double bandwidth_hz = 0.0;                     // that a chirp sweeps at most
   echo::Window window = echo::Window::kHamming;  // of its filter
   double samples_per_pulse = kFewestPerPulse;    // of a tone, or per 1 / B of a chirp
@@ -29,8 +30,8 @@ struct PulseDesign {
   bool operator==(const PulseDesign&) const = default;
 };
 
-/// Reads what such pulses have in common: pulse_length_s, longest_pulse_length_s, samples_per_pulse and
-/// most_samples.
+/// Reads what such pulses have in common: pulse_length_s, longest_pulse_length_s, tapered_fraction,
+/// samples_per_pulse and most_samples. Whether it is a chirp is known.
 void read_pulse(ConfigReader& from, PulseDesign& design);
 
 /// What is sent and sampled at one range.

@@ -31,6 +31,7 @@ AT_MOST = [
     ("terrain turned", "terrain turned with the head", 0, 0),
     ("arc of side lobes", "arc of side lobes, kernels", 0, 0),
     ("the same of a whole head", "arc of side lobes, whole head", 0, 0),
+    ("tapered tone", "strength by a tapered tone", 0, 0),
     ("near field of a sidescan", "near field of a sidescan's line", 0, 0),
     ("Rayleigh amplitude", "Rayleigh amplitude: rejected", 0, 0),
     ("coefficient of variation", "speckle's coefficient of variation", 1, 0),

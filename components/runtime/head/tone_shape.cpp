@@ -1,0 +1,17 @@
+#include "components/runtime/head/tone_shape.h"
+
+#include "components/runtime/config/config_reader.h"
+
+namespace ensonify {
+
+void read_taper(ConfigReader& from, bool chirp, double& tapered_fraction) {
+  from.optional("tapered_fraction", tapered_fraction, 0, 1);
+  if (chirp && tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
+}
+
+const char* pulse_word(bool chirp, double tapered_fraction) {
+  if (chirp) return "fm_up";
+  return tapered_fraction > 0.0 ? "cw_tapered" : "cw";
+}
+
+}  // namespace ensonify
