@@ -103,8 +103,10 @@ TEST_CASE("what is no plan is refused with its place, its cause and what is allo
         "a.csv: line 1: [-109.6, 53.2] is no latitude and longitude; allowed: up to 89.9 and 180 degrees; are they "
         "swapped?");
   CHECK(refused("a.geojson", "{").find("a.geojson: cannot be read") == 0);
-  CHECK(refused("f.lnw", kLnw, "EPSG:1").find("f.lnw") == std::string::npos);
-  CHECK_THROWS_WITH(read_lines(written("f.lnw", kLnw), "nonsense"), Catch::Contains("is no reference system"));
+  for (const std::string crs : {"EPSG:1", "nonsense"}) {
+    CHECK_THROWS_WITH(read_lines(written("f.lnw", kLnw), crs),
+                      Catch::Contains("--crs " + crs + ": is no reference system"));
+  }
 }
 
 TEST_CASE("CSV that is printed is read again") {

@@ -174,7 +174,7 @@ class InARun(unittest.TestCase):
     def test_misuse_is_refused(self):
         clock = self.start(["agent"], {}, SECOND)
         with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
-            command = me.publish("command", ensonify.Guidance, max_bytes=64)
+            command = me.publish("command", ensonify.Guidance, max_bytes=128)
             with self.assertRaisesRegex(RuntimeError, "within a step"):
                 command.send(ensonify.Guidance())
             with self.assertRaisesRegex(RuntimeError, "may_finish"):
