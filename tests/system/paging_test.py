@@ -77,7 +77,7 @@ class Paged(SystemTest):
                 stops += 1
         _, errors = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 0, errors)
-        self.assertGreater(stops, 20)
+        self.assertGreater(stops, 5)
         return self.folder / name
 
     def expect_same(self, whole, paged):

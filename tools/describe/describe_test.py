@@ -30,7 +30,11 @@ assert {"vehicle", "multibeam", "recorder"} <= set(told), f"only {told} tell the
 
 for message in everything["messages"]:
     assert json.loads(describe(message, "--json"))["title"] == message
-    assert describe(message.split("/")[0]).startswith(message)
+    name = message.split("/")[0]
+    if name in everything["components"]:
+        assert describe(name).startswith(f"{name}: ") and describe(name).endswith(f"a message, too: {message}\n")
+    else:
+        assert describe(name).startswith(message), message
 
 assert describe("pimg", wanted=2) == "pimg: is neither a component nor a message type; did you mean ping?\n"
 describe("ping", "--yaml", wanted=2)

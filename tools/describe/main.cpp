@@ -107,7 +107,7 @@ void print_all(bool as_json) {
   for (const msg::TypeInfo& type : msg::message_types()) fmt::print("  {:<18} {}\n", type.type, type.about);
 }
 
-/// "ping/1", or "ping" for the highest major there is.
+/// "ping/1", or "ping" for the highest major there is. A component of that name comes first.
 const msg::TypeInfo* message_named(const std::string& name) {
   const msg::TypeInfo* found = msg::find_type(name);
   for (const msg::TypeInfo& type : msg::message_types()) {
@@ -150,6 +150,8 @@ int main(int argc, char** argv) {
       print_all(as_json);
     } else if (std::find(components.begin(), components.end(), name) != components.end()) {
       print_component(name, as_yaml, as_json);
+      const msg::TypeInfo* namesake = message_named(name);
+      if (namesake && !as_yaml && !as_json) fmt::print("\nThere is a message, too: {}\n", namesake->type);
     } else if (const msg::TypeInfo* type = message_named(name)) {
       if (as_yaml) throw UserError(name + " is a message type; --yaml prints the parameters of a component");
       print_message(*type, as_json);
