@@ -6,22 +6,16 @@
 #include <map>
 
 #include "components/nav_feed/node.h"
+#include "components/nav_feed/test_sentence.h"
 #include "components/runtime/config/default_yaml.h"
 
 using namespace ensonify;
+using nmea::sentence;
 
 namespace {
 
 const frames::Geodetic kOrigin{53.21, -9.37};  // no whole degrees, whose minutes would round to 60
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-std::string sentence(const std::string& body) {
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char tail[8];
-  std::snprintf(tail, sizeof tail, "*%02X\r\n", sum);
-  return "$" + body + tail;
-}
 
 std::string time_of(double t_s) {
   const int whole = static_cast<int>(std::floor(t_s + 1e-9)) % 86400;

@@ -1,23 +1,15 @@
 #include "components/nav_feed/nmea.h"
 
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <string>
+
+#include "components/nav_feed/test_sentence.h"
 
 using namespace ensonify::nmea;
 
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-/// With its $, sum and line end.
-std::string sentence(const std::string& body) {
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char tail[8];
-  std::snprintf(tail, sizeof tail, "*%02X\r\n", sum);
-  return "$" + body + tail;
-}
 
 template <class T>
 bool is(const Sentence& found) {
