@@ -91,10 +91,13 @@ TEST_CASE("no more tiles live than the budget allows, while what is to be held c
       REQUIRE(store.take({round * 5 + 3, 0}).tile->col == round * 5 + 3);  // planned
       REQUIRE(store.take({-round, 9}).tile->row == 9);                     // not planned: another makes room
     }
+    const int made_before = census.made;
     const auto statistics = store.statistics();
     CHECK(statistics.most_resident <= 12);
     CHECK(statistics.taken == 800);
-    CHECK(statistics.made == census.made);
+    // Its four threads may each have made one that the store has not counted yet.
+    CHECK(int(statistics.made) >= made_before - 4);
+    CHECK(int(statistics.made) <= census.made);
     CHECK(statistics.resident <= 12);
   }
   // One more for the moment in which a tile that was taken has been forgotten by the store.
