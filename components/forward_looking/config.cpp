@@ -1,6 +1,7 @@
 #include "components/forward_looking/config.h"
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/line_shading.h"
 
 namespace ensonify {
 namespace {
@@ -12,6 +13,7 @@ void read_faces(ConfigReader& from, ForwardLookingConfig& c) {
   from.optional("beams", c.beams, 16, 1024);
   from.optional("aperture_deg", c.aperture_rad, 10, 160, kDegrees);
   from.optional("beamwidth_deg", c.beamwidth_rad, 0.2, 10, kDegrees);
+  read_shading(from, "shading", c.shading);
   from.optional("transmit_vertical_deg", c.transmit_vertical_rad, 1, 90, kDegrees);
   from.optional("receive_vertical_deg", c.receive_vertical_rad, 1, 90, kDegrees);
   from.optional("tilt_deg", c.tilt_rad, -90, 90, kDegrees);
@@ -53,9 +55,10 @@ ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const Scenar
 bool ForwardLookingConfig::operator==(const ForwardLookingConfig& o) const {
   return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
          beams == o.beams && aperture_rad == o.aperture_rad && beamwidth_rad == o.beamwidth_rad &&
-         transmit_vertical_rad == o.transmit_vertical_rad && receive_vertical_rad == o.receive_vertical_rad &&
-         tilt_rad == o.tilt_rad && pulse == o.pulse && source_level_db == o.source_level_db && range_m == o.range_m &&
-         longest_range_m == o.longest_range_m && electronic_noise_db == o.electronic_noise_db;
+         shading == o.shading && transmit_vertical_rad == o.transmit_vertical_rad &&
+         receive_vertical_rad == o.receive_vertical_rad && tilt_rad == o.tilt_rad && pulse == o.pulse &&
+         source_level_db == o.source_level_db && range_m == o.range_m && longest_range_m == o.longest_range_m &&
+         electronic_noise_db == o.electronic_noise_db;
 }
 
 HeadSettings ForwardLookingConfig::start() const {

@@ -4,6 +4,7 @@
 
 #include "components/runtime/head/head_config.h"
 #include "components/runtime/head/ranged_pulse.h"
+#include "kernels/array/shading.h"
 
 namespace ensonify {
 
@@ -16,6 +17,7 @@ struct ForwardLookingConfig : HeadConfig {
   int beams = 512;
   double aperture_rad = 130.0 * kDegree;          // in azimuth, that the beams are spread over; transmission -3 dB
   double beamwidth_rad = 1.0 * kDegree;           // in azimuth, of the unsteered receive array, -3 dB
+  array::Shading shading;                         // of the receive array, at that width
   double transmit_vertical_rad = 20.0 * kDegree;  // -3 dB, one-way
   double receive_vertical_rad = 20.0 * kDegree;   // -3 dB, one-way
   double tilt_rad = 0.0;                          // of both vertical beams, down from the x axis

@@ -22,7 +22,7 @@ constexpr double kVolumeStep_rad = 0.5 * std::numbers::pi / 180.0;
 double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
 array::LineArray array_of(const ForwardLookingConfig& config) {
-  return array::line_array_of_width(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz);
+  return array::line_array_of_width(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading);
 }
 
 /// Where side lobes are switched off: Dolph-Chebyshev weights, which put them at -60 dB and widen the main lobe.

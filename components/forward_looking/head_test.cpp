@@ -274,6 +274,24 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
   CHECK_FALSE(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);  // other speckle
 }
 
+TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams hear less beside them") {
+  ForwardLookingConfig config = quiet();
+  config.effects.speckle = false;
+  config.tilt_rad = 10 * kDeg;
+  config.range_m = 40.0;
+  config.beams = 64;
+  config.pulse.most_samples = 300;
+  trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
+  const msg::Ping uniform = ping_of(config, scene);
+  const double uniform_near_m = ForwardLookingHead(config).near_field_m();
+  config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
+  const msg::Ping shaded = ping_of(config, scene);
+  // Half-power widths are 64.4 and 50.76 lambda / L degrees.
+  CHECK(ForwardLookingHead(config).near_field_m() / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
+  CHECK(mean_square(shaded, -60, -40, 20, 30) < 0.1 * mean_square(uniform, -60, -40, 20, 30));
+  CHECK(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)) == Approx(0.0).margin(0.5));
+}
+
 TEST_CASE("without directivity outer beams hear more; without side lobes the far side of a wall goes dark") {
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;

@@ -9,15 +9,12 @@
 namespace ensonify {
 namespace {
 
-// Instruments shade their receive lines, and say little of how. With a uniform line the outermost beams hear the
-// nadir's echo through its side lobes louder than their own in some 60 m of water.
-constexpr array::Shading kReceiveShading{array::Shading::Window::kTaylor, 30.0, 4};
 constexpr array::Shading kNoSideLobes{array::Shading::Window::kDolphChebyshev, 60.0};
 
 constexpr double kEdgeReach = 0.1;  // sine from an edge at which its pattern is that of the inside, or nothing
 
-array::PatternTable line_pattern(double length_in_waves) {
-  return {[=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves};
+double wavelength_m(const MultibeamConfig& config, double frequency_hz) {
+  return config.sound_speed_mps / frequency_hz;
 }
 
 /// The edge of a sector at sine 0, whose inside lies at positive sines: one edge of a wide sector.
@@ -30,11 +27,20 @@ array::PatternTable edge_pattern() {
 
 ReceiveLine receive_line(const MultibeamConfig& config) {
   ReceiveLine line;
-  line.wavelength_m = config.sound_speed_mps / config.frequency_hz;
-  line.whole = array::line_array_of_width(config.receive_beamwidth_rad, line.wavelength_m, kReceiveShading);
+  line.wavelength_m = wavelength_m(config, config.frequency_hz);
+  line.whole = array::line_array_of_width(config.receive_beamwidth_rad, line.wavelength_m, config.receive_shading);
   if (!config.effects.side_lobes) line.whole.weights = array::shading_weights(kNoSideLobes, line.whole.elements());
   line.halves = array::split_aperture(line.whole);
   return line;
+}
+
+array::LineArray transmit_line(const MultibeamConfig& config) {
+  return array::line_array_of_width(config.transmit_beamwidth_rad, wavelength_m(config, config.frequency_hz),
+                                    config.transmit_shading);
+}
+
+double transmit_null(const MultibeamConfig& config, double frequency_hz) {
+  return array::first_null(transmit_line(config), wavelength_m(config, frequency_hz));
 }
 
 double transmit_length_in_waves(const MultibeamConfig& config, double frequency_hz) {
@@ -45,10 +51,16 @@ double receive_length_in_waves(const MultibeamConfig& config, double frequency_h
   return array::length_in_waves_for(config.receive_beamwidth_rad) * frequency_hz / config.frequency_hz;
 }
 
+AreaLengths area_lengths(const MultibeamConfig& config, double frequency_hz) {
+  const double wave_m = wavelength_m(config, frequency_hz);
+  return {array::effective_length_m(transmit_line(config)) / wave_m,
+          array::effective_length_m(receive_line(config).whole) / wave_m};
+}
+
 SectorPattern::SectorPattern(const MultibeamConfig& config, double frequency_hz)
-    : line_(line_pattern(transmit_length_in_waves(config, frequency_hz))),
+    : line_(transmit_line(config), wavelength_m(config, frequency_hz)),
       edge_(edge_pattern()),
-      first_null_(config.effects.side_lobes ? 2.0 : 1.0 / transmit_length_in_waves(config, frequency_hz)),
+      first_null_(config.effects.side_lobes ? 2.0 : transmit_null(config, frequency_hz)),
       behind_(config.effects.directivity ? static_cast<float>(std::pow(10.0, -0.05 * config.back_loss_db)) : 1.0F) {}
 
 float SectorPattern::edge(double sine_inside) const {

@@ -19,12 +19,24 @@ struct ReceiveLine {
 /// With side lobes switched off they lie 60 dB down, and the main lobe is wider for it; the elements are the same.
 ReceiveLine receive_line(const MultibeamConfig& config);
 
-/// Length of the transmit line at a frequency, in wavelengths: it is built for the head's.
+/// The transmit line. Both lines are as long as their shading asks for, to have the beam widths that are configured at
+/// the head's frequency.
+array::LineArray transmit_line(const MultibeamConfig& config);
+/// Of the transmit line, at a frequency.
+double transmit_null(const MultibeamConfig& config, double frequency_hz);
+
+/// Lengths, in wavelengths at a frequency, of the uniform lines that would have the same widths at -3 dB ...
 double transmit_length_in_waves(const MultibeamConfig& config, double frequency_hz);
 double receive_length_in_waves(const MultibeamConfig& config, double frequency_hz);
 
-/// Where a sector's sound goes, in the head's frame: a uniform line along x; across-track everywhere or between the
-/// sector's edges; less behind the face.
+/// ... and of those that would see the same area.
+struct AreaLengths {
+  double transmit_in_waves = 0.0, receive_in_waves = 0.0;
+};
+AreaLengths area_lengths(const MultibeamConfig& config, double frequency_hz);
+
+/// Where a sector's sound goes, in the head's frame: the transmit line's beam along x; across-track everywhere or
+/// between the sector's edges; less behind the face.
 class SectorPattern {
  public:
   /// Sine over which an edge falls, from full to nothing; half way it is at -6 dB.

@@ -5,6 +5,7 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/environment.h"
+#include "components/runtime/head/line_shading.h"
 #include "components/runtime/head/tone_shape.h"
 
 namespace ensonify {
@@ -33,6 +34,8 @@ void read_array(ConfigReader& from, MultibeamConfig& c) {
   from.optional("detections_per_beam", c.detections_per_beam, 1, 8);
   from.optional("transmit_beamwidth_deg", c.transmit_beamwidth_rad, 0.1, 20, kDegrees);
   from.optional("receive_beamwidth_deg", c.receive_beamwidth_rad, 0.1, 20, kDegrees);
+  read_shading(from, "transmit_shading", c.transmit_shading);
+  read_shading(from, "receive_shading", c.receive_shading);
   from.optional("back_loss_db", c.back_loss_db, 0, 100);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/runtime/head/head_config.h"
+#include "kernels/array/shading.h"
 #include "kernels/echo/pulse.h"
 #include "kernels/uncertainty/sounding.h"
 
@@ -66,11 +67,16 @@ struct MultibeamParameters {
   int detections_per_beam = 1;                    // at most
   double transmit_beamwidth_rad = 1.0 * kDegree;  // along-track, one-way, -3 dB
   double receive_beamwidth_rad = 1.0 * kDegree;   // across-track at nadir
-  double back_loss_db = 40.0;                     // one-way, behind the face
-  double electronic_noise_db = -200.0;            // of each element, as sound in the water, re 1 uPa^2/Hz
-  std::vector<Sector> sectors;                    // from port to starboard; empty: one transmission over the swath
-  double sector_rejection_db = 80.0;              // by a sector's filter, of what lies outside its band
-  bool chirp = false;                             // a linear sweep and its matched filter; else a tone
+  // Of both lines, at these widths. With a uniform receive line the outermost beams hear the nadir's echo through its
+  // side lobes louder than their own in some 60 m of water; with a uniform transmit line soundings of a level seabed
+  // are too deep by what comes from far fore and aft (docs/physics/detection.md).
+  array::Shading transmit_shading{array::Shading::Window::kTaylor, 30.0, 4};
+  array::Shading receive_shading{array::Shading::Window::kTaylor, 30.0, 4};
+  double back_loss_db = 40.0;           // one-way, behind the face
+  double electronic_noise_db = -200.0;  // of each element, as sound in the water, re 1 uPa^2/Hz
+  std::vector<Sector> sectors;          // from port to starboard; empty: one transmission over the swath
+  double sector_rejection_db = 80.0;    // by a sector's filter, of what lies outside its band
+  bool chirp = false;                   // a linear sweep and its matched filter; else a tone
   double pulse_length_s = 100e-6;
   double tapered_fraction = 0.0;  // of a tone's length that rises and falls; its level is that in between
   double bandwidth_hz = 0.0;      // that a chirp sweeps

@@ -25,6 +25,10 @@ TEST_CASE("a head outside its limits is refused with place and limits") {
   CHECK(problems_of<MultibeamConfig>("pulse: chirp\nbandwidth_hz: 10000").find("a chirp needs at least 4") !=
         std::string::npos);
   CHECK(problems_of<MultibeamConfig>("bandwidth_hz: 10000").find("only a chirp sweeps") != std::string::npos);
+  CHECK(problems_of<MultibeamConfig>("transmit_shading: {side_lobe_db: 5}") ==
+        "head.yaml:1:34: transmit_shading.side_lobe_db: 5 is outside [13, 100]");
+  CHECK(problems_of<MultibeamConfig>("receive_shading: {nbar: 2}") ==
+        "head.yaml:1:25: receive_shading.nbar: 2 does not hold side lobes at side_lobe_db: 4 to 100 do");
   CHECK(problems_of<MultibeamConfig>("range_m: 1900").find("at most 20000 are allowed") != std::string::npos);
 }
 

@@ -39,6 +39,7 @@ std::size_t snippet_bytes(const MultibeamConfig& config) {
 
 MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
     : config_(config),
+      lines_(area_lengths(config, config.frequency_hz)),
       head_(config),
       applied_(applied_profile(config.world)),
       soundings_(config),
@@ -138,7 +139,7 @@ void MultibeamNode::publish_images(const HeadSettings& settings, const Steering&
   snippets.applied = soundings.applied;
   if (snippets_out_) snippets_out_->send(snippets);
   if (!image_out_) return;
-  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front(), snippets, soundings);
+  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front(), lines_, snippets, soundings);
   image.applied = soundings.applied;
   image_out_->send(image);
 }

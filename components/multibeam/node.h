@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 
+#include "components/multibeam/arrays.h"
 #include "components/multibeam/head.h"
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
@@ -35,6 +36,7 @@ class MultibeamNode {
   std::string trouble(const Sight& sight) const;
 
   Config config_;
+  AreaLengths lines_;  // at the head's frequency
   MultibeamHead head_;
   refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;

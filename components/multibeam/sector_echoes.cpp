@@ -10,7 +10,7 @@
 namespace ensonify {
 namespace {
 
-constexpr double kReach = 8.0;                   // sines in which rays are sent fore and aft, in lambda / L
+constexpr double kReach = 8.0;  // sines in which rays are sent fore and aft, in lambda / L of a uniform line as wide
 constexpr double kBeyondSwath_beamwidths = 1.5;  // of the outermost beam: to its first null and a little more
 constexpr double kBeyondEdge = 0.8 * SectorPattern::kRollOff;  // sine
 constexpr double kWidestFan_rad = 1.5;
@@ -37,6 +37,8 @@ trace::TransmitVolume volume_of(const MultibeamConfig& c, std::size_t number, do
       std::min(kWidestFan_rad, half + kBeyondSwath_beamwidths * c.receive_beamwidth_rad / std::cos(half));
   auto volume = trace::mills_cross_volume(transmit_length_in_waves(c, sector.frequency_hz),
                                           receive_length_in_waves(c, sector.frequency_hz), reach, kReach);
+  const double null = std::min(volume.sine.high, transmit_null(c, sector.frequency_hz));
+  volume.sine.main_low = -null, volume.sine.main_high = null;
   const auto beyond = [&](double edge_rad, double sine) {
     return std::asin(std::clamp(std::sin(edge_rad) + sine, -std::sin(reach), std::sin(reach)));
   };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/multibeam/arrays.h"
 #include "kernels/detect/seabed_image.h"
 
 namespace ensonify {
@@ -56,8 +55,8 @@ msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const 
 }
 
 msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettings& settings, const Steering& steering,
-                                 const MultibeamHead::Heard& heard, const msg::Snippets& snippets,
-                                 const msg::Soundings& soundings) {
+                                 const MultibeamHead::Heard& heard, const AreaLengths& lines,
+                                 const msg::Snippets& snippets, const msg::Soundings& soundings) {
   const auto sectors = config.all_sectors();
   detect::FlatteningModel model;
   model.source_level_db = settings.source_level_db;
@@ -79,8 +78,8 @@ msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettin
   message.strength_db = msg::Array<float>({snippets.amplitude_upa.size()});
   for (std::size_t i = 0; i < snippets.beam.size(); ++i) {
     const auto& sector = sectors[steering.beam_sector[snippets.beam[i]]];
-    model.transmit_length_in_waves = transmit_length_in_waves(config, sector.frequency_hz);
-    model.receive_length_in_waves = receive_length_in_waves(config, sector.frequency_hz);
+    model.transmit_length_in_waves = lines.transmit_in_waves * sector.frequency_hz / config.frequency_hz;
+    model.receive_length_in_waves = lines.receive_in_waves * sector.frequency_hz / config.frequency_hz;
     const std::size_t from = snippets.offset[i], count = snippets.offset[i + 1] - from;
     // A sample holds the echoes that began within a tone before it, or those of chirps about it.
     const double first_s = static_cast<double>(snippets.first_sample_s[i]) - sector.delay_s - heard.middle_s;

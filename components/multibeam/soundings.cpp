@@ -69,9 +69,9 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), a
   settings_.max_detections = config.detections_per_beam;
   const ReceiveLine line = receive_line(config);
   for (const auto& sector : config.all_sectors()) {
-    sectors_.push_back({sector.delay_s, transmit_length_in_waves(config, sector.frequency_hz),
-                        receive_length_in_waves(config, sector.frequency_hz),
-                        line.halves.baseline_m / line.wavelength_m * sector.frequency_hz / config.frequency_hz});
+    sectors_.push_back({sector.delay_s, receive_length_in_waves(config, sector.frequency_hz),
+                        line.halves.baseline_m / line.wavelength_m * sector.frequency_hz / config.frequency_hz,
+                        area_lengths(config, sector.frequency_hz)});
   }
 }
 
@@ -239,7 +239,7 @@ void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_p
   const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings_.pulse_length_s);
   const double range_m = 0.5 * detection.two_way_s * ping.steering.sound_speed_mps;
   const double area_m2 = detect::beam_area_m2(range_m, std::sin(static_cast<double>(soundings.beam_angle_rad[entry])),
-                                              sector.transmit_length_in_waves, sector.receive_length_in_waves);
+                                              sector.area.transmit_in_waves, sector.area.receive_in_waves);
   soundings.travel_time_s[entry] = static_cast<float>(detection.two_way_s);
   soundings.backscatter_db[entry] = static_cast<float>(level_db);
   soundings.backscatter_strength_db[entry] =

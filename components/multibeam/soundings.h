@@ -45,7 +45,8 @@ class SoundingMaker {
  private:
   /// The detector's view of one sector.
   struct Sector {
-    double delay_s, transmit_length_in_waves, receive_length_in_waves, phase_centres_in_waves;
+    double delay_s, receive_length_in_waves, phase_centres_in_waves;
+    AreaLengths area;
   };
   struct Ping {
     const Shot& shot;

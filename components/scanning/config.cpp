@@ -1,6 +1,7 @@
 #include "components/scanning/config.h"
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/line_shading.h"
 
 namespace ensonify {
 namespace {
@@ -24,6 +25,7 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
   ScanningConfig c;
   from.optional("frequency_hz", c.frequency_hz, 50e3, 3e6);
   from.optional("horizontal_beamwidth_deg", c.horizontal_beamwidth_rad, 0.2, 20, kDegrees);
+  read_shading(from, "shading", c.shading);
   from.optional("vertical_beamwidth_deg", c.vertical_beamwidth_rad, 0.2, 90, kDegrees);
   from.optional("tilt_deg", c.tilt_rad, -90, 90, kDegrees);
   read_scan(from, c.scan);
@@ -42,9 +44,10 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
 
 bool ScanningConfig::operator==(const ScanningConfig& o) const {
   return same_parameters(*this, o) && sound_speed_mps == o.sound_speed_mps && frequency_hz == o.frequency_hz &&
-         horizontal_beamwidth_rad == o.horizontal_beamwidth_rad && vertical_beamwidth_rad == o.vertical_beamwidth_rad &&
-         tilt_rad == o.tilt_rad && scan == o.scan && pulse == o.pulse && source_level_db == o.source_level_db &&
-         range_m == o.range_m && longest_range_m == o.longest_range_m && electronic_noise_db == o.electronic_noise_db;
+         horizontal_beamwidth_rad == o.horizontal_beamwidth_rad && shading == o.shading &&
+         vertical_beamwidth_rad == o.vertical_beamwidth_rad && tilt_rad == o.tilt_rad && scan == o.scan &&
+         pulse == o.pulse && source_level_db == o.source_level_db && range_m == o.range_m &&
+         longest_range_m == o.longest_range_m && electronic_noise_db == o.electronic_noise_db;
 }
 
 HeadSettings ScanningConfig::start() const {

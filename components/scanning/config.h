@@ -5,6 +5,7 @@
 #include "components/runtime/head/head_config.h"
 #include "components/runtime/head/ranged_pulse.h"
 #include "components/scanning/scan.h"
+#include "kernels/array/shading.h"
 
 namespace ensonify {
 
@@ -14,6 +15,7 @@ class ConfigReader;
 struct ScanningConfig : HeadConfig {
   double frequency_hz = 750e3;
   double horizontal_beamwidth_rad = 2.0 * Scan::kDegree;  // -3 dB, one-way
+  array::Shading shading;                                 // of the transducer across that width
   double vertical_beamwidth_rad = 25.0 * Scan::kDegree;   // -3 dB, one-way
   double tilt_rad = 0.0;                                  // down from the plane that it turns in
   Scan scan;

@@ -16,13 +16,14 @@ namespace {
 
 constexpr double kNominalSpeed_mps = 1500.0;
 constexpr double kBackLoss_db = 40.0;
-constexpr double kReach = 6.0;  // null to either side that rays go to
+constexpr double kReach = 6.0;  // sines to either side that rays go to, in lambda / L of a uniform line as wide
 
+/// Length of a uniform line as wide.
 double line_waves(double beamwidth_rad) { return array::length_in_waves_for(beamwidth_rad); }
 
-std::shared_ptr<const array::PatternTable> line_table(double length_in_waves) {
-  return std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
+/// The transducer across its narrow beam, in wavelengths.
+array::LineArray narrow_line(const ScanningConfig& config) {
+  return array::line_array_of_width(config.horizontal_beamwidth_rad, 1.0, config.shading);
 }
 
 double resolution_m(const ScanningConfig& config) {
@@ -33,7 +34,7 @@ Apertures apertures_of(const ScanningConfig& config) {
   Apertures a;
   a.frequency_hz = config.frequency_hz;
   a.patterns.transmit = a.patterns.receive = {scanning_pattern(config)};
-  a.directivity_index_db = array::directivity_index_db(line_waves(config.horizontal_beamwidth_rad),
+  a.directivity_index_db = array::directivity_index_db(array::effective_length_m(narrow_line(config)),
                                                        line_waves(config.vertical_beamwidth_rad));
   a.electronic_noise_db = config.electronic_noise_db;
   a.narrowest_rad = config.horizontal_beamwidth_rad;
@@ -47,7 +48,8 @@ Apertures apertures_of(const ScanningConfig& config) {
 trace::RayDistribution rays_of(const ScanningConfig& config) {
   const double narrow = line_waves(config.horizontal_beamwidth_rad), tall = line_waves(config.vertical_beamwidth_rad);
   const double axis = std::sin(config.tilt_rad);
-  const double null_rad = std::asin(std::min(1.0, 1.0 / narrow)), reach_rad = std::asin(std::min(1.0, kReach / narrow));
+  const double null_rad = std::asin(array::first_null(narrow_line(config), 1.0)),
+               reach_rad = std::asin(std::min(1.0, kReach / narrow));
   trace::TransmitVolume volume;
   volume.axis = trace::TransmitVolume::Axis::kDown;
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
@@ -59,9 +61,12 @@ trace::RayDistribution rays_of(const ScanningConfig& config) {
 }  // namespace
 
 AperturePattern scanning_pattern(const ScanningConfig& config) {
-  const double waves = line_waves(config.horizontal_beamwidth_rad);
-  const auto across = line_table(waves), vertical = line_table(line_waves(config.vertical_beamwidth_rad));
-  const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : 1.0 / waves);
+  const array::LineArray line = narrow_line(config);
+  const double tall = line_waves(config.vertical_beamwidth_rad);
+  const auto across = std::make_shared<array::PatternTable>(line, 1.0);
+  const auto vertical =
+      std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall);
+  const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : array::first_null(line, 1.0));
   const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
              sine = static_cast<float>(std::sin(config.tilt_rad));
   const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);

@@ -110,6 +110,26 @@ TEST_CASE("a post is heard in the ping that points at it, at its range") {
   CHECK(range_m == Approx(12.0).margin(0.5));  // a post of 0.4 m on posts of terrain 0.25 m apart
 }
 
+TEST_CASE("a shaded transducer is as wide as a uniform one at -3 dB, with the side lobes that were asked for") {
+  ScanningConfig config = quiet();
+  config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
+  const auto at = [&](const AperturePattern& pattern, double sine) {
+    const Eigen::Vector3d direction(std::sqrt(1.0 - sine * sine), sine, 0.0);
+    return 20.0 * std::log10(std::abs(static_cast<double>(pattern(direction.cast<float>(), 1.0F))) + 1e-9);
+  };
+  const AperturePattern shaded = scanning_pattern(config);
+  CHECK(at(shaded, std::sin(1.0 * kDeg)) - at(shaded, 0.0) == Approx(-3.01).margin(0.05));
+  // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
+  // (docs/physics/arrays.md), and what the face takes there is less than 0.1 dB.
+  const double wave_over_length = 1.0 / array::length_in_waves_for(2.0 * kDeg);
+  double highest_db = -100.0;
+  for (double u = 1.25; u < 5.0; u += 0.01) highest_db = std::max(highest_db, at(shaded, u * wave_over_length));
+  CHECK(highest_db == Approx(-30.3).margin(0.2));
+  config.effects.side_lobes = false;
+  CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.25 * wave_over_length), 0.0F}, 1.0F) == 0.0F);
+  CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.1 * wave_over_length), 0.0F}, 1.0F) != 0.0F);
+}
+
 TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   // 5 m above it, tilted 10 degrees down. Ring between R and R + length: dA = R dR dphi.
   ScanningConfig config = quiet();

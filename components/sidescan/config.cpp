@@ -4,8 +4,10 @@
 #include <set>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/line_shading.h"
 #include "components/runtime/head/ranged_pulse.h"
 #include "components/runtime/head/tone_shape.h"
+#include "kernels/array/line_array.h"
 
 namespace ensonify {
 namespace {
@@ -16,6 +18,14 @@ constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
 constexpr double kLongestPulse_s = 20e-3;
 constexpr double kMostSamples = 100'000.0;  // per side
 
+/// One-way width of a line that sends and listens with a two-way width: 50.76 / 36.55 of it when uniform.
+double one_way_rad(double two_way_rad, const array::Shading& shading) {
+  const array::LineArray line = array::line_array_of_width(two_way_rad, 1.0, shading);
+  const auto both_ways = [&](double sine) { return std::pow(array::power(line, 1.0, sine), 2); };
+  return two_way_rad * std::sin(0.5 * two_way_rad) /
+         array::half_power_edges(both_ways, 0.0, 0.1 * two_way_rad).upper_sine;
+}
+
 void check(const ConfigReader& from, const SidescanChannel& c) {
   if (c.chirp && c.bandwidth_hz * c.pulse_length_s < kLeastSweep) {
     from.problem("bandwidth_hz", "times pulse_length_s is " + std::to_string(c.bandwidth_hz * c.pulse_length_s) +
@@ -24,6 +34,9 @@ void check(const ConfigReader& from, const SidescanChannel& c) {
   if (!c.chirp && c.bandwidth_hz != 0.0) from.problem("bandwidth_hz", "only a chirp sweeps; set pulse: chirp");
   if ((c.focus == Focus::kFixed) != (c.focus_m > 0.0)) {
     from.problem("focus_m", "is the range that focus: fixed is focused at, above 0, and 0 otherwise");
+  }
+  if (c.focus != Focus::kIdeal && c.shading.window != array::Shading::Window::kUniform) {
+    from.problem("shading", "is of lines with focus: ideal; the near field is that of a uniform line");
   }
 }
 
@@ -36,6 +49,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   bool two_way = false;
   from.optional("horizontal_beamwidth_deg", c.horizontal_beamwidth_rad, 0.05, 10, kDegrees);
   from.optional_choice("horizontal_beamwidth_is", two_way, {{"one_way", false}, {"two_way", true}});
+  read_shading(from, "shading", c.shading);
   from.optional("vertical_beamwidth_deg", c.vertical_beamwidth_rad, 5, 150, kDegrees);
   from.optional("depression_deg", c.depression_rad, 0, 90, kDegrees);
   from.optional("back_loss_db", c.back_loss_db, 0, 100);
@@ -52,8 +66,7 @@ SidescanChannel SidescanChannel::read(ConfigReader& from) {
   from.optional("samples_per_pulse", c.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
   from.optional("range_m", c.range_m, 1, 1000);
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
-  // Two-way, the half-power width of a uniform line is 36.55 of the 50.76 lambda / L degrees.
-  if (two_way) c.horizontal_beamwidth_rad *= 50.76 / 36.55;
+  if (from.good() && two_way) c.horizontal_beamwidth_rad = one_way_rad(c.horizontal_beamwidth_rad, c.shading);
   check(from, c);
   return c;
 }

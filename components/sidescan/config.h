@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/runtime/head/head_config.h"
+#include "kernels/array/shading.h"
 #include "kernels/echo/pulse.h"
 
 namespace ensonify {
@@ -24,6 +25,7 @@ struct SidescanChannel {
   std::string name = "main";
   double frequency_hz = 400e3;
   double horizontal_beamwidth_rad = 0.4 * kDegree;  // one-way, -3 dB
+  array::Shading shading;                           // of the line, at that width
   double vertical_beamwidth_rad = 50.0 * kDegree;   // one-way, -3 dB
   double depression_rad = 30.0 * kDegree;           // of each side's axis, below the horizontal of the head
   double back_loss_db = 30.0;                       // one-way, behind the face: what keeps the sides apart

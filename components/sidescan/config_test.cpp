@@ -46,7 +46,19 @@ TEST_CASE("a two-way beam width makes a line that is wider one-way") {
       "head.yaml");
   const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
   from.finish();
-  CHECK(config.channels.at(0).horizontal_beamwidth_rad / SidescanChannel::kDegree == Approx(50.76 / 36.55));
+  // The half-power widths of sinc^2 and sinc^4 are 50.76 and 36.55 lambda / L degrees.
+  CHECK(config.channels.at(0).horizontal_beamwidth_rad / SidescanChannel::kDegree ==
+        Approx(50.76 / 36.55).epsilon(2e-4));
+}
+
+TEST_CASE("a shaded line is read, and refused where the near field is asked for") {
+  const std::string channel = "{channels: [{name: a, frequency_hz: 100e3, shading: {window: hann}";
+  auto from = ConfigReader::from_text(channel + "}]}", "head.yaml");
+  const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
+  from.finish();
+  CHECK(config.channels.at(0).shading.window == array::Shading::Window::kHann);
+  CHECK(problems_of<SidescanConfig>(channel + ", focus: echo}]}") ==
+        "head.yaml:1:53: channels[0].shading: is of lines with focus: ideal; the near field is that of a uniform line");
 }
 
 TEST_CASE("a tapered tone brings less energy") {

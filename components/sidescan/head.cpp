@@ -16,10 +16,11 @@ namespace ensonify {
 namespace {
 
 constexpr double kFarthest_rad = 1.75;  // of rays from the head's down axis: a little above the horizon
-constexpr double kReach = 8.0;          // sines in which rays are sent, in lambda / L
+constexpr double kReach = 8.0;          // sines in which rays are sent, in lambda / L of a uniform line as wide
 constexpr double kShadow = 1.0;      // the same, in sqrt(lambda / L): L / 2R where Fresnel's approximation ends is 0.81
 constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
 
+/// Length of a uniform line as wide.
 double lines_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.horizontal_beamwidth_rad); }
 double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
 
@@ -27,21 +28,27 @@ double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
   return config.sound_speed_mps / c.frequency_hz;
 }
 
-/// One dimension of a face, against the direction cosine along it.
-std::function<float(float)> line_pattern(double length_in_waves, bool side_lobes) {
+/// A side's line, in wavelengths.
+array::LineArray line_of(const SidescanChannel& c) {
+  return array::line_array_of_width(c.horizontal_beamwidth_rad, 1.0, c.shading);
+}
+
+/// Up the face, against the direction cosine along it.
+std::function<float(float)> face_pattern(double length_in_waves) {
   const auto table = std::make_shared<array::PatternTable>(
       [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
-  const auto first_null = static_cast<float>(side_lobes ? 2.0 : 1.0 / length_in_waves);
-  return [=](float sine) {
-    return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
-  };
+  return [=](float sine) { return table->amplitude(static_cast<double>(sine)).real(); };
 }
 
 /// Amplitude along the track against the direction cosine and the range.
 using AlongTrack = std::function<float(float sine, float range_m)>;
 
-AlongTrack far_field_line(double length_in_waves, bool side_lobes) {
-  return [far = line_pattern(length_in_waves, side_lobes)](float sine, float) { return far(sine); };
+AlongTrack far_field_line(const array::LineArray& line, bool side_lobes) {
+  const auto table = std::make_shared<array::PatternTable>(line, 1.0);
+  const auto end = static_cast<float>(side_lobes ? 2.0 : array::first_null(line, 1.0));
+  return [=](float sine, float) {
+    return std::abs(sine) < end ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
+  };
 }
 
 /// focus_m of a range. Without side lobes it ends where the geometric shadow of the line's ends does, and a null
@@ -59,16 +66,14 @@ AlongTrack near_field_line(double length_in_waves, double wavelength_m, bool sid
 }
 
 AlongTrack transmitting_line(const SidescanConfig& config, const SidescanChannel& c) {
-  const double waves = lines_in_waves(c);
-  if (c.focus == Focus::kIdeal) return far_field_line(waves, config.effects.side_lobes);
-  return near_field_line(waves, wavelength_m(config, c), config.effects.side_lobes,
+  if (c.focus == Focus::kIdeal) return far_field_line(line_of(c), config.effects.side_lobes);
+  return near_field_line(lines_in_waves(c), wavelength_m(config, c), config.effects.side_lobes,
                          [](double) { return array::kFarAway_m; });
 }
 
 AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c) {
-  const double waves = lines_in_waves(c);
-  if (c.focus == Focus::kIdeal) return far_field_line(waves, config.effects.side_lobes);
-  return near_field_line(waves, wavelength_m(config, c), config.effects.side_lobes, [c](double range_m) {
+  if (c.focus == Focus::kIdeal) return far_field_line(line_of(c), config.effects.side_lobes);
+  return near_field_line(lines_in_waves(c), wavelength_m(config, c), config.effects.side_lobes, [c](double range_m) {
     if (c.focus == Focus::kEcho) return range_m;
     return c.focus == Focus::kFixed ? c.focus_m : array::kFarAway_m;
   });
@@ -76,7 +81,7 @@ AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c
 
 /// Both sides of a head whose lines have this pattern.
 std::vector<AperturePattern> sides_of(const AlongTrack& along, const SidescanChannel& channel, const Effects& effects) {
-  const auto across = line_pattern(face_in_waves(channel), true);
+  const auto across = face_pattern(face_in_waves(channel));
   const array::Face face(0.0, channel.back_loss_db);
   const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
   const auto sine = static_cast<float>(std::sin(channel.depression_rad));
@@ -99,7 +104,8 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   Apertures a;
   a.frequency_hz = channel.frequency_hz;
   a.patterns = side_patterns(config, channel);
-  a.directivity_index_db = array::directivity_index_db(lines_in_waves(channel), face_in_waves(channel));
+  a.directivity_index_db =
+      array::directivity_index_db(array::effective_length_m(line_of(channel)), face_in_waves(channel));
   a.electronic_noise_db = channel.electronic_noise_db;
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
   a.resolution_m = channel.resolution_m(config.sound_speed_mps);
@@ -110,9 +116,9 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
 
 /// To both sides. Across-track only range tells echoes apart.
 trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel) {
-  const double null = 1.0 / lines_in_waves(channel);
-  double reach = std::min(1.0, kReach * null);
-  if (channel.focus != Focus::kIdeal) reach = std::max(reach, std::min(1.0, kShadow * std::sqrt(null)));
+  const double wave_over_length = 1.0 / lines_in_waves(channel), null = array::first_null(line_of(channel), 1.0);
+  double reach = std::min(1.0, kReach * wave_over_length);
+  if (channel.focus != Focus::kIdeal) reach = std::max(reach, std::min(1.0, kShadow * std::sqrt(wave_over_length)));
   const trace::TransmitVolume volume{
       trace::TransmitVolume::Axis::kForward,
       {-reach, reach, -null, null, channel.horizontal_beamwidth_rad},

@@ -100,6 +100,27 @@ TEST_CASE("the vertical pattern shapes the level across the track, two-way") {
   }
 }
 
+TEST_CASE("a shaded line is as wide as a uniform one at -3 dB, with the side lobes that were asked for") {
+  SidescanConfig config = plain_sidescan();
+  config.channels[0].shading = {array::Shading::Window::kTaylor, 30.0, 4};
+  const auto at = [&](double sine) {  // of the starboard side, abeam
+    const auto patterns = side_patterns(config, config.channels[0]);
+    const Eigen::Vector3d direction(sine, std::sqrt(1.0 - sine * sine), 0.0);
+    return 20.0 * std::log10(std::abs(static_cast<double>(patterns.transmit[1](direction.cast<float>(), 1.0F))) + 1e-9);
+  };
+  CHECK(at(0.0) == Approx(0.0).margin(0.01));
+  CHECK(at(std::sin(0.25 * kDeg)) == Approx(-3.01).margin(0.02));
+  // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
+  // (docs/physics/arrays.md).
+  const double wave_over_length = 1.0 / array::length_in_waves_for(0.5 * kDeg);
+  double highest_db = -100.0;
+  for (double u = 1.25; u < 5.0; u += 0.05) highest_db = std::max(highest_db, at(u * wave_over_length));
+  CHECK(highest_db == Approx(-30.3).margin(0.2));
+  config.effects.side_lobes = false;
+  CHECK(at(1.25 * wave_over_length) < -170.0);
+  CHECK(at(1.1 * wave_over_length) > -60.0);
+}
+
 TEST_CASE("yaw during the ping moves the receive pattern off the transmit pattern") {
   // 3 degrees/s over 2 R / c = 132 ms at 99 m: 0.396 degrees. The level falls by the product of the two patterns so far
   // apart, over that of the patterns in place; side lobes carry what is left of the narrower one.

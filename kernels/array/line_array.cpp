@@ -87,6 +87,11 @@ double half_power_width_rad(const LineArray& array, double wavelength_m, double 
   return std::asin(edges.upper_sine) - std::asin(edges.lower_sine);
 }
 
+double first_null(const LineArray& array, double wavelength_m) {
+  const auto real = [&](double u) { return amplitude(array, wavelength_m, u).real(); };
+  return crossing(real, 0.0, std::min(0.01, wavelength_m / (64.0 * array.length_m())), 0.0);
+}
+
 double equivalent_width(const LineArray& array, double wavelength_m, double sin_steer) {
   return integral_over_sine([&](double u) { return power(array, wavelength_m, u, sin_steer); },
                             cycles(array, wavelength_m));
@@ -98,6 +103,10 @@ double two_way_equivalent_width(const LineArray& transmit, const LineArray& rece
     return power(transmit, wavelength_m, u, sin_steer) * power(receive, wavelength_m, u, sin_steer);
   };
   return integral_over_sine(product, cycles(transmit, wavelength_m) + cycles(receive, wavelength_m));
+}
+
+double effective_length_m(const LineArray& array) {
+  return array.spacing_m * std::pow(10.0, 0.1 * white_noise_gain_db(array.weights));
 }
 
 std::vector<double> grating_lobes(const LineArray& array, double wavelength_m, double sin_steer) {

@@ -47,6 +47,10 @@ BeamEdges half_power_edges(const std::function<double(double sine)>& pattern, do
 /// Angle between these edges, rad.
 double half_power_width_rad(const LineArray& array, double wavelength_m, double sin_steer = 0.0);
 
+/// Sine of the first null beside the axis of the unsteered array, 1 where there is none. Precondition: symmetric
+/// weights, of which the pattern is real and passes through its nulls: a uniform line's is lambda / L.
+double first_null(const LineArray& array, double wavelength_m);
+
 /// Equivalent width in sine: the integral of power() over -1..1, so with grating lobes. Relative error below 1e-5.
 double equivalent_width(const LineArray& array, double wavelength_m, double sin_steer = 0.0);
 
@@ -54,6 +58,11 @@ double equivalent_width(const LineArray& array, double wavelength_m, double sin_
 /// one-way width.
 double two_way_equivalent_width(const LineArray& transmit, const LineArray& receive, double wavelength_m,
                                 double sin_steer = 0.0);
+
+/// Length of the uniform line whose beam covers as much: lambda over the equivalent width of an array of elements that
+/// touch each other, (sum w)^2 / sum w^2 times the spacing (Parseval). A beam that reaches beyond -1..1 has less
+/// equivalent width: 0.2 % for a uniform line 50 wavelengths long, 2 % for one of Dolph and Chebyshev.
+double effective_length_m(const LineArray& array);
 
 /// Sines at which the array factor is as high as on its axis, other than `sin_steer`: u0 + m lambda / spacing, inside
 /// -1..1, ascending. None when the spacing is below lambda / (1 + |u0|).

@@ -73,6 +73,34 @@ TEST_CASE("equivalent widths are lambda / L one way and two thirds of it both wa
   }
 }
 
+TEST_CASE("the first null of a line is where its window puts it") {
+  const auto line = [](const Shading& shading) {
+    return LineArray{.spacing_m = 0.5, .weights = shading_weights(shading, 200), .element_length_m = 0.5};
+  };
+  // Of a length of 100 wavelengths: 1 of a uniform line; 2 of Hann's (of N + 1 elements, half a percent less); of
+  // Taylor's sigma sqrt(A^2 + 1/4) [Taylor1955], here 1.0693 sqrt(1.3200^2 + 1/4). Sampled at 200 elements.
+  CHECK(first_null(line({}), 1.0) == Approx(0.01).epsilon(1e-9));
+  CHECK(first_null(line({.window = Window::kHann}), 1.0) == Approx(0.02 * 200 / 201).epsilon(1e-3));
+  CHECK(first_null(line({.window = Window::kTaylor}), 1.0) == Approx(0.015094).epsilon(1e-3));
+  // At twice the frequency at half the sine; a line shorter than a wavelength has none.
+  CHECK(first_null(line({.window = Window::kTaylor}), 0.5) == Approx(0.5 * 0.015094).epsilon(1e-3));
+  CHECK(first_null({.spacing_m = 0.3, .weights = {1.0, 1.0}, .element_length_m = 0.3}, 1.0) == 1.0);
+}
+
+TEST_CASE("the effective length of a shaded line is that of a uniform one whose beam covers as much") {
+  const auto line = [](Window window) {
+    return LineArray{.spacing_m = 0.5, .weights = shading_weights({.window = window}, 200), .element_length_m = 0.5};
+  };
+  // Beyond -1..1 a uniform line has the share 1 / pi^2 L of its beam (sinc^2 is 1 / 2 pi^2 L^2 u^2 in the mean), lines
+  // that fall off towards their ends less; Dolph and Chebyshev's has level side lobes, and 2 % of its beam there.
+  for (const Window window : {Window::kUniform, Window::kHann, Window::kTaylor}) {
+    CHECK(1.0 / effective_length_m(line(window)) == Approx(equivalent_width(line(window), 1.0)).epsilon(2e-3));
+  }
+  const LineArray level = line(Window::kDolphChebyshev);
+  CHECK(1.0 / effective_length_m(level) == Approx(equivalent_width(level, 1.0)).epsilon(2.5e-2));
+  CHECK(effective_length_m(line(Window::kUniform)) == Approx(100.0));
+}
+
 TEST_CASE("the equivalent width of any spacing is the closed double sum over elements") {
   // Integral of |sum w_n exp(2 pi i d n (u - u0))|^2 over -1..1: 2 sum_nm w_n w_m cos(k u0) sinc(2 d (n - m)).
   for (const double spacing : {0.3, 0.8, 1.7}) {  // the last two have grating lobes

@@ -78,9 +78,8 @@ double checked_ratio(const Shading& shading) {
   return std::pow(10.0, shading.side_lobe_db / 20.0);
 }
 
-void check_nbar(const Shading& shading, double ratio) {
-  const double A = std::acosh(ratio) / kPi;
-  const auto least = static_cast<int>(std::lround(2.0 * A * A + 0.5));
+void check_nbar(const Shading& shading) {
+  const int least = least_nbar(shading.side_lobe_db);
   if (shading.nbar < least || shading.nbar > 100) {
     throw std::invalid_argument("nbar " + std::to_string(shading.nbar) + " of a Taylor shading with side lobes at " +
                                 std::to_string(shading.side_lobe_db) + " dB: allowed " + std::to_string(least) +
@@ -97,7 +96,7 @@ std::vector<double> unscaled(const Shading& shading, int N) {
     case Window::kDolphChebyshev: return dolph_chebyshev(checked_ratio(shading), N);
     case Window::kTaylor: {
       const double ratio = checked_ratio(shading);
-      check_nbar(shading, ratio);
+      check_nbar(shading);
       return taylor(ratio, shading.nbar, N);
     }
   }
@@ -105,6 +104,11 @@ std::vector<double> unscaled(const Shading& shading, int N) {
 }
 
 }  // namespace
+
+int least_nbar(double side_lobe_db) {
+  const double A = std::acosh(std::pow(10.0, side_lobe_db / 20.0)) / kPi;
+  return static_cast<int>(std::lround(2.0 * A * A + 0.5));
+}
 
 std::vector<double> shading_weights(const Shading& shading, int elements) {
   if (elements < 1) throw std::invalid_argument("an array of " + std::to_string(elements) + " elements: at least 1");

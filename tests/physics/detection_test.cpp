@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -33,9 +34,9 @@ double snr_db(double source_level_db, double angle_rad) {
 }
 
 /// A transmit line's fan is not thin: what comes from the sine u fore or aft on the same receive cone comes from
-/// farther away by u^2 / 2 cos^2(beam). The mean of u^2 over sinc^2 out to the k-th null is k (lambda / L)^2 / pi^2;
-/// heads send rays out to the 8th.
-double fan_bias(double angle_rad) {
+/// farther away by u^2 / 2 cos^2(beam). Of a uniform line, the mean of u^2 over sinc^2 out to the k-th null is
+/// k (lambda / L)^2 / pi^2; heads send rays out to the 8th.
+double uniform_fan_bias(double angle_rad) {
   return 8.0 / std::pow(std::numbers::pi * 50.76, 2) / (2.0 * std::pow(std::cos(angle_rad), 2));
 }
 
@@ -47,7 +48,7 @@ struct Errors {  // of depth, relative
 };
 
 /// By the number of the bin of beam angle, both sides together, of three seconds at 3 m/s.
-std::map<int, Errors> survey(double source_level_db) {
+std::map<int, Errors> survey(double source_level_db, const std::string& transmit_window = "taylor") {
   Scenario world = world_with("head");
   world.water.profile.sound_speed_mps = 1500.0;
   world.water.absorption_dbpm = kAbsorption_dbpm;
@@ -56,7 +57,7 @@ std::map<int, Errors> survey(double source_level_db) {
   const std::string yaml =
       "swath_deg: 144\nauto_range: false\nrange_m: 70\namplitude_every: 1000000\n"
       "source_level_db: " +
-      std::to_string(source_level_db) + "\n";
+      std::to_string(source_level_db) + "\ntransmit_shading: {window: " + transmit_window + "}\n";
   NodeUnderTest<MultibeamNode> head(config_of<MultibeamNode>(yaml, world, "head"));
   give_course(head, {{0.0, -4.5, 0.0}, {0.0, 3.0, 0.0}}, 3_s);
   head.give("tile", tile_of(256.0, 1.0, [](double, double) { return -kDepth_m; }));
@@ -75,9 +76,7 @@ std::map<int, Errors> survey(double source_level_db) {
 
 }  // namespace
 
-TEST_CASE(
-    "soundings of a plane have the bias of the fan alone and are as exact as theory allows at 10-20 dB, within 5 cm to "
-    "65 degrees") {
+TEST_CASE("soundings of a plane are unbiased, as exact as theory allows at 10-20 dB, within 5 cm to 65 degrees") {
   // Bins of 5 degrees with 300 soundings or more, neighbours in part alike: a bias is uncertain by a tenth of their
   // standard deviation, 0.01 %, and a standard deviation by 5 %.
   int judged = 0;
@@ -88,13 +87,41 @@ TEST_CASE(
       ++judged;
       const double allowed = 1.5 * detect::theoretical_sd(angle_deg * kDeg, snr);
       INFO(angle_deg << " deg, " << snr << " dB: " << errors.n << " soundings, bias " << 100 * errors.bias()
-                     << " % (fan " << 100 * fan_bias(angle_deg * kDeg) << " %), sd " << 100 * errors.sd()
-                     << " %, allowed " << 100 * allowed << " %");
+                     << " %, sd " << 100 * errors.sd() << " %, allowed " << 100 * allowed << " %");
       REQUIRE(errors.n > 300);
-      CHECK(std::abs(errors.bias() - fan_bias(angle_deg * kDeg)) < (angle_deg > 60.0 ? 1.5e-3 : 5e-4));
+      CHECK(std::abs(errors.bias()) < (angle_deg > 60.0 ? 1.5e-3 : 5e-4));
       CHECK(errors.sd() < allowed);
       if (angle_deg < 65.0) CHECK(1.96 * std::hypot(errors.bias(), errors.sd()) * kDepth_m < 0.05);
     }
   }
   CHECK(judged >= 10);
+}
+
+TEST_CASE("a uniform transmit line's soundings are too deep by the thickness of its fan") {
+  // From 45 to 60 degrees the closed form is 0.035 to 0.054 %; some 2,000 soundings leave 0.007 %, and echoes that come
+  // from the outermost lobes after the detector's window 0.01 %. The head's own line, shaded, has 0.01 %.
+  double n = 0.0, found = 0.0, expected = 0.0;
+  for (const auto& [number, errors] : survey(177.0, "uniform")) {
+    if (number < 45 / kBinDegrees || number >= 60 / kBinDegrees) continue;
+    n += errors.n, found += errors.sum;
+    expected += errors.n * uniform_fan_bias((number + 0.5) * kBinDegrees * kDeg);
+  }
+  INFO(n << " soundings, bias " << 100 * found / n << " %, closed form " << 100 * expected / n << " %");
+  CHECK(found / n == Approx(expected / n).margin(2e-4));
+}
+
+TEST_CASE("bias of a head by beam angle for the page", "[.bias-csv]") {
+  for (const char* window : {"uniform", "taylor"}) {
+    std::map<int, Errors> all;
+    for (const double source_level_db : {180.0, 185.0, 190.0, 195.0}) {
+      for (const auto& [number, errors] : survey(source_level_db, window)) {
+        Errors& bin = all[number];
+        bin.n += errors.n, bin.sum += errors.sum, bin.squares += errors.squares;
+      }
+    }
+    for (const auto& [number, errors] : all) {
+      std::printf("%s,%.1f,%.0f,%.4f,%.4f\n", window, (number + 0.5) * kBinDegrees, errors.n, 100 * errors.bias(),
+                  100 * errors.sd() / std::sqrt(errors.n));
+    }
+  }
 }

@@ -7,7 +7,6 @@
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
 #include "components/runtime/head/test_seabed.h"
-#include "kernels/array/line.h"
 #include "kernels/array/pattern_table.h"
 #include "kernels/water/absorption.h"
 #include "tests/physics/area_integral.h"
@@ -54,24 +53,25 @@ class Theory {
         sand_{kDepth_m, water::absorption_dbpm(config.frequency_hz, {.depth_m = 0.5 * kDepth_m}), 1500.0,
               seabed::law_of(*seabed::sediment_of("medium sand"), config.frequency_hz, 1500.0)},
         line_(receive_line(config)),
-        transmit_waves_(array::length_in_waves_for(config.transmit_beamwidth_rad)) {
+        transmit_(transmit_line(config)) {
     line_.whole.element_length_m = 0.0;  // the head's elements hear alike in all directions before its face
   }
 
   /// What a beam hears: a tone, seen by the transmit line and by the beam.
   Tone tone(double sin_beam) const {
     const auto receive = std::make_shared<array::PatternTable>(line_.whole, line_.wavelength_m, sin_beam);
+    const auto transmit = std::make_shared<array::PatternTable>(transmit_, line_.wavelength_m);
     return {config_.source_level_db, config_.pulse_length_s,
-            [receive, waves = transmit_waves_](double forward, double starboard, double) {
-              return array::line_power(waves, forward) * double(receive->power(starboard));
+            [receive, transmit](double forward, double starboard, double) {
+              return double(transmit->power(forward)) * double(receive->power(starboard));
             },
-            1.0 / transmit_waves_};
+            line_.wavelength_m / std::max(transmit_.length_m(), line_.whole.length_m())};
   }
   double mean_square_upa2(const Tone& tone, double time_s) const {
     return physics::mean_square_upa2(sand_, tone, time_s);
   }
   /// To the first null of the shaded line, as a sine.
-  double null() const { return 1.5 / transmit_waves_; }
+  double null() const { return array::first_null(line_.whole, line_.wavelength_m); }
   /// When the pulse's middle returns from the seabed in this direction.
   double time_s(double sine) const {
     return kDepth_m / std::sqrt(1.0 - sine * sine) / 750.0 + 0.5 * config_.pulse_length_s;
@@ -87,7 +87,7 @@ class Theory {
   MultibeamConfig config_;
   LevelSeabed sand_;
   ReceiveLine line_;
-  double transmit_waves_;
+  array::LineArray transmit_;
 };
 
 double power(const msg::Ping& ping, std::size_t beam, std::size_t sample) {

@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
 #include "components/runtime/head/test_seabed.h"
 #include "kernels/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/heads.h"
 
-// Speckle of a multibeam over homogeneous sand, by the head through its ports, at its default quality.
+// Speckle of a multibeam over homogeneous sand, by the head through its ports, with patches of half its range
+// resolution.
 
 using namespace ensonify;
 using namespace ensonify::physics;
@@ -26,7 +28,7 @@ msg::Ping hear(std::uint64_t seed, const frames::Vec3& moved_m, bool speckle) {
   world.seed = seed;
   world.water.profile.sound_speed_mps = 1500.0;
   const std::string yaml =
-      "beams: 64\nauto_range: false\nrange_m: 50\nping_rate_hz: 5\n"
+      "beams: 64\nquality: 1\nauto_range: false\nrange_m: 50\nping_rate_hz: 5\n"
       "effects: {noise: false, volume: false, multipath: false, tvg: false, speckle: " +
       std::string(speckle ? "true" : "false") + "}\n";
   NodeUnderTest<MultibeamNode> head(config_of<MultibeamNode>(yaml, world, "head"));
@@ -84,17 +86,22 @@ double correlation_after(const frames::Vec3& moved_m, std::uint64_t seabeds) {
   return power_correlation(here, there);
 }
 
-/// Length of the transmit line, m.
-double line_m() { return array::length_in_waves_for(MultibeamConfig{}.transmit_beamwidth_rad) * 1500.0 / 300e3; }
+constexpr double kWave_m = 1500.0 / 300e3;
 
-/// Of the powers of two pings d apart. A line sends and what hears is short along the track: over sinc^2 coherence is
-/// the triangle 1 - 2 d / L (van Cittert and Zernike), here of the side lobes that rays reach.
+/// Length of the transmit line, m.
+double line_m() { return transmit_line(MultibeamConfig{}).length_m(); }
+
+/// Of the powers of two pings d apart. A line sends and what hears is short along the track: coherence is the
+/// transform of the transmitted power over the sine u, at 2 d / lambda (van Cittert and Zernike), here of the side
+/// lobes that rays reach. Over a uniform line's it would be the triangle 1 - 2 d / L.
 double along_track(double d_over_l) {
   constexpr int kSteps = 4000;
+  static const array::LineArray line = transmit_line(MultibeamConfig{});
+  static const double reach = 8.0 / array::length_in_waves_for(MultibeamConfig{}.transmit_beamwidth_rad);
   double cross = 0.0, own = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const double x = 8.0 * (2.0 * (i + 0.5) / kSteps - 1.0), power = array::line_power(1.0, x);
-    cross += power * std::cos(4.0 * std::numbers::pi * d_over_l * x), own += power;
+    const double u = reach * (2.0 * (i + 0.5) / kSteps - 1.0), power = array::power(line, kWave_m, u);
+    cross += power * std::cos(4.0 * std::numbers::pi * d_over_l * line.length_m() / kWave_m * u), own += power;
   }
   return std::pow(cross / own, 2);
 }

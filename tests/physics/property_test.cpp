@@ -12,6 +12,7 @@
 #include "components/runtime/head/test_seabed.h"
 #include "components/scanning/node.h"
 #include "components/sidescan/node.h"
+#include "kernels/array/shading.h"
 #include "kernels/random/stream.h"
 #include "tests/physics/heads.h"
 
@@ -71,6 +72,13 @@ RandomPulse random_pulse(Draws& draw, const char* indent) {
   return pulse;
 }
 
+std::string shading_yaml(Draws& draw, const char* key) {
+  const char* const windows[] = {"uniform", "hann", "hamming", "dolph_chebyshev", "taylor"};
+  const double side_lobe_db = draw.between(13, 60);
+  return fmt::format("{}: {{ window: {}, side_lobe_db: {}, nbar: {} }}\n", key, windows[draw.whole(0, 4)], side_lobe_db,
+                     draw.whole(array::least_nbar(side_lobe_db), 20));
+}
+
 // Ranges and samples are kept small, for speed; all else goes to the ends of what the heads' readers allow.
 
 std::string multibeam_yaml(Draws& draw) {
@@ -95,17 +103,19 @@ std::string multibeam_yaml(Draws& draw) {
                           draw.scale(50e3, 1e6), draw.between(-20, 20), draw.between(0, 0.01));
     }
   }
-  return yaml + effects_yaml(draw);
+  return yaml + shading_yaml(draw, "transmit_shading") + shading_yaml(draw, "receive_shading") + effects_yaml(draw);
 }
 
 std::string sidescan_yaml(Draws& draw) {
-  const char* const focuses[] = {"ideal", "echo", "off", "fixed\n    focus_m: 10"};
+  const char* const focuses[] = {"echo", "off", "fixed\n    focus_m: 10"};
+  const std::string line =
+      draw.yes() ? shading_yaml(draw, "shading") : fmt::format("focus: {}\n", focuses[draw.whole(0, 2)]);
   std::string yaml = fmt::format(
       "channels:\n  - name: main\n    frequency_hz: {}\n    horizontal_beamwidth_deg: {}\n"
       "    vertical_beamwidth_deg: {}\n    depression_deg: {}\n    back_loss_db: {}\n    source_level_db: {}\n"
-      "    range_m: {}\n    samples_per_pulse: {}\n    focus: {}\n",
+      "    range_m: {}\n    samples_per_pulse: {}\n    {}",
       draw.scale(50e3, 1e6), draw.scale(0.05, 10), draw.between(5, 150), draw.between(0, 90), draw.between(0, 100),
-      draw.between(-300, 250), draw.scale(1, 40), draw.between(2, 6), focuses[draw.whole(0, 3)]);
+      draw.between(-300, 250), draw.scale(1, 40), draw.between(2, 6), line);
   yaml += random_pulse(draw, "    ").yaml;
   yaml += fmt::format("converter:\n  bits: {}\nquality: 0.1\n", draw.yes() ? 0 : draw.whole(1, 16));
   return yaml + lod_yaml(draw) + effects_yaml(draw);
@@ -119,7 +129,7 @@ std::string forward_looking_yaml(Draws& draw) {
              draw.scale(50e3, 3e6), draw.whole(16, 64), draw.between(10, 160), draw.scale(1, 10), draw.scale(1, 90),
              draw.scale(1, 90), draw.between(-90, 90), draw.between(2, 20), draw.whole(64, 300),
              draw.between(-300, 250), draw.scale(0.5, 40), draw.yes() ? 0 : draw.whole(1, 16)) +
-         random_pulse(draw, "").yaml + lod_yaml(draw) + effects_yaml(draw);
+         random_pulse(draw, "").yaml + shading_yaml(draw, "shading") + lod_yaml(draw) + effects_yaml(draw);
 }
 
 std::string scanning_yaml(Draws& draw) {
@@ -130,7 +140,7 @@ std::string scanning_yaml(Draws& draw) {
              draw.scale(50e3, 3e6), draw.scale(0.5, 20), draw.scale(0.5, 90), draw.between(-90, 90),
              draw.between(-180, 180), draw.scale(2e-5, 1e-3), draw.whole(64, 300), draw.between(-300, 250),
              draw.scale(0.5, 40), draw.yes() ? 0 : draw.whole(1, 16)) +
-         effects_yaml(draw);
+         shading_yaml(draw, "shading") + effects_yaml(draw);
 }
 
 std::string echosounder_yaml(Draws& draw) {
