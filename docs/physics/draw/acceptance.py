@@ -41,7 +41,8 @@ AT_MOST = [
     ("bias on a plane", "detector's bias, to 60 degrees", 0, 0),
     ("bias on a plane", "detector's bias, to 70 degrees", 1, 1),
     ("sonar-only error", "detector's error of 95 %", 0, 0),
-    ("the whole head, 10-20 dB", "head's bias beyond the fan's", 0, 0),
+    ("the whole head, 10-20 dB", "head's bias, to 60 degrees", 0, 0),
+    ("the whole head, 10-20 dB", "head's bias, to 70 degrees", 1, 1),
     ("the whole head: standard", "head's standard deviation", 1, 0),
     ("the whole head: standard", "head's error of 95 %", 2, 1),
 ]
