@@ -1,5 +1,6 @@
 #include "components/forward_looking/head.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -193,10 +194,7 @@ TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its sh
 }
 
 TEST_CASE("a block stands at its azimuth and range, and throws a shadow as long as geometry says") {
-  // 5 m of altitude. North of the head a wall 1 m high and 8 m wide, its top from 20 to 20.5 m.
-  const auto wall = [](double east, double north) {
-    return std::abs(east) <= 4.0 && north >= 20.0 && north <= 20.5 ? -14.0 : -15.0;
-  };
+  // 5 m of altitude. North of the head a wall 1 m high, its top 2 m long.
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;
   config.range_m = 40.0;
@@ -204,23 +202,42 @@ TEST_CASE("a block stands at its azimuth and range, and throws a shadow as long 
   config.beams = 131;
   config.pulse.most_samples = 800;  // every 0.05 m
   config.quality = 1.0;
-  const msg::Ping ping = ping_of(config, scene_of(wall));
-  // From over the top's far edge at 20.5 m, 4 m below the head, to the seabed 5 m below it.
-  const double begins_m = std::hypot(20.5, 4.0), ends_m = std::hypot(20.5 * 5.0 / 4.0, 5.0);
-  const double beyond = mean_square(ping, -2, 2, ends_m + 0.3, ends_m + 1.3);
-  // Side lobes of the seabed to either side, beyond 11 degrees, stay: 1 / (pi^2 11) of its level, -20 dB.
-  CHECK(db(mean_square(ping, -2, 2, begins_m + 0.3, ends_m - 0.3) / beyond) < -16.0);
-  const double before = mean_square(ping, -2, 2, begins_m - 1.5, begins_m - 0.6);
-  CHECK(before > beyond);
+  for (const double front_m : {17.0, 20.0, 22.75}) {
+    const auto wall = [&](double east, double north) {  // to 11 degrees on either side of its far edge
+      return std::abs(east) <= 0.2 * (front_m + 2.0) && north >= front_m && north <= front_m + 2.0 ? -14.0 : -15.0;
+    };
+    const msg::Ping ping = ping_of(config, scene_of(wall));
+    // From over the top's far edge, 4 m below the head, to the seabed 5 m below it.
+    const double far_edge_m = front_m + 2.0;
+    const double begins_m = std::hypot(far_edge_m, 4.0), ends_m = std::hypot(far_edge_m * 5.0 / 4.0, 5.0);
+    const double beyond = mean_square(ping, -2, 2, ends_m + 0.3, ends_m + 1.3);
+    // Side lobes of the seabed to either side, beyond 11 degrees, stay: 1 / (pi^2 11) of its level, -20 dB.
+    CHECK(db(mean_square(ping, -2, 2, begins_m + 0.3, ends_m - 0.3) / beyond) < -16.0);
+    const double top = mean_square(ping, -2, 2, begins_m - 1.0, begins_m - 0.3);
+    CHECK(top > beyond);
 
-  std::size_t edge = 0;  // the first sample beyond the shadow's middle at half of what follows
-  while (range_of(ping, edge) < 0.5 * (begins_m + ends_m)) ++edge;
-  const double step_m = 0.5 * kSpeed_mps * ping.sample_period_s;
-  while (mean_square(ping, -2, 2, range_of(ping, edge) - 0.1 * step_m, range_of(ping, edge) + 0.1 * step_m) <
-         0.5 * beyond) {
-    ++edge;
+    // An edge is where the level falls to half, between samples: the compressed pulse is as long before its middle as
+    // after. The first sample beyond it alone would be late by anything up to a step.
+    const double step_m = 0.5 * kSpeed_mps * ping.sample_period_s;
+    const auto edge_m = [&](double level, int towards) {
+      const auto from = static_cast<std::ptrdiff_t>(std::round(0.5 * (begins_m + ends_m) / step_m));
+      const auto square = [&](std::ptrdiff_t k) {
+        const double at_m = range_of(ping, static_cast<std::size_t>(k));
+        return mean_square(ping, -2, 2, at_m - 0.1 * step_m, at_m + 0.1 * step_m);
+      };
+      std::ptrdiff_t k = from;
+      while (square(k) < 0.5 * level) k += towards;
+      const double inside = square(k - towards), outside = square(k);
+      return range_of(ping, static_cast<std::size_t>(k)) -
+             towards * step_m * (outside - 0.5 * level) / (outside - inside);
+    };
+    const double from_m = edge_m(top, -1), to_m = edge_m(beyond, 1);
+    INFO("wall at " << front_m << " m: shadow from " << from_m << " to " << to_m << " m, by geometry from " << begins_m
+                    << " to " << ends_m << " m");
+    CHECK(to_m == Approx(ends_m).margin(step_m));
+    CHECK(from_m == Approx(begins_m).margin(step_m));
+    CHECK(to_m - from_m == Approx(ends_m - begins_m).margin(step_m));
   }
-  CHECK(range_of(ping, edge) == Approx(ends_m).margin(1.5 * step_m));
 }
 
 TEST_CASE("a pillar is brightest in the beam and at the range where it stands") {
@@ -251,27 +268,65 @@ TEST_CASE("a pillar is brightest in the beam and at the range where it stands") 
 }
 
 TEST_CASE("one effect switched off leaves the draws of the others alone") {
+  // Each random part alone in the image, the speckle of a seabed and what an empty sea sounds like: it must stay the
+  // same bits whatever else is switched off. What it is heard through (faces, weights, for echoes the water's loss) is
+  // no draw.
+  struct Part {
+    const char* name;
+    bool Effects::*of;
+    bool seabed;
+    std::vector<bool Effects::*> heard_through;
+  };
+  const std::vector<Part> parts{
+      {"speckle", &Effects::speckle, true, {&Effects::directivity, &Effects::side_lobes, &Effects::absorption}},
+      {"noise", &Effects::noise, false, {&Effects::directivity, &Effects::side_lobes}},
+      {"volume", &Effects::volume, false, {&Effects::directivity, &Effects::side_lobes, &Effects::absorption}}};
+  const std::pair<const char*, bool Effects::*> switches[] = {{"refraction", &Effects::refraction},
+                                                              {"absorption", &Effects::absorption},
+                                                              {"directivity", &Effects::directivity},
+                                                              {"side_lobes", &Effects::side_lobes},
+                                                              {"speckle", &Effects::speckle},
+                                                              {"noise", &Effects::noise},
+                                                              {"volume", &Effects::volume},
+                                                              {"multipath", &Effects::multipath},
+                                                              {"interference", &Effects::interference},
+                                                              {"motion", &Effects::motion},
+                                                              {"tvg", &Effects::tvg},
+                                                              {"quantisation", &Effects::quantisation}};
   ForwardLookingConfig config = quiet();
+  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
   config.tilt_rad = 10 * kDeg;
   config.beams = 32;
   config.pulse.most_samples = 200;
   config.quality = 0.1;
-  trace::Scene scene = scene_of([](double, double) { return -15.0; });
-  const msg::Ping clear = ping_of(config, scene);
-  CHECK(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);
-
-  config.effects.noise = true;
-  const msg::Ping noisy = ping_of(config, scene);
-  CHECK_FALSE(noisy.amplitude_upa == clear.amplitude_upa);
-  // Thermal noise of 42.5 dB re 1 uPa^2/Hz in the pulse's band of 3.8 kHz is 78 dB at a point and less in a beam.
-  const double most_upa = 6.0 * std::pow(10.0, 78.0 / 20.0);
-  for (std::size_t i = 0; i < clear.amplitude_upa.size(); ++i) {
-    REQUIRE(static_cast<double>(std::abs(noisy.amplitude_upa.flat()[i] - clear.amplitude_upa.flat()[i])) < most_upa);
+  constexpr double kBeforeSurface_m = 8.0;  // whose own echo comes from 10 m, and takes part in what is switched off
+  for (const Part& part : parts) {
+    trace::Scene scene = part.seabed ? scene_of([](double, double) { return -15.0; }) : trace::Scene({0, 0});
+    Effects on;
+    on.noise = on.volume = false;
+    on.*part.of = true;
+    const auto image = [&](const Effects& effects, std::uint64_t seed) {
+      config.effects = effects;
+      config.world.seed = seed;
+      const msg::Ping ping = ping_of(config, scene);
+      std::vector<float> before;
+      for (std::size_t i = 0; i < ping.amplitude_upa.size(); ++i) {
+        const bool early = range_of(ping, i % ping.amplitude_upa.cols()) < kBeforeSurface_m;
+        if (early) before.push_back(ping.amplitude_upa.flat()[i]);
+      }
+      return before;
+    };
+    const auto whole = image(on, 1);
+    CHECK(*std::max_element(whole.begin(), whole.end()) > 0.0F);
+    CHECK_FALSE(image(on, 2) == whole);  // it is drawn at all
+    for (const auto& [name, off] : switches) {
+      INFO(part.name << " without " << name);
+      Effects without = on;
+      without.*off = false;
+      const bool its_own = off == part.of || std::count(part.heard_through.begin(), part.heard_through.end(), off) > 0;
+      CHECK((image(without, 1) == whole) != its_own);
+    }
   }
-
-  config.world.seed = 2;
-  config.effects.noise = false;
-  CHECK_FALSE(ping_of(config, scene).amplitude_upa == clear.amplitude_upa);  // other speckle
 }
 
 TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams hear less beside them") {

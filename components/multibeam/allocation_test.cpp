@@ -33,6 +33,13 @@ TEST_CASE("after the first ping, listening allocates nothing") {
   tile.sediment = msg::Array<std::uint8_t>({257, 257});
   TileSet tiles;
   tiles.insert(tile);
+  tile.col = tile.row = 9;  // and a block of 2 m, whose facets have rays of their own
+  tile.origin_east_m = tile.origin_north_m = -1.0;
+  tile.spacing_m = 0.25;
+  tile.height_m = msg::Array<float>({9, 9});
+  for (float& height : tile.height_m.flat()) height = -18.0F;
+  tile.sediment = msg::Array<std::uint8_t>({9, 9});
+  tiles.insert(tile);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {});
 

@@ -27,7 +27,10 @@ bool continues(const terrain::Tile& a, const terrain::Tile& b, bool to_east) {
 void Scene::Impl::adapt(std::span<const lod::View> wanted) {
   if (!stale && std::equal(wanted.begin(), wanted.end(), views.begin(), views.end())) return;
   views.assign(wanted.begin(), wanted.end());
-  tbb::parallel_for_each(tiles, [&](auto& tile) { tile.second.cover.choose(tile.second.hierarchy, views); });
+  tbb::parallel_for_each(tiles, [&](auto& tile) {
+    Entry& entry = tile.second;
+    is_small(entry.tile) ? entry.cover.choose_all(entry.hierarchy) : entry.cover.choose(entry.hierarchy, views);
+  });
   show();
 }
 
@@ -66,6 +69,7 @@ std::vector<const Part*> Scene::Impl::use(const std::vector<PartKey>& keys) {
     Part& part = all[missing[i]]->part;
     part = part_of(device, lod::patch_of(entry.tile, entry.hierarchy, key.leaf, key.rim, origin_enu_m));
     part.tile = &entry.tile;
+    part.number = entry.number;
     part.facet_m = static_cast<float>(std::ldexp(entry.tile.spacing_m, key.leaf.level));
   });
   std::vector<const Part*> present;

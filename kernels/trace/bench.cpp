@@ -102,6 +102,7 @@ void distributed_over_embree(benchmark::State& state) {
     seabed_scene.trace(kHead, distribution.probes(), kMaxRange, seen);
     distribution.fill(kHead, seen, seabed_scene.objects(), kMaxRange, rays);
     seabed_scene.trace(kHead, rays, kMaxRange, hits);
+    distribution.settle(rays, hits);
   };
   whole();
   auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
@@ -111,6 +112,41 @@ void distributed_over_embree(benchmark::State& state) {
   }
   state.counters["rays"] = static_cast<double>(rays.size());
   state.counters["of_embree"] = median(ratios);
+}
+
+/// A rock of 1 m in posts of 4 cm, in the main lobe.
+terrain::Tile rock() {
+  const auto dome = [](double x, double y) {
+    const double d2 = (x - 13.0) * (x - 13.0) + (y - 4.0) * (y - 4.0);
+    return d2 < 0.25 ? -20.0 + std::sqrt(0.25 - d2) : std::nan("");
+  };
+  return terrain::sample_tile({.origin_enu_m = {12.48, 3.48}, .spacing_m = 0.04, .cells = 26}, {0, 0}, dome);
+}
+
+/// A ping that sees a rock over one that sees none, in turns.
+void rock_over_none(benchmark::State& state) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto without = scene();
+  auto with = scene();
+  with.insert({9, 9}, rock());
+  trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2), {1.0, 0.075}, {1, "rays"});
+  std::vector<trace::Ray> rays;
+  std::vector<trace::Hit> seen, hits;
+  const auto ping = [&](const trace::Scene& of) {
+    of.trace(kHead, distribution.probes(), kMaxRange, seen);
+    distribution.fill(kHead, seen, of.objects(), kMaxRange, rays);
+    of.trace(kHead, rays, kMaxRange, hits);
+    distribution.settle(rays, hits);
+    return static_cast<double>(rays.size());
+  };
+  std::vector<double> ratios;
+  for (auto _ : state) {
+    const double floor = ticks_of([&] { ping(without); });
+    ratios.push_back(ticks_of([&] { ping(with); }) / floor);
+  }
+  state.counters["rays_none"] = ping(without);
+  state.counters["rays"] = ping(with);
+  state.counters["rock/none"] = median(ratios);
 }
 
 /// A head under the surface of a stratified sea: 80 m of water, relief below 5 m.
@@ -179,6 +215,7 @@ void insert_tile(benchmark::State& state) {
 BENCHMARK(embree_alone)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_fan)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(distributed_over_embree)->ArgName("quality_pct")->Arg(25)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);
+BENCHMARK(rock_over_none)->Unit(benchmark::kMillisecond);
 BENCHMARK(bent_over_straight)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(fill_fan)->Unit(benchmark::kMillisecond);
 BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond);

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,7 +34,8 @@ struct Part {
   EmbreeScene scene;
   RTCBounds bounds{};
   const terrain::Tile* tile = nullptr;
-  float facet_m = 0.0F;  // spacing of its posts
+  std::uint32_t number = 0;  // of the tile, as Hit has it
+  float facet_m = 0.0F;      // spacing of its posts
   std::size_t triangles = 0;
 };
 

@@ -21,7 +21,8 @@ bool whole_cell(const terrain::Tile& tile, std::int32_t column, std::int32_t row
 /// It is there only where a cell in or around the block is a hole, or where `all` of them are wanted.
 void add_object(const terrain::Tile& tile, std::int32_t column, std::int32_t row, std::int32_t side, bool all,
                 std::vector<Object>& objects) {
-  Object object{{}, static_cast<float>(tile.spacing_m)};
+  Object object{
+      {}, nullptr, 0, column, row, std::min(column + side, tile.columns - 1), std::min(row + side, tile.rows - 1)};
   bool holes = all;
   for (std::int32_t r = std::max(row - 1, 0); r < std::min(row + side + 1, tile.rows - 1); ++r) {
     for (std::int32_t c = std::max(column - 1, 0); c < std::min(column + side + 1, tile.columns - 1); ++c) {
@@ -40,9 +41,11 @@ void add_object(const terrain::Tile& tile, std::int32_t column, std::int32_t row
 
 }  // namespace
 
+bool is_small(const terrain::Tile& tile) { return std::max(tile.columns, tile.rows) <= kSmallTileCells; }
+
 std::vector<Object> objects_of(const terrain::Tile& tile) {
   std::vector<Object> objects;
-  if (std::max(tile.columns, tile.rows) <= kSmallTileCells) {
+  if (is_small(tile)) {
     add_object(tile, 0, 0, kSmallTileCells, true, objects);
   } else if (!std::all_of(tile.height_m.begin(), tile.height_m.end(), [](float z) { return std::isfinite(z); })) {
     for (std::int32_t row = 0; row < tile.rows - 1; row += kObjectCells) {
@@ -56,7 +59,13 @@ std::vector<Object> objects_of(const terrain::Tile& tile) {
 
 void Scene::Impl::gather_objects() {
   objects.clear();
-  for (const auto& [key, entry] : tiles) objects.insert(objects.end(), entry.objects.begin(), entry.objects.end());
+  for (const auto& [key, entry] : tiles) {
+    for (Object object : entry.objects) {
+      object.tile = &entry.tile;
+      object.number = entry.number;
+      objects.push_back(object);
+    }
+  }
 }
 
 }  // namespace ensonify::trace

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <string>
 
+#include "kernels/refraction/thermocline.h"
 #include "kernels/trace/ray_distribution.h"
 
 // Small things in empty water and above a seabed: rays find them wherever they are.
@@ -86,6 +90,7 @@ std::vector<Hit> look_at(const Scene& scene, const Look& look, std::uint64_t dra
   scene.trace(look.head, distribution.probes(), kFar_m, hits);
   distribution.fill(look.head, hits, scene.objects(), kFar_m, rays);
   scene.trace(look.head, rays, kFar_m, hits);
+  distribution.settle(rays, hits);
   return hits;
 }
 
@@ -126,11 +131,11 @@ Scene seabed() {
 
 }  // namespace
 
-TEST_CASE("small spheres and boxes are hit wherever they are, and so are all their facets but those edge-on") {
-  // 0.1 to 1 m wide, 2 to 100 m away, above the seabed to 50 m: 18 bodies. Of facets that 16 draws hit at least 48
-  // times, so each of them three times in the mean, 999 of 1000 must be hit by one. Among those that 16 draws hit at
-  // least 4 times are some of the rim of a sphere and of a box's far side that a draw hits at every fourth turn: 994.
-  int often = 0, often_unhit = 0, found = 0, unhit = 0, missed = 0;
+TEST_CASE("small spheres and boxes are hit wherever they are, and so are all their facets") {
+  // 0.1 to 1 m wide, 2 to 100 m away, above the seabed to 50 m: 18 bodies, seen from outside. What 16 draws find at
+  // least 4 times, one draw finds, but for 1 in 1000. Over five draws it is 1 in 1600: slivers of facets that another
+  // hides, or the volume's edge cuts.
+  int found = 0, unhit = 0, missed = 0;
   for (const Look& look : {multibeam(), forward_looking()}) {
     for (const bool over_seabed : {false, true}) {
       Scene scene = over_seabed ? seabed() : Scene({0, 0});
@@ -142,21 +147,18 @@ TEST_CASE("small spheres and boxes are hit wherever they are, and so are all the
         for (std::uint64_t draw = 1; draw <= 16; ++draw) sixteen.count(scene, look, body, draw, true);
         missed += std::all_of(once.hits.begin(), once.hits.end(), [](int n) { return n == 0; });
         for (std::size_t f = 0; f < once.hits.size(); ++f) {
-          const bool hit = once.hits[f] > 0;
-          often += sixteen.hits[f] >= 48, often_unhit += sixteen.hits[f] >= 48 && !hit;
-          found += sixteen.hits[f] >= 4, unhit += sixteen.hits[f] >= 4 && !hit;
+          found += sixteen.hits[f] >= 4, unhit += sixteen.hits[f] >= 4 && once.hits[f] == 0;
         }
       }
     }
   }
-  CAPTURE(often, often_unhit, found, unhit);
+  CAPTURE(found, unhit);
   CHECK(missed == 0);
-  CHECK(often > 9'000);
-  CHECK(often_unhit <= 1e-3 * often);
-  CHECK(unhit <= 6e-3 * found);
+  CHECK(found > 11'000);
+  CHECK(unhit <= 1e-3 * found);
 }
 
-TEST_CASE("an object in empty water takes the rays that its facets ask for, and the solid angles stay whole") {
+TEST_CASE("an object in empty water takes the rays that its facets ask for; all others keep the volume's solid angle") {
   const Look look = multibeam();
   const Body body{0.15, -30.0, {25.0, 0.25}, true};
   Scene scene({0, 0});
@@ -165,14 +167,158 @@ TEST_CASE("an object in empty water takes the rays that its facets ask for, and 
   body.insert(scene);
   const auto hits = look_at(scene, look, 1, rays);
   double sum = 0.0;
-  for (const Ray& ray : rays) sum += ray.solid_angle_sr;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].hit()) sum += rays[i].solid_angle_sr;
+  }
   CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
-  // A sphere of which a head sees a half disc and more: 40 rays to each of its facets that would face the head.
+  // A head sees half of the half sphere's facets and more: 16 rays to each of them, and as many to those in its shade.
   const double facets = 2.0 * std::numbers::pi * std::pow(body.size_m / body.spacing_m(), 2);
   const auto on_it = std::count_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.hit(); });
-  CHECK(double(on_it) > 0.5 * 40 * facets);
-  CHECK(double(on_it) < 1.1 * 40 * facets);
+  CHECK(double(on_it) > 0.5 * 16 * facets);
+  CHECK(double(on_it) < 1.1 * 16 * facets);
   CHECK(double(rays.size() - none) < 2.5 * double(on_it));
+}
+
+namespace {
+
+/// What an object sends back by Lambert's law, and the solid angle that it covers.
+struct Answer {
+  double energy = 0.0, solid_angle_sr = 0.0;
+};
+
+/// Of the hits on it, mean over draws.
+Answer answer(const Scene& scene, const Look& look, const Body& body, double quality, bool by_facets, int draws,
+              const ensonify::refraction::PathTable* water = nullptr) {
+  Answer sum;
+  for (int draw = 0; draw < draws; ++draw) {
+    RayDistribution distribution(look.volume, {quality, 0.3}, Stream{static_cast<std::uint64_t>(draw), "rays"});
+    const auto trace = [&](std::span<const Ray> rays, std::vector<Hit>& hits) {
+      water != nullptr ? scene.trace(look.head, rays, kFar_m, hits, *water)
+                       : scene.trace(look.head, rays, kFar_m, hits);
+    };
+    std::vector<Hit> hits;
+    std::vector<Ray> rays;
+    trace(distribution.probes(), hits);
+    distribution.fill(look.head, hits, by_facets ? scene.objects() : std::span<const Object>{}, kFar_m, rays, water);
+    trace(rays, hits);
+    distribution.settle(rays, hits);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (!hits[i].hit() || hits[i].facet_m != static_cast<float>(body.spacing_m())) continue;
+      sum.energy += double(rays[i].solid_angle_sr * hits[i].sin_grazing) / draws;
+      sum.solid_angle_sr += double(rays[i].solid_angle_sr) / draws;
+    }
+  }
+  return sum;
+}
+
+double db(double ratio) { return 10.0 * std::log10(ratio); }
+
+/// Warm water over cold, from the head 2 m deep down to 10 m.
+ensonify::refraction::PathTable summer(const Scene& scene, const HeadPose& head) {
+  ensonify::refraction::PathTable paths;
+  scene.tabulate(ensonify::refraction::summer_thermocline(), head, 2.0, kFar_m, paths);
+  return paths;
+}
+
+}  // namespace
+
+TEST_CASE("a body answers with the level that evenly spread rays give, and covers as much") {
+  // In front of a near seabed that gets rays enough: 12,000 on the body and more, so 0.05 dB of chance; allowed 0.2 dB.
+  const Look look = forward_looking();
+  for (const bool sphere : {true, false}) {
+    Scene scene = seabed();
+    const Body body{0.8, -4.0, {0.5, 7.0}, sphere};
+    body.insert(scene);
+    const Answer facets = answer(scene, look, body, 1.0, true, 1), even = answer(scene, look, body, 4.0, false, 4);
+    INFO((sphere ? "sphere " : "box ") << db(facets.energy / even.energy) << " dB");
+    CHECK(even.energy > 0.0);
+    CHECK(db(facets.energy / even.energy) == Approx(0.0).margin(0.2));
+    CHECK(db(facets.solid_angle_sr / even.solid_angle_sr) == Approx(0.0).margin(0.2));
+  }
+}
+
+TEST_CASE("half a sphere straight below covers the solid angle of its disc") {
+  const Look look{{{0.0, 0.0, 0.0}, ensonify::frames::enu_from_ned()},
+                  mills_cross_volume(5, 5, 67.5 * kDegree),
+                  [](const Ray&) { return true; }};
+  const Body body{0.3, -20.0, {0.0, 0.0}, true};
+  Scene scene({0, 0});
+  body.insert(scene);
+  // Its outline is the rim of the cells that are whole: count them. It lies 0.2 m below the top at 20 m.
+  int cells = 0;
+  for (int y = 0; y < kCells; ++y) {
+    for (int x = 0; x < kCells; ++x) {
+      const Vec2 outer = (Vec2(x + 0.5, y + 0.5) - Vec2::Constant(0.5 * kCells)).cwiseAbs() + Vec2::Constant(0.5);
+      cells += body.spacing_m() * outer.norm() < body.size_m;
+    }
+  }
+  const double disc_sr = cells * std::pow(body.spacing_m(), 2) / (20.2 * 20.2);
+  CHECK(answer(scene, look, body, 1.0, true, 1).solid_angle_sr == Approx(disc_sr).epsilon(0.01));
+}
+
+TEST_CASE("in bent water rays find a small body where it is, and all its facets that straight ones find") {
+  // 80 m ahead below a thermocline a path is metres off the straight line.
+  const HeadPose head{{0.0, 0.0, -2.0}, enu_from_body(ensonify::frames::Attitude{0, -20 * kDegree, 0})};
+  Look look = forward_looking();
+  look.head = head;
+  const Vec3 ahead = head.enu_from_head * Vec3(1, 0, 0);
+  const Body body{0.3, -2.0 + 70.0 * ahead.z(), 70.0 * ahead.head<2>(), true};
+  Scene scene({0, 0});
+  body.insert(scene);
+  const auto water = summer(scene, head);
+  const Answer bent = answer(scene, look, body, 1.0, true, 1, &water),
+               straight = answer(scene, look, body, 1.0, true, 1);
+  // Sound spreads otherwise, and comes from a little above: nothing like a body that is missed or half seen.
+  INFO("bent " << bent.solid_angle_sr << " sr, straight " << straight.solid_angle_sr << " sr");
+  CHECK(db(bent.solid_angle_sr / straight.solid_angle_sr) == Approx(0.0).margin(1.0));
+}
+
+TEST_CASE("of a scanned coral's facets few are unhit") {
+  const char* shared = std::getenv("ENSONIFY_SHARED");
+  std::ifstream file(std::string(shared == nullptr ? "../shared" : shared) + "/data/objects/mcap_coral.obj");
+  if (!file) {
+    WARN("no coral in the shared data; skipped");
+    return;
+  }
+  // The highest of its points in each cell of 1 cm, one coral after the scan in its own scale, 0.4 m wide.
+  const double spacing_m = 0.01;
+  Tile tile{.origin_enu_m = {0.0, 8.0},
+            .spacing_m = spacing_m,
+            .columns = 60,
+            .rows = 60,
+            .height_m = std::vector<float>(3600, std::numeric_limits<float>::quiet_NaN())};
+  double x = 0, y = 0, z = 0;
+  for (std::string kind, rest; file >> kind; std::getline(file, rest)) {
+    if (kind != "v" || !(file >> x >> y >> z)) continue;
+    const int column = static_cast<int>(x / spacing_m) + 10, row = static_cast<int>(y / spacing_m) + 10;
+    if (column < 0 || row < 0 || column >= 60 || row >= 60) continue;
+    float& post = tile.height_m[tile.post(column, row)];
+    post = std::isnan(post) ? static_cast<float>(z - 4.6) : std::max(post, static_cast<float>(z - 4.6));
+  }
+  Scene scene({0, 0});
+  scene.insert({0, 0}, tile);
+  const Look look = forward_looking();
+  const auto seen = [&](std::uint64_t draw, std::vector<int>& hits) {
+    std::vector<Ray> rays;
+    for (const Hit& hit : look_at(scene, look, draw, rays)) {
+      if (!hit.hit()) continue;
+      const Vec2 at = (hit.position_enu_m.head<2>() - tile.origin_enu_m) / spacing_m;
+      const Vec2 cell = at.array().floor(), inside = at - cell;
+      ++hits[static_cast<std::size_t>(2 * (cell.y() * 60 + cell.x()) + (inside.sum() > 1))];
+    }
+  };
+  std::vector<int> once(7200), sixteen(7200);
+  seen(0, once);
+  for (std::uint64_t draw = 1; draw <= 16; ++draw) seen(draw, sixteen);
+  int found = 0, unhit = 0, whole = 0, whole_unhit = 0;
+  for (std::size_t f = 0; f < once.size(); ++f) {
+    found += sixteen[f] >= 4, unhit += sixteen[f] >= 4 && once[f] == 0;
+    whole += sixteen[f] >= 32, whole_unhit += sixteen[f] >= 32 && once[f] == 0;
+  }
+  // Facets half and more of which are seen; those of which a sliver shows behind another are found at times.
+  CAPTURE(found, unhit, whole, whole_unhit);
+  CHECK(whole > 500);
+  CHECK(whole_unhit <= 5e-3 * whole);
 }
 
 TEST_CASE("seabed is no object; small tiles are, and so is what stands among holes") {
@@ -182,7 +328,8 @@ TEST_CASE("seabed is no object; small tiles are, and so is what stands among hol
   CHECK(scene.objects().empty());
   scene.insert({1, 0}, sample_tile({.origin_enu_m = {100, 0}, .spacing_m = 0.1, .cells = 20}, {0, 0}, level));
   REQUIRE(scene.objects().size() == 1);
-  CHECK(scene.objects()[0].facet_m == 0.1F);
+  CHECK(scene.objects()[0].tile->spacing_m == 0.1);
+  CHECK(scene.objects()[0].end_column == 20);
   CHECK(scene.objects()[0].box_enu_m.min().isApprox(Vec3(100, 0, -20)));
   CHECK(scene.objects()[0].box_enu_m.max().isApprox(Vec3(102, 2, -20)));
   // A box of 4 m in a tile that is a hole all around: in four blocks of 16 cells, together as large as it is.

@@ -4,8 +4,8 @@
 
 namespace ensonify::trace {
 
-/// A bundle of sound around one direction. The direction is unit length; the solid angles of the rays of a transmission
-/// sum to that of its volume.
+/// A bundle of sound around one direction. The direction is unit length. The solid angles of the rays that are spread
+/// over a transmission's volume sum to that of the volume; those to facets of small objects stand for the facets.
 struct Ray {
   Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // head frame, FRD
   float solid_angle_sr = 0.0F;

@@ -20,7 +20,8 @@ constexpr int kFewestMainCells = 2;        // of a span
 constexpr std::size_t kCellsPerTask = 16;  // fixed, so the number of threads changes nothing
 constexpr double kWidest = 0.5;            // of a cell, in either coordinate: fill_cell() needs it below 0.6 rad
 
-constexpr double kRaysPerCell = 12.0, kRaysPerFacet = 10.0;  // at normal quality
+constexpr double kRaysPerFacet = 10.0;    // at normal quality
+constexpr std::size_t kMostToFacets = 4;  // of all rays one in so many
 
 // Of planes that rays aim at. Where a plane is as far from the seabed as a quarter of the head's height above it,
 // places wander on the seabed by a quarter of what the head moves.
@@ -90,7 +91,7 @@ TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receiv
 
 RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings& settings,
                                  const random::Stream& stream)
-    : volume_(volume), settings_(settings), stream_(stream) {
+    : volume_(volume), settings_(settings), stream_(stream), facets_(stream) {
   check(volume.sine, -1.0, 1.0, "the sines of a transmit volume must rise within -1..1, and its beams be wider than 0");
   check(volume.angle_rad, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi,
         "the angles of a transmit volume must rise, and its beams be wider than 0");
@@ -244,7 +245,8 @@ std::size_t RayDistribution::cut(double share) {
 }
 
 void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits,
-                           std::span<const Object> objects, float max_range_m, std::vector<Ray>& rays) {
+                           std::span<const Object> objects, float max_range_m, std::vector<Ray>& rays,
+                           const refraction::PathTable* bent) {
   if (probe_hits.size() != probes_.size()) throw std::invalid_argument("there must be one hit per probe");
   const Look probes{head, head.enu_from_head.toRotationMatrix(), probe_hits, max_range_m};
   const auto for_parts = [&](const auto& work) {
@@ -258,14 +260,18 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
   parts_.resize((sine_edges_.size() - 1) * columns());
   for_parts([&](std::size_t k) {
     const std::size_t i = k / columns(), j = k % columns();
-    parts_[k] = {sine_edges_[i],    sine_edges_[i + 1], angle_edges_rad_[j], angle_edges_rad_[j + 1], k,
-                 need(i, j, probes)};
+    parts_[k] = {sine_edges_[i], sine_edges_[i + 1], angle_edges_rad_[j], angle_edges_rad_[j + 1], need(i, j, probes)};
   });
-  for (const Object& object : objects) set_apart(object, probes);
+  const std::size_t to_facets =
+      facets_.aim(objects, {head, max_range_m, bent},
+                  {[this](const auto& corners) { return rays_to_facet(corners); },
+                   [this](const Vec3& direction) { return holds(direction); },
+                   [this](const Vec3& middle, double radius_m) { return touches(middle, radius_m); },
+                   settings_.most_rays / kMostToFacets});
   if (rays_.size() < parts_.size()) rays_.resize(parts_.size());
 
   const bool any = std::any_of(probe_hits.begin(), probe_hits.end(), [](const Hit& hit) { return hit.hit(); });
-  const auto most = static_cast<double>(settings_.most_rays);
+  const auto most = static_cast<double>(settings_.most_rays - to_facets);
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
   share_ = 1.0;
   double count = 0.0;
@@ -282,6 +288,7 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
     share_ *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
   gather(rays);
+  facets_.append(rays);
 }
 
 /// All rays; those to places share the solid angle of their parts, as the lattices' edges leave a little more or less.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "kernels/frames/pose.h"
 #include "kernels/random/stream.h"
+#include "kernels/trace/facet_rays.h"
 #include "kernels/trace/ray.h"
 #include "kernels/trace/scene.h"
 
@@ -37,9 +39,8 @@ TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receiv
 
 struct RaySettings {
   /// In the main lobe, a resolution cell (range resolution x beam, -3 dB) gets 12 rays times this on average and a
-  /// facet
-  /// 10. At kNormal every cell within -10 dB has at least 10, and of 1000 facets in the main lobe 999 are hit; kPreview
-  /// is for a quick look and kReference to compare with.
+  /// facet 10. At kNormal every cell within -10 dB has at least 10, and of 1000 facets in the main lobe 999 are hit;
+  /// kPreview is for a quick look and kReference to compare with.
   double quality = kNormal;
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
   std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
@@ -62,8 +63,9 @@ struct RaySettings {
 /// strata, with one ray at a random place in each. Either way rays are a fair sample of the volume whatever the
 /// density, all together carry its solid angle exactly, and the same pose over the same tiles has the same rays.
 ///
-/// Small things that probes may miss come as boxes (Scene::objects()). What a box covers of a cell becomes a part of
-/// its own, with the rays that the object's facets ask for if they face the head, at least.
+/// Small things that probes may miss come as objects (Scene::objects()). Each of their facets in the volume has rays of
+/// its own (facet_rays.h): 16 at normal quality, at least one in the main lobe, and more where it is larger than
+/// what is resolved.
 ///
 /// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
 /// in the main lobe, and a third more beyond it; not with the number of beams. A corner that meets nothing counts as
@@ -84,16 +86,22 @@ class RayDistribution {
   /// The rays that look first; their solid angles are 0. They change with steer().
   std::span<const Ray> probes() const { return probes_; }
 
-  /// The rays for what the probes met within max_range_m, and for what lies in the boxes. Neighbours follow each other,
-  /// as packets want it. Throws std::invalid_argument unless there is one hit per probe.
+  /// The rays for what the probes met within max_range_m, and for the objects' facets. Neighbours follow each other,
+  /// as packets want it. Through bent water `bent` is what Scene::tabulate made for this head. Throws
+  /// std::invalid_argument unless there is one hit per probe.
   void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, std::span<const Object> objects,
-            float max_range_m, std::vector<Ray>& rays);
+            float max_range_m, std::vector<Ray>& rays, const refraction::PathTable* bent = nullptr);
+
+  /// After the rays of the last fill have been traced: only then do those to objects carry a solid angle, and do hits
+  /// that do not count become misses. Throws std::invalid_argument unless there is one hit per ray.
+  void settle(std::span<Ray> rays, std::span<Hit> hits) const { facets_.settle(rays, hits); }
 
   /// What the last fill had of the rays that the quality asks for: 1; less where most_rays limits them, more where
   /// there are fewest_rays.
   double share() const { return share_; }
 
  private:
+  static constexpr double kRaysPerCell = 12.0;  // of resolution, at normal quality
   struct Need {
     double rays = 1.0, sine_to_angle = 1.0;  // strata, and their number along u over that along phi
     double plane_m = 0.0;                    // how far below the head the plane lies that they aim at; 0: none
@@ -104,9 +112,8 @@ class RayDistribution {
     std::span<const Hit> hits;
     double max_range_m;
   };
-  struct Part {  // of the volume: a cell, or what boxes leave and take of it
+  struct Part {  // of the volume: a cell
     double low_sine, high_sine, low_rad, high_rad;
-    std::size_t cell;
     Need need;
     std::uint32_t along_sine = 1, along_angle = 1;  // strata
     double to_places_sr = 0.0;                      // that rays carry to places; 0: none aims at any
@@ -123,8 +130,11 @@ class RayDistribution {
   static double facing_facets_per_sr(double range_m, double facet_m) {
     return 2.0 * range_m * range_m / (facet_m * facet_m);
   }
-  void set_apart(const Object& object, const Look& probes);
-  void set_apart(const Part& box, double rays_per_sr);
+  /// Sine and angle of a direction, the angle in the turn about the volume's middle.
+  std::array<double, 2> coordinates_of(const frames::Vec3& direction_head) const;
+  double rays_to_facet(const std::array<frames::Vec3, 3>& corners_head_m) const;
+  bool holds(const frames::Vec3& direction_head) const;
+  bool touches(const frames::Vec3& middle_head_m, double radius_m) const;
   std::size_t cut(double share);
   void fill_part(std::size_t index, const Look& probes);
   void gather(std::vector<Ray>& rays) const;
@@ -142,6 +152,7 @@ class RayDistribution {
   std::vector<Ray> probes_;
   std::vector<Part> parts_;
   std::vector<std::vector<Ray>> rays_;  // of each part
+  FacetRays facets_;
   double share_ = 1.0;
 };
 

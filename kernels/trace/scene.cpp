@@ -51,6 +51,7 @@ Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float
   hit.tube_m2 = hit.range_m * hit.range_m;
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
   hit.facet_m = part.facet_m;
+  hit.tile = part.number;
   hit.sediment = terrain::sediment_at(*part.tile, hit.position_enu_m.head<2>());
   return hit;
 }
@@ -69,7 +70,8 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 void Scene::insert(const terrain::TileKey& key, const terrain::Tile& tile) {
   if (const auto fault = terrain::fault_of(tile)) throw std::invalid_argument(*fault);
   impl_->change(key);
-  impl_->tiles.insert_or_assign(key, Entry{tile, lod::Hierarchy(tile), heights_of(tile), objects_of(tile), {}});
+  impl_->tiles.insert_or_assign(
+      key, Entry{++impl_->inserted, tile, lod::Hierarchy(tile), heights_of(tile), objects_of(tile), {}});
   impl_->gather_objects();
   impl_->show_all();
 }

@@ -29,6 +29,7 @@ struct Hit {
   float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
   float facet_m = 0.0F;        // spacing of the posts of the mesh there: a facet is half a square of it
   std::uint8_t sediment = 0;
+  std::uint32_t tile = 0;  // of the scene, as Object has it; 0: none
 
   bool hit() const { return range_m > 0.0F; }
 };
@@ -39,10 +40,12 @@ struct Heights {
   double highest_m = 0.0;
 };
 
-/// A box around something small.
+/// Something small: cells of a tile, from the first to before the end, and a box around those without holes.
 struct Object {
   Eigen::AlignedBox3d box_enu_m;
-  float facet_m = 0.0F;  // as Hit has it
+  const terrain::Tile* tile = nullptr;  // while the scene has it
+  std::uint32_t number = 0;             // of the tile: from 1, as they came
+  std::int32_t first_column = 0, first_row = 0, end_column = 0, end_row = 0;
 };
 
 /// How finely a scene shows its tiles (docs/seabed/level-of-detail.md).
@@ -78,7 +81,8 @@ class Scene {
   bool remove(const terrain::TileKey& key);
 
   /// What a look at the seabed may miss: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
-  /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order.
+  /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order. Small tiles are always
+  /// at full detail.
   std::span<const Object> objects() const;
 
   /// Moves the origin of Embree's coordinates to the corner of a lattice of 2048 m that is nearest to a place; when

@@ -14,6 +14,7 @@
 namespace ensonify::trace {
 
 struct Entry {
+  std::uint32_t number;  // as Object has it
   terrain::Tile tile;
   lod::Hierarchy hierarchy;
   Heights heights;  // of the posts
@@ -21,6 +22,9 @@ struct Entry {
   lod::Cover cover;
 };
 
+/// Whether all of a tile is one object.
+bool is_small(const terrain::Tile& tile);
+/// Yet without their tile, which the scene's entry is to hold.
 std::vector<Object> objects_of(const terrain::Tile& tile);
 
 struct PartKey {
@@ -40,6 +44,7 @@ struct Scene::Impl {
   frames::Vec2 origin_enu_m;
   LevelOfDetail detail;
   std::map<terrain::TileKey, Entry> tiles;
+  std::uint32_t inserted = 0;   // tiles, ever
   std::vector<Object> objects;  // of all tiles
 
   std::vector<lod::View> views;  // of the mesh ...

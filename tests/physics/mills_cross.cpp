@@ -26,6 +26,7 @@ echo::Image MillsCross::hear(const trace::Scene& seabed, const frames::HeadPose&
   seabed.trace(head, distribution.probes(), static_cast<float>(range_m), hits, kSpeed_mps);
   distribution.fill(head, hits, seabed.objects(), static_cast<float>(range_m), rays);
   seabed.trace(head, rays, static_cast<float>(range_m), hits, kSpeed_mps);
+  distribution.settle(rays, hits);
 
   const seabed::BackscatterTable table(backscatter);
   std::vector<float> source, cross_section;

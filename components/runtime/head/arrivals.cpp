@@ -43,8 +43,9 @@ void Arrivals::look(trace::Scene& seabed, trace::RayDistribution& distribution, 
                     std::vector<trace::Ray>& rays, std::vector<trace::Hit>& hits) {
   paths_.adapt(seabed, transmit_pose(), distribution, range_m);
   paths_.trace(seabed, transmit_pose(), distribution.probes(), range_m, hits);
-  distribution.fill(transmit_pose(), hits, seabed.objects(), static_cast<float>(range_m), rays);
+  distribution.fill(transmit_pose(), hits, seabed.objects(), static_cast<float>(range_m), rays, paths_.bent());
   paths_.trace(seabed, transmit_pose(), rays, range_m, hits);
+  distribution.settle(rays, hits);
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.

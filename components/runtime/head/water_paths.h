@@ -42,6 +42,9 @@ class WaterPaths {
     seabed.trace(head, rays, range_m, hits, table_);
   }
 
+  /// Of the last trace; null where paths are straight.
+  const refraction::PathTable* bent() const { return bent_ ? &table_ : nullptr; }
+
  private:
   static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
 

@@ -33,6 +33,9 @@ AT_MOST = [
     ("the same of a whole head", "arc of side lobes, whole head", 0, 0),
     ("tapered tone", "strength by a tapered tone", 0, 0),
     ("near field of a sidescan", "near field of a sidescan's line", 0, 0),
+    ("facets unhit", "facets unhit, small objects", 0, 0),
+    ("facets unhit", "facets unhit, smooth seabed", 1, 0),
+    ("facets unhit", "facets unhit, rough seabed", 2, 0),
     ("Rayleigh amplitude", "Rayleigh amplitude: rejected", 0, 0),
     ("coefficient of variation", "speckle's coefficient of variation", 1, 0),
     ("decorrelates", "speckle decorrelates with movement", 0, 0),
@@ -49,6 +52,7 @@ AT_MOST = [
 AT_LEAST = [
     ("arc of side lobes", "arc stands out, kernels", 1, 1),
     ("the same of a whole head", "arc stands out, whole head", 1, 1),
+    ("rays in a resolution cell", "rays in a resolution cell", 0, 0),
     ("chirps 1.2 x", "two chirps part", 0, 0),
     ("1.2 one-way beam widths", "two points part along track", 0, 0),
     ("strips of seabed 1.2", "sidescan: two strips part across track", 0, 0),
