@@ -11,9 +11,15 @@ NavFeedConfig NavFeedConfig::read(ConfigReader& from, const Scenario& scenario, 
   from.optional("pose_rate_hz", config.pose_rate_hz, 1, 1000);
   from.optional("delay_s", config.delay_s, 0, 60);
   from.optional("fastest_mps", config.fastest_mps, 0.1, 1000);
+  std::array<double, 3> antenna{};
+  from.optional("antenna_position_m", antenna, -500, 500);
+  config.antenna_body_m = {antenna[0], antenna[1], antenna[2]};
+  from.optional_choice("height", config.height,
+                       {{"water", NavFeedConfig::Height::kWater}, {"gga", NavFeedConfig::Height::kGga}});
   config.floats = own_vehicle(from, scenario, process).floats;
   if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
   config.tide = scenario.vertical.tide;
+  config.datums = scenario.vertical.datums;
   config.current = scenario.current;
   return config;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/vertical/reduction.h"
+
 namespace ensonify {
 namespace {
 
@@ -73,16 +75,36 @@ void FedTrack::take(const nmea::Fix& fix, SimTime now) {
   east_m_.push(utc_s, place.x());
   north_m_.push(utc_s, place.y());
   count_("fixes_taken");
+  const double datum_above_geoid_m = vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
+  if (config_.height == NavFeedConfig::Height::kGga) {
+    settle_height();
+    if (!fix.height_above_geoid_m) count_("fixes_without_height");
+    if (fix.height_above_geoid_m) unsettled_ = {utc_s, *fix.height_above_geoid_m - datum_above_geoid_m};
+  }
 
   fix_.emplace();
   fix_->stamp_ns = (anchor_ + from_seconds(utc_s - *anchor_utc_s_ + config_.delay_s)).count();
   fix_->position_enu_m = {place.x(), place.y(), 0.0};
+  if (fix.height_above_geoid_m) {
+    fix_->position_enu_m[2] = *fix.height_above_geoid_m - datum_above_geoid_m;
+    fix_->height_above_geoid_m = *fix.height_above_geoid_m;
+  }
   fix_->latitude_deg = fix.latitude_deg;
   fix_->longitude_deg = fix.longitude_deg;
   fix_->quality = fix.quality;
   fix_->hdop = fix.hdop;
-  fix_->height_above_geoid_m = fix.height_above_geoid_m;
 }
+
+/// The height of the fix before: all that was said of its time has come with the one after it.
+void FedTrack::settle_height() {
+  if (!unsettled_) return;
+  const auto [utc_s, above_datum_m] = *std::exchange(unsettled_, std::nullopt);
+  const frames::Attitude tilt{0.0, held(pitch_rad_, utc_s).value, held(roll_rad_, utc_s).value};
+  const double antenna_above_m = (frames::enu_from_body(tilt) * config_.antenna_body_m).z();
+  mean_height_m_.push(utc_s, above_datum_m - antenna_above_m - held(heave_m_, utc_s).value);
+}
+
+motion::Moving FedTrack::height_m(double t_s) const { return held(mean_height_m_, t_s) + held(heave_m_, t_s); }
 
 bool FedTrack::push_heading(double utc_s, double true_heading_rad) {
   const frames::Vec2 place(east_m_.newest(), north_m_.newest());
@@ -108,24 +130,36 @@ void FedTrack::take(const nmea::Motion& motion, SimTime now) {
   count_("motions_taken");
 }
 
-std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
-  if (!anchor_utc_s_ || heading_rad_.size() == 0 || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
-  const double t_s = delayed_s(now);
-  // Off a body that lies level at the world's origin with its bow to north.
-  const motion::Excursion way{north_m_.at(t_s),     east_m_.at(t_s),       held(heave_m_, t_s),
-                              held(roll_rad_, t_s), held(pitch_rad_, t_s), held(heading_rad_, t_s)};
-  return motion::superimpose(frames::MovingPose{}, way);
+/// Whether all that a pose takes has come once.
+bool FedTrack::can_tell() const {
+  const bool high = config_.height == NavFeedConfig::Height::kWater || mean_height_m_.size() > 0;
+  return anchor_utc_s_ && heading_rad_.size() > 0 && high;
 }
 
-bool FedTrack::starves(SimTime now) const {
-  return !anchor_utc_s_ || heading_rad_.size() == 0 || delayed_s(now) > east_m_.newest_s();
+std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
+  if (!can_tell() || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
+  const double t_s = delayed_s(now);
+  // Off a body that lies level at the world's origin with its bow to north. First as if it were at the antenna.
+  const motion::Excursion way{north_m_.at(t_s),     east_m_.at(t_s),       height_m(t_s),
+                              held(roll_rad_, t_s), held(pitch_rad_, t_s), held(heading_rad_, t_s)};
+  frames::MovingPose moving = motion::superimpose(frames::MovingPose{}, way);
+  const frames::Vec3 &rate = moving.angular_rate_body_radps, &lever = config_.antenna_body_m;
+  const auto across = [&](const frames::Vec3& body) { return (moving.pose.enu_from_body * body).head<2>().eval(); };
+  moving.pose.position_enu_m.head<2>() -= across(lever);
+  moving.velocity_enu_mps.head<2>() -= across(rate.cross(lever));
+  moving.acceleration_enu_mps2.head<2>() -=
+      across(moving.angular_acceleration_body_radps2.cross(lever) + rate.cross(rate.cross(lever)));
+  return moving;
 }
+
+bool FedTrack::starves(SimTime now) const { return !can_tell() || delayed_s(now) > east_m_.newest_s(); }
 
 void FedTrack::forget(SimTime now) {
   if (!anchor_utc_s_) return;
   const double t_s = delayed_s(now);
-  for (auto* curve : {&east_m_, &north_m_, &heading_rad_, &roll_rad_, &pitch_rad_, &heave_m_})
+  for (auto* curve : {&east_m_, &north_m_, &heading_rad_, &roll_rad_, &pitch_rad_, &heave_m_, &mean_height_m_}) {
     curve->forget_before(t_s);
+  }
 }
 
 }  // namespace ensonify

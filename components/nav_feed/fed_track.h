@@ -15,7 +15,8 @@
 namespace ensonify {
 
 /// A vehicle's way as sentences tell it. The first fix binds UTC to sim time; from then on the sentences' own times
-/// count, and the vehicle is `delay_s` behind them, so that its way is a smooth curve between samples.
+/// count, and the vehicle is `delay_s` behind them, so that its way is a smooth curve between samples. Fixes are of the
+/// antenna, heave of the vehicle's reference point.
 class FedTrack {
  public:
   using Count = std::function<void(const std::string&)>;
@@ -24,14 +25,15 @@ class FedTrack {
   /// What arrived by the event at `now`: lines, good or bad. What cannot be used is counted, and changes nothing.
   void take(std::string_view text, SimTime now);
 
-  /// The vehicle at `now`; nothing before its first fix is that old.
+  /// The vehicle at `now`; nothing before its first fix is that old. Its height is heave alone, or with
+  /// NavFeedConfig::Height::kGga that above chart datum.
   std::optional<frames::MovingPose> at(SimTime now) const;
   /// Nothing new has come for long enough that the way is a guess.
   bool starves(SimTime now) const;
   /// Forgets what no later event needs.
   void forget(SimTime now);
 
-  /// The newest fix that was taken since the last call.
+  /// The newest fix that was taken since the last call; its place is the antenna's.
   std::optional<msg::Position> take_fix() { return std::exchange(fix_, std::nullopt); }
 
  private:
@@ -44,6 +46,9 @@ class FedTrack {
   /// Time of a sentence that tells none: that of the last one that did, and what has passed since.
   double untold_s(SimTime now) const { return told_s_ + seconds(now - told_at_); }
   void tell(double utc_s, SimTime now);
+  bool can_tell() const;
+  void settle_height();
+  motion::Moving height_m(double t_s) const;
   double delayed_s(SimTime now) const { return *anchor_utc_s_ + seconds(now - anchor_) - config_.delay_s; }
   bool push_heading(double utc_s, double true_heading_rad);
 
@@ -56,6 +61,11 @@ class FedTrack {
   SimTime told_at_{0};
   bool heading_by_gyro_ = false;  // HDT has come: headings of motion sentences are left
   motion::SampledCurve east_m_, north_m_, heading_rad_, roll_rad_, pitch_rad_, heave_m_;
+  motion::SampledCurve mean_height_m_;  // above chart datum, of the reference point without heave; by GGA
+  struct AntennaHeight {
+    double utc_s, above_datum_m;
+  };
+  std::optional<AntennaHeight> unsettled_;  // until heave and attitude of its time have come
   std::optional<msg::Position> fix_;
 };
 

@@ -18,29 +18,37 @@ const frames::Geodetic kOrigin{53.21, -9.37};  // no whole degrees, whose minute
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string time_of(double t_s) {
-  const int whole = static_cast<int>(std::floor(t_s + 1e-9)) % 86400;
+  const int milliseconds = static_cast<int>(std::llround(1e3 * t_s)) % 86400000, whole = milliseconds / 1000;
   char text[16];
-  std::snprintf(text, sizeof text, "%02d%02d%02d.000", whole / 3600, whole / 60 % 60, whole % 60);
+  std::snprintf(text, sizeof text, "%02d%02d%02d.%03d", whole / 3600, whole / 60 % 60, whole % 60, milliseconds % 1000);
   return text;
 }
 
-/// GGA of a place in the world, with seven decimals of a minute: 0.2 mm.
-std::string fix(double utc_s, double east_m, double north_m) {
+/// GGA of a place in the world, with seven decimals of a minute (0.2 mm) and four of a metre.
+std::string fix(double utc_s, double east_m, double north_m, double above_geoid_m = 1.0) {
   const auto place = frames::LocalProjection(kOrigin).geodetic_of({east_m, north_m});
   const double latitude = std::abs(place.latitude_deg), longitude = std::abs(place.longitude_deg);
   char text[128];
-  std::snprintf(text, sizeof text, "GPGGA,%s,%02d%010.7f,N,%03d%010.7f,W,4,12,0.7,1.0,M,50,M,,", time_of(utc_s).c_str(),
-                static_cast<int>(latitude), 60.0 * std::fmod(latitude, 1.0), static_cast<int>(longitude),
-                60.0 * std::fmod(longitude, 1.0));
+  std::snprintf(text, sizeof text, "GPGGA,%s,%02d%010.7f,N,%03d%010.7f,W,4,12,0.7,%.4f,M,50,M,,",
+                time_of(utc_s).c_str(), static_cast<int>(latitude), 60.0 * std::fmod(latitude, 1.0),
+                static_cast<int>(longitude), 60.0 * std::fmod(longitude, 1.0), above_geoid_m);
   return sentence(text);
 }
 
 std::string heading(double degrees) { return sentence("HEHDT," + std::to_string(degrees) + ",T"); }
 
 struct Fed {
-  std::map<std::string, int> counts;
-  FedTrack feed{NavFeedConfig{}, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
+  NavFeedConfig config{};
+  std::map<std::string, int> counts{};
+  FedTrack feed{config, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
 };
+
+std::string motion_sentence(double utc_s, double roll_deg, double heave_m) {
+  char text[128];
+  std::snprintf(text, sizeof text, "PASHR,%s,90.00,T,%+.3f,+0.00,%+.4f,0.1,0.1,0.1,1,1", time_of(utc_s).c_str(),
+                roll_deg, heave_m);
+  return sentence(text);
+}
 
 SimTime at_s(double t_s) { return from_seconds(t_s); }
 
@@ -134,4 +142,52 @@ TEST_CASE(
   CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.x() == Approx(60.0).margin(0.01));
   fed.feed.forget(at_s(40));
   CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.y() == Approx(5.0).margin(0.01));
+}
+
+TEST_CASE("fixes of an antenna off the reference point lead the reference point") {
+  // In a circle of 50 m about the origin, 4 degrees a second to starboard, the antenna 6 m ahead and 2 m to starboard.
+  Fed fed{.config = {.antenna_body_m = {6.0, 2.0, -5.0}}};
+  const double rate = 4.0 * kDegree;
+  const auto forward = [&](double t) { return frames::Vec2(std::cos(rate * t), -std::sin(rate * t)); };
+  const auto starboard = [&](double t) { return frames::Vec2(-std::sin(rate * t), -std::cos(rate * t)); };
+  const auto place = [&](double t) -> frames::Vec2 { return -50.0 * starboard(t); };
+  for (int i = 0; i <= 30; ++i) {
+    const frames::Vec2 antenna = place(i) + 6.0 * forward(i) + 2.0 * starboard(i);
+    const double convergence_deg = frames::LocalProjection(kOrigin).convergence_rad(antenna) / kDegree;
+    fed.feed.take(fix(100 + i, antenna.x(), antenna.y()) + heading(90.0 + 4.0 * i + convergence_deg), at_s(i));
+  }
+  for (double t = 5.0; t < 27.0; t += 0.37) {
+    const auto moving = *fed.feed.at(at_s(t + 2.5));
+    // The curve through samples 0.07 rad apart keeps to (w h)^3 / 12 of its radius: 0.03 mm of 1.5 m.
+    REQUIRE((moving.pose.position_enu_m.head<2>() - place(t)).norm() < 0.002);
+    REQUIRE(moving.pose.position_enu_m.z() == 0.0);
+    REQUIRE((moving.velocity_enu_mps.head<2>() - 50.0 * rate * forward(t)).norm() < 0.01);
+    REQUIRE((moving.acceleration_enu_mps2.head<2>() - 50.0 * rate * rate * starboard(t)).norm() < 0.03);
+  }
+}
+
+TEST_CASE("heights of the antenna tell the reference point's, between fixes by heave") {
+  // Chart datum lies 1.5 m below the geoid; the tide rises by 1 cm/s while the boat heaves with 4 s and lies over by 10
+  // degrees; the antenna is 5 m up and 3 m to starboard.
+  NavFeedConfig config{.delay_s = 3.5, .antenna_body_m = {0.0, 3.0, -5.0}, .height = NavFeedConfig::Height::kGga};
+  config.datums.datum_above_geoid = vertical::Separation(-1.5);
+  Fed fed{.config = config};
+  const auto heave = [](double t) { return 0.5 * std::sin(1.5708 * t); };
+  const auto above_datum = [&](double t) { return 2.0 + 0.01 * t + heave(t); };
+  const double up_m = 5.0 * std::cos(10.0 * kDegree) - 3.0 * std::sin(10.0 * kDegree);
+  CHECK_FALSE(fed.feed.at(at_s(0)));
+  for (int i = 0; i <= 300; ++i) {
+    const double t = 0.1 * i;
+    if (i % 10 == 0) fed.feed.take(fix(t, 0.0, 0.0, above_datum(t) + up_m - 1.5), at_s(t));
+    fed.feed.take(motion_sentence(t, 10.0, heave(t)), at_s(t));
+  }
+  for (double t = 2.0; t < 26.0; t += 0.37) {
+    const auto moving = *fed.feed.at(at_s(t + 3.5));
+    // Of the heave's curve (w h)^3 / 12 of the amplitude, 0.2 mm, and decimals.
+    REQUIRE(moving.pose.position_enu_m.z() == Approx(above_datum(t)).margin(0.001));
+    REQUIRE(moving.velocity_enu_mps.z() == Approx(0.01 + 0.5 * 1.5708 * std::cos(1.5708 * t)).margin(0.02));
+  }
+  CHECK(fed.feed.take_fix()->position_enu_m[2] == Approx(above_datum(30.0) + up_m).margin(1e-3));
+  fed.feed.take(sentence("GPGGA,000031.00,5312.6000000,N,00922.2000000,W,4,12,0.7,,M,,M,,"), at_s(31));
+  CHECK(fed.counts["fixes_without_height"] == 1);
 }

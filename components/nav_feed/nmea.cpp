@@ -70,7 +70,7 @@ Sentence read_fix(const std::vector<std::string_view>& f) {
   const auto latitude = angle_deg(f[2], f[3], 'N', 'S', 90), longitude = angle_deg(f[4], f[5], 'E', 'W', 180);
   if (!time_s || !latitude || !longitude) return Malformed{};
   return Fix{*time_s,    static_cast<int>(*quality),         *latitude,
-             *longitude, number(f[8], 0, 1e3).value_or(0.0), number(f[9], -1e4, 1e5).value_or(0.0)};
+             *longitude, number(f[8], 0, 1e3).value_or(0.0), number(f[9], -1e4, 1e5)};
 }
 
 Sentence read_heading(const std::vector<std::string_view>& f) {

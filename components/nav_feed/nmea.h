@@ -12,8 +12,8 @@ struct Fix {
   double time_s = 0.0;
   int quality = 0;
   double latitude_deg = 0.0, longitude_deg = 0.0;
-  double hdop = 0.0;                  // 0: not told
-  double height_above_geoid_m = 0.0;  // 0: not told
+  double hdop = 0.0;  // 0: not told
+  std::optional<double> height_above_geoid_m;
 };
 
 /// HDT of any talker.

@@ -33,7 +33,7 @@ SimTime NavFeedNode::step(SimTime now) {
   if (!listener_) listener_.emplace(config_.port);
   if (!track_) return poses_due_.next();
   hear(now);
-  if (const auto moving = track_->at(now)) poses_.send(pose_message(now, afloat(*moving, seconds(now))));
+  if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, seconds(now))));
   if (track_->starves(now)) {
     ports_.count("poses_guessed");
     ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
@@ -57,8 +57,10 @@ void NavFeedNode::hear(SimTime now) {
   }
 }
 
-/// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by.
-frames::MovingPose NavFeedNode::afloat(frames::MovingPose moving, double t_s) const {
+/// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by. One
+/// whose height the feed tells is where it is.
+frames::MovingPose NavFeedNode::at_its_height(frames::MovingPose moving, double t_s) const {
+  if (config_.height == NavFeedConfig::Height::kGga) return moving;
   vertical::Level level = config_.tide.at(t_s);
   if (config_.floats) {
     const frames::Vec2 through_water = moving.velocity_enu_mps.head<2>() - config_.current.velocity_enu_mps(0.0, t_s);

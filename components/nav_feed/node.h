@@ -23,7 +23,7 @@ class NavFeedNode {
 
  private:
   void hear(SimTime now);
-  frames::MovingPose afloat(frames::MovingPose moving, double t_s) const;
+  frames::MovingPose at_its_height(frames::MovingPose moving, double t_s) const;
 
   Config config_;
   Ports& ports_;
