@@ -237,6 +237,9 @@ TEST_CASE("an antenna above chart datum but under the water has no fix") {
   NodeUnderTest<NavigationNode> navigation(on_a_tide("gnss: { position_m: [0, 0, -0.5] }"));
   sail(navigation, 30, riding);
   CHECK(navigation.step_until<msg::Position>("position", 30_s).empty());
+  const auto health = navigation.step_until<msg::Health>("health", 30_s).back();
+  CHECK(health.state == "degraded");
+  CHECK(health.message == "gnss: the antenna is -0.50 m above the water at rest: few fixes or none");
   NodeUnderTest<NavigationNode> higher(on_a_tide("gnss: { position_m: [0, 0, -2.5] }"));
   sail(higher, 30, riding);
   CHECK(!higher.step_until<msg::Position>("position", 30_s).empty());

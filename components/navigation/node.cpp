@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/runtime/log.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
@@ -19,6 +20,15 @@ Rate position_rate(const NavigationConfig& config) {
   return gnss ? rate_of(gnss->instrument.rate_hz) : Rate{config.position_rate_hz, 1};
 }
 
+/// How high above the water the antenna is at rest, or at the surface, if that is too low for fixes.
+std::optional<double> washed_antenna_m(const NavigationConfig& config) {
+  const auto& gnss = config.instruments.gnss;
+  if (!gnss) return std::nullopt;
+  const double rest_m = config.heights.floats ? config.heights.rest_m : 0.0;
+  const double above_m = rest_m - gnss->instrument.actual.position_body_m.z();
+  return above_m <= gnss->errors.washed_depth_m ? std::optional(above_m) : std::nullopt;
+}
+
 Rate sound_speed_rate(const NavigationConfig& config) {
   const auto& probe = config.instruments.sound_speed;
   return probe ? rate_of(probe->instrument.rate_hz) : Rate{config.probe.rate_hz, 1};
@@ -27,7 +37,8 @@ Rate sound_speed_rate(const NavigationConfig& config) {
 }  // namespace
 
 NavigationNode::NavigationNode(const Config& config, Ports& ports)
-    : sensors_(config),
+    : ports_(ports),
+      sensors_(config),
       filter_(config.position_gain),
       imu_due_(rate_of(config.instruments.imu ? config.instruments.imu->instrument.rate_hz : 1.0)),
       attitude_due_(attitude_rate(config)),
@@ -44,7 +55,9 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       carried_(config.instruments),
       suite_(config, ports,
              {[this](const msg::Position& position) { take_fix(position); },
-              [this](const msg::SoundSpeed& reading) { sound_speeds_.send(reading); }}) {
+              [this](const msg::SoundSpeed& reading) { sound_speeds_.send(reading); }}),
+      washed_antenna_m_(washed_antenna_m(config)),
+      afloat_(config.heights.floats.has_value()) {
   if (config.origin) world_.emplace(*config.origin);
   if (carried_.usbl) usbl_.emplace(*carried_.usbl, config.seed, config.process, ports);
   if (carried_.imu) {
@@ -72,6 +85,9 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
 
 SimTime NavigationNode::step(SimTime now) {
   const std::int64_t sample = attitude_due_.count(), fix = position_due_.count();
+  if (sample == 0 && washed_antenna_m_) {
+    log::event(ports_, "antenna_under_water", "at_rest_above_water_m={:.2f}", *washed_antenna_m_);
+  }
   const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
   const bool inertial = estimator_ && imu_due_.due(now);
   if (truth_ && world_ && inertial) {
@@ -84,6 +100,7 @@ SimTime NavigationNode::step(SimTime now) {
     if (attitude) measure_attitude(now, sample);
   }
   if (usbl_) find_transponder(now);
+  tell_trouble();
   const std::int64_t dip = sound_speed_due_.count();
   if (sound_speed_due_.due(now) && truth_ && !carried_.sound_speed) {
     sound_speeds_under_way_.emplace_back(now + sound_speed_latency_, sensors_.sound_speed(*truth_, dip));
@@ -155,6 +172,17 @@ void NavigationNode::find_transponder(SimTime now) {
   const double t_s = seconds(SimTime{truth_->stamp_ns});
   const Moment moment{now, t_s, moving_pose(*truth_), *world_, believed_, nullptr};
   usbl_->step(now, &moment, outbox_);
+}
+
+/// A vehicle that dives has no fix most of the time; one that floats should have.
+void NavigationNode::tell_trouble() {
+  std::string trouble;
+  if (afloat_ && washed_antenna_m_) {
+    trouble =
+        fmt::format("gnss: the antenna is {:.2f} m above the water at rest: few fixes or none", *washed_antenna_m_);
+  }
+  if (usbl_ && !usbl_->silence().empty()) trouble += (trouble.empty() ? "" : "; ") + usbl_->silence();
+  ports_.health(trouble.empty() ? "ok" : "degraded", trouble);
 }
 
 void NavigationNode::believe(const msg::Estimate& estimate) {

@@ -31,9 +31,11 @@ class NavigationNode {
   void measure_attitude(SimTime now, std::int64_t n);
   void report_sound_speed(SimTime now);
   void find_transponder(SimTime now);
+  void tell_trouble();
   void estimate(const msg::Attitude& attitude);
   void believe(const msg::Estimate& estimate);
 
+  Ports& ports_;
   NavigationSensors sensors_;
   DeadReckoning filter_;
   Periodic imu_due_, attitude_due_, position_due_, sound_speed_due_;
@@ -56,6 +58,8 @@ class NavigationNode {
   std::optional<Estimator> estimator_;
   Suite suite_;
   std::optional<UsblTracker> usbl_;
+  std::optional<double> washed_antenna_m_;  // above the water at rest, if that is too low for fixes
+  bool afloat_;
 };
 
 }  // namespace ensonify

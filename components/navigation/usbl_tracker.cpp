@@ -1,5 +1,9 @@
 #include "components/navigation/usbl_tracker.h"
 
+#include <fmt/format.h>
+
+#include <numbers>
+
 #include "components/navigation/world_frame.h"
 
 namespace ensonify {
@@ -23,11 +27,13 @@ void UsblTracker::step(SimTime now, const Moment* moment, Outbox& outbox) {
   const Instrument& instrument = config.instrument;
   const frames::HeadPose head = frames::head_pose(moment->truth.pose, instrument.actual);
   const auto transponder_enu_m = answered_enu_m(*moment, head.position_enu_m);
+  silence_ = target_.empty() ? "usbl: no pose of the target has come" : "";
   if (!transponder_enu_m || !moment->believed.position_enu_m || instrument.out_at(moment->t_s)) return;
 
   msg::UsblFix fix;
-  const auto reading =
-      sensors::locate(config.errors, frames::head_from_enu(head, *transponder_enu_m), array_.sensor, n);
+  const frames::Vec3 place_array_m = frames::head_from_enu(head, *transponder_enu_m);
+  const auto reading = sensors::locate(config.errors, place_array_m, array_.sensor, n);
+  if (!reading) silence_ = why_silent(place_array_m);
   double age_s = 0.0;
   if (reading) {
     const frames::Mounting& measured = instrument.measured;
@@ -63,6 +69,18 @@ std::optional<frames::Vec3> UsblTracker::answered_enu_m(const Moment& moment, co
     place = place_at(moment.t_s - way_s);
   }
   return place;
+}
+
+std::string UsblTracker::why_silent(const frames::Vec3& place_array_m) const {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const sensors::UsblErrors& errors = array_.config.errors;
+  if (place_array_m.norm() > errors.longest_m) {
+    return fmt::format("usbl: the transponder is {:.0f} m away, heard within {:.0f}", place_array_m.norm(),
+                       errors.longest_m);
+  }
+  return fmt::format(
+      "usbl: the transponder is {:.0f} degrees off the array's axis, heard within {:.0f}; turn the array",
+      sensors::off_axis_rad(place_array_m) / kDegree, errors.widest_rad / kDegree);
 }
 
 }  // namespace ensonify

@@ -114,12 +114,14 @@ msg::Pose towed(SimTime at) {
   return pose;
 }
 
-std::vector<msg::UsblFix> fixes_of(const std::string& usbl) {
+template <class Message>
+std::vector<Message> heard(const std::string& port, const std::string& usbl) {
   NodeUnderTest<NavigationNode> navigation(in_layers("usbl: { range_white_m: 0, bearing_white_deg: 0, " + usbl + " }"));
   for (int i = 0; i <= 1200; ++i) navigation.give("target", towed(i * 10_ms));
   sail(navigation, 12, kLevel);
-  return navigation.step_until<msg::UsblFix>("usbl", 12_s);
+  return navigation.step_until<Message>(port, 12_s);
 }
+std::vector<msg::UsblFix> fixes_of(const std::string& usbl) { return heard<msg::UsblFix>("usbl", usbl); }
 
 }  // namespace
 
@@ -149,6 +151,16 @@ TEST_CASE("USBL whose array is turned by a degree that nobody measured errs by a
   REQUIRE(!deaf.empty());
   CHECK(!deaf.back().valid);
   CHECK(fixes_of("outages_s: [0, 100]").empty());
+}
+
+TEST_CASE("health says why a transponder is not heard") {
+  const auto last = [](const std::string& usbl) { return heard<msg::Health>("health", usbl).back(); };
+  const auto up = last("rotation_deg: [180, 0, 0]");
+  CHECK(up.state == "degraded");
+  // 80 m down, 57 m to the east and 12 m to the north: 36 degrees off straight down.
+  CHECK(up.message == "usbl: the transponder is 144 degrees off the array's axis, heard within 74; turn the array");
+  CHECK(last("longest_m: 50").message == "usbl: the transponder is 99 m away, heard within 50");
+  CHECK(heard<msg::Health>("health", "rotation_deg: [0, 0, 0]").empty());  // nothing to tell
 }
 
 TEST_CASE("the graded instruments' clocks lose their pulse and drift") {

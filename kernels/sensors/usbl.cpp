@@ -5,6 +5,10 @@
 
 namespace ensonify::sensors {
 
+double off_axis_rad(const frames::Vec3& place_array_m) {
+  return std::atan2(place_array_m.head<2>().norm(), place_array_m.z());
+}
+
 std::optional<UsblReading> locate(const UsblErrors& errors, const frames::Vec3& true_array_m,
                                   const random::Stream& stream, std::uint64_t n) {
   enum Lane : std::uint64_t { kRange, kAngles, kOutlier, kReflection };

@@ -27,6 +27,9 @@ struct UsblReading {
   double age_s;                // since the transponder was where the reading says
 };
 
+/// Angle between the array's axis and a place in its frame, 0 .. pi.
+double off_axis_rad(const frames::Vec3& place_array_m);
+
 /// Interrogation n: where the transponder seems to be, from where it is. Angles get worse away from the array's axis as
 /// 1 / cos, as those of any flat array. Empty: no answer.
 std::optional<UsblReading> locate(const UsblErrors& errors, const frames::Vec3& true_array_m,
