@@ -335,3 +335,37 @@ TEST_CASE("an adaptive survey waits for each next line and ends when told") {
         std::vector<std::string>{"run_in", "on_line", "await_line", "turn", "run_in", "on_line", "await_line", "done"});
   CHECK(loop.autopilot.finished());
 }
+
+TEST_CASE("a current stronger than the vehicle is told, and the mission given up when nothing comes nearer") {
+  // Against the line it is carried back, across it off to the side while it still makes way along the line.
+  for (const Vec2& current : {Vec2(0.0, -2.5), Vec2(4.0, 0.0)}) {
+    AutopilotConfig config = three_lines(30.0);
+    config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.0, 2000, 30, 1);
+    config.plan.mission.steps = steps_of(config.plan.mission.runlines);
+    config.patience_s = 120.0;
+    Loop loop(config, start_of(config.plan, config.plan.mission.runlines), current);
+    std::string last;
+    loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
+    INFO("current " << current.transpose() << ", ended at " << seconds(loop.now()) << " s");
+    CHECK(loop.autopilot.finished());
+    CHECK(last == "abort");
+    CHECK(seconds(loop.now()) < 200.0);
+    const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
+    REQUIRE(health.size() == 2);  // held up, then lost
+    CHECK(health[0].state == "degraded");
+    CHECK(health[1].state == "failed");
+    CHECK(health.back().message ==
+          "mission given up: no metre nearer to the goal in patience_s: the current may be "
+          "stronger than the vehicle");
+  }
+}
+
+TEST_CASE("a vehicle that is slow against a current is waited for") {
+  AutopilotConfig config = three_lines(30.0);
+  config.patience_s = 60.0;
+  Loop loop(config, start_of(config.plan, config.plan.mission.runlines), {0.3, -1.8});
+  std::string last;
+  loop.run_until(4000_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
+  CHECK(loop.autopilot.finished());
+  CHECK(last == "done");
+}

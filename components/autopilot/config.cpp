@@ -12,6 +12,7 @@ AutopilotConfig AutopilotConfig::read(ConfigReader& from, const Scenario& scenar
   from.optional("turn_margin", config.turn_margin, 1, 10);
   from.optional("turn_speed_fraction", config.turn_speed_fraction, 0.1, 1);
   from.optional("drift_settle_s", config.drift_settle_s, 0, 1000);
+  from.optional("patience_s", config.patience_s, 0, 1e6);
   config.plan = MissionPlan::of(scenario, own_vehicle(from, scenario, process));
   if (!config.plan.needs_chart() && scenario.mission.steps.empty()) {
     from.problem("", "the scenario's mission has no step");

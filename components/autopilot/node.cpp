@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "components/runtime/log.h"
+
 namespace ensonify {
 
 AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
@@ -46,12 +48,20 @@ SimTime AutopilotNode::step(SimTime now) {
     missions_.send(pilot_->mission_state(now));
     for (const auto& [head, settings] : pilot_->take_settings()) settings_.at(head).send(settings);
     for (const msg::Mark& mark : pilot_->take_marks()) marks_->send(mark);
+    tell_health(now);
     if (pilot_->ended() && !finished_) {
       finished_ = true;
+      if (!pilot_->given_up().empty()) log::event(ports_, "gave_up", "why=\"{}\"", pilot_->given_up());
       ports_.finish();
     }
   }
   return commands_due_.next();
+}
+
+void AutopilotNode::tell_health(SimTime now) {
+  if (!pilot_->given_up().empty()) return ports_.health("failed", "mission given up: " + pilot_->given_up());
+  if (!pilot_->held_up(now)) return ports_.health("ok", "");
+  ports_.health("degraded", "no metre nearer to the goal in a tenth of patience_s: a current as fast as the vehicle?");
 }
 
 }  // namespace ensonify

@@ -20,6 +20,8 @@ class AutopilotNode {
   SimTime step(SimTime now);
 
  private:
+  void tell_health(SimTime now);
+
   AutopilotConfig config_;
   Ports& ports_;
   Periodic commands_due_;

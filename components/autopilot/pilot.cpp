@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "components/runtime/assert.h"
 #include "kernels/guidance/drift.h"
@@ -45,7 +46,8 @@ Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
       period_s_(1.0 / config.command_rate_hz),
       steps_(std::move(steps)),
       speed_mps_(mission_.speed_mps),
-      depth_(mission_, limits_.vertical_speed_mps) {
+      depth_(mission_, limits_.vertical_speed_mps),
+      headway_(config.patience_s) {
   ENSONIFY_ASSERT(!steps_.empty(), "a pilot needs a step");
   const auto lines = std::count_if(steps_.begin(), steps_.end(),
                                    [](const MissionStep& step) { return std::holds_alternative<FlyLine>(step); });
@@ -244,12 +246,32 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
   }
 }
 
-bool Pilot::must_abort(SimTime now, const msg::Estimate& estimate) {
+std::string Pilot::why_abort(SimTime now, const msg::Estimate& estimate) const {
   const AbortRules& rules = mission_.abort;
   const auto& variance = estimate.position_covariance_enu_m2;
-  return (rules.after_s && seconds(now) >= *rules.after_s) ||
-         (rules.position_sd_m && std::sqrt(std::max(variance[0], variance[4])) > *rules.position_sd_m) ||
-         (rules.too_low_s && too_low_since_ && seconds(now - *too_low_since_) >= *rules.too_low_s);
+  const double sd_m = std::sqrt(std::max(variance[0], variance[4]));
+  if (rules.after_s && seconds(now) >= *rules.after_s) return "it took longer than abort.after_s";
+  if (rules.position_sd_m && sd_m > *rules.position_sd_m) return "the place is less certain than abort.position_sd_m";
+  if (rules.too_low_s && too_low_since_ && seconds(now - *too_low_since_) >= *rules.too_low_s) {
+    return "below the obstacle floor for abort.too_low_s";
+  }
+  if (headway_.lost(now))
+    return "no metre nearer to the goal in patience_s: the current may be stronger than the vehicle";
+  return "";
+}
+
+/// What headway shortens: off the line counts too, for a vehicle may be carried past it sideways.
+std::optional<double> Pilot::way_to_go_m() const {
+  switch (state_) {
+    case State::kAwaitLine:
+    case State::kAbort:
+    case State::kDone: return std::nullopt;
+    case State::kTurn: return turn_.length_m() - along_turn_m_;
+    default: break;
+  }
+  if (state_ == State::kKeep && kept_since_) return std::nullopt;
+  const msg::MissionState told = mission_state({});
+  return told.distance_to_go_m + std::abs(told.cross_track_m);
 }
 
 void Pilot::hear(const msg::Altitude& altitude) {
@@ -261,7 +283,9 @@ void Pilot::hear(const msg::Altitude& altitude) {
 void Pilot::update(SimTime now, const msg::Estimate& estimate) {
   look(now, estimate);
   if (!std::exchange(begun_, true)) begin_step(now);
-  if (state_ != State::kDone && state_ != State::kAbort && must_abort(now, estimate)) state_ = State::kAbort;
+  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = why_abort(now, estimate);
+  if (!given_up_.empty()) state_ = State::kAbort;
+  const auto goal = std::tuple(state_, step_, round_, piece_);
   switch (state_) {
     case State::kTurn:
       if (turn_flown()) state_ = State::kRunIn;
@@ -282,6 +306,9 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
     default: break;
   }
   if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
+  const auto to_go_m = way_to_go_m();
+  if (!to_go_m || goal != std::tuple(state_, step_, round_, piece_)) headway_.start_anew();
+  if (to_go_m) headway_.look(now, *to_go_m);
 }
 
 bool Pilot::ended() const {

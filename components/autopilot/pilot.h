@@ -9,6 +9,7 @@
 
 #include "components/autopilot/config.h"
 #include "components/autopilot/depth_keeper.h"
+#include "components/autopilot/headway.h"
 #include "components/runtime/sim_time.h"
 #include "kernels/guidance/circle.h"
 #include "kernels/guidance/line.h"
@@ -40,6 +41,10 @@ class Pilot {
   State state() const { return state_; }
   /// Nothing is left to do: the mission is done, or given up with the vehicle at the surface.
   bool ended() const;
+  /// Why the mission has been given up; empty: it has not.
+  const std::string& given_up() const { return given_up_; }
+  /// Whether the goal has not come nearer for a tenth of the patience.
+  bool held_up(SimTime now) const { return headway_.held_up(now); }
   msg::Guidance command(SimTime now) const;
   msg::MissionState mission_state(SimTime now) const;
 
@@ -77,7 +82,8 @@ class Pilot {
 
   // --- steering
   void look(SimTime now, const msg::Estimate& estimate);
-  bool must_abort(SimTime now, const msg::Estimate& estimate);
+  std::string why_abort(SimTime now, const msg::Estimate& estimate) const;
+  std::optional<double> way_to_go_m() const;
   guidance::LineGains gains() const;
   bool holds_line() const;
   double planned_radius_m() const;
@@ -119,6 +125,8 @@ class Pilot {
   double cosine_of_tilt_ = 1.0;
   DepthKeeper depth_;
   guidance::HeightOrder height_;
+  Headway headway_;
+  std::string given_up_;
 
   std::vector<std::pair<std::string, msg::SonarSettings>> settings_;
   std::vector<msg::Mark> marks_;
