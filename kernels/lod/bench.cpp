@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -97,7 +98,7 @@ void adapt(benchmark::State& state) {
   const auto views = [&] { return trace::views_of(kFan, track.at(ping), 130.0, {}, 2); };
   world.scene().adapt(views());
   std::vector<double> processor_s, wall_s;
-  std::size_t triangles = 0;
+  double paged_over_held = std::numeric_limits<double>::infinity();
   for (auto _ : state) {
     ++ping;
     world.page(track.at(ping).position_enu_m.head<2>(), 170.0);
@@ -105,15 +106,15 @@ void adapt(benchmark::State& state) {
     wall_s.push_back(seconds_of([&] { world.scene().adapt(views()); }));
     processor_s.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     state.SetIterationTime(wall_s.back());
-    triangles = std::max(triangles, world.scene().triangles());
+    paged_over_held =
+        std::min(paged_over_held, world.paged_triangles() / static_cast<double>(world.scene().triangles()));
   }
   state.counters["worst_ms"] = 1e3 * *std::ranges::max_element(wall_s);
   state.counters["worst_cpu_ms"] = 1e3 * *std::ranges::max_element(processor_s);
   double sum = 0.0;
   for (const double s : processor_s) sum += s;
   state.counters["mean_cpu_ms"] = 1e3 * sum / static_cast<double>(processor_s.size());
-  state.counters["triangles"] = static_cast<double>(triangles);
-  state.counters["paged_over_held"] = world.paged_triangles() / static_cast<double>(triangles);
+  state.counters["paged_over_held"] = paged_over_held;
 }
 
 /// Paging, adaptation and rays over a world of one tile (10^6 posts), and of tiles without end; 20 m above the seabed,

@@ -1,6 +1,7 @@
 #include "kernels/lod/cover.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace ensonify::lod {
 
@@ -8,7 +9,9 @@ void Cover::choose(const Hierarchy& hierarchy, std::span<const View> views) {
   clear(hierarchy);
   for (std::int32_t row = 0; row < hierarchy.rows(kLargest); ++row) {
     for (std::int32_t column = 0; column < hierarchy.columns(kLargest); ++column) {
-      cover(hierarchy, views, {kLargest, column, row});
+      met_.resize(views.size());
+      std::iota(met_.begin(), met_.end(), std::size_t{0});
+      cover(hierarchy, views, 0, {kLargest, column, row});
     }
   }
 }
@@ -30,23 +33,32 @@ void Cover::clear(const Hierarchy& hierarchy) {
   levels_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone);
 }
 
-void Cover::cover(const Hierarchy& hierarchy, std::span<const View> views, const Block& block) {
+/// The views that the block above has met are numbered in `met_`, from `first` on; those that this one meets, or may
+/// meet, are added for the blocks below it.
+void Cover::cover(const Hierarchy& hierarchy, std::span<const View> views, std::size_t first, const Block& block) {
   if (hierarchy.empty(block)) return;
   const Sphere sphere = hierarchy.sphere(block);
+  const std::size_t end = met_.size();
   std::int32_t level = kCoarsest;
-  for (const View& view : views) {
-    if (view.level < level && meets(view.frustum, sphere)) level = view.level;
+  for (std::size_t i = first; i < end; ++i) {
+    const View& view = views[met_[i]];
+    const bool matters = view.level < level;
+    if (matters && !meets(view.frustum, sphere)) continue;
+    if (matters) level = view.level;
+    met_.push_back(met_[i]);
   }
   const std::int32_t size = block.size;
   if (size > 0 && (level < size || !hierarchy.has_room({block, size}))) {
     for (const std::int32_t row : {2 * block.row, 2 * block.row + 1}) {
       for (const std::int32_t column : {2 * block.column, 2 * block.column + 1}) {
         const bool inside = column < hierarchy.columns(size - 1) && row < hierarchy.rows(size - 1);
-        if (inside) cover(hierarchy, views, {size - 1, column, row});
+        if (inside) cover(hierarchy, views, end, {size - 1, column, row});
       }
     }
+    met_.resize(end);
     return;
   }
+  met_.resize(end);
   while (!hierarchy.has_room({block, level})) --level;
   add({block, level});
 }

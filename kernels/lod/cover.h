@@ -40,12 +40,13 @@ class Cover {
 
  private:
   void clear(const Hierarchy& hierarchy);
-  void cover(const Hierarchy& hierarchy, std::span<const View> views, const Block& block);
+  void cover(const Hierarchy& hierarchy, std::span<const View> views, std::size_t first, const Block& block);
   void add(const Leaf& leaf);
 
   std::int32_t columns_ = 0, rows_ = 0;  // blocks of size 0
   std::vector<Leaf> leaves_;
   std::vector<std::int8_t> levels_;
+  std::vector<std::size_t> met_;  // views that may meet the blocks in work, of each from its first on
 };
 
 /// Covers around a tile; null: no tile there, or none whose edge posts are the same.

@@ -64,13 +64,17 @@ const Hierarchy::Bounds& Hierarchy::bounds(const Block& block) const {
   return size.bounds[static_cast<std::size_t>(block.row * size.columns + block.column)];
 }
 
-Sphere Hierarchy::sphere(const Block& block) const {
+std::array<Vec3, 2> Hierarchy::box_enu_m(const Block& block) const {
   const Posts under = posts(block);
   const Bounds& heights = bounds(block);
-  const Vec3 low(origin_enu_m_.x() + spacing_m_ * under.west, origin_enu_m_.y() + spacing_m_ * under.south,
-                 static_cast<double>(heights.lowest_m));
-  const Vec3 high(origin_enu_m_.x() + spacing_m_ * under.east, origin_enu_m_.y() + spacing_m_ * under.north,
-                  static_cast<double>(heights.highest_m));
+  return {Vec3(origin_enu_m_.x() + spacing_m_ * under.west, origin_enu_m_.y() + spacing_m_ * under.south,
+               static_cast<double>(heights.lowest_m)),
+          Vec3(origin_enu_m_.x() + spacing_m_ * under.east, origin_enu_m_.y() + spacing_m_ * under.north,
+               static_cast<double>(heights.highest_m))};
+}
+
+Sphere Hierarchy::sphere(const Block& block) const {
+  const auto [low, high] = box_enu_m(block);
   return {0.5 * (low + high), 0.5 * (high - low).norm() + kSlack_m};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,8 @@ class Hierarchy {
 
   /// Whether all posts under the block are holes.
   bool empty(const Block& block) const { return !(bounds(block).lowest_m <= bounds(block).highest_m); }
+  /// Around all posts under the block: its lowest and its highest corner. Of a block that is not empty.
+  std::array<terrain::Vec3, 2> box_enu_m(const Block& block) const;
   /// Around all posts under the block, so around what any level shows of them; 1 cm more than they need, for what
   /// floats round and chords of bent rays leave out. Of a block that is not empty.
   Sphere sphere(const Block& block) const;

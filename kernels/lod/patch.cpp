@@ -8,7 +8,6 @@ namespace {
 
 using terrain::Tile;
 using terrain::Vec2;
-using terrain::Vec3;
 
 /// A post of a tile.
 struct Post {
@@ -35,9 +34,19 @@ std::vector<std::int32_t> rim_steps(std::int32_t first, std::int32_t last, std::
   return all;
 }
 
+/// Grids of posts of a block.
 class Builder {
  public:
-  Builder(const Tile& tile, const Vec2& origin_enu_m) : tile_(tile), origin_enu_m_(origin_enu_m) {}
+  Builder(const Tile& tile, const Posts& under, const Vec2& origin_enu_m) : tile_(tile), under_(under) {
+    for (std::int32_t column = under.west; column <= under.east; ++column)
+      x_m_.push_back(static_cast<float>(tile.position_enu_m(column, under.south).x() - origin_enu_m.x()));
+    for (std::int32_t row = under.south; row <= under.north; ++row) {
+      y_m_.push_back(static_cast<float>(tile.position_enu_m(under.west, row).y() - origin_enu_m.y()));
+      // Rows lie far apart in memory: all are asked for at once.
+      for (const std::int32_t column : {under.west, (under.west + under.east) / 2, under.east})
+        __builtin_prefetch(&tile.height_m[tile.post(column, row)]);
+    }
+  }
 
   /// A grid of posts: `at(column, row)` of the grid.
   template <class At>
@@ -49,10 +58,10 @@ class Builder {
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t column = 0; column < columns; ++column) {
         const Post post = at(column, row);
-        const Vec3 place = tile_.position_enu_m(post.column, post.row);
-        *next++ = {static_cast<float>(place.x() - origin_enu_m_.x()), static_cast<float>(place.y() - origin_enu_m_.y()),
-                   static_cast<float>(place.z())};
-        whole = whole && std::isfinite(place.z());
+        const float z_m = tile_.height_m[tile_.post(post.column, post.row)];
+        *next++ = {x_m_[static_cast<std::size_t>(post.column - under_.west)],
+                   y_m_[static_cast<std::size_t>(post.row - under_.south)], z_m};
+        whole = whole && std::isfinite(z_m);
       }
     }
     if (whole) return add_grid(first, columns, columns, rows);
@@ -76,7 +85,8 @@ class Builder {
   }
 
   const Tile& tile_;
-  Vec2 origin_enu_m_;
+  Posts under_;
+  std::vector<float> x_m_, y_m_;  // of the block's columns and rows, as the ray tracer has them
   Patch patch_;
 };
 
@@ -96,7 +106,7 @@ std::vector<std::int32_t> across(const std::vector<std::int32_t>& outer, const s
 
 /// One grid for each block of size 0, whatever the size of the block: so a ray meets the same grids.
 Patch all_posts(const Tile& tile, const Posts& posts, const Vec2& origin_enu_m) {
-  Builder builder(tile, origin_enu_m);
+  Builder builder(tile, posts, origin_enu_m);
   for (std::int32_t south = posts.south; south < posts.north; south += kBlockCells) {
     for (std::int32_t west = posts.west; west < posts.east; west += kBlockCells) {
       const std::int32_t columns = std::min(kBlockCells, posts.east - west) + 1;
@@ -123,7 +133,7 @@ Patch patch_of(const Tile& tile, const Hierarchy& hierarchy, const Leaf& leaf, c
   if (leaf.level == 0) return all_posts(tile, hierarchy.posts(leaf.block), origin_enu_m);
   const Posts under = hierarchy.posts(leaf.block);
   const auto columns = steps(under.west, under.east, leaf.level), rows = steps(under.south, under.north, leaf.level);
-  Builder builder(tile, origin_enu_m);
+  Builder builder(tile, under, origin_enu_m);
   builder.add(columns.size() - 2, rows.size() - 2, [&](std::size_t column, std::size_t row) {
     return Post{columns[column + 1], rows[row + 1]};
   });

@@ -1,17 +1,20 @@
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "kernels/trace/scene_impl.h"
 
 namespace ensonify::trace {
 namespace {
 
-/// Pings for which a part is kept that no mesh has used: a vehicle that rolls comes back to small ones.
-std::uint64_t kept(std::int32_t level) { return level == 0 ? 1 : 4; }
+/// Pings for which a block at full detail is kept that no mesh uses.
+constexpr std::uint64_t kFinePings = 1;
+
+/// Blocks are kept for later as long as no more than one in so many of the tiles' triangles is held.
+constexpr std::size_t kShareHeld = 50;
 
 /// Whether b continues a's lattice to the east or to the north, with the same posts on the edge between.
 bool continues(const terrain::Tile& a, const terrain::Tile& b, bool to_east) {
@@ -34,49 +37,89 @@ void Scene::Impl::adapt(std::span<const lod::View> wanted) {
   show();
 }
 
-/// Makes the mesh that the covers say.
+/// Makes the mesh that the covers say. What is not looked at is built when a ray comes to it, which is hardly ever.
 void Scene::Impl::show() {
-  std::vector<PartKey> keys;
-  for (const auto& [key, entry] : tiles) {
-    const lod::Neighbours neighbours = neighbours_of(key);
-    for (const lod::Leaf& leaf : entry.cover.leaves()) {
-      keys.push_back({key, leaf, lod::rim_of(leaf, entry.cover, neighbours)});
-    }
-  }
   ++adaptations;
-  mesh.assign(device, use(keys));
-  std::erase_if(parts, [&](const auto& part) {
-    const auto& [key, cached] = part;
-    return cached.used + kept(key.leaf.level) * static_cast<std::uint64_t>(detail.looks) < adaptations;
-  });
-  check(device, "Embree could not build the seabed");
+  use(wanted());
+  std::vector<const Part*> shown, looked_at;
+  for (const CachedPart& cached : parts) {
+    if (cached.used != adaptations) continue;
+    shown.push_back(cached.part.get());
+    if (is_looked_at(cached.key.leaf)) looked_at.push_back(cached.part.get());
+  }
+  tbb::parallel_invoke([&] { mesh.assign(device, shown); },
+                       [&] { tbb::parallel_for_each(looked_at, [](const Part* part) { part->scene(); }); });
+  forget();
   stale = false;
 }
 
-/// The parts of a mesh, in order; those that are missing are built, each by one thread.
-std::vector<const Part*> Scene::Impl::use(const std::vector<PartKey>& keys) {
-  std::vector<CachedPart*> all;
-  std::vector<std::size_t> missing;
-  for (const PartKey& key : keys) {
-    CachedPart& cached = parts[key];
-    if (cached.used == 0) missing.push_back(all.size());
-    cached.used = adaptations;
-    all.push_back(&cached);
-  }
-  tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-    const PartKey& key = keys[missing[i]];
-    const Entry& entry = tiles.at(key.tile);
-    Part& part = all[missing[i]]->part;
-    part = part_of(device, lod::patch_of(entry.tile, entry.hierarchy, key.leaf, key.rim, origin_enu_m));
-    part.tile = &entry.tile;
-    part.number = entry.number;
-    part.facet_m = static_cast<float>(std::ldexp(entry.tile.spacing_m, key.leaf.level));
+std::vector<PartKey> Scene::Impl::wanted() const {
+  std::vector<std::pair<const terrain::TileKey*, std::vector<PartKey>>> by_tile;
+  for (const auto& [key, entry] : tiles) by_tile.push_back({&key, {}});
+  tbb::parallel_for_each(by_tile, [&](auto& one) {
+    auto& [key, keys] = one;
+    const lod::Cover& cover = tiles.at(*key).cover;
+    const lod::Neighbours neighbours = neighbours_of(*key);
+    for (const lod::Leaf& leaf : cover.leaves()) keys.push_back({*key, leaf, lod::rim_of(leaf, cover, neighbours)});
+    std::ranges::sort(keys);
   });
-  std::vector<const Part*> present;
-  for (const CachedPart* cached : all) {
-    if (cached->part.scene) present.push_back(&cached->part);
+  std::vector<PartKey> all;
+  for (const auto& [key, keys] : by_tile) all.insert(all.end(), keys.begin(), keys.end());
+  return all;
+}
+
+void Scene::Impl::use(const std::vector<PartKey>& keys) {
+  std::vector<CachedPart> all;
+  all.reserve(parts.size() + keys.size());
+  auto old = parts.begin();
+  for (const PartKey& key : keys) {
+    while (old != parts.end() && old->key < key) all.push_back(std::move(*old++));
+    if (old != parts.end() && old->key == key) {
+      all.push_back(std::move(*old++));
+    } else {
+      const Entry& entry = tiles.at(key.tile);
+      const Shown shown{&entry.tile, entry.number, &entry.hierarchy, key.leaf, key.rim};
+      all.push_back({key, std::make_unique<Part>(device, shown, origin_enu_m)});
+    }
+    all.back().used = adaptations;
   }
-  return present;
+  std::move(old, parts.end(), std::back_inserter(all));
+  parts = std::move(all);
+}
+
+/// A vehicle that rolls comes back to blocks at full detail soon or never. Coarse ones come back when the main lobe has
+/// passed: they stay as long as there is room, the last used longest. What no ray has come to costs nothing to make.
+void Scene::Impl::forget() {
+  const auto looks = static_cast<std::uint64_t>(detail.looks);
+  const auto age = [&](const CachedPart& cached) { return (adaptations - cached.used) / looks; };  // in pings
+  std::size_t paged = 0, held = 0;
+  for (const auto& [key, entry] : tiles)
+    paged += 2 * static_cast<std::size_t>(entry.tile.columns - 1) * static_cast<std::size_t>(entry.tile.rows - 1);
+  std::map<std::uint64_t, std::size_t> spare;  // triangles of coarse blocks by age
+  for (CachedPart& cached : parts) {
+    if (cached.triangles == 0) cached.triangles = cached.part->triangles();
+    const bool kept = age(cached) == 0 || cached.key.leaf.level == 0;
+    (kept ? held : spare[age(cached)]) += cached.triangles;
+  }
+  std::uint64_t oldest = 0;
+  for (const auto& [pings, triangles] : spare) {
+    held += triangles;
+    if (held * kShareHeld > paged) break;
+    oldest = pings;
+  }
+  std::vector<std::unique_ptr<Part>> given_up;
+  std::erase_if(parts, [&](CachedPart& cached) {
+    const std::uint64_t pings = cached.key.leaf.level == 0 ? kFinePings : oldest;
+    if (age(cached) == 0 || (cached.triangles > 0 && age(cached) <= pings)) return false;
+    given_up.push_back(std::move(cached.part));
+    return true;
+  });
+  tbb::parallel_for_each(given_up, [](std::unique_ptr<Part>& part) { part.reset(); });
+}
+
+/// A block is as coarse as a view asks for, or coarser where none meets it.
+bool Scene::Impl::is_looked_at(const lod::Leaf& leaf) const {
+  return !detail.enabled || std::ranges::any_of(views, [&](const lod::View& view) { return leaf.level <= view.level; });
 }
 
 lod::Neighbours Scene::Impl::neighbours_of(const terrain::TileKey& key) const {
@@ -94,7 +137,7 @@ lod::Neighbours Scene::Impl::neighbours_of(const terrain::TileKey& key) const {
 void Scene::Impl::change(const terrain::TileKey& key) {
   stale = true;
   mesh.assign(device, {});
-  std::erase_if(parts, [&](const auto& cached) { return cached.first.tile == key; });
+  std::erase_if(parts, [&](const auto& cached) { return cached.key.tile == key; });
 }
 
 void Scene::Impl::show_all() {

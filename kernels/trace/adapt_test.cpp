@@ -1,3 +1,5 @@
+#include <tbb/global_control.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -171,6 +173,31 @@ TEST_CASE("what is not looked at is forgotten after a while, and nothing is ther
   CHECK(scene.triangles() < triangles / 10);
   scene.adapt(views_at(pose(0)));
   CHECK(scene.triangles() >= triangles);
+}
+
+TEST_CASE("what no view meets is built when a ray comes to it, by however many threads") {
+  Scene scene = scene_of({.enabled = true}), other = scene_of({.enabled = true});
+  const HeadPose head = pose(0);
+  for (Scene* one : {&scene, &other}) one->adapt(views_at(head));
+  const std::size_t looked_at = scene.triangles();
+  const random::Stream draws(17, "beyond");
+  std::vector<Ray> rays;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const Vec2 at(150.0 * (draws.uniform(i, 0, 0) - 0.5), 150.0 * (draws.uniform(i, 1, 0) - 0.5));
+    const Vec3 to(at.x() - head.position_enu_m.x(), at.y() - head.position_enu_m.y(), -25.0);
+    rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
+  }
+  std::vector<Hit> first, again, alone;
+  scene.trace(head, rays, 500.0F, first);
+  const std::size_t with_others = scene.triangles();
+  CHECK(with_others > looked_at + 1000);
+  scene.trace(head, rays, 500.0F, again);
+  CHECK(scene.triangles() == with_others);
+  CHECK(differences(first, again) == 0);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  other.trace(head, rays, 500.0F, alone);
+  CHECK(differences(first, alone) == 0);
+  CHECK(other.triangles() == with_others);
 }
 
 TEST_CASE("in what is held ready a swath 50 m above posts of 0.1 m is a fiftieth of the paged tiles") {

@@ -109,9 +109,9 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   hit.path_length_m = static_cast<float>(end.length_m);
   hit.tube_m2 = static_cast<float>(lane.path.tube_m2(end));
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
-  hit.facet_m = packet.met[lane_index]->facet_m;
-  hit.tile = packet.met[lane_index]->number;
-  hit.sediment = terrain::sediment_at(*packet.met[lane_index]->tile, hit.position_enu_m.head<2>());
+  hit.facet_m = packet.met[lane_index]->facet_m();
+  hit.tile = packet.met[lane_index]->number();
+  hit.sediment = terrain::sediment_at(packet.met[lane_index]->tile(), hit.position_enu_m.head<2>());
   return hit;
 }
 

@@ -2,12 +2,14 @@
 
 #include <embree3/rtcore.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "kernels/lod/patch.h"
+#include "kernels/lod/cover.h"
+#include "kernels/lod/hierarchy.h"
 #include "kernels/terrain/tile.h"
 
 /// What rays are traced against. Private to this folder: it includes Embree.
@@ -27,20 +29,47 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, SceneRelease>;
 Device new_device();
 
 /// Throws std::runtime_error with what could not be done when Embree reports an error.
-void check(const Device& device, const char* fault);
+void check(RTCDevice device, const char* fault);
 
-/// A patch of a tile, built once.
-struct Part {
-  EmbreeScene scene;
-  RTCBounds bounds{};
+/// What a part shows.
+struct Shown {
   const terrain::Tile* tile = nullptr;
-  std::uint32_t number = 0;  // of the tile, as Hit has it
-  float facet_m = 0.0F;      // spacing of its posts
-  std::size_t triangles = 0;
+  std::uint32_t number = 0;                   // of the tile, as Hit has it
+  const lod::Hierarchy* hierarchy = nullptr;  // of the tile
+  lod::Leaf leaf;
+  lod::Rim rim{};
 };
 
-/// A patch without triangles has no scene.
-Part part_of(const Device& device, const lod::Patch& patch);
+/// A leaf of a tile's cover as an Embree scene, which is built when it is first asked for.
+class Part {
+ public:
+  Part(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m);
+  ~Part();
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  /// Threads may ask at once: they build it twice, and one is kept.
+  RTCScene scene() const;
+  /// Around the scene, built or not.
+  const RTCBounds& bounds() const { return bounds_; }
+  /// 0 before it is built.
+  std::size_t triangles() const;
+
+  const terrain::Tile& tile() const { return *shown_.tile; }
+  std::uint32_t number() const { return shown_.number; }
+  /// Spacing of its posts.
+  float facet_m() const;
+
+ private:
+  struct Built;
+  const Built* build() const;
+
+  RTCDevice device_;
+  Shown shown_;
+  terrain::Vec2 origin_enu_m_;
+  RTCBounds bounds_;
+  mutable std::atomic<const Built*> built_ = nullptr;
+};
 
 /// The parts that make the seabed of a ping, over which Embree keeps a tree of their bounds. A scene of its own holds
 /// all grids of a part: Embree builds a scene of grids as a whole, so in one scene of all parts nothing would stay.

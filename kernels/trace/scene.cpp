@@ -50,9 +50,9 @@ Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float
   hit.path_length_m = hit.range_m;
   hit.tube_m2 = hit.range_m * hit.range_m;
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
-  hit.facet_m = part.facet_m;
-  hit.tile = part.number;
-  hit.sediment = terrain::sediment_at(*part.tile, hit.position_enu_m.head<2>());
+  hit.facet_m = part.facet_m();
+  hit.tile = part.number();
+  hit.sediment = terrain::sediment_at(part.tile(), hit.position_enu_m.head<2>());
   return hit;
 }
 
@@ -105,7 +105,7 @@ const Vec2& Scene::origin_enu_m() const { return impl_->origin_enu_m; }
 
 std::size_t Scene::triangles() const {
   std::size_t sum = 0;
-  for (const auto& [key, cached] : impl_->parts) sum += cached.part.triangles;
+  for (const CachedPart& cached : impl_->parts) sum += cached.part->triangles();
   return sum;
 }
 

@@ -93,7 +93,8 @@ class Scene {
   /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere.
   /// A ray within a view of level 0 hits what it would hit with all tiles at full detail, to the bit. With level of
   /// detail enabled there is no mesh before this, nor after a tile has come or gone; without it nothing happens. Blocks
-  /// that were seen lately are kept.
+  /// that no view meets are built when a ray comes to them. Those that were seen lately are kept, coarse ones as long
+  /// as no more than a fiftieth of the tiles' triangles is held.
   void adapt(std::span<const lod::View> views);
 
   const LevelOfDetail& detail() const;

@@ -35,8 +35,10 @@ struct PartKey {
 };
 
 struct CachedPart {
-  Part part;
-  std::uint64_t used = 0;  // last, by number of adaptation
+  PartKey key;
+  std::unique_ptr<Part> part;
+  std::uint64_t used = 0;     // last, by number of adaptation
+  std::size_t triangles = 0;  // as was known then
 };
 
 struct Scene::Impl {
@@ -50,7 +52,7 @@ struct Scene::Impl {
   std::vector<lod::View> views;  // of the mesh ...
   bool stale = true;             // ... unless tiles have come or gone since
   std::uint64_t adaptations = 0;
-  std::map<PartKey, CachedPart> parts;
+  std::vector<CachedPart> parts;  // by key
   Mesh mesh;
 
   void gather_objects();
@@ -61,7 +63,14 @@ struct Scene::Impl {
   /// All at full detail, unless detail depends on the view.
   void show_all();
   lod::Neighbours neighbours_of(const terrain::TileKey& key) const;
-  std::vector<const Part*> use(const std::vector<PartKey>& keys);
+  /// What the covers say, in order.
+  std::vector<PartKey> wanted() const;
+  /// Marks these parts as used and adds those that are missing, not yet built.
+  void use(const std::vector<PartKey>& keys);
+  /// Gives up parts that no mesh needs soon.
+  void forget();
+  /// By one of the views.
+  bool is_looked_at(const lod::Leaf& leaf) const;
 };
 
 }  // namespace ensonify::trace
