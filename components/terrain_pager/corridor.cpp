@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "components/runtime/config/config_error.h"
 
 namespace ensonify::pager {
 namespace {
 
-constexpr int kAcross = 12;  // places probed to either side of the line
+constexpr int kAcross = 12;          // places probed to either side of the line
+constexpr double kMostLooks = 2000;  // along a line
 
 std::string place_text(const Vec2& place) {
   char text[64];
@@ -25,9 +29,45 @@ std::string extent_text(const Extent& extent) {
   return text;
 }
 
-/// Why a vehicle cannot be at a place; holes are nobody's business here.
-std::optional<std::string> fault_at(const TerrainSource& terrain, const Vec2& place, std::optional<double> depth_m) {
-  const double height_m = terrain.height_m(place);
+/// The posts of a lattice over the rectangle between two places.
+terrain::Tile posts_around(const TerrainSource& terrain, const Vec2& a, const Vec2& b, double spacing_m) {
+  const Vec2 low = a.cwiseMin(b) / spacing_m, high = a.cwiseMax(b) / spacing_m;
+  const auto first_east = static_cast<std::int64_t>(std::floor(low.x()));
+  const auto first_north = static_cast<std::int64_t>(std::floor(low.y()));
+  const source::PostBlock block{
+      first_east, first_north, static_cast<int>(static_cast<std::int64_t>(std::ceil(high.x())) - first_east) + 2,
+      static_cast<int>(static_cast<std::int64_t>(std::ceil(high.y())) - first_north) + 2, spacing_m};
+  terrain::Tile tile{{block.east_m(0), block.north_m(0)}, spacing_m, block.columns, block.rows, {}, {}};
+  tile.height_m.resize(block.size());
+  tile.sediment.resize(block.size());
+  terrain.sample(block, tile.height_m, tile.sediment);
+  return tile;
+}
+
+/// Places along a line, from one end to the other, and the heights there.
+struct Looks {
+  std::vector<Vec2> place;
+  std::vector<double> height_m;  // as posts show it that are as far apart as the places; NaN in holes
+};
+
+Looks looks_along(const TerrainSource& terrain, const navigation::Runline& line) {
+  constexpr std::size_t kTogether = 64;  // places under one block of posts: each block costs some milliseconds at most
+  const double length_m = navigation::length_m(line);
+  const double spacing_m = std::max(terrain.native_spacing_m(), length_m / kMostLooks);
+  const auto steps = static_cast<int>(std::ceil(length_m / spacing_m));
+  Looks looks;
+  for (int i = 0; i <= steps; ++i) looks.place.push_back(navigation::point_on(line, length_m * i / steps));
+  for (std::size_t first = 0; first < looks.place.size(); first += kTogether) {
+    const auto some = std::span(looks.place).subspan(first, std::min(kTogether, looks.place.size() - first));
+    const terrain::Tile posts = posts_around(terrain, some.front(), some.back(), spacing_m);
+    for (const Vec2& place : some)
+      looks.height_m.push_back(terrain::height_m(posts, place).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return looks;
+}
+
+/// Why a vehicle cannot be at a place of that height; holes are nobody's business here.
+std::optional<std::string> fault_at(const Vec2& place, double height_m, std::optional<double> depth_m) {
   char text[160];
   if (height_m >= 0.0) {
     std::snprintf(text, sizeof text, "%s is land, %.1f m above chart datum; allowed is water",
@@ -51,14 +91,12 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
       return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
     }
   }
-  const double length = navigation::length_m(line);
-  const double step = std::max(terrain.native_spacing_m(), length / 2000.0);
-  const Vec2 along = (line.end_enu_m - line.start_enu_m) / length;
+  const Vec2 along = (line.end_enu_m - line.start_enu_m) / navigation::length_m(line);
   const Vec2 starboard(along.y(), -along.x());
-  const auto steps = static_cast<int>(std::ceil(length / step));
-  for (int i = 0; i <= steps; ++i) {
-    const Vec2 place = navigation::point_on(line, length * i / steps);
-    if (const auto fault = fault_at(terrain, place, depth_m)) return fault;
+  const Looks looks = looks_along(terrain, line);
+  for (std::size_t i = 0; i < looks.place.size(); ++i) {
+    const Vec2& place = looks.place[i];
+    if (const auto fault = fault_at(place, looks.height_m[i], depth_m)) return fault;
     if (!rules.refuse_holes) continue;
     const double height = terrain.height_m(place);
     const double reach = std::tan(rules.half_swath_rad) * std::max(0.0, -height);
@@ -91,7 +129,7 @@ void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>&
   std::vector<ConfigProblem> problems;
   const Extent extent = terrain.extent();
   for (const VisitedPlace& visited : places) {
-    auto fault = fault_at(terrain, visited.place_enu_m, visited.depth_m);
+    auto fault = fault_at(visited.place_enu_m, terrain.height_m(visited.place_enu_m), visited.depth_m);
     if (!extent.contains(visited.place_enu_m)) {
       fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
     }
@@ -101,13 +139,10 @@ void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>&
 }
 
 double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines) {
-  constexpr double kStep_m = 1.0;
   double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
   for (const auto& line : runlines) {
-    for (double along_m = 0.0; along_m <= navigation::length_m(line); along_m += kStep_m) {
-      const double height_m = terrain.height_m(navigation::point_on(line, along_m));
+    for (const double height_m : looks_along(terrain, line).height_m)
       highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
-    }
   }
   return std::max(0.0, -highest_m);
 }

@@ -29,7 +29,8 @@ struct VisitedPlace {
 
 /// Throws ConfigError, one problem per runline at most, if a line leaves the terrain, runs over land (above chart
 /// datum) or through the seabed, or, with refuse_holes, if a place of its corridor inside the terrain has no height.
-/// `scenario_file` is the place that the message names.
+/// `scenario_file` is the place that the message names. A line is looked at in steps of the posts, but at most 2000,
+/// and the seabed as posts that far apart show it.
 void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
                      const CorridorRules& rules, const std::string& scenario_file);
 
@@ -37,7 +38,8 @@ void check_corridors(const TerrainSource& terrain, const std::vector<navigation:
 void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
                   const std::string& scenario_file);
 
-/// Least depth under the runlines; without any, of the whole terrain. At least 0.
+/// Least depth under the runlines, as the check of corridors looks at them; without any, of the whole terrain. At least
+/// 0.
 double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines);
 
 }  // namespace ensonify::pager

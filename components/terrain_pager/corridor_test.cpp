@@ -1,0 +1,75 @@
+#include "components/terrain_pager/corridor.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "components/runtime/config/config_error.h"
+
+using namespace ensonify;
+using namespace ensonify::pager;
+
+namespace {
+
+/// 10 km x 10 km with posts every 0.1 m, that counts how many it is asked for.
+class Counting : public TerrainSource {
+ public:
+  explicit Counting(std::function<double(double, double)> height_m) : height_m_(std::move(height_m)) {}
+  Extent extent() const override { return {-5000.0, -5000.0, 5000.0, 5000.0}; }
+  double lowest_m() const override { return -1000.0; }
+  double highest_m() const override { return 10.0; }
+  frames::Geodetic origin() const override { return {}; }
+  double native_spacing_m() const override { return 0.1; }
+  void sample(const source::PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t>) const override {
+    for (int row = 0; row < posts.rows; ++row) {
+      for (int column = 0; column < posts.columns; ++column, ++posts_made) {
+        const auto k = static_cast<std::size_t>(row) * static_cast<std::size_t>(posts.columns);
+        height_m[k + static_cast<std::size_t>(column)] =
+            static_cast<float>(height_m_(posts.east_m(column), posts.north_m(row)));
+      }
+    }
+  }
+  double height_m(const Vec2& place) const override { return height_m_(place.x(), place.y()); }
+
+  mutable std::size_t posts_made = 0;
+
+ private:
+  std::function<double(double, double)> height_m_;
+};
+
+std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double depth_m) {
+  try {
+    check_corridors(terrain, {line}, {.refuse_holes = false, .depth_m = {depth_m}}, "sea.yaml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("along a line of kilometres the least depth is found from few posts") {
+  const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
+  const navigation::Runline line{{-3000, -3000}, {3000, 3000}};
+  CHECK(shallowest_m(slope, {line}) == Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
+  // Looks stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
+  CHECK(slope.posts_made < 2 * 32 * 50 * 50);
+}
+
+TEST_CASE("a short line is looked at post by post") {
+  const Counting rock([](double x, double y) { return std::hypot(x - 20.0, y) < 0.5 ? -3.0 : -30.0; });
+  CHECK(shallowest_m(rock, {{{-40, 0}, {40, 0}}}) == Approx(3.0));
+}
+
+TEST_CASE("a line may not run over land nor through the seabed, and a hole is no fault of it") {
+  const Counting ridge(
+      [](double x, double) { return x > 2000 ? std::nan("") : -40.0 + 39.0 * std::exp(-x * x / 1e4); });
+  const navigation::Runline line{{-4000, 10}, {4000, 10}};
+  CHECK(fault(ridge, line, 0.5) == "accepted");
+  const std::string through = fault(ridge, line, 20.0);
+  CHECK(through.find("sea.yaml: mission runline 1: at (-") == 0);
+  CHECK(through.find("the vehicle would be 20.0 m deep and the seabed is at") != std::string::npos);
+  const Counting island([](double x, double) { return -40.0 + 45.0 * std::exp(-x * x / 1e4); });
+  CHECK(fault(island, line, 0.0).find("is land") != std::string::npos);
+}
