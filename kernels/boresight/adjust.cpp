@@ -18,6 +18,7 @@ constexpr int kChoosing =
     8;  // rounds in which soundings may still change their cells; convergence is Newton's afterwards
 constexpr double kTypical = 20.0;       // soundings that the typical cell counts for in the variance of each
 constexpr double kLeastSigmaM = 0.003;  // of a plane fit: few soundings can lie on it by luck
+constexpr double kStatedRightTo = 0.1;  // relative uncertainty of the deviations that navigation states
 
 /// Variances of the unknowns, and by how many degrees of freedom each is known [Satterthwaite1946].
 struct Spread {
@@ -149,9 +150,8 @@ class Adjustment {
     return where;
   }
 
-  /// One row per sounding: how its residual changes with the unknowns `where`, and last the residual, all without what
-  /// the plane explains.
-  Matrix equations(const Members& members, const Plane& plane, const std::vector<Eigen::Index>& where) const {
+  /// One row per sounding: how its height over the plane changes with the unknowns `where`, and last the residual.
+  Matrix changes(const Members& members, const Plane& plane, const std::vector<Eigen::Index>& where) const {
     Matrix rows = Matrix::Zero(static_cast<Eigen::Index>(members.size()), static_cast<Eigen::Index>(where.size() + 1));
     const Eigen::RowVector3d across = plane.across();
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -165,7 +165,6 @@ class Adjustment {
       }
     }
     rows.rightCols<1>() = plane.residual_m();
-    plane.project_out(rows);
     return rows;
   }
 
@@ -177,7 +176,8 @@ class Adjustment {
 
   void accumulate(std::size_t cell) {
     const std::vector<Eigen::Index> where = unknowns_of_cell(chosen_[cell]);
-    const Matrix rows = equations(chosen_[cell], planes_[cell], where);
+    Matrix rows = changes(chosen_[cell], planes_[cell], where);
+    planes_[cell].project_out(rows);
     squares_ += planes_[cell].residual_m().squaredNorm();
     used_ += chosen_[cell].size();
     const Matrix products = weight(cell) * rows.transpose() * rows;
@@ -196,40 +196,69 @@ class Adjustment {
 
   double rms() const { return used_ > 0 ? std::sqrt(squares_ / static_cast<double>(used_)) : 0.0; }
 
-  /// How far the unknowns move with what is left of the soundings of each stretch of time (soundings of unequal
-  /// quality [White1980] that err together [LiangZeger1986]), and with the navigation's wander.
+  /// What happens to the unknowns in a stretch of time.
+  struct Stretch {
+    Unknowns soundings = Unknowns::Zero();       // their errors move them so far
+    Drift::Pulls wander = Drift::Pulls::Zero();  // and those of navigation, per error
+  };
+
+  std::size_t stretch_of(const SoundingRef& ref) const {
+    const double since_s = sounding(ref).time_s - lines_[ref.line].soundings.front().time_s;
+    return static_cast<std::size_t>(since_s / settings_.together_s);
+  }
+
+  /// Adds a cell to the stretches of its lines. A sounding's error is what it would be off a plane that is laid without
+  /// it and its like: noisy soundings at a cell's edge pull their plane after them.
+  void tell(std::size_t cell, const Matrix& inverse, std::vector<std::vector<Stretch>>& by_line) const {
+    const Members& members = chosen_[cell];
+    const std::vector<Eigen::Index> where = unknowns_of_cell(members);
+    Matrix rows = changes(members, planes_[cell], where);
+    const Matrix raw = rows;
+    planes_[cell].project_out(rows);
+    const Matrix moves = weight(cell) * rows.leftCols(rows.cols() - 1) * inverse(where, Eigen::all);
+    for (std::size_t from = 0, to = 0; from < members.size(); from = to) {
+      const std::uint32_t line = members[from].line;
+      const std::size_t n = stretch_of(members[from]);
+      while (to < members.size() && members[to].line == line && stretch_of(members[to]) == n) ++to;
+      if (n >= by_line[line].size()) by_line[line].resize(n + 1);
+      Stretch& stretch = by_line[line][n];
+      const auto first = static_cast<Eigen::Index>(from), count = static_cast<Eigen::Index>(to - from);
+      stretch.soundings += moves.middleRows(first, count).transpose() * planes_[cell].without_it(first, count);
+      for (Eigen::Index i = first; i < first + count; ++i) {
+        const Drift::Columns columns = columns_of(members[static_cast<std::size_t>(i)]);
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+          const auto at = std::lower_bound(where.begin(), where.end(), columns[k]) - where.begin();
+          stretch.wander.col(static_cast<Eigen::Index>(k)) += raw(i, at) * moves.row(i).transpose();
+        }
+      }
+    }
+  }
+
+  /// How far the unknowns move with the errors of the soundings of each stretch of time (of unequal quality
+  /// [White1980], that err together [LiangZeger1986], told by what is left without them [MacKinnonWhite1985,
+  /// BellMcCaffrey2002]), and with the navigation's wander.
   Spread spread() const {
     const Matrix inverse =
         information_.llt().solve(Matrix::Identity(information_.rows(), static_cast<Eigen::Index>(kUnknowns)));
-    std::vector<std::vector<Unknowns>> pulls(lines_.size());
-    for (std::size_t n = 0; n < chosen_.size(); ++n) {
-      const Members& members = chosen_[n];
-      const std::vector<Eigen::Index> where = unknowns_of_cell(members);
-      const Matrix rows = equations(members, planes_[n], where);
-      const double few = std::sqrt((freedom(n) + 3.0) / freedom(n));
-      const Matrix moves = weight(n) * few * rows.leftCols(rows.cols() - 1) * inverse(where, Eigen::all);
-      for (std::size_t i = 0; i < members.size(); ++i) {
-        const double since_s = sounding(members[i]).time_s - lines_[members[i].line].soundings.front().time_s;
-        const auto stretch = static_cast<std::size_t>(since_s / settings_.together_s);
-        std::vector<Unknowns>& of_line = pulls[members[i].line];
-        if (stretch >= of_line.size()) of_line.resize(stretch + 1, Unknowns::Zero());
-        const auto row = static_cast<Eigen::Index>(i);
-        of_line[stretch] += planes_[n].residual_m()[row] * moves.row(row).transpose();
-      }
-    }
-    Spread spread;
-    spread.variance = (inverse.transpose() * prior_ * inverse).diagonal();
+    std::vector<std::vector<Stretch>> by_line(lines_.size());
+    for (std::size_t n = 0; n < chosen_.size(); ++n) tell(n, inverse, by_line);
+    std::vector<std::vector<Drift::Pulls>> pulls(lines_.size());
+    Spread spread{Unknowns::Zero(), Unknowns::Zero(), inverse.topRows<static_cast<int>(kUnknowns)>().diagonal()};
     Unknowns fourth = Unknowns::Zero();
-    for (const auto& of_line : pulls) {
-      for (const Unknowns& pull : of_line) {
-        spread.variance += pull.cwiseAbs2();
-        fourth += pull.cwiseAbs2().cwiseAbs2();
+    for (std::size_t line = 0; line < by_line.size(); ++line) {
+      for (const Stretch& stretch : by_line[line]) {
+        spread.variance += stretch.soundings.cwiseAbs2();
+        fourth += stretch.soundings.cwiseAbs2().cwiseAbs2();
+        pulls[line].push_back(stretch.wander);
       }
     }
-    // A square of one normal pull has the variance of twice its expectation's square, its fourth power thrice that
-    // square.
-    spread.freedom = 3.0 * spread.variance.cwiseAbs2().cwiseQuotient(fourth);
-    spread.expected = inverse.topRows<static_cast<int>(kUnknowns)>().diagonal();
+    const Drift::Pulls wander = drift_.variances(pulls, settings_.together_s);
+    spread.variance += wander.rowwise().sum();
+    // Each stretch tells its variance with one degree of freedom: the fourth power of a normal pull is thrice the
+    // square of its variance. What navigation states of an axis, with those of a deviation that is right to a share.
+    const double stated = 0.5 / (kStatedRightTo * kStatedRightTo);  // [GUM2008, eq. G.3]
+    const Unknowns unsure = fourth / 3.0 + wander.cwiseAbs2().rowwise().sum() / stated;
+    spread.freedom = spread.variance.cwiseAbs2().cwiseQuotient(unsure);
     return spread;
   }
 

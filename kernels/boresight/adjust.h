@@ -55,8 +55,10 @@ struct Adjusted {
 /// Least-squares adjustment of all unknowns at once [Bjorke2005], on planes through the soundings of each cell
 /// [SeubeKeyetieu2017]; the attitude's latency shows in the same way [Milac2018]. Each piece of a line may besides
 /// be shifted and turned by what its navigation may be off, weighted by the stated deviations as a Gauss-Markov
-/// process that goes on from line to line: what such a wander could explain, the intervals contain. So they do what
-/// soundings of unequal quality [White1980] have in common within a stretch of time [LiangZeger1986].
+/// process that goes on from line to line. The intervals contain what that process does to the estimate, as it is and
+/// not in pieces, and what soundings of unequal quality [White1980] have in common within a stretch of time
+/// [LiangZeger1986], by what they are off the planes that are laid without them [MacKinnonWhite1985,
+/// BellMcCaffrey2002]. The stated deviations are taken to be right to a tenth [GUM2008, G.4.2].
 ///
 /// What the lines do not tell comes out with a wide deviation. Throws std::invalid_argument for
 /// fewer than two lines, settings that are not positive, places that are not finite, and when no cell has two lines.

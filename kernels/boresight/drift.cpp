@@ -64,4 +64,24 @@ Eigen::MatrixXd Drift::inverse_covariance() const {
   return inverse;
 }
 
+Drift::Pulls Drift::variances(const std::vector<std::vector<Pulls>>& pulls, double stretch_s) const {
+  Pulls variances = Pulls::Zero();
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    Unknowns before = Unknowns::Zero();  // what lies before, as far as it is remembered
+    double before_s = 0.0;
+    for (std::size_t line = 0; line < pulls.size(); ++line) {
+      const Pieces& p = pieces_[line][k];
+      for (std::size_t n = 0; n < pulls[line].size(); ++n) {
+        const double at_s = p.start_s + static_cast<double>(n) * stretch_s;
+        before *= at_s > before_s ? std::exp((before_s - at_s) / wander_s_[k]) : 0.0;
+        const Unknowns here = p.sd * pulls[line][n].col(static_cast<Eigen::Index>(k));
+        variances.col(static_cast<Eigen::Index>(k)) += here.cwiseProduct(here + 2.0 * before);
+        before += here;
+        before_s = at_s;
+      }
+    }
+  }
+  return variances;
+}
+
 }  // namespace ensonify::boresight

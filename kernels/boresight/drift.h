@@ -24,6 +24,12 @@ class Drift {
   /// Of a stationary first-order process through all lines, for each axis; zero for the global unknowns.
   Eigen::MatrixXd inverse_covariance() const;
 
+  /// How much each global unknown is pulled by an error of 1 of each axis, in a stretch of time.
+  using Pulls = Eigen::Matrix<double, kUnknowns, kAxes>;
+  /// Variances of what that process as it is, not in pieces, does to the global unknowns, for each axis; `pulls` by
+  /// line and stretch.
+  Pulls variances(const std::vector<std::vector<Pulls>>& pulls, double stretch_s) const;
+
  private:
   struct Pieces {
     Eigen::Index first, count;

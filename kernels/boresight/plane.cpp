@@ -37,4 +37,11 @@ Eigen::RowVector3d Plane::across() const {
   return {-share * level_[1], -share * level_[2], 1.0};
 }
 
+Vector Plane::without_it(Eigen::Index from, Eigen::Index count) const {
+  constexpr double kAlone = 1.01;  // a part that alone holds the plane has no residual: it stays small
+  const auto part = shape_.middleRows(from, count);
+  const Matrix hat = part * normal_.solve(part.transpose());
+  return (kAlone * Matrix::Identity(count, count) - hat).ldlt().solve(residual_.segment(from, count));
+}
+
 }  // namespace ensonify::boresight

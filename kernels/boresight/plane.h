@@ -26,6 +26,9 @@ class Plane {
   /// are reduced by what noise alone would give, twice its deviation or less counting as none.
   Eigen::RowVector3d across() const;
 
+  /// What a part of the residuals, members `from` to `from + count`, would be if the plane were laid without it.
+  Vector without_it(Eigen::Index from, Eigen::Index count) const;
+
   /// Takes what a plane can explain out of the columns of `m`.
   void project_out(Matrix& m) const { m -= shape_ * normal_.solve(shape_.transpose() * m); }
 
