@@ -71,9 +71,9 @@ class Watched:
 def bench_drive(b):
     survey = ROOT / "launch" / "survey_10km.yaml"
     rows = []
-    # In a second of sim time there are two pings; nothing of the seabed is on disk, so that no start is warmer than another.
-    start_s = min(Watched(b, survey, "--arg", "seconds=1").wall_s for _ in range(b.repeat))
-    rows.append(row("survey_10km: from nothing to the end of 1 s of sim time", start_s, "s", target="<= 5", ok=start_s <= 5))
+    # The first soundings come at 0.29 s; nothing of the seabed is on disk, so that no start is warmer than another.
+    start_s = min(Watched(b, survey, "--arg", "seconds=0.4").wall_s for _ in range(b.repeat))
+    rows.append(row("survey_10km: from nothing to the first ping's soundings", start_s, "s", target="<= 5", ok=start_s <= 5))
     # Its expectations are those of the launch: no ping lost, none empty.
     drive = Watched(b, survey, *(["--arg", "seconds=120"] if b.quick else []), "--arg", "pings_hz=0.5")
     for program in ("ensonify-terrain_pager", "ensonify-multibeam"):
