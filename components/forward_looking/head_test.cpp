@@ -329,14 +329,28 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
   }
 }
 
-TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams hear less beside them") {
+namespace {
+
+/// Of what is heard from one side only: few beams, no speckle.
+ForwardLookingConfig of_one_side() {
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;
   config.tilt_rad = 10 * kDeg;
   config.range_m = 40.0;
   config.beams = 64;
   config.pulse.most_samples = 300;
-  trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
+  return config;
+}
+
+trace::Scene seabed_to_starboard() {
+  return scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });
+}
+
+}  // namespace
+
+TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams hear less beside them") {
+  ForwardLookingConfig config = of_one_side();
+  trace::Scene scene = seabed_to_starboard();
   const msg::Ping uniform = ping_of(config, scene);
   const double uniform_near_m = ForwardLookingHead(config).near_field_m();
   config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
@@ -348,13 +362,8 @@ TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams he
 }
 
 TEST_CASE("without directivity outer beams hear more; without side lobes the far side of a wall goes dark") {
-  ForwardLookingConfig config = quiet();
-  config.effects.speckle = false;
-  config.tilt_rad = 10 * kDeg;
-  config.range_m = 40.0;
-  config.beams = 64;
-  config.pulse.most_samples = 300;
-  trace::Scene scene = scene_of([](double east, double) { return east > -3.0 ? -15.0 : -60.0; });  // to starboard
+  ForwardLookingConfig config = of_one_side();
+  trace::Scene scene = seabed_to_starboard();
   const msg::Ping full = ping_of(config, scene);
   config.effects.side_lobes = false;
   const msg::Ping shaded = ping_of(config, scene);

@@ -178,9 +178,9 @@ TEST_CASE("with yaw stabilised the fans of sectors stay across the mean heading"
     REQUIRE(s.applied.yaw_stabilised == stabilised);
     REQUIRE(s.sector.size() == 256);
     std::array<double, 2> edges{};  // north of the head, about the middle of the outer sectors: 43 degrees
-    for (int i = -5; i < 5; ++i) {
-      edges[0] += 0.1 * s.position_enu_m(static_cast<std::size_t>(43 + i), 1);
-      edges[1] += 0.1 * s.position_enu_m(static_cast<std::size_t>(213 + i), 1);
+    for (std::size_t i = 0; i < 10; ++i) {
+      edges[0] += 0.1 * s.position_enu_m(38 + i, 1);
+      edges[1] += 0.1 * s.position_enu_m(208 + i, 1);
     }
     return edges;
   };
