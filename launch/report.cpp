@@ -58,6 +58,23 @@ std::vector<Expectation> read_expectations(const std::string& file) {
   }
 }
 
+std::optional<ClockReport> read_clock_report(const std::string& out) {
+  std::ifstream stream(out + "/clock.json");
+  const auto told = nlohmann::json::parse(stream, nullptr, false);
+  if (!told.is_object()) {
+    return std::nullopt;
+  }
+  return ClockReport{told.value("sim_s", 0.0), told.value("exit_code", 0), told.value("culprit", ""),
+                     told.value("message", "")};
+}
+
+void remove_reports(const std::string& out) {
+  std::error_code ignored;
+  for (const char* stale : {"/expect.json", "/clock.json", "/run.json"}) {
+    std::filesystem::remove(out + stale, ignored);
+  }
+}
+
 std::string junit_xml(const RunReport& report) {
   std::string expectations, processes;
   std::size_t failed = 0, died = 0;

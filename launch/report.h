@@ -36,6 +36,19 @@ struct RunReport {
   std::vector<Expectation> expectations;
 };
 
+/// What `<out>/clock.json` says of a run, written by its clock or, with --in-process, by the process that had none.
+struct ClockReport {
+  double sim_s = 0.0;  // reached
+  int exit_code = 0;
+  std::string culprit, message;
+};
+
+/// Nothing when the file is not there or is not whole.
+std::optional<ClockReport> read_clock_report(const std::string& out);
+
+/// Removes what an earlier run reported in this folder.
+void remove_reports(const std::string& out);
+
 /// Empty when the file is not there. Throws ExitError (3) when it is not what expect writes.
 std::vector<Expectation> read_expectations(const std::string& file);
 

@@ -51,6 +51,7 @@ RunReport run_in_process(const Launch& launch) {
   command.argv.insert(command.argv.end(), arguments.begin(), arguments.end());
   RunReport report;
   make_folder(launch.options.out);
+  remove_reports(launch.options.out);
   const auto began = std::chrono::steady_clock::now();
   report.code = run_to_end(command);
   report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -59,6 +60,7 @@ RunReport run_in_process(const Launch& launch) {
   } else if (report.code != kExitOk) {
     report.cause = Fault{report.code, "", "the run in one process failed"};
   }
+  if (const auto told = read_clock_report(launch.options.out)) report.sim_s = told->sim_s;
   report.expectations = read_expectations(launch.options.out + "/expect.json");
   return report;
 }

@@ -220,7 +220,12 @@ TEST_CASE("in one process a run has the same end, reports and steps") {
   CHECK(good.code == 0);
   CHECK(fs::exists(place.file("out/after")));
   CHECK(contents(place.file("junit.xml")).find("name=\"poses\"") != std::string::npos);
+  const auto report = nlohmann::json::parse(contents(place.file("out/run.json")));
+  CHECK(report.at("sim_s") == 1.0);
+  CHECK(report.at("real_time_factor").get<double>() > 0.0);
+  CHECK(good.said.find("1.0 s of sim time in") != std::string::npos);
   CHECK(run(place, {"--in-process", "--set", "boat.bogus=1"}).code == 2);
+  CHECK(nlohmann::json::parse(contents(place.file("out/run.json"))).at("sim_s") == 0.0);  // not of the run before
 }
 
 TEST_CASE("steps after the run see the output folder, and the first that fails decides") {

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -46,10 +45,7 @@ Supervisor::Supervisor(const Launch& launch, const std::string& program_folder, 
 RunReport Supervisor::run() {
   began_ = steady_clock::now();
   make_folder(places_.out + "/log");
-  std::error_code ignored;
-  for (const char* stale : {"/expect.json", "/clock.json", "/run.json"}) {
-    std::filesystem::remove(places_.out + stale, ignored);
-  }
+  remove_reports(places_.out);
   members_.push_back({.name = "clock"});
   for (const auto& process : launch_.processes) {
     members_.push_back({.name = process.name, .spec = &process});
@@ -188,14 +184,11 @@ void Supervisor::on_clock_ended(Member& member) {
   const auto now = steady_clock::now();
   const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
   member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
-  std::ifstream stream(places_.out + "/clock.json");
-  const auto told = nlohmann::json::parse(stream, nullptr, false);
-  if (told.is_object()) {
-    sim_s_ = told.value("sim_s", sim_s_);
-    if (fault && told.value("exit_code", 0) == fault->code) {
-      const std::string message = told.value("message", "");
-      fault->culprit = told.value("culprit", "").empty() ? fault->culprit : told.value("culprit", "");
-      fault->message = message.empty() ? fault->message : message;
+  if (const auto told = read_clock_report(places_.out)) {
+    sim_s_ = told->sim_s;
+    if (fault && told->exit_code == fault->code) {
+      fault->culprit = told->culprit.empty() ? fault->culprit : told->culprit;
+      fault->message = told->message.empty() ? fault->message : told->message;
     }
   }
   if (fault && !by_us && fault->code != kExitInterrupted) {

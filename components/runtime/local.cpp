@@ -1,7 +1,10 @@
 #include "components/runtime/local.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -49,14 +52,13 @@ class LocalRun {
 
   int run() {
     Conductor conductor = make_conductor(graph_, declarations_, launch_);
-    while (!conductor.finished()) {
-      for (const Conductor::Grant& grant : conductor.grants()) {
-        Stepper& stepper = *members_[grant.participant]->stepper;
-        const bool finish = stepper.run_to(grant.horizon);
-        if (finish) conductor.end_at(stepper.last() + kFinishMargin);
-        conductor.done(grant.participant, finish ? stepper.last() + SimTime{1} : stepper.next());
-      }
+    try {
+      drive(conductor);
+    } catch (...) {
+      report(conductor);
+      throw;
     }
+    report(conductor);
     int code = 0;
     for (const auto& member : members_) {
       member->node->finish_run();
@@ -72,6 +74,23 @@ class LocalRun {
     std::unique_ptr<AnyNode> node;
     std::optional<Stepper> stepper;
   };
+
+  void drive(Conductor& conductor) {
+    while (!conductor.finished()) {
+      for (const Conductor::Grant& grant : conductor.grants()) {
+        Stepper& stepper = *members_[grant.participant]->stepper;
+        const bool finish = stepper.run_to(grant.horizon);
+        if (finish) conductor.end_at(stepper.last() + kFinishMargin);
+        conductor.done(grant.participant, finish ? stepper.last() + SimTime{1} : stepper.next());
+      }
+    }
+  }
+
+  /// What a clock would write to clock.json of such a run.
+  void report(const Conductor& conductor) const {
+    const SimTime reached = std::min(conductor.now(), conductor.end());
+    std::ofstream(launch_.options.out + "/clock.json") << fmt::format("{{\"sim_s\": {}}}\n", seconds(reached));
+  }
 
   void connect() {
     auto facts = facts_of(launch_);
