@@ -7,6 +7,7 @@
 #include "components/runtime/config/default_yaml.h"
 #include "components/runtime/head/test_config.h"
 #include "components/runtime/head/test_seabed.h"
+#include "components/runtime/head/tile_set.h"
 #include "components/runtime/testing.h"
 #include "kernels/array/aperture.h"
 #include "kernels/array/line.h"
@@ -136,6 +137,67 @@ TEST_CASE("the surface overhead is heard through the back of the piston only") {
   const float loudest = *std::max_element(&amplitude[0], &amplitude[last]);
   CHECK(20.0 * std::log10(static_cast<double>(loudest)) ==
         Approx(215.0 - 20.0 * std::log10(4.0) - 0.05 * 4.0 - 80.0).margin(0.1));  // a steady tone's level is exact
+}
+
+TEST_CASE("the surface overhead is not the bottom, however long the pulse and however many its samples") {
+  // Up 2 m and down again it stands 75 dB over the noise, for one pulse: the bottom, 20 m below, answers for longer.
+  for (const double pulse_s : {100e-6, 1e-3}) {
+    for (const double samples : {2.0, 20.0}) {
+      EchosounderConfig config = over_lambert();
+      config.pulse_length_s = pulse_s;
+      config.samples_per_pulse = samples;
+      const Survey survey(config, flat());
+      INFO("pulse of " << pulse_s << " s, " << samples << " samples");
+      REQUIRE(survey.pings.size() == 4);
+      CHECK(survey.pings[0].sample_period_s == Approx(pulse_s / samples));
+      const double sample_m = 750.0 * config.sample_period_s();
+      for (const auto& bottom : survey.bottom) {
+        CHECK(bottom.valid);
+        // To a sample, and to the ray that is nearest to straight below.
+        CHECK(bottom.altitude_m == Approx(20.0).margin(1.1 * sample_m + 0.01));
+      }
+    }
+  }
+}
+
+TEST_CASE("a pulse that a command makes longer is judged by its own length") {
+  EchosounderConfig config = over_lambert();
+  EchosounderHead head(config);
+  TileSet tiles;
+  tiles.insert(flat());
+  frames::PoseHistory at_rest(1'000'000'000);
+  for (int i = 0; i <= 20; ++i) {
+    at_rest.push(from_seconds(0.01 * i).count(), {{0, 0, -2}, frames::enu_from_body({0, 0, 0})});
+  }
+  HeadSettings settings = config.start();
+  settings.pulse_length_s = 2e-3;  // 40 samples, 1.5 m
+  const auto heard = head.listen({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene());
+  CHECK(heard.bottom.valid);
+  CHECK(heard.bottom.altitude_m == Approx(20.0).margin(1.1 * 750.0 * config.sample_period_s()));
+}
+
+TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {
+  EchosounderConfig config = over_lambert();
+  const auto seabed = flat(-3.5);  // 1.5 m below the piston
+  const Survey usual(config, seabed);
+  for (const auto& bottom : usual.bottom) CHECK_FALSE((bottom.valid && bottom.altitude_m < 2.0));
+  config.least_range_m = 1.0;
+  const Survey near(config, seabed);
+  REQUIRE(near.bottom.size() == 4);
+  for (const auto& bottom : near.bottom) {
+    CHECK(bottom.valid);
+    CHECK(bottom.altitude_m == Approx(1.5).margin(1.1 * 750.0 * config.sample_period_s()));
+  }
+}
+
+TEST_CASE("a range that makes more samples than a ping holds is refused with what is allowed") {
+  CHECK(problems_of<EchosounderConfig>("pulse_length_s: 1.0e-5\nsamples_per_pulse: 20\nrange_m: 300\n") ==
+        "head.yaml:3:10: range_m: makes 800020 samples; at most 600000 are allowed: shorten it or lower "
+        "samples_per_pulse");
+  CHECK(problems_of<EchosounderConfig>("samples_per_pulse: 1\n") ==
+        "head.yaml:1:20: samples_per_pulse: 1 is outside [2, 20]");
+  CHECK(problems_of<EchosounderConfig>("least_range_m: 0.5\n") ==
+        "head.yaml:1:16: least_range_m: 0.5 is outside [1, 2000]");
 }
 
 TEST_CASE("a range below the altitude, and an echo below the noise, are said in health") {

@@ -72,8 +72,9 @@ trace::RayDistribution rays_of(const EchosounderConfig& c) {
 detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
   detect::FirstBottomSettings settings;
   settings.threshold_db = config.bottom_threshold_db;
-  // Straight down, an echo lasts little longer than the pulse.
-  settings.persistence_m = std::max(0.1, range_resolution_m(config));
+  settings.column_m = EchosounderConfig::kLeastColumn_m;
+  settings.blanking_m = config.least_range_m - settings.column_m;
+  settings.persistence_m = 0.1;  // straight down, an echo lasts little longer than the pulse
   return settings;
 }
 
@@ -97,7 +98,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
 
   Heard heard;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  heard.bottom = bottom_.find(image, sampling, config_.sound_speed_mps);
+  heard.bottom = bottom_.find(image, sampling, pulse, config_.sound_speed_mps);
   heard.bottom.stamp_ns = heard.ping.stamp_ns = shot.transmit.count();
   heard.bottom.ping = heard.ping.ping = shot.ping;
   heard.ping.kind = "echosounder";

@@ -166,7 +166,7 @@ SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& s
   echo::Image& image = echoes_.listen(emission, pulse_, poses_, seabed);
 
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, config_.sound_speed_mps)};
+  Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps)};
   heard.bottom.stamp_ns = shot.transmit.count();
   heard.bottom.ping = shot.ping;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);

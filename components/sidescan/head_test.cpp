@@ -31,11 +31,11 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDepth_m = 12.0;  // of the head, whose heading is north and whose seabed is 10 m below
 
 /// A vehicle at rest under way in attitude only: yawing at this rate about its heading at t = 0.
-frames::PoseHistory yawing(double rate_radps) {
+frames::PoseHistory yawing(double rate_radps, double depth_m = kDepth_m) {
   frames::PoseHistory poses(10'000'000'000);
   for (int i = 0; i <= 60; ++i) {
     const double t = 0.005 * i;
-    poses.push(from_seconds(t).count(), {{0, 0, -kDepth_m}, frames::enu_from_body({rate_radps * t, 0, 0})});
+    poses.push(from_seconds(t).count(), {{0, 0, -depth_m}, frames::enu_from_body({rate_radps * t, 0, 0})});
   }
   return poses;
 }
@@ -162,6 +162,25 @@ TEST_CASE("the first bottom is found at the altitude, to a sample, and told for 
   // The instrument takes 1600 m/s for granted: its altitude is wrong by that, though nothing in the water changed.
   config.sound_speed_mps = 1600.0;
   CHECK(heard(config, flat()).bottom.altitude_m == Approx(10.0 * 1600.0 / 1500.0).margin(1.1 * sample_m));
+}
+
+TEST_CASE("the surface overhead is not the bottom, whose echo lasts longer than a long pulse") {
+  // 1 ms fill 0.75 m, more than 0.7 of the metre that the bottom has to answer for.
+  for (const double samples : {2.0, 20.0}) {
+    SidescanConfig config;
+    config.world = plain_sidescan().world;
+    config.channels[0].pulse_length_s = 1e-3;
+    config.channels[0].samples_per_pulse = samples;
+    const SidescanChannel& channel = config.channels[0];
+    const HeadSettings settings = config.start_of(channel);
+    const Sea sea = flat(-13.0);
+    SidescanHead head(config, channel);
+    const auto [ping, bottom] =
+        head.listen({0, SimTime{0}, settings.range_m}, settings, yawing(0.0, 3.0), sea.tiles.scene());
+    INFO(samples << " samples per pulse");
+    CHECK(bottom.valid);
+    CHECK(bottom.altitude_m == Approx(10.0).margin(750.0 * ping.sample_period_s + 0.02));
+  }
 }
 
 TEST_CASE("a wall throws the shadow that its height says, to a sample") {

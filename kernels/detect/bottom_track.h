@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-/// What a sidescan knows of the bottom below it: the first strong echo of its own waterfall, and with it the ground
-/// range of the rest on a flat bottom. Never the true altitude.
+/// What a sidescan or an echosounder knows of the bottom below it: the first strong echo of its own waterfall that
+/// lasts, and with it the ground range of the rest on a flat bottom. Never the true altitude.
 namespace ensonify::detect {
 
 /// One line of a waterfall, linear amplitude (before any gain that grows with range): sample k is at the slant range
@@ -19,8 +19,9 @@ struct FirstBottomSettings {
   double blanking_m = 1.0;     // transmission, and the body that carries the head
   double threshold_db = 12.0;  // a sample is strong if this far above the water column before it
   double column_m = 1.0;       // of water column needed to judge by, after the blanking
+  double echo_m = 0.0;         // of range, that the echo of a single point fills: half the pulse behind the filter
   double persistence_m = 1.0;  // the bottom keeps answering for so long; fish do not
-  double share = 0.7;          // of the samples in it that must be strong
+  double share = 0.7;          // of the samples in it that must be strong; more of them than a single echo fills
   double follow_m = 1.5;       // how far from the last pick the bottom is sought, while it is tracked
   int patience = 5;            // lines without a pick before it is sought everywhere again
 };
@@ -31,8 +32,11 @@ struct BottomPick {
 };
 
 /// The first range between nearest_m and farthest_m from which on `share` of the samples within persistence_m are
-/// strong and which is strong itself. The water column is the geometric mean power of all samples between blanking and
-/// there, so that a few strong ones count little (for noise it reads 2.5 dB below the mean).
+/// strong and which is strong itself. Where a single echo could fill that share, the samples are as many more as it
+/// takes that it cannot, with a tenth to spare: nothing that is heard for one pulse is the bottom, be it a fish or the
+/// surface overhead. A bottom that answers for less than 1.1 pulses and a sample is not found either. The water column
+/// is the geometric mean power of all samples between blanking and there, so that a few strong ones count little (for
+/// noise it reads 2.5 dB below the mean).
 ///
 /// False picks: noise is strong with probability p = exp(-10^((threshold - 2.5 dB) / 10)), 1.5e-4 at 12 dB; n samples
 /// of persistence must hold 0.7 n strong ones: below 1e-20 for n = 10.

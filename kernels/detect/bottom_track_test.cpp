@@ -50,6 +50,33 @@ TEST_CASE("the first bottom is found within a few samples, and fish are not") {
   CHECK(missed == 0);
 }
 
+TEST_CASE("what is heard for a single pulse is not the bottom, however many samples it fills") {
+  for (const std::size_t pulse : {1, 2, 3, 7, 20, 40}) {
+    FirstBottomSettings settings;
+    settings.persistence_m = 0.1;
+    settings.echo_m = kStep * static_cast<double>(pulse);
+    auto amplitude = line_of(10.0, pulse);
+    for (std::size_t k = 70; k < 70 + pulse; ++k) amplitude[k] = 200.0F;  // 46 dB at 3.5 m
+    INFO(pulse << " samples per pulse");
+    const BottomPick pick = first_bottom(settings, {amplitude, 0.0, kStep});
+    CHECK(pick.found);
+    CHECK(pick.altitude_m >= 10.0 - 1e-9);
+    CHECK(pick.altitude_m <= 10.0 + 3 * kStep);
+    // A fifth of a pulse more, and two samples, is the bottom.
+    for (std::size_t k = 70; k < 72 + pulse + pulse / 5; ++k) amplitude[k] = 200.0F;
+    CHECK(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m == Approx(3.5));
+  }
+}
+
+TEST_CASE("nothing is the bottom within the blanking and the water that it is judged by") {
+  auto amplitude = line_of(10.0, 1);
+  for (std::size_t k = 50; k < 120; ++k) amplitude[k] = 200.0F;  // from 2.5 to 6 m
+  FirstBottomSettings settings;
+  CHECK(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m == Approx(2.5));
+  settings.blanking_m = 6.0;
+  CHECK(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m == Approx(10.0).margin(3 * kStep));
+}
+
 TEST_CASE("a line of noise has no bottom") {
   int picks = 0;
   for (std::uint64_t n = 0; n < 500; ++n) picks += first_bottom({}, {line_of(1e4, n), 0.0, kStep}).found;

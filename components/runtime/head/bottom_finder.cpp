@@ -28,9 +28,10 @@ double BottomFinder::step_db(const detect::WaterfallLine& line, double altitude_
 }
 
 msg::BottomTrack BottomFinder::find(const echo::Image& envelope, const echo::Sampling& sampling,
-                                    double sound_speed_mps) {
+                                    const echo::Pulse& pulse, double sound_speed_mps) {
   const auto samples = static_cast<std::size_t>(envelope.samples);
   const double range_per_s = 0.5 * sound_speed_mps;
+  settings_.echo_m = range_per_s * (pulse.end_s() - pulse.start_s);
   echo::amplitude_upa(envelope, amplitude_);
   all_.assign(samples, 0.0F);
   msg::BottomTrack found;
