@@ -73,6 +73,7 @@ void read_ping(ConfigReader& from, MultibeamConfig& c) {
 void read_receiver(ConfigReader& from, MultibeamConfig& c) {
   from.optional("detection_threshold_db", c.detection_threshold_db, 0, 60);
   from.optional("least_range_m", c.least_range_m, 0, 2000);
+  from.optional("refuse_second_echo", c.refuse_second_echo);
   from.optional_choice("mode", c.mode, {{"bathymetry", "bathymetry"}, {"water_column", "water_column"}});
   from.optional("amplitude_every", c.amplitude_every, 1, 1'000'000);
   from.optional("phase_every", c.phase_every, 0, 1'000'000);

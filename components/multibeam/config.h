@@ -92,6 +92,7 @@ struct MultibeamParameters {
   double sample_rate_hz = 20e3;                  // of the complex envelope, at least two for what a pulse resolves
   double detection_threshold_db = 13.0;          // signal to noise ratio of a sounding, at least
   double least_range_m = 2.0;                    // nearer, nothing is taken for the seabed
+  bool refuse_second_echo = true;                // by way of the surface, where it stands for the seabed
   std::string mode = "bathymetry";               // or water_column: every ping with amplitude and phase
   int amplitude_every = 1;                       // ping/1 is published for every n-th ping; soundings for all
   int phase_every = 0;                           // and has the phase in every n-th ping; 0: never

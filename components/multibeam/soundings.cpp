@@ -67,6 +67,7 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), a
   settings_.gates.snr_db = config.detection_threshold_db;
   settings_.gates.min_range_m = config.least_range_m;
   settings_.max_detections = config.detections_per_beam;
+  settings_.second_echo.refused = config.refuse_second_echo;
   const ReceiveLine line = receive_line(config);
   for (const auto& sector : config.all_sectors()) {
     sectors_.push_back({sector.delay_s, receive_length_in_waves(config, sector.frequency_hz),
@@ -153,8 +154,12 @@ void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::He
   settings_.pulse_length_s = heard.front().echo_s;
   settings_.absorption_dbpm = ping.settings.gain_absorption_dbpm;
   settings_.sound_speed_mps = steering.sound_speed_mps;
-  settings_.seabed_tilt_rad =
-      ping.estimate.empty() ? 0.0 : seabed_tilt_rad(believed_pose(ping.estimate, ping.shot.transmit));
+  settings_.seabed_tilt_rad = settings_.second_echo.head_depth_m = 0.0;
+  if (!ping.estimate.empty()) {
+    const frames::HeadPose head = believed_pose(ping.estimate, ping.shot.transmit);
+    settings_.seabed_tilt_rad = seabed_tilt_rad(head);
+    settings_.second_echo.head_depth_m = std::max(-head.position_enu_m.z(), 0.0);
+  }
   echoes_.clear();
   std::size_t first = 0;  // place of the sector's first sounding
   for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {

@@ -13,6 +13,7 @@
 #include "kernels/detect/beam_series.h"
 #include "kernels/detect/gravity.h"
 #include "kernels/detect/phase_ramp.h"
+#include "kernels/detect/second_echo.h"
 
 namespace ensonify::detect {
 namespace {
@@ -246,12 +247,19 @@ void detect_bottom(const Settings& settings, std::span<const float> sin_beams, c
   const auto samples = static_cast<std::size_t>(image.samples);
   const auto most = static_cast<std::size_t>(settings.max_detections);
   detections.resize(sin_beams.size() * most);
-  tbb::parallel_for(std::size_t{0}, sin_beams.size(), [&](std::size_t beam) {
+  const auto detect_in = [&](std::size_t beam, const Settings& by) {
     const auto row = [&](auto all) { return all.empty() ? all : all.subspan(beam * samples, samples); };
     const BeamSeries series{row(image.amplitude_upa), row(halves.positive_upa), row(halves.negative_upa), image.start_s,
                             image.period_s,           settings.pulse_length_s};
-    Beam(settings, series, sin_beams[beam]).detect(std::span(detections).subspan(beam * most, most));
-  });
+    Beam(by, series, sin_beams[beam]).detect(std::span(detections).subspan(beam * most, most));
+  };
+  tbb::parallel_for(std::size_t{0}, sin_beams.size(), [&](std::size_t beam) { detect_in(beam, settings); });
+  if (!settings.second_echo.refused) return;
+  for (const SecondEchoHeard& heard : second_echoes(settings, sin_beams, detections)) {
+    Settings short_of_it = settings;
+    short_of_it.gates.max_range_m = std::min(settings.gates.max_range_m, heard.farthest_m);
+    detect_in(heard.beam, short_of_it);
+  }
 }
 
 void detect_bottom(const Settings& settings, std::span<const float> sin_beams, const Amplitudes& image,

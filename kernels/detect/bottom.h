@@ -19,6 +19,13 @@ struct Gates {
   double snr_db = 13.0;  // the strongest return must stand this far above the beam's noise
 };
 
+/// The echo that reaches a beam by way of bottom, surface and bottom: over a level bottom as if from a depth of 2 H +
+/// d, for the altitude H and the depth d of the head. Where the bottom's own fades it may be the strongest.
+struct SecondEcho {
+  bool refused = false;
+  double head_depth_m = 0.0;  // below the surface
+};
+
 struct Settings {
   double pulse_length_s = 100e-6;
   Gates gates;
@@ -29,6 +36,7 @@ struct Settings {
   double seabed_tilt_rad = 0.0;          // of the expected seabed's normal from the array's, towards positive sines
   int max_detections = 1;                // per beam, 1..kMostDetections
   double second_within_db = 10.0;        // a further detection may be this much weaker than the beam's strongest
+  SecondEcho second_echo;
 };
 
 inline constexpr int kMostDetections = 8;
@@ -77,7 +85,7 @@ struct Detection {
 
 /// Detections of every beam: detections is resized to beams x max_detections and overwritten; beam b has entries
 /// b * max_detections onward, found ones first, in order of time. Independent of the number of threads; allocates only
-/// while detections grows.
+/// while detections grows, and for second echoes that it refuses.
 ///
 /// Noise: median power of the beam over ln 2 (noise power is exponential), from at most 256 samples spread evenly; sd
 /// 0.4 dB.
@@ -106,6 +114,15 @@ struct Detection {
 /// add as squares.
 ///
 /// Further detections: the strongest returns outside the snippets found so far that pass the gate and second_within_db.
+///
+/// Second echo: makers set a gate about the swath's bottom, within 15 to 20 % of its depth [Teledyne2019] or up to 90 %
+/// [R2Sonic2014], so that the second return is not searched. Here the gate is made of the ping itself, and shuts out
+/// nothing else: a beam with a detection within 5 % of 2 B + d is sought through again, short of that depth. B is the
+/// depth that the beams about it hear: the median over the strongest detections within five half-power widths, of the
+/// side where it is deeper. A drop to twice the depth so stays wherever one side of a beam is down there too; within
+/// half of those widths of an end of the swath the inner side decides. What is lost is a hole of just that depth,
+/// narrower than five widths; it keeps its edges if it is wider than half of that. A beam that hears nothing else says
+/// kOutOfGate.
 ///
 /// sin_beams: one per beam, sine from the plane across the array. std::invalid_argument if images and beams differ in
 /// size, max_detections is outside 1..kMostDetections, or a length, period or speed is not above 0.

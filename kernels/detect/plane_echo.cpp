@@ -25,31 +25,44 @@ struct Echoes {
   double noise_power = 0.0;
 };
 
-Echoes echoes_of(const PlaneSurvey& survey, double sin_beam, const random::Stream& stream, std::uint64_t ping,
-                 std::uint64_t beam) {
+/// What a plane sends into a beam: all of it together has this mean energy. `draws` tells planes and beams apart.
+void add_plane(const PlaneSurvey& survey, double energy, double sin_beam, const random::Stream& stream,
+               std::uint64_t ping, std::uint64_t draws, std::vector<Scatterer>& scatterers) {
   const double reach = PlaneEcho::kReach / survey.length_in_waves;
   const double low = std::max(sin_beam - reach, -0.9999), high = std::min(sin_beam + reach, 0.9999);
   const double axis_s = two_way_s(survey, sin_beam);
   const double pulses = std::abs(two_way_s(survey, high) - two_way_s(survey, low)) / survey.pulse_length_s;
   const auto count = static_cast<std::size_t>(std::max(survey.scatterers_per_pulse * pulses, 300.0));
 
-  Echoes echoes;
   const double half = 0.5 * survey.length_in_waves;
-  // Mean power of a scatterer: all that the beam sees add up to 1.
-  const double power = survey.length_in_waves * (high - low) / static_cast<double>(count);
+  // Mean power of a scatterer: all that the beam sees add up to the energy.
+  const double power = energy * survey.length_in_waves * (high - low) / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double sine = low + (high - low) * stream.uniform(ping, beam, 2 * i);
-    const auto [re, im] = stream.normal_pair(ping, beam, 2 * i + 1);
+    const double sine = low + (high - low) * stream.uniform(ping, draws, 2 * i);
+    const auto [re, im] = stream.normal_pair(ping, draws, 2 * i + 1);
     const double off_axis = sine - sin_beam, time = two_way_s(survey, sine);
     const Complex seen =
         Complex(re, im) * std::sqrt(0.5 * power) * (axis_s / time) * 0.5 * array::line_amplitude(half, off_axis);
     const Complex turn = std::polar(1.0, std::numbers::pi * half * off_axis);
-    echoes.scatterers.push_back({time, seen * turn, seen * std::conj(turn)});
+    scatterers.push_back({time, seen * turn, seen * std::conj(turn)});
+  }
+}
+
+Echoes echoes_of(const PlaneSurvey& survey, double sin_beam, const random::Stream& stream, std::uint64_t ping,
+                 std::uint64_t beam) {
+  Echoes echoes;
+  add_plane(survey, 1.0, sin_beam, stream, ping, beam, echoes.scatterers);
+  if (survey.second_db > -200.0) {
+    PlaneSurvey second = survey;
+    second.depth_m *= 2.0;
+    add_plane(second, std::pow(10.0, 0.1 * survey.second_db), sin_beam, stream, ping, beam + (1ULL << 32),
+              echoes.scatterers);
   }
   std::sort(echoes.scatterers.begin(), echoes.scatterers.end(),
             [](const Scatterer& a, const Scatterer& b) { return a.two_way_s < b.two_way_s; });
   // Mean power at the axis: what comes from there during a pulse, or all if the beam sees less than that.
   const double incidence = std::asin(sin_beam) - survey.tilt_rad;
+  const double axis_s = two_way_s(survey, sin_beam);
   const double sines_per_s =
       std::sqrt(1.0 - sin_beam * sin_beam) / (axis_s * std::max(std::abs(std::tan(incidence)), 1e-9));
   const double in_pulse = survey.length_in_waves * survey.pulse_length_s * sines_per_s;

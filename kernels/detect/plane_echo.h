@@ -20,6 +20,7 @@ struct PlaneSurvey {
   double snr_db = 20.0;    // mean echo power at the beam's axis over noise; infinity: no noise
   double longest_s = 0.1;  // of the record
   double scatterers_per_pulse = 12.0;
+  double second_db = -300.0;  // energy of a second echo, that of a plane twice as deep, over the first's
   std::vector<float> sin_beams;
 };
 
