@@ -43,12 +43,13 @@ def descendants(pid):
 class Watched:
     """A run, watched from outside: wall time, and of each program the most memory and the processor time."""
 
-    def __init__(self, b, launch, *options):
+    def __init__(self, b, launch, *options, environment=None):
         self.peak_mb, self.cpu_s = {}, {}
         with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as out:
             began = time.monotonic()
             run = subprocess.Popen([str(b.build / "bin" / "ensonify-run"), str(launch), "--free", "--out", out, *map(str, options)],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, **(environment or {})})
             while run.poll() is None:
                 self.look(run.pid)
                 time.sleep(0.05)
@@ -71,11 +72,14 @@ class Watched:
 def bench_drive(b):
     survey = ROOT / "launch" / "survey_10km.yaml"
     rows = []
-    # The first soundings come at 0.29 s; nothing of the seabed is on disk, so that no start is warmer than another.
-    start_s = min(Watched(b, survey, "--arg", "seconds=0.4").wall_s for _ in range(b.repeat))
-    rows.append(row("survey_10km: from nothing to the first ping's soundings", start_s, "s", target="<= 5", ok=start_s <= 5))
+    # The first soundings come at 0.29 s. Cold, nothing of the seabed is on disk; warm, what the start before kept.
+    cold_s, warm_s = zip(*(starts_s(b, survey) for _ in range(b.repeat)))
+    for name, start_s, most_s in (("cold", min(cold_s), 5), ("warm", min(warm_s), 1)):
+        rows.append(row(f"survey_10km, {name}: from nothing to the first ping's soundings", start_s, "s", target=f"<= {most_s}",
+                        ok=start_s <= most_s))
     # Its expectations are those of the launch: no ping lost, none empty.
-    drive = Watched(b, survey, *(["--arg", "seconds=120"] if b.quick else []), "--arg", "pings_hz=0.5")
+    drive = Watched(b, survey, *(["--arg", "seconds=120"] if b.quick else []), "--arg", "pings_hz=0.5", "--set",
+                    "pager.cache_mb=0")
     for program in ("ensonify-terrain_pager", "ensonify-multibeam"):
         peak = drive.peak_mb[program]
         rows.append(row(f"survey_10km: {program} at its most", peak, "MB", target="<= 1500", ok=peak <= 1500))
@@ -84,6 +88,12 @@ def bench_drive(b):
     rows.append(row("processor time of a ping and its paging over 10^10 posts", 1e3 * large, "ms", 1e3 * small,
                     large / small, "<= 1.2 x that over 10^6", large <= 1.2 * small))
     return rows
+
+
+def starts_s(b, survey):
+    """Wall time of a cold start and of a warm one."""
+    with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as cache:
+        return [Watched(b, survey, "--arg", "seconds=0.4", environment={"XDG_CACHE_HOME": cache}).wall_s for _ in range(2)]
 
 
 def cost_per_ping_s(b, side_m):

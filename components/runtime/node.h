@@ -39,13 +39,15 @@ class NodeHolder : public AnyNode {
   Node node_;
 };
 
-/// The factory of a node class: its Config reads the process's own parameters and, from the scenario, the world.
+/// The factory of a node class: its Config reads the process's own parameters and, from the scenario, the world. A
+/// Config with a scenario_text is given the scenario as it is recorded.
 template <class Node>
 NodeFactory factory_of() {
   return [](const Launch& launch, const ProcessSpec& process, Ports& ports) -> std::unique_ptr<AnyNode> {
     ConfigReader from = process.reader();
-    const auto config = Node::Config::read(from, launch.scenario, process.name);
+    auto config = Node::Config::read(from, launch.scenario, process.name);
     from.finish();
+    if constexpr (requires { config.scenario_text; }) config.scenario_text = launch.scenario_text;
     return std::make_unique<NodeHolder<Node>>(config, ports);
   };
 }

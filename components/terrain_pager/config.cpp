@@ -17,6 +17,8 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   from.optional("budget_mb", config.budget_mb, 1, 1e6);
   from.optional("head_budget_mb", config.head_budget_mb, 1, 1e6);
   from.optional("corridor_half_deg", config.corridor_half_deg, 0, 85);
+  from.optional("cache_mb", config.cache_mb, 0, 1e5);
+  from.optional("cache_folder", config.cache_folder);
   from.optional("raster_crs", config.terrain.raster_crs);
   from.optional("raster_band", config.terrain.raster_band, 1, 1000);
   from.optional("raster_nodata", config.terrain.raster_nodata);

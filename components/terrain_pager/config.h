@@ -22,11 +22,14 @@ struct TerrainPagerConfig {
   double budget_mb = 512.0;            // tiles in memory weigh at most so much
   double head_budget_mb = 336.0;       // and those that heads hold so much
   double corridor_half_deg = 65.0;     // holes matter within this angle either side of nadir along the runlines
+  double cache_mb = 0.0;               // made tiles are kept on disk up to so much; 0: none are
+  std::string cache_folder;            // there; "": tile_cache_folder() of data_paths.h
 
   ConfigPlace place;  // of these parameters, for messages
 
   // From the scenario.
   std::string scenario_file;
+  std::string scenario_text;  // canonical, as it is recorded; whoever has a launch puts it here
   source::TerrainOptions terrain;
   Mission mission;
   double fastest_mps = 10.0;  // of all vehicles

@@ -22,6 +22,8 @@ TEST_CASE("default.yaml of the pager says what the struct says") {
   CHECK(read.load_ahead_s == d.load_ahead_s);
   CHECK(read.threads == d.threads);
   CHECK(read.corridor_half_deg == d.corridor_half_deg);
+  CHECK(read.cache_mb == d.cache_mb);
+  CHECK(read.cache_folder == d.cache_folder);
   CHECK(read.terrain.raster_crs == d.terrain.raster_crs);
   CHECK(read.terrain.raster_band == d.terrain.raster_band);
   CHECK(read.terrain.raster_nodata == d.terrain.raster_nodata);

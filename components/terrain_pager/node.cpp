@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/config/data_paths.h"
 #include "components/runtime/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/terrain/source_of.h"
 #include "components/terrain_pager/budget.h"
 #include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/demand.h"
+#include "components/terrain_pager/seabed_identity.h"
 #include "components/terrain_pager/tile_messages.h"
 
 namespace ensonify {
@@ -83,9 +85,9 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   const double feed_m =
       config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
   if (config.feed_margin_m > 0.0) pager::check_budgets(config, rules(feed_m).margins, grid_, box_);
-  store_.emplace(
-      [this](const TileKey& key) { return std::make_shared<const msg::Tile>(pager::make_tile(*terrain_, grid_, key)); },
-      pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
+  open_cache();
+  store_.emplace([this](const TileKey& key) { return made(key); },
+                 pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
   if (!config.mission.runlines.empty()) {
     const navigation::Runline& line = config.mission.runlines.front();
     const Vec2 ahead = (line.end_enu_m - line.start_enu_m).normalized();
@@ -100,7 +102,30 @@ SimTime TerrainPagerNode::step(SimTime now) {
   if (!chart_sent_) chart_.send(pager::make_chart(*terrain_));
   chart_sent_ = true;
   if (pose_) page(*pose_);
+  tell_cache();
   return events_.next();
+}
+
+/// Tiles of files are on disk already. Without a launch nothing says which seabed it is.
+void TerrainPagerNode::open_cache() {
+  const bool generated = config_.terrain.seabed.kind == Seabed::Kind::kLayers;
+  if (config_.cache_mb <= 0.0 || !generated || config_.scenario_text.empty()) return;
+  const std::string folder = config_.cache_folder.empty() ? tile_cache_folder() : config_.cache_folder;
+  if (folder.empty()) {
+    log::event(ports_, "tile_cache_failed", "why=\"no folder: set XDG_CACHE_HOME, HOME or cache_folder\"");
+    return;
+  }
+  cache_.emplace(folder, pager::seabed_identity(config_), static_cast<std::uint64_t>(1e6 * config_.cache_mb));
+}
+
+/// Called by the store's threads.
+pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
+  if (cache_) {
+    if (auto kept = cache_->read(key)) return kept;
+  }
+  auto tile = std::make_shared<const msg::Tile>(pager::make_tile(*terrain_, grid_, key));
+  if (cache_) cache_->write(*tile);
+  return tile;
 }
 
 pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
@@ -157,6 +182,11 @@ void TerrainPagerNode::publish(const TileKey& key) {
   ports_.count("tiles_published");
 }
 
+void TerrainPagerNode::tell_cache() {
+  if (!cache_) return;
+  for (const auto& notice : cache_->take_notices()) log::event(ports_, notice.event, "{}", notice.pairs);
+}
+
 /// A message only when poses have changed something; what disk and threads did goes behind it, for viewers.
 void TerrainPagerNode::tell_paging(const pager::Paging::Decision& decision) {
   fetched_ += decision.fetched;
@@ -173,6 +203,7 @@ void TerrainPagerNode::tell_paging(const pager::Paging::Decision& decision) {
       fmt::format(R"({{"resident_tiles":{},"resident_mb":{:.1f},"most_resident_mb":{:.1f},"tiles_made":{})",
                   statistics.resident, tile_mb * static_cast<double>(statistics.resident),
                   tile_mb * static_cast<double>(statistics.most_resident), statistics.made);
+  if (cache_) wall += fmt::format(R"(,"tiles_from_cache":{})", cache_->statistics().read);
   if (statistics.taken > 0) {
     const auto taken = static_cast<double>(statistics.taken), late = static_cast<double>(statistics.late);
     wall += fmt::format(R"(,"hit_rate":{:.4f},"late_tiles":{},"least_margin_s":{:.3f})", (taken - late) / taken,

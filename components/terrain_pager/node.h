@@ -6,6 +6,7 @@
 #include "components/runtime/ports.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/paging.h"
+#include "components/terrain_pager/tile_cache.h"
 #include "components/terrain_pager/tile_store.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
@@ -24,13 +25,18 @@ class TerrainPagerNode {
 
   /// A wall-clock fact: how fast disk and threads are, never what is sent.
   pager::TileStore::Statistics statistics() const { return store_->statistics(); }
+  /// The same of what was kept on disk; zeros without a cache.
+  pager::TileCache::Statistics cached() const { return cache_ ? cache_->statistics() : pager::TileCache::Statistics{}; }
 
  private:
   pager::Paging::Rules rules(double feed_margin_m) const;
+  void open_cache();
+  pager::TileStore::TilePtr made(const pager::TileKey& key);
   void start_paging();
   paging::Motion motion_of(const msg::Pose& pose);
   void page(const msg::Pose& pose);
   void publish(const pager::TileKey& key);
+  void tell_cache();
   void tell_paging(const pager::Paging::Decision& decision);
 
   Config config_;
@@ -40,8 +46,9 @@ class TerrainPagerNode {
   pager::TileGrid grid_;
   pager::Box box_;
   std::optional<pager::Paging> paging_;  // from the first look on, when it is known how far heads hear
-  std::optional<pager::TileStore> store_;
-  double turn_rate_radps_ = 0.0;  // of the vehicle, smoothed
+  std::optional<pager::TileCache> cache_;
+  std::optional<pager::TileStore> store_;  // its threads use what stands above
+  double turn_rate_radps_ = 0.0;           // of the vehicle, smoothed
   std::optional<msg::Pose> pose_;
   Ports::Out<msg::Tile> tiles_;
   Ports::Out<msg::TileRelease> releases_;

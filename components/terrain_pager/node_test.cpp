@@ -2,8 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <thread>
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/config/config_reader.h"
@@ -24,6 +28,13 @@ TerrainPagerConfig small_slope() {
   config.release_hysteresis_m = 20.0;
   return config;
 }
+
+/// A folder that goes with its owner.
+struct Folder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("ensonify-pager-" + std::to_string(::getpid()));
+  ~Folder() { std::filesystem::remove_all(path); }
+};
 
 msg::Pose pose_at(SimTime t, double east_m, double north_m) {
   msg::Pose pose;
@@ -87,6 +98,77 @@ TEST_CASE("what is published does not depend on the threads that make it, nor on
     CHECK(one[i].row == four[i].row);
     CHECK(one[i].sediment == four[i].sediment);
     CHECK(msg::same_bytes(one[i].height_m.buffer(), four[i].height_m.buffer()));  // NaN equals NaN here
+  }
+}
+
+TEST_CASE("a second run takes its tiles from the cache, and they are those that were made, to the bit") {
+  const Folder folder;
+  auto config = small_slope();
+  config.load_ahead_s = 1.0;
+  config.wide_margin_m = 0.0;
+  config.terrain.seabed.layered.layers.push_back(
+      {.name = "rock", .form = layers::Spectral{.spectrum = {.rms_m = 0.3, .outer_scale_m = 50.0}}});
+  struct Outcome {
+    std::vector<msg::Tile> tiles;
+    pager::TileCache::Statistics cached;
+    std::int64_t made = 0;  // or fetched from the cache
+  };
+  const auto run = [&] {
+    NodeUnderTest<TerrainPagerNode> pager(config);
+    pager.give("pose", pose_at(0_s, 50, 50), pose_at(1_s, 54, 50));
+    Outcome outcome;
+    outcome.tiles = pager.step_until<msg::Tile>("tile", 1_s);
+    // All that is meant to be in memory, also ahead of need: then the next run finds all of it.
+    const auto told = pager.step_until<msg::Health>("paging", 1_s);
+    while (pager.node().statistics().made < std::stoi(told.back().message)) std::this_thread::yield();
+    outcome.made = pager.node().statistics().made;
+    outcome.cached = pager.node().cached();
+    return outcome;
+  };
+  const auto expect_same = [](const Outcome& a, const Outcome& b) {
+    REQUIRE(a.tiles.size() == b.tiles.size());
+    for (std::size_t i = 0; i < a.tiles.size(); ++i) {
+      CHECK(a.tiles[i].col == b.tiles[i].col);
+      CHECK(a.tiles[i].row == b.tiles[i].row);
+      CHECK(a.tiles[i].sediment == b.tiles[i].sediment);
+      CHECK(msg::same_bytes(a.tiles[i].height_m.buffer(), b.tiles[i].height_m.buffer()));
+    }
+  };
+  const Outcome without = run();
+  CHECK(without.cached.written == 0);
+  REQUIRE(without.tiles.size() == 5);
+
+  config.cache_folder = folder.path.string();
+  config.cache_mb = 500.0;
+  config.scenario_text = "seed: 0\n";
+  const Outcome cold = run();
+  CHECK(cold.cached.written == cold.made);
+  CHECK(cold.cached.read == 0);
+  expect_same(cold, without);
+  const Outcome warm = run();
+  CHECK(warm.cached.read == warm.made);
+  CHECK(warm.cached.written == 0);
+  expect_same(warm, without);
+
+  SECTION("another seed is another seabed") {
+    config.scenario_text = "seed: 7\n";
+    config.terrain.seabed.layered.seed = 7;
+    const Outcome other = run();
+    CHECK(other.cached.read == 0);
+    CHECK_FALSE(msg::same_bytes(other.tiles[0].height_m.buffer(), without.tiles[0].height_m.buffer()));
+    expect_same(run(), other);
+  }
+  SECTION("a damaged tile is made anew") {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path)) {
+      std::fstream(entry.path(), std::ios::in | std::ios::out | std::ios::binary)
+          .seekp(2'000'000)
+          .put('\x55')
+          .put('\xAA');
+    }
+    const Outcome mended = run();
+    CHECK(mended.cached.read == 0);
+    CHECK(mended.cached.written == mended.made);
+    expect_same(mended, without);
   }
 }
 

@@ -1,12 +1,14 @@
 """A survey whose seabed is paged in and given up again hears what one hears with the whole seabed in memory."""
 import contextlib
+import csv
+import io
 import os
 import signal
 import time
 import unittest
 
 import ensonify
-from support import SystemTest
+from support import SOURCE, SystemTest
 
 # 700 m of rock and sand at 0.1 m, 21 tiles; the boat crosses it lengthwise.
 WORLD = """
@@ -46,6 +48,11 @@ processes:
   paged: {{ run: recorder, config: {{ file: paged.mcap, topics: [pager/release, pager/health] }} }}
 """
 
+# A part of survey_10km that fits into memory: 48 tiles, 450 m of its line.
+SURVEY = (SOURCE / "scenarios/survey_10km/scenario.yaml").read_text()
+PART = {"size_m: [10000, 10000]": "size_m: [800, 420]\n  centre_m: [0, 100]",
+        "from_m: [-4900, 100], to_m: [4900, 100]": "from_m: [-200, 100], to_m: [200, 100]", "speed_mps: 4": "speed_mps: 6"}
+
 
 def releases(record):
     with ensonify.Record(record) as messages:
@@ -57,8 +64,8 @@ LEAST = "budget_mb: 53, threads: 1, load_ahead_s: 1, wide_margin_m: 0"
 
 
 class Paged(SystemTest):
-    def survey(self, name, pager):
-        self.write("world.yaml", WORLD)
+    def survey(self, name, pager, world=WORLD):
+        self.write("world.yaml", world)
         result = self.run_launch(LAUNCH.format(pager=pager), out=name, timeout=300)
         self.assertEqual(result.code, 0, result.stderr)
         return result.out
@@ -95,6 +102,39 @@ class Paged(SystemTest):
             heard = [soundings.valid.any() for _, _, soundings in record.messages("bow/soundings")]
         self.assertGreater(len(heard), 50)
         self.assertTrue(all(heard), "a ping came back empty")
+
+    def heights(self, world):
+        """At places of the part, as the seabed of a world has them."""
+        points = self.write("points.csv", "".join(f"{x},{y}\n" for x in range(-390, 391, 60) for y in (-100, 7, 103.37, 300)))
+        done = self.tool("terrain", "sample", self.write("sampled.yaml", world), "--points", points)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [(line["elevation_m"], line["sediment"]) for line in csv.DictReader(io.StringIO(done.stdout))]
+
+    def test_a_part_of_the_ten_kilometres_is_heard_as_with_all_of_it_resident_and_as_when_its_tiles_come_from_a_cache(self):
+        part = SURVEY
+        for there, here in PART.items():
+            self.assertEqual(part.count(there), 1, there)
+            part = part.replace(there, here)
+        heights = self.heights(part)
+        self.assertGreater(len(set(heights)), 50)
+        self.assertEqual(heights, self.heights(SURVEY))
+
+        whole = self.survey("whole", "feed_margin_m: 1000", part)
+        self.assertEqual(releases(whole / "paged.mcap"), 0)
+        least = "budget_mb: 160, threads: 1, load_ahead_s: 1, wide_margin_m: 0"  # 30 tiles of 48
+        paged = self.survey("paged", least, part)
+        self.assertGreaterEqual(releases(paged / "paged.mcap"), 6)
+        self.expect_same(whole, paged)
+
+        cache = self.folder / "cache"
+        cached = f"{least}, cache_mb: 500, cache_folder: {cache}"
+        self.expect_same(whole, self.survey("cold", cached, part))
+        kept = {file.name: file.stat() for file in cache.iterdir()}
+        self.assertGreaterEqual(len(kept), 20)
+        self.expect_same(whole, self.survey("warm", cached, part))
+        now = {file.name: file.stat() for file in cache.iterdir()}
+        self.assertEqual({name: facts.st_ino for name, facts in kept.items()}, {name: facts.st_ino for name, facts in now.items()})
+        self.assertGreaterEqual(sum(now[name].st_mtime_ns > facts.st_mtime_ns for name, facts in kept.items()), 20)  # were read
 
 
 if __name__ == "__main__":

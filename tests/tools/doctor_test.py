@@ -25,7 +25,7 @@ class Doctor(unittest.TestCase):
     def test_every_check_is_there_and_bad_news_comes_with_advice(self):
         findings = self.findings()
         self.assertLessEqual({"cpu", "cores", "memory", "results", "/tmp", "/dev/shm", "open files", "clock", "zmq",
-                              "socket paths", "run folder", "live runs", "dead runs", "programs", "data", "python"},
+                              "tile cache", "socket paths", "run folder", "live runs", "dead runs", "programs", "data", "python"},
                              set(findings))
         for finding in findings.values():
             self.assertIn(finding["level"], ("ok", "warn", "fail"))
@@ -34,6 +34,14 @@ class Doctor(unittest.TestCase):
         self.assertRegex(findings["zmq"]["text"], r"^4\.\d+\.\d+, ")
         code, text, _ = tool("doctor", run_folder=self.folder)
         self.assertRegex(text, r"(?m)^ok    zmq           4\.")
+
+    def test_what_the_tile_cache_holds_is_told(self):
+        cache = self.folder / "cache" / "ensonify" / "tiles"
+        cache.mkdir(parents=True)
+        (cache / "a").write_bytes(bytes(2_000_000))
+        (cache / "b").write_bytes(bytes(1_000_000))
+        told = self.findings(env={"XDG_CACHE_HOME": str(self.folder / "cache")})["tile cache"]
+        self.assertEqual((told["level"], told["text"]), ("ok", f"3 MB in {cache}"))
 
     def test_a_folder_that_cannot_be_used_is_exit_code_2(self):
         findings = self.findings("--out", self.folder / "none")

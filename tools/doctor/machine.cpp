@@ -1,5 +1,6 @@
 #include "tools/doctor/machine.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
@@ -7,9 +8,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "components/runtime/config/data_paths.h"
 #include "tools/doctor/judgement.h"
 
 namespace ensonify::doctor {
@@ -69,6 +72,20 @@ std::uint64_t open_files() {
   return ::getrlimit(RLIMIT_NOFILE, &limit) == 0 ? limit.rlim_cur : 0;
 }
 
+/// What pagers keep there; the folder need not exist.
+Finding tile_cache(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (folder.empty()) return {"tile cache", Level::kOk, "none: neither XDG_CACHE_HOME nor HOME is set", ""};
+  std::uint64_t bytes = 0;
+  std::error_code gone;
+  for (fs::directory_iterator at(folder, gone), end; !gone && at != end; at.increment(gone)) {
+    std::error_code error;
+    const std::uint64_t size = at->file_size(error);
+    if (!error) bytes += size;
+  }
+  return {"tile cache", Level::kOk, fmt::format("{} in {}", size_text(bytes), folder), ""};
+}
+
 /// Mean of many readings of the clock that paces runs.
 double clock_cost_ns() {
   using Clock = std::chrono::steady_clock;
@@ -90,7 +107,8 @@ Findings check_machine(const std::string& out) {
                     judge_disk("/tmp", disk_of("/tmp"), 20 * kMega),
                     judge_disk("/dev/shm", disk_of("/dev/shm"), 8 * kMega),
                     judge_open_files(open_files()),
-                    judge_clock(source, clock_cost_ns())};
+                    judge_clock(source, clock_cost_ns()),
+                    tile_cache(tile_cache_folder())};
   for (Finding& finding : findings) {  // only the Python libraries that agents use may want shared memory
     if (finding.check == "/dev/shm" && finding.level == Level::kFail) finding.level = Level::kWarn;
   }

@@ -30,6 +30,16 @@ std::vector<std::string> data_roots() {
   return roots;
 }
 
+std::string tile_cache_folder() {
+  const auto absolute = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value == '/' ? std::string(value) : std::string();
+  };
+  if (const std::string caches = absolute("XDG_CACHE_HOME"); !caches.empty()) return caches + "/ensonify/tiles";
+  if (const std::string home = absolute("HOME"); !home.empty()) return home + "/.cache/ensonify/tiles";
+  return "";
+}
+
 std::string find_data(const std::string& path, const std::vector<std::string>& folders) {
   std::error_code error;
   if (path.empty()) {

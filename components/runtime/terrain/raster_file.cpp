@@ -38,7 +38,25 @@ struct QuietErrors {
   ~QuietErrors() { CPLPopErrorHandler(); }
 };
 
+std::vector<std::string> files_of(GDALDataset& dataset) {
+  std::vector<std::string> names;
+  char** list = dataset.GetFileList();
+  for (int i = 0; list != nullptr && list[i] != nullptr; ++i) {
+    if (std::string(list[i]).rfind("/vsi", 0) != 0) names.emplace_back(list[i]);
+  }
+  CSLDestroy(list);
+  return names;
+}
+
 }  // namespace
+
+std::vector<std::string> files_of_raster(const std::string& path) {
+  GDALAllRegister();
+  const QuietErrors quiet;
+  const std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY), close);
+  return dataset ? files_of(*dataset) : std::vector<std::string>{};
+}
 
 RasterFile::RasterFile(RasterOptions options)
     : options_(std::move(options)), dataset_(nullptr, close), reference_(nullptr, release) {
@@ -264,15 +282,7 @@ void RasterFile::cut(const GeodeticBox& box) {
   rows_ = last_row - first_row + 1;
 }
 
-std::vector<std::string> RasterFile::files() const {
-  std::vector<std::string> names;
-  char** list = dataset_->GetFileList();
-  for (int i = 0; list != nullptr && list[i] != nullptr; ++i) {
-    if (std::string(list[i]).rfind("/vsi", 0) != 0) names.emplace_back(list[i]);
-  }
-  CSLDestroy(list);
-  return names;
-}
+std::vector<std::string> RasterFile::files() const { return files_of(*dataset_); }
 
 std::array<double, 2> RasterFile::map_of(double column, double row) const {
   const auto& g = map_from_cell_;

@@ -59,6 +59,10 @@ struct CellWindow {
   int rows = 0;
 };
 
+/// The files that a raster stands in, those beside it that belong to it included; none for what is in memory, or that
+/// GDAL cannot read.
+std::vector<std::string> files_of_raster(const std::string& path);
+
 /// A raster of heights (or of other values at places) in the map of its own reference system. Any format that GDAL
 /// reads; cells may be oblong, rotated or sheared against the map.
 ///
@@ -78,7 +82,7 @@ class RasterFile {
   const std::string& name() const { return options_.called.empty() ? options_.path : options_.called; }
   const RasterHints& hints() const { return hints_; }
   const RasterOptions& options() const { return options_; }
-  /// The files that the raster stands in, those beside it that belong to it included; none for what is in memory.
+  /// As files_of_raster.
   std::vector<std::string> files() const;
 
   /// Map coordinates of a cell; its centre has whole numbers.

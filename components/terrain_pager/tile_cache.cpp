@@ -1,0 +1,190 @@
+#include "components/terrain_pager/tile_cache.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "components/runtime/tiles/file_bytes.h"
+#include "components/runtime/tiles/sha256.h"
+#include "messages/codec.h"
+
+namespace ensonify::pager {
+namespace {
+
+namespace fs = std::filesystem;
+using terrain::TileKey;
+
+constexpr const char* kFormat = "ensonify cached tile/1";
+constexpr std::size_t kDigits = 64;  // of a SHA-256
+
+std::string sha256_of(std::span<const std::byte> bytes) {
+  tiles::Sha256 sum;
+  sum.add(bytes);
+  return sum.digest();
+}
+
+/// A name that no other writer has: two pagers may write the same tile at the same time.
+fs::path part_of(const fs::path& path) {
+  static std::atomic<int> parts = 0;
+  return fmt::format("{}.{}-{}", path.string(), ::getpid(), ++parts);
+}
+
+/// `<SHA-256 of the seabed>_e+0003_n-0001.tile`, or that with a writer's numbers behind it.
+bool is_name_of_tile(const std::string& name) {
+  return name.size() > kDigits && name.find_first_not_of("0123456789abcdef") == kDigits && name[kDigits] == '_' &&
+         name.find(".tile") != std::string::npos;
+}
+
+/// Elements in memory of its own: a view would keep the whole file.
+template <class T>
+msg::Array<T> copy_of(const msg::Array<T>& view) {
+  msg::Array<T> copy(view.shape());
+  std::copy(view.data(), view.data() + view.size(), copy.data());
+  return copy;
+}
+
+}  // namespace
+
+struct TileCache::Kept {
+  fs::path path;
+  bool own = false;  // of this seabed
+  fs::file_time_type used;
+  std::uint64_t bytes = 0;
+};
+
+// A second before now: the clock of files ticks in milliseconds.
+TileCache::TileCache(fs::path folder, const std::string& seabed, std::uint64_t most_bytes)
+    : folder_(std::move(folder)),
+      seabed_(sha256_of(std::as_bytes(std::span(seabed)))),
+      most_bytes_(most_bytes),
+      begin_(fs::file_time_type::clock::now() - std::chrono::seconds(1)) {}
+
+fs::path TileCache::path_of(const TileKey& key) const {
+  return folder_ / fmt::format("{}_e{:+05d}_n{:+05d}.tile", seabed_, key.east, key.north);
+}
+
+/// The first line of a file. Its checksum is of the tile's name and of all that follows the line.
+std::string TileCache::head_of(const TileKey& key, std::span<const std::byte> payload) const {
+  const std::string name = path_of(key).filename().string();
+  tiles::Sha256 sum;
+  sum.add(std::as_bytes(std::span(name)));
+  sum.add(payload);
+  return fmt::format("{} {}\n", kFormat, sum.digest());
+}
+
+msg::Tile TileCache::decoded(const TileKey& key, std::vector<std::uint8_t> file) const {
+  const msg::Buffer whole = msg::Buffer::own(std::move(file));
+  const std::size_t head = std::min(whole.text().find('\n'), whole.size - 1) + 1;
+  const msg::Buffer payload{whole.owner, whole.data + head, whole.size - head};
+  if (whole.text().substr(0, head) != head_of(key, payload.bytes())) {
+    throw std::runtime_error("is not what was written (SHA-256)");
+  }
+  msg::Tile tile;
+  msg::from_value(msg::decode_inline(payload), tile, "");
+  tile.height_m = copy_of(tile.height_m);
+  tile.sediment = copy_of(tile.sediment);
+  return tile;
+}
+
+TileCache::TilePtr TileCache::read(const TileKey& key) {
+  const fs::path path = path_of(key);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return nullptr;
+  try {
+    auto tile = std::make_shared<const msg::Tile>(decoded(key, tiles::read_file(path.string())));
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    const std::scoped_lock lock(mutex_);
+    used_.insert(path.filename().string());
+    ++statistics_.read;
+    return tile;
+  } catch (const std::exception& error) {
+    if (!fs::exists(path, ignored)) return nullptr;  // another process has just released it
+    fs::remove(path, ignored);
+    const std::scoped_lock lock(mutex_);
+    notices_.push_back({"tile_cache_damaged", fmt::format("file={} why=\"{}\"", path.string(), error.what())});
+    return nullptr;
+  }
+}
+
+std::vector<TileCache::Kept> TileCache::kept() const {
+  std::vector<Kept> all;
+  std::error_code gone;  // a file may go, or be no file, while we look
+  for (fs::directory_iterator at(folder_, gone), end; !gone && at != end; at.increment(gone)) {
+    const std::string name = at->path().filename().string();
+    std::error_code error;
+    Kept file{at->path(), name.starts_with(seabed_), at->last_write_time(error), at->file_size(error)};
+    if (!error && is_name_of_tile(name)) all.push_back(std::move(file));
+  }
+  return all;
+}
+
+/// Releases what may go until so many bytes fit; false if they do not.
+bool TileCache::make_room(std::uint64_t bytes) const {
+  std::vector<Kept> files = kept();
+  std::uint64_t total = bytes;
+  for (const Kept& file : files) total += file.bytes;
+  std::sort(files.begin(), files.end(),
+            [](const Kept& a, const Kept& b) { return std::tie(a.own, a.used) < std::tie(b.own, b.used); });
+  for (const Kept& file : files) {
+    if (total <= most_bytes_) break;
+    if (file.used >= begin_ || used_.contains(file.path.filename().string())) continue;
+    std::error_code refused;
+    fs::remove(file.path, refused);
+    if (!refused) total -= file.bytes;
+  }
+  return total <= most_bytes_;
+}
+
+void TileCache::stop_writing(const Notice& why) {
+  writing_ = false;
+  notices_.push_back(why);
+}
+
+void TileCache::write(const msg::Tile& tile) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!writing_) return;
+  }
+  const TileKey key{static_cast<std::int32_t>(tile.col), static_cast<std::int32_t>(tile.row)};
+  const msg::Buffer payload = msg::encode_inline(msg::encode(tile));
+  const std::string head = head_of(key, payload.bytes());
+  std::vector<std::uint8_t> file(head.begin(), head.end());
+  const auto* first = reinterpret_cast<const std::uint8_t*>(payload.data);
+  file.insert(file.end(), first, first + payload.size);
+
+  const fs::path path = path_of(key), part = part_of(path);
+  const std::scoped_lock lock(mutex_);
+  if (!writing_) return;
+  try {
+    fs::create_directories(folder_);
+    if (!make_room(file.size())) {
+      return stop_writing({"tile_cache_full", fmt::format("folder={} most_bytes={}", folder_.string(), most_bytes_)});
+    }
+    tiles::write_file(part.string(), file);
+    fs::rename(part, path);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    return stop_writing({"tile_cache_failed", fmt::format("why=\"{}\"", error.what())});
+  }
+  used_.insert(path.filename().string());
+  ++statistics_.written;
+}
+
+std::vector<TileCache::Notice> TileCache::take_notices() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(notices_, {});
+}
+
+TileCache::Statistics TileCache::statistics() const {
+  const std::scoped_lock lock(mutex_);
+  return statistics_;
+}
+
+}  // namespace ensonify::pager
