@@ -9,9 +9,12 @@
 
 #include "components/multibeam/placing.h"
 #include "components/runtime/head/environment.h"
+#include "kernels/array/line.h"
 
 namespace ensonify {
 namespace {
+
+constexpr double kLeastCosine = 0.1;  // of angles from the vertical and from the array's normal: 84 degrees
 
 /// Entries without a sounding are NaN, so that no sum, bound or picture takes them for a measurement.
 template <class T>
@@ -132,9 +135,35 @@ uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
   return motion;
 }
 
+/// Footprints are those of a level seabed, heights' noise that of the detection.
+void SoundingMaker::watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+                                 const msg::Soundings& soundings) {
+  const frames::Vec3 starboard = motion.enu_from_head * frames::Vec3::UnitY();
+  const frames::Vec3 across_enu = frames::Vec3(starboard.x(), starboard.y(), 0.0).normalized();
+  profile_.clear();
+  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    const Echo& echo = echoes_[i];
+    if (soundings.valid[i] == 0 || (!profile_.empty() && profile_.back().place == echo.place)) continue;
+    const frames::Vec3 away(soundings.position_enu_m(i, 0) - head_enu_m.x(),
+                            soundings.position_enu_m(i, 1) - head_enu_m.y(),
+                            soundings.position_enu_m(i, 2) - head_enu_m.z());
+    const double range_m = away.norm(), cos_vertical = std::max(-away.z() / range_m, kLeastCosine);
+    const double cos_beam = std::max(std::cos(static_cast<double>(soundings.beam_angle_rad[i])), kLeastCosine);
+    const double width =  // sine
+        2.0 * array::half_power_half_width(sectors_[static_cast<std::size_t>(echo.sector)].receive_length_in_waves);
+    const double tan_vertical = std::sqrt(1.0 - cos_vertical * cos_vertical) / cos_vertical;
+    const double along_ray_m = std::hypot(soundings.range_sd_m[i], range_m * tan_vertical * soundings.angle_sd_rad[i]);
+    profile_.push_back(
+        {echo.place,
+         {away.dot(across_enu), away.z(), range_m * width / (cos_vertical * cos_beam), along_ray_m * cos_vertical}});
+  }
+  relief_.take(profile_);
+}
+
 void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion,
-                                      msg::Soundings& soundings) const {
+                                      msg::Soundings& soundings) {
   const frames::Vec3 head = believed_pose(ping.estimate, ping.shot.transmit).position_enu_m;
+  watch_relief(motion, head, soundings);
   uncertainty::Geometry geometry = motion;
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
@@ -143,7 +172,8 @@ void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geome
       geometry.away_enu_m[k] = soundings.position_enu_m(i, axis) - head[k];
     }
     const uncertainty::Matrix3 covariance_enu_m2 = uncertainty::covariance_enu_m2(
-        geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i]}, ping.navigation, config_.uncertainty.sources);
+        geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i], relief_.sd_m(echoes_[i].place)}, ping.navigation,
+        config_.uncertainty.sources);
     soundings.tvu_m[i] = static_cast<float>(uncertainty::tvu_m(covariance_enu_m2));
     soundings.thu_m[i] = static_cast<float>(uncertainty::thu_m(covariance_enu_m2));
   }

@@ -5,6 +5,7 @@
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/config.h"
 #include "components/multibeam/head.h"
+#include "components/multibeam/relief_watch.h"
 #include "components/multibeam/steering.h"
 #include "components/runtime/head/auto_range.h"
 #include "components/runtime/head/shot.h"
@@ -64,7 +65,9 @@ class SoundingMaker {
   void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
   void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
   uncertainty::Geometry motion(const Ping& ping) const;
-  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings) const;
+  void watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+                    const msg::Soundings& soundings);
+  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings);
 
   MultibeamConfig config_;
   refraction::SoundSpeedProfile applied_;
@@ -73,6 +76,8 @@ class SoundingMaker {
   std::vector<detect::Detection> detections_;  // of one sector
   std::vector<Echo> echoes_;
   std::vector<HeardBottom> heard_;
+  ReliefWatch relief_;
+  std::vector<ReliefWatch::Sounding> profile_;
   // Beams turned to the places where soundings are sought, of high density.
   std::vector<float> amplitude_upa_;
   std::vector<std::complex<float>> positive_upa_, negative_upa_;

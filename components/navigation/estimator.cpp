@@ -26,7 +26,22 @@ navigation_filter::FilterModel model_of(const Instruments& carried) {
     model.fix_wander_vertical_m = gnss.hdop * gnss.fix.wander_vertical_m;
     model.fix_wander_s = gnss.wander_s;
   }
-  if (carried.velocity_log) model.log_scale = carried.velocity_log->errors.scale;
+  if (const auto& log = carried.velocity_log) {
+    model.log_scale = log->errors.scale;
+    model.current_mps = log->current_prior_mps;
+    model.current_walk_mps_per_sqrt_s = log->current_walk_mps_per_sqrt_s;
+    model.current_walk_mps_per_sqrt_m = log->current_walk_mps_per_sqrt_m;
+  }
+  if (const auto& depth = carried.depth) {
+    const sensors::ScalarErrors& errors = depth->errors;
+    constexpr double kForever_s = 1e6;  // a bias that is drawn once
+    model.level_wander_m = std::hypot(errors.bias_sigma, errors.wander);
+    model.level_wander_s = errors.bias_sigma > 0.0 ? kForever_s : errors.wander_s;
+  }
+  if (const auto& fixes = carried.usbl_fixes) {
+    model.carrier_s = fixes->wander_s;
+    model.remembered_s = 10.0;  // an array's slowest answer, and telemetry
+  }
   return model;
 }
 

@@ -30,6 +30,7 @@ class Estimator {
   void correct(double stamped_s, std::function<void(Filter&)> correction);
 
   bool ready() const { return filter_.has_value(); }
+  double time_s() const { return seconds(SimTime{stamp_ns_}); }  // of the estimate
   /// Of the body's origin, by the measured mounting of the unit. Only when ready.
   msg::Estimate estimate(const frames::LocalProjection& world) const;
 

@@ -226,6 +226,9 @@ DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centr
   DopplerLogConfig log;
   log.instrument = read_instrument(from, centre, 5.0);
   from.optional("water_track_m", log.water_track_m, 0, 500);
+  from.optional("current_prior_mps", log.current_prior_mps, 0, 10);
+  from.optional("current_walk_mps_per_sqrt_s", log.current_walk_mps_per_sqrt_s, 0, 1);
+  from.optional("current_walk_mps_per_sqrt_m", log.current_walk_mps_per_sqrt_m, 0, 10);
   read_graded(from, "velocity_log", [&](ConfigReader& errors) {
     read_doppler(errors, log.geometry, log.errors);
     errors.optional("beam_white_percent", log.errors.beam_white_share, 0, 100, kPercent);
@@ -277,6 +280,19 @@ UsblConfig read_usbl(ConfigReader& from, const frames::Vec3& centre) {
   return usbl;
 }
 
+UsblFixesConfig read_usbl_fixes(ConfigReader from, const frames::Vec3& centre) {
+  UsblFixesConfig fixes;
+  std::array<double, 3> transponder{};
+  from.optional("position_m", transponder, -500, 500);
+  fixes.transponder_body_m = centre + vec3(transponder);
+  from.optional("place_m", fixes.place_m, 0, 100);
+  from.optional("attitude_deg", fixes.attitude_rad, 0, 10, kDegrees);
+  from.optional("attitude_white_deg", fixes.attitude_white_rad, 0, 10, kDegrees);
+  from.optional("sound_speed_percent", fixes.sound_speed_share, 0, 10, kPercent);
+  from.optional("wander_time_s", fixes.wander_s, 1, 1e6);
+  return fixes;
+}
+
 }  // namespace
 
 Instruments read_instruments(ConfigReader& from) {
@@ -326,6 +342,10 @@ Instruments read_instruments(ConfigReader& from) {
     carried.current_profiler = read_current_profiler(*section, centre);
   }
   if (auto section = from.optional_section("usbl")) carried.usbl = read_usbl(*section, centre);
+  if (auto section = from.optional_section("usbl_fixes")) {
+    carried.usbl_fixes = read_usbl_fixes(*section, centre);
+    if (!carried.imu) from.problem("usbl_fixes", "they correct the filter of an inertial unit: list imu too");
+  }
   return carried;
 }
 

@@ -63,6 +63,11 @@ struct DopplerLogConfig {
   sensors::JanusGeometry geometry;
   sensors::DopplerErrors errors;
   double water_track_m = 0.0;  // of the water that is tracked below the transducer; 0: water is not tracked
+  // What the filter believes of the current there, north and east each: its standard deviation at the start, and how it
+  // changes at random with time and with depth. Assumed: 0.24 m/s in an hour, 0.2 m/s in 50 m.
+  double current_prior_mps = 0.3;
+  double current_walk_mps_per_sqrt_s = 0.004;
+  double current_walk_mps_per_sqrt_m = 0.03;
 };
 
 struct DepthConfig {
@@ -100,6 +105,17 @@ struct UsblConfig {
   frames::Vec3 transponder_body_m = frames::Vec3::Zero();  // of the target, in its own frame
 };
 
+/// What the filter believes of fixes by another vehicle, beside what its array says of its own noise: standard
+/// deviations of what changes slowly, but for the white one.
+struct UsblFixesConfig {
+  frames::Vec3 transponder_body_m = frames::Vec3::Zero();  // of this vehicle, as measured
+  double place_m = 0.1;                                    // of the other vehicle, each axis
+  double attitude_rad = 0.0017;                            // of it with its array, each axis
+  double attitude_white_rad = 0.0009;
+  double sound_speed_share = 0.001;  // of the range
+  double wander_s = 300.0;           // correlation time of the slow ones
+};
+
 /// What the vehicle carries; what is not given it does not.
 struct Instruments {
   std::optional<GnssConfig> gnss;
@@ -113,15 +129,15 @@ struct Instruments {
   std::optional<CtdConfig> ctd;
   std::optional<CurrentProfilerConfig> current_profiler;
   std::optional<UsblConfig> usbl;
+  std::optional<UsblFixesConfig> usbl_fixes;
 
   bool need_seabed() const { return velocity_log || altimeter; }
   bool meet_seabed() const { return need_seabed() || current_profiler; }
 };
 
 /// Reads the sections gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter, sound_speed, ctd,
-/// current_profiler, usbl. `grade` in a section names a
-/// file of the folder grades, or one of the user's; keys beside it go before those of the file. Positions count from
-/// `centre_of_rotation_m` of the body.
+/// current_profiler, usbl, usbl_fixes. `grade` in a section names a file of the folder grades, or one of the user's;
+/// keys beside it go before those of the file. Positions count from `centre_of_rotation_m` of the body.
 Instruments read_instruments(ConfigReader& from);
 
 }  // namespace ensonify

@@ -60,6 +60,7 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       afloat_(config.heights.floats.has_value()) {
   if (config.origin) world_.emplace(*config.origin);
   if (carried_.usbl) usbl_.emplace(*carried_.usbl, config.seed, config.process, ports);
+  if (carried_.usbl_fixes) usbl_fixes_.emplace(*carried_.usbl_fixes, ports);
   if (carried_.imu) {
     estimator_.emplace(carried_, config.seed, config.process);
     increments_ = ports.out<msg::InertialIncrements>("imu", {.rate = rate_of(carried_.imu->instrument.rate_hz)});
@@ -93,6 +94,7 @@ SimTime NavigationNode::step(SimTime now) {
   if (truth_ && world_ && inertial) {
     if (const auto increments = estimator_->advance(*truth_, *world_)) increments_->send(*increments);
   }
+  if (usbl_fixes_ && world_) usbl_fixes_->correct(*estimator_, *world_);
   suite_.step(now, truth_, world_, believed_, estimator_);
   if (truth_ && world_) {
     if (attitude && !estimator_) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(moved(), sample));

@@ -10,6 +10,7 @@
 #include "components/navigation/output_age.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
+#include "components/navigation/usbl_fixes.h"
 #include "components/navigation/usbl_tracker.h"
 #include "components/runtime/ports.h"
 
@@ -58,6 +59,7 @@ class NavigationNode {
   std::optional<Estimator> estimator_;
   Suite suite_;
   std::optional<UsblTracker> usbl_;
+  std::optional<UsblFixes> usbl_fixes_;
   std::optional<double> washed_antenna_m_;  // above the water at rest, if that is too low for fixes
   bool afloat_;
 };

@@ -166,14 +166,19 @@ void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
   message.error_velocity_mps = reading.error_velocity_mps;
   track_water(moment, head, n, message);
   outbox_.publish(*velocities_out_, message, instrument, moment);
-  if (moment.estimator != nullptr && reading.valid) {
-    const Estimator& e = *moment.estimator;
-    const frames::Vec3 unit_velocity = e.along_unit(velocity), lever = e.lever_of(instrument.measured.position_body_m);
-    const frames::Vec3 unit_sigma = sigma.cwiseMax(1e-3);
-    moment.estimator->correct(moment.stamp_s(instrument), [=](Estimator::Filter& filter) {
-      filter.correct_velocity(unit_velocity, lever, unit_sigma);
-    });
-  }
+  tell_velocity(moment, reading, &Estimator::Filter::correct_velocity);
+}
+
+void Suite::tell_velocity(const Moment& moment, const sensors::DopplerReading& reading, CorrectVelocity correct) const {
+  if (moment.estimator == nullptr || !reading.valid) return;
+  const Estimator& e = *moment.estimator;
+  const Instrument& instrument = log_->config.instrument;
+  const Eigen::Matrix3d body_from_log = instrument.measured.body_from_head.toRotationMatrix();
+  const frames::Vec3 velocity = e.along_unit(body_from_log * reading.velocity_mps);
+  const frames::Vec3 lever = e.lever_of(instrument.measured.position_body_m);
+  const frames::Vec3 sigma = (body_from_log.cwiseAbs2() * reading.sigma_mps.cwiseAbs2()).cwiseSqrt().cwiseMax(1e-3);
+  moment.estimator->correct(moment.stamp_s(instrument),
+                            [=](Estimator::Filter& filter) { (filter.*correct)(velocity, lever, sigma); });
 }
 
 void Suite::track_water(const Moment& moment, const frames::HeadPose& head, std::uint64_t n,
@@ -187,6 +192,7 @@ void Suite::track_water(const Moment& moment, const frames::HeadPose& head, std:
   const auto reading = log_->sensor.water_track(head.enu_from_head.conjugate() * through_enu_mps, n);
   message.water_lock = reading.valid;
   message.water_velocity_body_mps = plain(frames::Vec3(measured.body_from_head * reading.velocity_mps));
+  tell_velocity(moment, reading, &Estimator::Filter::correct_water_velocity);
 }
 
 void Suite::measure_depth(const Moment& moment) {
@@ -201,7 +207,7 @@ void Suite::measure_depth(const Moment& moment) {
   outbox_.publish(*depths_out_, depth, instrument, moment);
   if (moment.estimator != nullptr) {
     const sensors::ScalarErrors& e = depth_->config.errors;
-    const double sigma_m = std::max(1e-3, std::hypot(e.white, e.bias_sigma, e.wander));
+    const double sigma_m = std::max(1e-3, e.white);  // the filter's model has the slow errors
     const frames::Vec3 lever = moment.estimator->lever_of(instrument.measured.position_body_m);
     const double height_m = water_level_m - reading;  // the system knows the tide
     moment.estimator->correct(moment.stamp_s(instrument),

@@ -41,6 +41,10 @@ class Suite {
   void measure_velocity(const Moment& moment, std::uint64_t n);
   void track_water(const Moment& moment, const frames::HeadPose& head, std::uint64_t n,
                    msg::VelocityLog& message) const;
+  /// Tells the filter how a reading moves the transducer, by one of its corrections.
+  using CorrectVelocity = navigation_filter::Innovation (Estimator::Filter::*)(const frames::Vec3&, const frames::Vec3&,
+                                                                               const frames::Vec3&);
+  void tell_velocity(const Moment& moment, const sensors::DopplerReading& reading, CorrectVelocity correct) const;
   void measure_depth(const Moment& moment);
   void measure_altitude(const Moment& moment);
 

@@ -1,7 +1,10 @@
 #include "kernels/navigation_filter/error_state.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 namespace ensonify::navigation_filter {
 namespace {
@@ -51,7 +54,11 @@ NavigationFilter::NavigationFilter(const NavigationState& start, const StartErro
   const double wander = squared(model.fix_wander_horizontal_m);
   variance.segment<3>(kFixError) << wander, wander, squared(model.fix_wander_vertical_m);
   variance[kLogScale] = squared(model.log_scale);
+  variance.segment<2>(kCurrent).setConstant(squared(model.current_mps));
+  variance.segment<3>(kCarrier).setOnes();
+  variance[kLevel] = squared(model.level_wander_m);
   covariance_.diagonal() = variance;
+  remember();
 }
 
 void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s) {
@@ -64,7 +71,38 @@ void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s
   pending_velocity_ned_ += dt_s * (before.slerp(0.5, state_.ned_from_body) * corrected.force_mps2);
   pending_s_ += dt_s;
   fix_error_ *= std::exp(-dt_s / model_.fix_wander_s);
-  if (pending_s_ > kCovarianceStep_s - 1e-9) propagate_covariance();
+  carrier_error_ *= std::exp(-dt_s / model_.carrier_s);
+  level_error_m_ *= std::exp(-dt_s / model_.level_wander_s);
+  t_s_ += dt_s;
+  if (pending_s_ < kCovarianceStep_s - 1e-9) return;
+  propagate_covariance();
+  remember();
+}
+
+void NavigationFilter::remember() {
+  if (model_.remembered_s <= 0.0) return;
+  past_.push_back({t_s_, state_});
+  while (past_.size() > 1 && past_[1].t_s <= t_s_ - model_.remembered_s) past_.pop_front();
+}
+
+std::optional<NavigationState> NavigationFilter::recall(double age_s) const {
+  if (age_s <= 0.0) return state_;
+  const double t_s = t_s_ - age_s;
+  if (past_.empty() || t_s < past_.front().t_s) return std::nullopt;
+  const auto after = std::ranges::upper_bound(past_, t_s, {}, &Past::t_s);
+  const Past& before = *std::prev(after);
+  const Past next = after == past_.end() ? Past{t_s_, state_} : *after;
+  const double share = next.t_s > before.t_s ? (t_s - before.t_s) / (next.t_s - before.t_s) : 0.0;
+  const auto between = [share](const auto& from, const auto& to) { return from + share * (to - from); };
+  const NavigationState &a = before.state, &b = next.state;
+  NavigationState then = b;
+  then.latitude_rad = between(a.latitude_rad, b.latitude_rad);
+  then.longitude_rad =
+      a.longitude_rad + share * std::remainder(b.longitude_rad - a.longitude_rad, 2.0 * std::numbers::pi);
+  then.height_m = between(a.height_m, b.height_m);
+  then.velocity_ned_mps += (share - 1.0) * (b.velocity_ned_mps - a.velocity_ned_mps);
+  then.ned_from_body = a.ned_from_body.slerp(share, b.ned_from_body);
+  return then;
 }
 
 /// F of dx/dt = F x: [Groves2013, sec. 14.2.4] with the signs of truth less estimate.
@@ -97,6 +135,8 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned) const {
       (earth_.rate_radps * std::cos(latitude) + state_.velocity_ned_mps.y() / (east_m * squared(std::cos(latitude)))) /
       north_m;
   f.block<3, 3>(kFixError, kFixError) = -Matrix3d::Identity() / model_.fix_wander_s;
+  f.block<3, 3>(kCarrier, kCarrier) = -Matrix3d::Identity() / model_.carrier_s;
+  f(kLevel, kLevel) = -1.0 / model_.level_wander_s;
   return f;
 }
 
@@ -123,6 +163,11 @@ void NavigationFilter::propagate_covariance() {
   const double drive = 2.0 / model_.fix_wander_s;
   noise.segment<3>(kFixError) << drive * squared(model_.fix_wander_horizontal_m),
       drive * squared(model_.fix_wander_horizontal_m), drive * squared(model_.fix_wander_vertical_m);
+  noise.segment<2>(kCurrent).setConstant(squared(model_.current_walk_mps_per_sqrt_s) +
+                                         squared(model_.current_walk_mps_per_sqrt_m) *
+                                             std::abs(state_.velocity_ned_mps.z()));
+  noise.segment<3>(kCarrier).setConstant(2.0 / model_.carrier_s);
+  noise[kLevel] = 2.0 / model_.level_wander_s * squared(model_.level_wander_m);
 
   // Noise of the step by the trapezoidal rule: half of it enters before the transition, half after.
   covariance_.diagonal() += 0.5 * t * noise;
@@ -157,20 +202,29 @@ Innovation NavigationFilter::correct(const Eigen::Matrix<double, N, 1>& residual
 
 void NavigationFilter::add(const Eigen::Matrix<double, kErrorCount, 1>& errors) {
   const double latitude = state_.latitude_rad;
-  state_.latitude_rad += errors[kPosition] / (meridian_radius_m(earth_, latitude) + state_.height_m);
-  state_.longitude_rad +=
-      errors[kPosition + 1] / ((prime_vertical_radius_m(earth_, latitude) + state_.height_m) * std::cos(latitude));
-  state_.height_m -= errors[kPosition + 2];
-  state_.velocity_ned_mps += errors.segment<3>(kVelocity);
+  const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
+  const double east_m = (prime_vertical_radius_m(earth_, latitude) + state_.height_m) * std::cos(latitude);
+  const Vec3 place = errors.segment<3>(kPosition), velocity = errors.segment<3>(kVelocity);
   const Vec3 rotation = errors.segment<3>(kRotation);
   const double angle = rotation.norm();
-  if (angle > 0.0) {
-    state_.ned_from_body =
-        (frames::Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) * state_.ned_from_body).normalized();
-  }
+  const frames::Quaternion turn(angle > 0.0 ? Eigen::AngleAxisd(angle, rotation / angle)
+                                            : Eigen::AngleAxisd(0.0, Vec3::UnitX()));
+  const auto move = [&](NavigationState& state, double age_s) {
+    const Vec3 by = place - age_s * velocity;
+    state.latitude_rad += by.x() / north_m;
+    state.longitude_rad += by.y() / east_m;
+    state.height_m -= by.z();
+    state.velocity_ned_mps += velocity;
+    state.ned_from_body = (turn * state.ned_from_body).normalized();
+  };
+  move(state_, 0.0);
+  for (Past& past : past_) move(past.state, t_s_ - past.t_s);
   gyro_bias_ += errors.segment<3>(kGyroBias);
   force_bias_ += errors.segment<3>(kForceBias);
   fix_error_ += errors.segment<3>(kFixError);
+  current_ned_.head<2>() += errors.segment<2>(kCurrent);
+  carrier_error_ += errors.segment<3>(kCarrier);
+  level_error_m_ += errors[kLevel];
   log_scale_ += errors[kLogScale];
   for (int row = 0; row < 3; ++row) gyro_matrix_.row(row) += errors.segment<3>(kGyroMatrix + 3 * row).transpose();
 }
@@ -179,34 +233,52 @@ Vec3 NavigationFilter::turn_rate_radps() const {
   return rate_radps_ - state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
 }
 
-Innovation NavigationFilter::correct_position(const Fix& fix) {
+Innovation NavigationFilter::correct_position(const Fix& fix, double age_s) {
   propagate_covariance();
-  const double latitude = state_.latitude_rad;
-  const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
-  const double east_m = (prime_vertical_radius_m(earth_, latitude) + state_.height_m) * std::cos(latitude);
-  const Vec3 lever_ned = state_.ned_from_body * fix.lever_body_m;
+  const std::optional<NavigationState> then = recall(age_s);
+  if (!then) return {0.0, false};
+  const double latitude = then->latitude_rad;
+  const double north_m = meridian_radius_m(earth_, latitude) + then->height_m;
+  const double east_m = (prime_vertical_radius_m(earth_, latitude) + then->height_m) * std::cos(latitude);
+  const Vec3 lever_ned = then->ned_from_body * fix.lever_body_m;
   const Vec3 apart((fix.latitude_rad - latitude) * north_m,
-                   std::remainder(fix.longitude_rad - state_.longitude_rad, 2.0 * std::acos(-1.0)) * east_m,
-                   state_.height_m - fix.height_m);
+                   std::remainder(fix.longitude_rad - then->longitude_rad, 2.0 * std::numbers::pi) * east_m,
+                   then->height_m - fix.height_m);
 
   Observation<3> h = Observation<3>::Zero();
   h.block<3, 3>(0, kPosition).setIdentity();
+  h.block<3, 3>(0, kVelocity).diagonal().setConstant(-std::max(0.0, age_s));
   h.block<3, 3>(0, kRotation) = -cross(lever_ned);
-  if (!fix.wanders) return correct<3>(apart - lever_ned, h, fix.sigma_ned_m);
+  h.block<3, 3>(0, kCarrier) = fix.carrier_sigma_ned_m.asDiagonal();
+  const Vec3 off = apart - lever_ned - fix.carrier_sigma_ned_m.cwiseProduct(carrier_error_);
+  if (!fix.wanders) return correct<3>(off, h, fix.sigma_ned_m);
   h.block<3, 3>(0, kFixError).setIdentity();
-  return correct<3>(apart - lever_ned - fix_error_, h, fix.sigma_ned_m);
+  return correct<3>(off - fix_error_, h, fix.sigma_ned_m);
 }
 
 Innovation NavigationFilter::correct_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m,
                                               const Vec3& sigma_body_mps) {
+  return correct_log(Tracked::kBottom, velocity_body_mps, lever_body_m, sigma_body_mps);
+}
+
+Innovation NavigationFilter::correct_water_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m,
+                                                    const Vec3& sigma_body_mps) {
+  return correct_log(Tracked::kWater, velocity_body_mps, lever_body_m, sigma_body_mps);
+}
+
+Innovation NavigationFilter::correct_log(Tracked tracked, const Vec3& velocity_body_mps, const Vec3& lever_body_m,
+                                         const Vec3& sigma_body_mps) {
   propagate_covariance();
   const Matrix3d body_from_ned = state_.ned_from_body.conjugate().toRotationMatrix();
-  const Vec3 own = body_from_ned * state_.velocity_ned_mps + turn_rate_radps().cross(lever_body_m);
+  const bool water = tracked == Tracked::kWater;
+  const Vec3 passing_ned = state_.velocity_ned_mps - (water ? current_ned_ : Vec3(Vec3::Zero()));
+  const Vec3 own = body_from_ned * passing_ned + turn_rate_radps().cross(lever_body_m);
   const double scale = 1.0 + log_scale_;
   Observation<3> h = Observation<3>::Zero();
   h.block<3, 3>(0, kVelocity) = scale * body_from_ned;
-  h.block<3, 3>(0, kRotation) = scale * body_from_ned * cross(state_.velocity_ned_mps);
+  h.block<3, 3>(0, kRotation) = scale * body_from_ned * cross(passing_ned);
   h.col(kLogScale) = own;
+  if (water) h.block<3, 2>(0, kCurrent) = -scale * body_from_ned.leftCols<2>();
   return correct<3>(velocity_body_mps - scale * own, h, sigma_body_mps);
 }
 
@@ -216,7 +288,8 @@ Innovation NavigationFilter::correct_height(double height_m, const Vec3& lever_b
   Observation<1> h = Observation<1>::Zero();
   h(0, kPosition + 2) = 1.0;
   h.block<1, 3>(0, kRotation) = -cross(lever_ned).row(2);
-  return correct<1>(Eigen::Matrix<double, 1, 1>(state_.height_m - height_m - lever_ned.z()), h,
+  h(0, kLevel) = -1.0;  // up, where the position error is down
+  return correct<1>(Eigen::Matrix<double, 1, 1>(state_.height_m + level_error_m_ - height_m - lever_ned.z()), h,
                     Eigen::Matrix<double, 1, 1>(sigma_m));
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
+#include <optional>
 
 #include "kernels/inertial/imu.h"
 #include "kernels/inertial/strapdown.h"
@@ -22,7 +24,10 @@ enum ErrorIndex : int {
   kFixError = 15,    // m, north, east, down: the slowly changing error of position fixes
   kLogScale = 18,    // 1, scale error of the velocity log
   kGyroMatrix = 19,  // 1, scale (diagonal) and crosstalk of the gyros, row by row
-  kErrorCount = 28,
+  kCurrent = 28,     // m/s, north, east, of the water that the velocity log tracks
+  kCarrier = 30,     // 1, north, east, down: slow errors of who finds the vehicle, over their standard deviations
+  kLevel = 33,       // m, up: the slowly changing error of heights by pressure
+  kErrorCount = 34,
 };
 using Covariance = Eigen::Matrix<double, kErrorCount, kErrorCount>;
 
@@ -33,6 +38,17 @@ struct FilterModel {
   double fix_wander_vertical_m = 0.0;
   double fix_wander_s = 300.0;  // their correlation time, > 0
   double log_scale = 0.0;       // of the velocity log
+  double level_wander_m =
+      0.0;  // Gauss-Markov error of heights by pressure: the sensor's, and of the level it counts from
+  double level_wander_s = 3600.0;  // its correlation time, > 0
+  // The current at the water that the log tracks, north and east each: how much of it there may be at the start, and
+  // how fast it changes at random, with time and with each metre that the vehicle rises or sinks. The water does not
+  // rise.
+  double current_mps = 0.0;
+  double current_walk_mps_per_sqrt_s = 0.0;
+  double current_walk_mps_per_sqrt_m = 0.0;
+  double carrier_s = 300.0;   // correlation time of the slow errors of who finds the vehicle, > 0
+  double remembered_s = 0.0;  // fixes as old as this can be used
 };
 
 /// How wrong the first state may be: standard deviations, each axis.
@@ -52,8 +68,8 @@ struct Innovation {
 };
 
 /// Error-state Kalman filter around a strapdown inertial system [Groves2013, chs 3, 14; Sola2017]. The state is the
-/// inertial system's own; the filter keeps the covariance of 28 errors of it and of the sensors, and adds the estimated
-/// errors to the state at once, so that they are zero between corrections.
+/// inertial system's own; the filter keeps the covariance of 34 errors of it, of the sensors and of the water, and adds
+/// the estimated errors to the state at once, so that they are zero between corrections.
 ///
 /// Biases are believed to walk at random as fast as the sensors' Gauss-Markov biases start to, which is right for times
 /// below their correlation time and careful beyond. Outliers beyond `gate` standard deviations are refused. Latitudes
@@ -73,12 +89,21 @@ class NavigationFilter {
     double height_m = 0.0;
     Vec3 lever_body_m = Vec3::Zero();  // of the antenna or transponder, from the body's origin
     Vec3 sigma_ned_m = Vec3::Ones();   // white noise
-    bool wanders = true;               // has the model's Gauss-Markov errors
+    bool wanders = true;               // has the model's Gauss-Markov errors of fixes
+    // Standard deviations of what the place of who found the vehicle, its attitude and its array err by slowly.
+    Vec3 carrier_sigma_ned_m = Vec3::Zero();
   };
-  Innovation correct_position(const Fix& fix);
+  /// Where the vehicle was `age_s` ago (>= 0). The fix is compared with the remembered estimate of that time, as all
+  /// later corrections have moved it; errors of position are taken back by those of velocity. What is left out is age^2
+  /// / 2 of the errors of acceleration: 4 cm for 0.1 degrees of tilt and 2 s. Older than is remembered: refused.
+  Innovation correct_position(const Fix& fix, double age_s = 0.0);
 
   /// Velocity of the point `lever` over ground, along body axes, by a Doppler log or another whose scale is in doubt.
   Innovation correct_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m, const Vec3& sigma_body_mps);
+
+  /// The same through water that drifts with the current of the model.
+  Innovation correct_water_velocity(const Vec3& velocity_body_mps, const Vec3& lever_body_m,
+                                    const Vec3& sigma_body_mps);
 
   /// Height of the point `lever` above the ellipsoid, of a pressure sensor once its level is known.
   Innovation correct_height(double height_m, const Vec3& lever_body_m, double sigma_m);
@@ -94,6 +119,7 @@ class NavigationFilter {
   Vec3 turn_rate_radps() const;
   Vec3 fix_error_ned_m() const { return fix_error_; }
   double log_scale() const { return log_scale_; }
+  Vec3 current_ned_mps() const { return current_ned_; }  // of the tracked water; down is zero
 
   double gate = 6.0;
 
@@ -103,7 +129,13 @@ class NavigationFilter {
   template <int N>
   Innovation correct(const Eigen::Matrix<double, N, 1>& residual, const Observation<N>& observation,
                      const Eigen::Matrix<double, N, 1>& sigma);
+  enum class Tracked { kBottom, kWater };
+  Innovation correct_log(Tracked tracked, const Vec3& velocity_body_mps, const Vec3& lever_body_m,
+                         const Vec3& sigma_body_mps);
   void add(const Eigen::Matrix<double, kErrorCount, 1>& errors);
+  void remember();
+  /// The estimate as it was, interpolated; empty when it is forgotten.
+  std::optional<NavigationState> recall(double age_s) const;
   void propagate_covariance();
   Covariance error_rates(const Vec3& force_ned) const;
 
@@ -112,11 +144,18 @@ class NavigationFilter {
   NavigationState state_;
   Covariance covariance_ = Covariance::Zero();
   Vec3 gyro_bias_ = Vec3::Zero(), force_bias_ = Vec3::Zero(), fix_error_ = Vec3::Zero();
-  double log_scale_ = 0.0;
+  Vec3 current_ned_ = Vec3::Zero(), carrier_error_ = Vec3::Zero();
+  double log_scale_ = 0.0, level_error_m_ = 0.0;
   Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero();
   Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, last
   Vec3 pending_velocity_ned_ = Vec3::Zero();  // of specific force, since the covariance was last propagated
   double pending_s_ = 0.0;
+  struct Past {
+    double t_s;
+    NavigationState state;
+  };
+  std::deque<Past> past_;  // one estimate that is as old as is remembered, and later ones
+  double t_s_ = 0.0;       // since the start
 };
 
 }  // namespace ensonify::navigation_filter

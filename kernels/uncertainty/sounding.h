@@ -41,10 +41,12 @@ struct Navigation {
   Matrix3 rotation_enu_rad2 = Matrix3::Zero();
 };
 
-/// What detection says of its own errors; both are errors of the range along the beam (kernels/detect/bottom.h).
+/// What detection says of its own errors. The first two are errors of the range along the beam
+/// (kernels/detect/bottom.h).
 struct Detected {
   double range_sd_m = 0.0;
   double angle_sd_rad = 0.0;
+  double relief_sd_m = 0.0;  // height at the point less its mean over the footprint (relief.h)
 };
 
 /// Where the sounding lies as seen from its head, and how the head moves.

@@ -1,0 +1,47 @@
+#include "components/multibeam/relief_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ensonify {
+namespace {
+
+constexpr double kKept = 0.98;   // from ping to ping: fifty pings are remembered
+constexpr int kNeighbours = 4;   // places to either side
+constexpr double kHurst = 0.625;  // a seabed's spectrum falls as k^-3.25 in two dimensions; 0.35 to 0.9 were measured
+
+}  // namespace
+
+void ReliefWatch::take(std::span<const Sounding> ping) {
+  profile_.clear();
+  for (const Sounding& sounding : ping) profile_.push_back(sounding.point);
+  const std::vector<double> bends = uncertainty::squared_bends_m2(profile_);
+  for (std::size_t i = 0; i < ping.size(); ++i) {
+    const auto place = static_cast<std::size_t>(ping[i].place);
+    if (place >= by_place_.size()) by_place_.resize(place + 1);
+    if (std::isnan(bends[i])) continue;
+    Mean& mean = by_place_[place];
+    mean.bend_m2 = kKept * mean.bend_m2 + bends[i];
+    mean.weight = kKept * mean.weight + 1.0;
+  }
+}
+
+double ReliefWatch::sd_m(int place) const {
+  static const double kShare = uncertainty::unresolved_share(kHurst);
+  // Profiles end a footprint before the swath does: the places next to what is known tell of the rest.
+  const int places = static_cast<int>(by_place_.size());
+  const auto known = [&](int at) { return by_place_[static_cast<std::size_t>(at)].weight > 0.0; };
+  for (int reach = kNeighbours; reach < places; reach *= 2) {
+    Mean sum;
+    for (int at = std::max(0, place - reach); at <= std::min(places - 1, place + reach); ++at) {
+      if (!known(at)) continue;
+      const Mean& mean = by_place_[static_cast<std::size_t>(at)];
+      sum.bend_m2 += mean.bend_m2;
+      sum.weight += mean.weight;
+    }
+    if (sum.weight > 0.0) return std::sqrt(kShare * std::max(0.0, sum.bend_m2 / sum.weight));
+  }
+  return 0.0;
+}
+
+}  // namespace ensonify

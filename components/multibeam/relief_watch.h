@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/uncertainty/relief.h"
+
+namespace ensonify {
+
+/// How far soundings are from the points that they claim, by place in the swath, judged by how the profiles of the last
+/// pings bend from footprint to footprint. Places next to each other and pings before count as samples of one seabed.
+class ReliefWatch {
+ public:
+  struct Sounding {
+    int place = 0;  // in the swath, ascending
+    uncertainty::ProfilePoint point;
+  };
+
+  void take(std::span<const Sounding> ping);
+
+  /// Standard deviation of the height; 0 where nothing was learned yet.
+  double sd_m(int place) const;
+
+ private:
+  struct Mean {
+    double bend_m2 = 0.0, weight = 0.0;
+  };
+  std::vector<Mean> by_place_;
+  std::vector<uncertainty::ProfilePoint> profile_;
+};
+
+}  // namespace ensonify
