@@ -6,8 +6,8 @@
 namespace ensonify {
 namespace {
 
-constexpr double kKept = 0.98;   // from ping to ping: fifty pings are remembered
-constexpr int kNeighbours = 4;   // places to either side
+constexpr double kKept = 0.98;    // from ping to ping: fifty pings are remembered
+constexpr int kNeighbours = 4;    // places to either side
 constexpr double kHurst = 0.625;  // a seabed's spectrum falls as k^-3.25 in two dimensions; 0.35 to 0.9 were measured
 
 }  // namespace

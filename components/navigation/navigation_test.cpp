@@ -55,7 +55,7 @@ TEST_CASE("navigation/default.yaml lists every parameter with its default") {
   scenario.vehicles.resize(1);
   const std::vector<std::string> listed_when_carried{
       "gnss",      "imu",         "motion_sensor", "heading",          "velocity_log", "depth",
-      "altimeter", "sound_speed", "ctd",           "current_profiler", "usbl", "usbl_fixes"};
+      "altimeter", "sound_speed", "ctd",           "current_profiler", "usbl",         "usbl_fixes"};
   CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, listed_when_carried) == "");
 }
 

@@ -13,13 +13,16 @@ namespace {
 /// A made-up seabed: waves whose power falls as k^-(2 hurst + 1), from 100 m down to 2 cm, 12 an octave.
 class Seabed {
  public:
-  Seabed(double hurst, std::uint64_t seed) : stream_(seed, "relief"), hurst_(hurst) {}
-  double height_m(double x) const {
-    double sum = 0.0;
+  Seabed(double hurst, std::uint64_t seed) {
+    const random::Stream stream(seed, "relief");
     for (std::uint64_t i = 0; i < 148; ++i) {
       const double k = 2 * M_PI / 100.0 * std::exp2(static_cast<double>(i) / 12.0);
-      sum += 0.02 * std::pow(k, -hurst_) * std::cos(k * x + 2 * M_PI * stream_.uniform(i));
+      waves_.push_back({k, 2 * M_PI * stream.uniform(i), 0.02 * std::pow(k, -hurst)});
     }
+  }
+  double height_m(double x) const {
+    double sum = 0.0;
+    for (const Wave& wave : waves_) sum += wave.height_m * std::cos(wave.k * x + wave.phase);
     return sum;
   }
   /// Over a footprint as unresolved_share weighs.
@@ -35,8 +38,10 @@ class Seabed {
   }
 
  private:
-  random::Stream stream_;
-  double hurst_;
+  struct Wave {
+    double k, phase, height_m;  // rad/m, rad
+  };
+  std::vector<Wave> waves_;
 };
 
 }  // namespace
