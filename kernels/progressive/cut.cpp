@@ -18,7 +18,7 @@ bool too_far(const Split& split, double tolerance_m) {
 bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& corner, int quarters) {
   Eigen::AlignedBox3d box;
   for (const frames::Vec3& place : corner) box.extend(place);
-  if (!lod::meets(frustum, {box.center(), 0.5 * box.diagonal().norm()})) return false;
+  if (!lod::meets(frustum, {box.center(), 0.5 * box.diagonal().norm() + kSlack_m})) return false;
   if (quarters == 0) return true;
   const auto& [a, b, c] = corner;
   const frames::Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);

@@ -99,6 +99,17 @@ std::vector<AlignedBox3f> boxes_around(const TriangleMesh& mesh) {
   return boxes;
 }
 
+/// Bottom up: children have higher numbers.
+void bound(Hierarchy& hierarchy) {
+  const std::vector<AlignedBox3f> around = boxes_around(hierarchy.mesh);
+  for (auto split = hierarchy.splits.rbegin(); split != hierarchy.splits.rend(); ++split) {
+    split->box_m = around[split->removed];
+    for (const std::int32_t child : split->child) {
+      if (child != kNone) split->box_m.extend(hierarchy.splits[static_cast<std::size_t>(child)].box_m);
+    }
+  }
+}
+
 }  // namespace
 
 Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
@@ -107,7 +118,6 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
   Hierarchy made;
   made.splits.resize(collapses.size());
   made.split_of.assign(mesh.vertex_m.size(), kNone);
-  const std::vector<AlignedBox3f> around = boxes_around(mesh);
   std::vector<std::int32_t> last(mesh.vertex_m.size(), kNone);  // split, of the latest collapse into a vertex
   Shrinking shrinking(mesh);
   for (std::int32_t s = count - 1; s >= 0; --s) {  // the finest is collapsed first and comes back last
@@ -120,13 +130,11 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
     split.first_born = static_cast<std::uint32_t>(made.born.size());
     split.born = static_cast<std::uint32_t>(gone.size());
     made.born.insert(made.born.end(), gone.begin(), gone.end());
-    split.box_m = around[one.removed];
     float below_m = 0.0F;
     for (const std::int32_t child : split.child) {
       if (child == kNone) continue;
       Split& finer = made.splits[static_cast<std::size_t>(child)];
       finer.parent = s;
-      split.box_m.extend(finer.box_m);
       below_m = std::max(below_m, finer.deviation_m);
     }
     split.deviation_m = below_m + shrinking.distance_from_m(one.removed, one.kept);
@@ -135,7 +143,50 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
   }
   made.coarsest = shrinking.left();
   made.mesh = std::move(mesh);
+  bound(made);
   return made;
+}
+
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad) {
+  TriangleMesh& mesh = hierarchy.mesh;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(-clockwise_rad, frames::Vec3::UnitZ()).toRotationMatrix();
+  const frames::Vec3 origin_enu_m = turn * mesh.origin_enu_m + by_enu_m;
+  for (Eigen::Vector3f& vertex : mesh.vertex_m) vertex = (turn * vertex.cast<double>()).cast<float>();
+  mesh.origin_enu_m = origin_enu_m;
+  bound(hierarchy);
+  return hierarchy;
+}
+
+std::string fault_of(const Hierarchy& hierarchy) {
+  if (const std::string fault = fault_of(hierarchy.mesh); !fault.empty()) return fault;
+  const std::size_t vertices = hierarchy.mesh.vertex_m.size(), triangles = hierarchy.mesh.triangle.size();
+  const auto count = static_cast<std::int32_t>(hierarchy.splits.size());
+  if (hierarchy.split_of.size() != vertices) return "not every vertex has an entry in split_of";
+  for (std::int32_t s = 0; s < count; ++s) {
+    const Split& split = hierarchy.splits[static_cast<std::size_t>(s)];
+    const bool there = split.removed < vertices && split.kept < vertices && split.removed != split.kept &&
+                       split.parent >= kNone && split.parent < s &&
+                       std::size_t{split.first_born} + split.born <= hierarchy.born.size();
+    const bool children = std::all_of(split.child.begin(), split.child.end(), [&](std::int32_t child) {
+      return child == kNone || (s < child && child < count);
+    });
+    if (!there || !children || hierarchy.split_of[split.removed] != s || !std::isfinite(split.deviation_m) ||
+        !split.box_m.min().allFinite() || !split.box_m.max().allFinite())
+      return "split " + std::to_string(s) + " does not fit the others";
+    const std::int32_t above = hierarchy.split_of[split.kept];
+    if (above >= s) return "split " + std::to_string(s) + " goes to a vertex that comes back later";
+  }
+  const auto brought = std::count_if(hierarchy.split_of.begin(), hierarchy.split_of.end(),
+                                     [](std::int32_t split) { return split != kNone; });
+  if (brought != count) return "a vertex comes back by a split that is not its own";
+  if (hierarchy.coarsest.size() + hierarchy.born.size() != triangles) return "triangles do not come once each";
+  std::vector<std::uint8_t> comes(triangles, 0);
+  for (const auto* list : {&hierarchy.coarsest, &hierarchy.born}) {
+    for (const std::uint32_t triangle : *list) {
+      if (triangle >= triangles || comes[triangle]++ != 0) return "triangles do not come once each";
+    }
+  }
+  return "";
 }
 
 }  // namespace ensonify::progressive

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/progressive/collapse.h"
@@ -36,5 +37,13 @@ struct Hierarchy {
 
 /// Throws std::invalid_argument with fault_of, or when a collapse names a vertex that is gone.
 Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses);
+
+/// The same surface elsewhere: turned about the vertical through its origin, clockwise as seen from above, and moved.
+/// Vertices are rounded to float once more, boxes are those of the vertices as they then are.
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad);
+
+/// Why a hierarchy that came from elsewhere cannot be used; empty if nothing is wrong. Allowed is what hierarchy_of
+/// makes: a mesh without fault, numbers of things that are there, parents before children.
+std::string fault_of(const Hierarchy& hierarchy);
 
 }  // namespace ensonify::progressive

@@ -80,3 +80,47 @@ TEST_CASE("what cannot be a mesh is refused, with its fault") {
   CHECK_THROWS_WITH(hierarchy_of(mesh, twice), "hierarchy: a collapse names a vertex that is not there");
   CHECK(made_of({}).splits.empty());
 }
+
+TEST_CASE("a mesh put elsewhere is refined there as it is here") {
+  const TriangleMesh mesh = quay_wall(20.0);
+  const Hierarchy here = hierarchy_of(mesh, collapses_of(mesh));
+  const frames::Vec3 by(400.0, -30.0, -2.0);
+  const Hierarchy there = placed(here, by, 0.5 * std::numbers::pi);  // what was north is east
+  const auto moved = [&](const frames::Vec3& place) {
+    return frames::Vec3(place.y() + 400.0, -place.x() - 30.0, place.z() - 2.0);
+  };
+  for (std::size_t v = 0; v < mesh.vertex_m.size(); v += 37) {
+    const frames::Vec3 place = there.mesh.origin_enu_m + there.mesh.vertex_m[v].cast<double>();
+    CHECK((place - moved(mesh.origin_enu_m + mesh.vertex_m[v].cast<double>())).norm() < 1e-5);
+  }
+  CHECK(fault_of(there).empty());
+  Cut of_here, of_there;
+  const frames::Vec3 head(-5.0, -3.0, 4.0);
+  of_here.choose(here, std::vector{fan(head, 0.3, 0.0, 25.0)});
+  of_there.choose(there, std::vector{fan(moved(head), 0.3 + 0.5 * std::numbers::pi, 0.0, 25.0)});
+  CHECK(of_here.triangles().size() > 500);
+  // Boxes along the axes stay boxes along the axes; rounding may tip a split at the view's border.
+  CHECK(static_cast<double>(of_there.triangles().size()) ==
+        Approx(static_cast<double>(of_here.triangles().size())).epsilon(0.01));
+}
+
+TEST_CASE("a hierarchy that does not hang together is refused, with its fault") {
+  const TriangleMesh mesh = bumpy_ball(20, 10);
+  const Hierarchy whole = hierarchy_of(mesh, collapses_of(mesh));
+  CHECK(fault_of(whole).empty());
+  const auto fault_after = [&](auto damage) {
+    Hierarchy hierarchy = whole;
+    damage(hierarchy);
+    return fault_of(hierarchy);
+  };
+  CHECK(fault_after([](Hierarchy& h) { h.mesh.vertex_m[3].x() = NAN; }) == "vertex 3 is not finite");
+  CHECK(fault_after([](Hierarchy& h) { h.splits[5].parent = 7; }) == "split 5 does not fit the others");
+  CHECK(fault_after([](Hierarchy& h) { h.splits[5].removed = 100'000; }) == "split 5 does not fit the others");
+  CHECK(fault_after([](Hierarchy& h) { h.splits[5].born = 100'000; }) == "split 5 does not fit the others");
+  CHECK(fault_after([](Hierarchy& h) { h.splits[5].kept = h.splits[6].removed; }) ==
+        "split 5 goes to a vertex that comes back later");
+  CHECK(fault_after([](Hierarchy& h) { h.split_of.pop_back(); }) == "not every vertex has an entry in split_of");
+  CHECK(fault_after([](Hierarchy& h) { h.split_of[h.splits.front().kept] = 3; }) != "");
+  CHECK(fault_after([](Hierarchy& h) { h.born[0] = h.born[1]; }) == "triangles do not come once each");
+  CHECK(fault_after([](Hierarchy& h) { h.coarsest.pop_back(); }) == "triangles do not come once each");
+}

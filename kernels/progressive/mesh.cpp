@@ -20,7 +20,7 @@ std::string fault_of(const TriangleMesh& mesh) {
 
 lod::Sphere sphere_around(const Eigen::AlignedBox3f& box_m, const frames::Vec3& origin_enu_m) {
   const frames::Vec3 low = box_m.min().cast<double>(), high = box_m.max().cast<double>();
-  return {origin_enu_m + 0.5 * (low + high), 0.5 * (high - low).norm()};
+  return {origin_enu_m + 0.5 * (low + high), 0.5 * (high - low).norm() + kSlack_m};
 }
 
 }  // namespace ensonify::progressive

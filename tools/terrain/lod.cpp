@@ -3,19 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/lod_file.h"
-#include "components/runtime/terrain/mesh_file.h"
+#include "components/runtime/terrain/prepared_mesh.h"
 #include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/lattice_png.h"
-#include "components/runtime/tiles/sha256.h"
 #include "kernels/frames/attitude.h"
 #include "kernels/progressive/cut.h"
 #include "tools/terrain/verbs.h"
@@ -32,29 +27,6 @@ struct Options {
   double heading_deg = 0.0, pitch_deg = 0.0, swath_deg = 130.0, beamwidth_deg = 1.0, range_m = 100.0;
   double tolerance_m = 0.0;
 };
-
-/// In metres, about a whole number of them in its middle.
-progressive::TriangleMesh metres_of(const source::MeshFile& file, double unit_m) {
-  Eigen::AlignedBox3d box;
-  for (const frames::Vec3& place : file.vertex) box.extend(place * unit_m);
-  progressive::TriangleMesh mesh;
-  mesh.origin_enu_m = box.center().array().round() + 0.0;  // no -0
-  for (const frames::Vec3& place : file.vertex)
-    mesh.vertex_m.emplace_back((place * unit_m - mesh.origin_enu_m).cast<float>());
-  mesh.triangle = file.triangle;
-  return mesh;
-}
-
-/// What was made of this very file before; nothing if it was not, or is damaged.
-std::optional<source::LodFile> made_before(const std::string& path, const std::string& made_from, double unit_m) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  try {
-    source::LodFile lod = source::read_lod_file(path);
-    if (lod.source_sha256 == made_from && lod.unit_m == unit_m) return lod;
-  } catch (const tiles::TileError&) {  // made again
-  }
-  return std::nullopt;
-}
 
 /// A transmission's main lobe, straight paths.
 progressive::View view_of(const Options& options) {
@@ -105,23 +77,16 @@ nlohmann::ordered_json ping_of(const progressive::Hierarchy& hierarchy, const Op
 }
 
 int lod(const Options& options) {
-  const std::string path = options.out.empty() ? options.mesh + ".lod" : options.out;
-  const std::string made_from = tiles::sha256_of_file(options.mesh);
-  auto prepared = made_before(path, made_from, options.unit_m);
-  const bool cached = prepared.has_value();
-  if (!cached) {
-    progressive::TriangleMesh mesh = metres_of(source::read_mesh_file(options.mesh), options.unit_m);
-    const auto collapses = progressive::collapses_of(mesh);
-    prepared = source::LodFile{progressive::hierarchy_of(std::move(mesh), collapses), made_from, options.unit_m};
-    source::write_lod_file(path, *prepared);
-  }
-  const auto& hierarchy = prepared->hierarchy;
+  const std::string path = options.out.empty() ? source::lod_path_of(options.mesh) : options.out;
+  const source::PreparedMesh prepared = source::prepared_mesh(options.mesh, options.unit_m, path);
+  if (!prepared.cached) source::write_lod_file(path, prepared.lod);
+  const auto& hierarchy = prepared.lod.hierarchy;
   const frames::Vec3& origin = hierarchy.mesh.origin_enu_m;
   float farthest_m = 0.0F;
   for (const auto& split : hierarchy.splits) farthest_m = std::max(farthest_m, split.deviation_m);
   nlohmann::ordered_json told{{"file", path},
-                              {"cached", cached},
-                              {"source_sha256", made_from},
+                              {"cached", prepared.cached},
+                              {"source_sha256", prepared.lod.source_sha256},
                               {"origin_m", {origin.x(), origin.y(), origin.z()}},
                               {"vertices", hierarchy.mesh.vertex_m.size()},
                               {"triangles", hierarchy.mesh.triangle.size()},

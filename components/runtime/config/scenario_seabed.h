@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/runtime/config/scenario_layers.h"
+#include "kernels/progressive/sheet_pile_wall.h"
 #include "kernels/seabed/law.h"
 
 namespace ensonify {
@@ -27,6 +29,17 @@ struct LayeredSeabed {
   std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
 };
 
+/// A surface of triangles that stands in the seabed: of a file, or a generated quay wall.
+struct SeabedMesh {
+  std::string name;
+  std::string file;                                    // as found on disk; "": the wall
+  double unit_m = 1.0;                                 // metres in the file's unit
+  frames::Vec3 position_enu_m = frames::Vec3::Zero();  // of the file's origin
+  double heading_rad = 0.0;                            // of the file's y axis, clockwise from north
+  std::optional<progressive::SheetPileWall> wall;
+  std::uint8_t sediment = 0;  // of all of it, one of Seabed::sediments
+};
+
 struct Seabed {
   enum class Kind { kLayers, kRaster, kTiles };
   Kind kind = Kind::kLayers;
@@ -37,7 +50,8 @@ struct Seabed {
   std::map<std::uint8_t, seabed::Scatterer> sediments = {{0, *seabed::sediment_of("medium sand")}};
   LayeredSeabed layered;
   RasterSeabed raster;
-  std::string tiles_folder;  // a tile set (docs/tiles.md), as found on disk
+  std::vector<SeabedMesh> meshes;  // in the order of the file
+  std::string tiles_folder;        // a tile set (docs/tiles.md), as found on disk
 };
 
 }  // namespace ensonify

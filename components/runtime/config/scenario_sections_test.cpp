@@ -243,4 +243,52 @@ TEST_CASE("mistakes in layers have a place") {
   CHECK(of("") == "s.yaml:1:32: seabed.layers: is empty; at least one layer is needed");
 }
 
+TEST_CASE("meshes of a seabed are read: of a file, or a wall of sheet piles") {
+  const auto section = section_of(R"(seabed:
+  kind: layers
+  sediments: {4: {lambert_mu_db: -12}}
+  meshes:
+    quay: {sheet_pile_wall: {from_m: [-50, 2], to_m: [50, 2], foot_depth_m: 14, profile_depth_m: 0.36}, sediment: 4}
+    hill: {file: /etc/hostname, unit_m: 0.001, position_m: [3, 4, -5], heading_deg: 90}
+)");
+  REQUIRE(section.problems == "");
+  REQUIRE(section.seabed.meshes.size() == 2);
+  const SeabedMesh &quay = section.seabed.meshes[0], &hill = section.seabed.meshes[1];
+  CHECK(quay.name == "quay");
+  REQUIRE(quay.wall);
+  CHECK(quay.wall->to_enu_m == frames::Vec2(50, 2));
+  CHECK(quay.wall->foot_depth_m == 14);
+  CHECK(quay.wall->profile_depth_m == 0.36);
+  CHECK(quay.sediment == 4);
+  CHECK_FALSE(hill.wall);
+  CHECK(hill.file == "/etc/hostname");
+  CHECK(hill.unit_m == 0.001);
+  CHECK(hill.position_enu_m == frames::Vec3(3, 4, -5));
+  CHECK(hill.heading_rad == Approx(0.5 * 3.14159265358979));
+}
+
+TEST_CASE("mistakes in meshes have a place") {
+  const auto of = [](const std::string& mesh) {
+    return problems_of("seabed: {kind: layers, meshes: {a: {" + mesh + "}}}");
+  };
+  const std::string wall = "sheet_pile_wall: {from_m: [0, 0], to_m: [9, 0]";
+  CHECK(of(wall + "}") == "");
+  CHECK(of("sediment: 0") == "s.yaml:1:36: seabed.meshes.a: needs one of file, sheet_pile_wall");
+  CHECK_THAT(of("file: /etc/hostname, " + wall + "}"),
+             Catch::StartsWith("s.yaml:1:36: seabed.meshes.a: needs one of file, sheet_pile_wall"));
+  CHECK(
+      of("file: no.obj") ==
+      "s.yaml:1:43: seabed.meshes.a.file: \"no.obj\": no such file or folder (looked beside this file and in the data "
+      "folders)");
+  CHECK(of(wall + "}, sediment: 9") == "s.yaml:1:96: seabed.meshes.a.sediment: is not a class of seabed.sediments");
+  CHECK_THAT(of("sheet_pile_wall: {from_m: [0, 0], to_m: [0.2, 0]}"),
+             Catch::EndsWith("to_m: is less than a pile's width from from_m"));
+  CHECK_THAT(of(wall + ", foot_depth_m: 5, top_height_m: -5}"),
+             Catch::EndsWith("top_height_m: is not above the foot; allowed: at least 0.1 m above it"));
+  CHECK_THAT(of("sheet_pile_wall: {from_m: [0, 0], to_m: [90000, 0], row_m: 0.1}"),
+             Catch::EndsWith("row_m: makes 45300302 vertices; allowed: 500000"));
+  CHECK_THAT(of(wall + ", pile_width_m: .nan}"), Catch::Contains("seabed.meshes.a.sheet_pile_wall.pile_width_m: .nan"));
+  CHECK_THAT(of(wall + "}, unit_m: 2"), Catch::EndsWith("seabed.meshes.a.unit_m: is not a known key"));
+}
+
 }  // namespace ensonify

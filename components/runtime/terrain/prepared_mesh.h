@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/terrain/lod_file.h"
+
+namespace ensonify::source {
+
+struct PreparedMesh {
+  LodFile lod;
+  bool cached = false;  // it was read; else it has been made now, at some 60 us per vertex
+};
+
+/// The splits of a mesh file: those of `lod_path` if they were made from this very file, in this unit, and are not
+/// damaged; else made anew, not written. Throws ConfigError for a mesh that cannot be read or used.
+PreparedMesh prepared_mesh(const std::string& mesh_path, double unit_m, const std::string& lod_path);
+
+/// Where the splits of a mesh file are kept.
+std::string lod_path_of(const std::string& mesh_path);
+
+struct PlacedMesh {
+  progressive::Hierarchy hierarchy;
+  bool cached = true;  // false: a file's splits had to be made
+};
+
+/// A scenario's mesh where it stands. A generated one is a function of the scenario's seed and its name. Throws as
+/// above.
+PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed);
+
+}  // namespace ensonify::source
