@@ -34,6 +34,7 @@ void Scene::Impl::adapt(std::span<const lod::View> wanted) {
     Entry& entry = tile.second;
     is_small(entry.tile) ? entry.cover.choose_all(entry.hierarchy) : entry.cover.choose(entry.hierarchy, views);
   });
+  tbb::parallel_for_each(irregular, [&](auto& one) { one.second.choose(views); });
   show();
 }
 
@@ -46,6 +47,10 @@ void Scene::Impl::show() {
     if (cached.used != adaptations) continue;
     shown.push_back(cached.part.get());
     if (is_looked_at(cached.key.leaf)) looked_at.push_back(cached.part.get());
+  }
+  for (auto& [number, one] : irregular) {
+    const auto pieces = one.show(device, origin_enu_m);
+    shown.insert(shown.end(), pieces.begin(), pieces.end());
   }
   tbb::parallel_invoke([&] { mesh.assign(device, shown); },
                        [&] { tbb::parallel_for_each(looked_at, [](const Part* part) { part->scene(); }); });
@@ -79,7 +84,7 @@ void Scene::Impl::use(const std::vector<PartKey>& keys) {
     } else {
       const Entry& entry = tiles.at(key.tile);
       const Shown shown{&entry.tile, entry.number, &entry.hierarchy, key.leaf, key.rim};
-      all.push_back({key, std::make_unique<Part>(device, shown, origin_enu_m)});
+      all.push_back({key, std::make_unique<BlockPart>(device, shown, origin_enu_m)});
     }
     all.back().used = adaptations;
   }
@@ -107,14 +112,14 @@ void Scene::Impl::forget() {
     if (held * kShareHeld > paged) break;
     oldest = pings;
   }
-  std::vector<std::unique_ptr<Part>> given_up;
+  std::vector<std::unique_ptr<BlockPart>> given_up;
   std::erase_if(parts, [&](CachedPart& cached) {
     const std::uint64_t pings = cached.key.leaf.level == 0 ? kFinePings : oldest;
     if (age(cached) == 0 || (cached.triangles > 0 && age(cached) <= pings)) return false;
     given_up.push_back(std::move(cached.part));
     return true;
   });
-  tbb::parallel_for_each(given_up, [](std::unique_ptr<Part>& part) { part.reset(); });
+  tbb::parallel_for_each(given_up, [](std::unique_ptr<BlockPart>& part) { part.reset(); });
 }
 
 /// A block is as coarse as a view asks for, or coarser where none meets it.
@@ -134,15 +139,20 @@ lod::Neighbours Scene::Impl::neighbours_of(const terrain::TileKey& key) const {
   return {beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)};
 }
 
-void Scene::Impl::change(const terrain::TileKey& key) {
+void Scene::Impl::change() {
   stale = true;
   mesh.assign(device, {});
+}
+
+void Scene::Impl::change(const terrain::TileKey& key) {
+  change();
   std::erase_if(parts, [&](const auto& cached) { return cached.key.tile == key; });
 }
 
 void Scene::Impl::show_all() {
   if (detail.enabled) return;
   for (auto& [key, entry] : tiles) entry.cover.choose_all(entry.hierarchy);
+  for (auto& [number, one] : irregular) one.choose_all();
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   show();  // a tree of many grids is always built the same way
 }

@@ -12,36 +12,16 @@
 namespace ensonify::trace {
 namespace {
 
-/// On all sides: without it one ray in ten million that runs along the border of two parts is lost between them.
-constexpr float kSlack_m = 1e-3F;
-
 /// Around all posts under the leaf, as the patch has them.
 RTCBounds bounds_of(const Shown& shown, const terrain::Vec2& origin_enu_m) {
   const auto [low, high] = shown.hierarchy->box_enu_m(shown.leaf.block);
-  const auto lower = [](double value) { return static_cast<float>(value) - kSlack_m; };
-  const auto upper = [](double value) { return static_cast<float>(value) + kSlack_m; };
+  const auto lower = [](double value) { return static_cast<float>(value) - kPartSlack_m; };
+  const auto upper = [](double value) { return static_cast<float>(value) + kPartSlack_m; };
   return {lower(low.x() - origin_enu_m.x()),  lower(low.y() - origin_enu_m.y()),  lower(low.z()),  0.0F,
           upper(high.x() - origin_enu_m.x()), upper(high.y() - origin_enu_m.y()), upper(high.z()), 0.0F};
 }
 
-EmbreeScene scene_of(RTCDevice device, const lod::Patch& patch) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
-  static_assert(sizeof(patch.vertices_m[0]) == 3 * sizeof(float));
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                           patch.vertices_m.size());
-  std::memcpy(vertices, patch.vertices_m.data(), patch.vertices_m.size() * 3 * sizeof(float));
-  void* grids =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
-  std::ranges::transform(patch.grids, static_cast<RTCGrid*>(grids), [](const lod::Patch::Grid& grid) {
-    return RTCGrid{grid.first, grid.stride, grid.columns, grid.rows};
-  });
-  rtcCommitGeometry(geometry);
-  EmbreeScene scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  return scene;
-}
+float facet_of(const Shown& shown) { return static_cast<float>(std::ldexp(shown.tile->spacing_m, shown.leaf.level)); }
 
 }  // namespace
 
@@ -61,8 +41,8 @@ struct Part::Built {
   std::size_t triangles;
 };
 
-Part::Part(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m)
-    : device_(device.get()), shown_(shown), origin_enu_m_(origin_enu_m), bounds_(bounds_of(shown, origin_enu_m)) {}
+Part::Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m)
+    : device_(device), bounds_(bounds), number_(number), facet_m_(facet_m) {}
 
 Part::~Part() { delete built_.load(); }
 
@@ -76,16 +56,42 @@ std::size_t Part::triangles() const {
   return built != nullptr ? built->triangles : 0;
 }
 
-float Part::facet_m() const { return static_cast<float>(std::ldexp(tile().spacing_m, shown_.leaf.level)); }
-
 const Part::Built* Part::build() const {
-  const lod::Patch patch = lod::patch_of(tile(), *shown_.hierarchy, shown_.leaf, shown_.rim, origin_enu_m_);
-  auto made = std::make_unique<Built>(Built{scene_of(device_, patch), patch.triangles()});
+  const Content made = content();
+  rtcCommitGeometry(made.geometry);
+  auto one = std::make_unique<Built>(Built{EmbreeScene(rtcNewScene(device_)), made.triangles});
+  rtcSetSceneFlags(one->scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcAttachGeometry(one->scene.get(), made.geometry);
+  rtcReleaseGeometry(made.geometry);
   // Isolated: a thread that waits here must not take up other rays, for it may be in the middle of some.
-  tbb::this_task_arena::isolate([&] { rtcCommitScene(made->scene.get()); });
+  tbb::this_task_arena::isolate([&] { rtcCommitScene(one->scene.get()); });
   check(device_, "Embree could not build a part of the seabed");
   const Built* kept = nullptr;
-  return built_.compare_exchange_strong(kept, made.get()) ? made.release() : kept;
+  return built_.compare_exchange_strong(kept, one.get()) ? one.release() : kept;
+}
+
+BlockPart::BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m)
+    : Part(device.get(), bounds_of(shown, origin_enu_m), shown.number, facet_of(shown)),
+      shown_(shown),
+      origin_enu_m_(origin_enu_m) {}
+
+std::uint8_t BlockPart::sediment_at(const terrain::Vec2& place_enu_m) const {
+  return terrain::sediment_at(*shown_.tile, place_enu_m);
+}
+
+Part::Content BlockPart::content() const {
+  const lod::Patch patch = lod::patch_of(*shown_.tile, *shown_.hierarchy, shown_.leaf, shown_.rim, origin_enu_m_);
+  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_GRID);
+  static_assert(sizeof(patch.vertices_m[0]) == 3 * sizeof(float));
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                           patch.vertices_m.size());
+  std::memcpy(vertices, patch.vertices_m.data(), patch.vertices_m.size() * 3 * sizeof(float));
+  void* grids =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
+  std::ranges::transform(patch.grids, static_cast<RTCGrid*>(grids), [](const lod::Patch::Grid& grid) {
+    return RTCGrid{grid.first, grid.stride, grid.columns, grid.rows};
+  });
+  return {geometry, patch.triangles()};
 }
 
 void Mesh::assign(const Device& device, std::span<const Part* const> parts) {

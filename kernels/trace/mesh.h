@@ -31,20 +31,10 @@ Device new_device();
 /// Throws std::runtime_error with what could not be done when Embree reports an error.
 void check(RTCDevice device, const char* fault);
 
-/// What a part shows.
-struct Shown {
-  const terrain::Tile* tile = nullptr;
-  std::uint32_t number = 0;                   // of the tile, as Hit has it
-  const lod::Hierarchy* hierarchy = nullptr;  // of the tile
-  lod::Leaf leaf;
-  lod::Rim rim{};
-};
-
-/// A leaf of a tile's cover as an Embree scene, which is built when it is first asked for.
+/// A piece of the seabed as an Embree scene, which is built when it is first asked for.
 class Part {
  public:
-  Part(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m);
-  ~Part();
+  virtual ~Part();
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
@@ -55,20 +45,56 @@ class Part {
   /// 0 before it is built.
   std::size_t triangles() const;
 
-  const terrain::Tile& tile() const { return *shown_.tile; }
-  std::uint32_t number() const { return shown_.number; }
-  /// Spacing of its posts.
-  float facet_m() const;
+  /// As Hit has them.
+  std::uint32_t number() const { return number_; }
+  float facet_m() const { return facet_m_; }
+  virtual std::uint8_t sediment_at(const terrain::Vec2& place_enu_m) const = 0;
+
+ protected:
+  struct Content {
+    RTCGeometry geometry;  // with its buffers, not yet committed
+    std::size_t triangles;
+  };
+  Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m);
+  virtual Content content() const = 0;
+  RTCDevice device() const { return device_; }
 
  private:
   struct Built;
   const Built* build() const;
 
   RTCDevice device_;
+  RTCBounds bounds_;
+  std::uint32_t number_;
+  float facet_m_;
+  mutable std::atomic<const Built*> built_ = nullptr;
+};
+
+/// On all sides of a part: without it one ray in ten million that runs along the border of two parts is lost between
+/// them.
+constexpr float kPartSlack_m = 1e-3F;
+
+/// What a block shows.
+struct Shown {
+  const terrain::Tile* tile = nullptr;
+  std::uint32_t number = 0;                   // of the tile, as Hit has it
+  const lod::Hierarchy* hierarchy = nullptr;  // of the tile
+  lod::Leaf leaf;
+  lod::Rim rim{};
+};
+
+/// A leaf of a tile's cover.
+class BlockPart final : public Part {
+ public:
+  BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m);
+
+  std::uint8_t sediment_at(const terrain::Vec2& place_enu_m) const override;
+
+ private:
+  Content content() const override;
+
   Shown shown_;
   terrain::Vec2 origin_enu_m_;
-  RTCBounds bounds_;
-  mutable std::atomic<const Built*> built_ = nullptr;
 };
 
 /// The parts that make the seabed of a ping, over which Embree keeps a tree of their bounds. A scene of its own holds

@@ -30,9 +30,8 @@ Heights heights_of(const terrain::Tile& tile) {
   return heights;
 }
 
-bool within(const terrain::Tile& tile, const Vec2& place, double radius_m) {
-  const Vec2 corner = tile.origin_enu_m + tile.spacing_m * Vec2(tile.columns - 1, tile.rows - 1);
-  const Vec2 nearest = place.cwiseMax(tile.origin_enu_m).cwiseMin(corner);
+bool within(const Vec2& south_west, const Vec2& north_east, const Vec2& place, double radius_m) {
+  const Vec2 nearest = place.cwiseMax(south_west).cwiseMin(north_east);
   return (nearest - place).norm() <= radius_m;
 }
 
@@ -52,7 +51,7 @@ Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
   hit.facet_m = part.facet_m();
   hit.tile = part.number();
-  hit.sediment = terrain::sediment_at(part.tile(), hit.position_enu_m.head<2>());
+  hit.sediment = part.sediment_at(hit.position_enu_m.head<2>());
   return hit;
 }
 
@@ -84,11 +83,27 @@ bool Scene::remove(const terrain::TileKey& key) {
   return removed;
 }
 
+void Scene::insert(std::int64_t number, IrregularMesh mesh) {
+  if (const std::string fault = progressive::fault_of(mesh.hierarchy); !fault.empty())
+    throw std::invalid_argument("irregular mesh: " + fault);
+  impl_->change();
+  impl_->irregular.insert_or_assign(number, Irregular(std::move(mesh), ++impl_->inserted));
+  impl_->show_all();
+}
+
+bool Scene::remove(std::int64_t number) {
+  impl_->change();
+  const bool removed = impl_->irregular.erase(number) > 0;
+  impl_->show_all();
+  return removed;
+}
+
 void Scene::centre_near(const Vec2& place_enu_m) {
   const Vec2 origin_enu_m = kLattice_m * (place_enu_m / kLattice_m).array().round().matrix();
   if (origin_enu_m == impl_->origin_enu_m) return;
   impl_->origin_enu_m = origin_enu_m;
   for (const auto& [key, entry] : impl_->tiles) impl_->change(key);
+  for (auto& [number, one] : impl_->irregular) one.forget();
   impl_->show_all();
 }
 
@@ -106,6 +121,7 @@ const Vec2& Scene::origin_enu_m() const { return impl_->origin_enu_m; }
 std::size_t Scene::triangles() const {
   std::size_t sum = 0;
   for (const CachedPart& cached : impl_->parts) sum += cached.part->triangles();
+  for (const auto& [number, one] : impl_->irregular) sum += one.triangles();
   return sum;
 }
 
@@ -118,11 +134,21 @@ std::optional<double> Scene::height_m(const Vec2& place_enu_m) const {
 
 std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radius_m) const {
   std::optional<Heights> all;
+  const auto add = [&](const Heights& heights) {
+    if (!(heights.lowest_m <= heights.highest_m)) return;
+    if (!all) all = heights;
+    all->lowest_m = std::min(all->lowest_m, heights.lowest_m);
+    all->highest_m = std::max(all->highest_m, heights.highest_m);
+  };
   for (const auto& [key, entry] : impl_->tiles) {
-    if (!within(entry.tile, place_enu_m, radius_m) || !(entry.heights.lowest_m <= entry.heights.highest_m)) continue;
-    if (!all) all = entry.heights;
-    all->lowest_m = std::min(all->lowest_m, entry.heights.lowest_m);
-    all->highest_m = std::max(all->highest_m, entry.heights.highest_m);
+    const Vec2 corner =
+        entry.tile.origin_enu_m + entry.tile.spacing_m * Vec2(entry.tile.columns - 1, entry.tile.rows - 1);
+    if (within(entry.tile.origin_enu_m, corner, place_enu_m, radius_m)) add(entry.heights);
+  }
+  for (const auto& [number, one] : impl_->irregular) {
+    const auto& box = one.box_enu_m();
+    if (!box.isEmpty() && within(box.min().head<2>(), box.max().head<2>(), place_enu_m, radius_m))
+      add({box.min().z(), box.max().z()});
   }
   return all;
 }

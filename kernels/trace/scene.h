@@ -10,6 +10,7 @@
 
 #include "kernels/frames/pose.h"
 #include "kernels/lod/cover.h"
+#include "kernels/progressive/hierarchy.h"
 #include "kernels/refraction/path_table.h"
 #include "kernels/terrain/tile.h"
 #include "kernels/trace/ray.h"
@@ -27,7 +28,8 @@ struct Hit {
   float path_length_m = 0.0F;  // along the path: range_m when it is straight
   float tube_m2 = 0.0F;        // area of the bundle, across it, per steradian of launch: range_m^2 when straight
   float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
-  float facet_m = 0.0F;        // spacing of the posts of the mesh there: a facet is half a square of it
+  float facet_m = 0.0F;        // spacing of the posts of the mesh there: a facet is half a square of it. Of an
+                               // irregular mesh, what its mean triangle is half a square of
   std::uint8_t sediment = 0;
   std::uint32_t tile = 0;  // of the scene, as Object has it; 0: none
 
@@ -48,6 +50,13 @@ struct Object {
   std::int32_t first_column = 0, first_row = 0, end_column = 0, end_row = 0;
 };
 
+/// A surface of triangles that is no lattice: a quay wall, a survey as a TIN, a scanned coral. All of one sediment
+/// class.
+struct IrregularMesh {
+  progressive::Hierarchy hierarchy;
+  std::uint8_t sediment = 0;
+};
+
 /// How finely a scene shows its tiles (docs/seabed/level-of-detail.md).
 struct LevelOfDetail {
   bool enabled = false;         // by what is looked at; off: all tiles at full detail
@@ -57,7 +66,7 @@ struct LevelOfDetail {
   bool operator==(const LevelOfDetail&) const = default;
 };
 
-/// Seabed tiles to trace rays against.
+/// Seabed tiles, and irregular meshes that stand among them, to trace rays against.
 ///
 /// A tile is cut into blocks; a block is one Embree scene of grid primitives (two triangles per cell), built when it is
 /// first needed, and the parts of a mesh stand under one tree. Blocks and tiles share the bits of their edges and the
@@ -80,6 +89,13 @@ class Scene {
   /// Takes a tile away; false when there was none.
   bool remove(const terrain::TileKey& key);
 
+  /// Adds or replaces an irregular mesh, by a number of the caller's. Throws std::invalid_argument with
+  /// progressive::fault_of.
+  void insert(std::int64_t number, IrregularMesh mesh);
+
+  /// Takes an irregular mesh away; false when there was none.
+  bool remove(std::int64_t number);
+
   /// What a look at the seabed may miss: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order. Small tiles are always
   /// at full detail.
@@ -90,7 +106,8 @@ class Scene {
   /// whatever way it took.
   void centre_near(const frames::Vec2& place_enu_m);
 
-  /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere.
+  /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere,
+  /// and irregular meshes likewise.
   /// A ray within a view of level 0 hits what it would hit with all tiles at full detail, to the bit. With level of
   /// detail enabled there is no mesh before this, nor after a tile has come or gone; without it nothing happens. Blocks
   /// that no view meets are built when a ray comes to them. Those that were seen lately are kept, coarse ones as long
@@ -101,6 +118,7 @@ class Scene {
   /// In memory, ready for rays.
   std::size_t triangles() const;
 
+  /// Of tiles.
   bool empty() const;
   std::size_t size() const;
   bool contains(const terrain::TileKey& key) const;
@@ -127,7 +145,7 @@ class Scene {
   /// Of the tiles' own posts, whatever the mesh; empty over a hole or no tile.
   std::optional<double> height_m(const frames::Vec2& place_enu_m) const;
 
-  /// Over the tiles within a horizontal distance of a place; empty when there are none.
+  /// Over the tiles and irregular meshes within a horizontal distance of a place; empty when there are none.
   std::optional<Heights> heights_near(const frames::Vec2& place_enu_m, double radius_m) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/lod/cover.h"
+#include "kernels/trace/irregular.h"
 #include "kernels/trace/mesh.h"
 #include "kernels/trace/scene.h"
 
@@ -36,7 +37,7 @@ struct PartKey {
 
 struct CachedPart {
   PartKey key;
-  std::unique_ptr<Part> part;
+  std::unique_ptr<BlockPart> part;
   std::uint64_t used = 0;     // last, by number of adaptation
   std::size_t triangles = 0;  // as was known then
 };
@@ -46,7 +47,8 @@ struct Scene::Impl {
   frames::Vec2 origin_enu_m;
   LevelOfDetail detail;
   std::map<terrain::TileKey, Entry> tiles;
-  std::uint32_t inserted = 0;   // tiles, ever
+  std::map<std::int64_t, Irregular> irregular;
+  std::uint32_t inserted = 0;   // tiles and irregular meshes, ever
   std::vector<Object> objects;  // of all tiles
 
   std::vector<lod::View> views;  // of the mesh ...
@@ -58,7 +60,8 @@ struct Scene::Impl {
   void gather_objects();
   void adapt(std::span<const lod::View> wanted);
   void show();
-  /// A tile comes or goes: there is no mesh until the next adaptation.
+  /// Something comes or goes: there is no mesh until the next adaptation.
+  void change();
   void change(const terrain::TileKey& key);
   /// All at full detail, unless detail depends on the view.
   void show_all();

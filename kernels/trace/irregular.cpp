@@ -1,0 +1,167 @@
+#include "kernels/trace/irregular.h"
+
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace ensonify::trace {
+namespace {
+
+using progressive::Triangle;
+using progressive::TriangleMesh;
+using terrain::Vec2;
+using terrain::Vec3;
+
+/// Embree divides the work on fewer than 1024 primitives among no threads.
+constexpr std::size_t kMostInCluster = 512;
+
+/// Of the mean edge, times 2^level: how far off the surface may be where a view of that level meets it.
+constexpr double kTolerance = 0.1;
+
+/// Cuts triangles in two by their middles along the longest side of what they span, until they are few.
+class Clusters {
+ public:
+  explicit Clusters(const TriangleMesh& mesh) : of_triangle(mesh.triangle.size()) {
+    for (const auto& [a, b, c] : mesh.triangle)
+      middles_.push_back((mesh.vertex_m[a] + mesh.vertex_m[b] + mesh.vertex_m[c]) / 3.0F);
+    std::vector<std::uint32_t> all(of_triangle.size());
+    std::iota(all.begin(), all.end(), 0U);
+    if (!all.empty()) cut(all);
+  }
+
+  std::vector<std::uint32_t> of_triangle;
+  std::uint32_t count = 0;
+
+ private:
+  void cut(std::span<std::uint32_t> triangles) {
+    if (triangles.size() <= kMostInCluster) {
+      for (const std::uint32_t t : triangles) of_triangle[t] = count;
+      ++count;
+      return;
+    }
+    Eigen::AlignedBox3f box;
+    for (const std::uint32_t t : triangles) box.extend(middles_[t]);
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const std::size_t half = triangles.size() / 2;
+    std::ranges::nth_element(triangles, triangles.begin() + static_cast<std::ptrdiff_t>(half), {},
+                             [&](std::uint32_t t) { return std::pair(middles_[t][axis], t); });
+    cut(triangles.first(half));
+    cut(triangles.subspan(half));
+  }
+
+  std::vector<Eigen::Vector3f> middles_;
+};
+
+RTCBounds bounds_of(std::span<const Eigen::Vector3f> places_m) {
+  Eigen::AlignedBox3f box;
+  for (const auto& place : places_m) box.extend(place);
+  const Eigen::Vector3f low = box.min().array() - kPartSlack_m, high = box.max().array() + kPartSlack_m;
+  return {low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
+}
+
+/// Each vertex by itself: pieces that share one have its bits.
+TrianglePart::Piece piece_of(const TriangleMesh& mesh, const std::vector<Triangle>& triangles,
+                             const Vec2& origin_enu_m) {
+  TrianglePart::Piece piece{triangles, {}, {}};
+  for (const Triangle& corners : triangles) piece.vertices.insert(piece.vertices.end(), corners.begin(), corners.end());
+  std::ranges::sort(piece.vertices);
+  piece.vertices.erase(std::ranges::unique(piece.vertices).begin(), piece.vertices.end());
+  const Vec3 shift = mesh.origin_enu_m - Vec3(origin_enu_m.x(), origin_enu_m.y(), 0.0);
+  for (const std::uint32_t v : piece.vertices)
+    piece.places_m.push_back((shift + mesh.vertex_m[v].cast<double>()).cast<float>());
+  return piece;
+}
+
+}  // namespace
+
+TrianglePart::TrianglePart(const Device& device, Piece piece, const Common& common)
+    : Part(device.get(), bounds_of(piece.places_m), common.number, common.facet_m),
+      piece_(std::move(piece)),
+      sediment_(common.sediment) {}
+
+Part::Content TrianglePart::content() const {
+  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  static_assert(sizeof(piece_.places_m[0]) == 3 * sizeof(float));
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                           piece_.places_m.size());
+  std::memcpy(vertices, piece_.places_m.data(), piece_.places_m.size() * 3 * sizeof(float));
+  auto* corner = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), piece_.triangles.size()));
+  for (const Triangle& triangle : piece_.triangles) {
+    for (const std::uint32_t vertex : triangle)
+      *corner++ =
+          static_cast<std::uint32_t>(std::ranges::lower_bound(piece_.vertices, vertex) - piece_.vertices.begin());
+  }
+  return {geometry, piece_.triangles.size()};
+}
+
+Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
+    : hierarchy_(std::move(mesh.hierarchy)), common_{number, 0.0F, mesh.sediment} {
+  const TriangleMesh& whole = hierarchy_.mesh;
+  double edges_m = 0.0, area_m2 = 0.0;
+  for (const auto& [a, b, c] : whole.triangle) {
+    const Vec3 ab = (whole.vertex_m[b] - whole.vertex_m[a]).cast<double>();
+    const Vec3 ac = (whole.vertex_m[c] - whole.vertex_m[a]).cast<double>();
+    edges_m += ab.norm() + ac.norm() + (ac - ab).norm();
+    area_m2 += 0.5 * ab.cross(ac).norm();
+    for (const std::uint32_t v : {a, b, c}) box_enu_m_.extend(whole.origin_enu_m + whole.vertex_m[v].cast<double>());
+  }
+  const double count = std::max(1.0, static_cast<double>(whole.triangle.size()));
+  edge_m_ = edges_m / (3.0 * count);
+  common_.facet_m = static_cast<float>(std::sqrt(2.0 * area_m2 / count));
+  Clusters clusters(whole);
+  cluster_of_ = std::move(clusters.of_triangle);
+  clusters_.resize(clusters.count);
+}
+
+void Irregular::choose(std::span<const lod::View> views) {
+  std::vector<progressive::View> looks;
+  for (const lod::View& view : views)
+    looks.push_back({view.frustum, view.level == 0 ? 0.0 : std::ldexp(kTolerance * edge_m_, view.level)});
+  cut_.choose(hierarchy_, looks);
+  want(cut_.triangles(), cut_.sources());
+}
+
+void Irregular::choose_all() {
+  std::vector<std::uint32_t> all(cluster_of_.size());
+  std::iota(all.begin(), all.end(), 0U);
+  want(hierarchy_.mesh.triangle, all);
+}
+
+void Irregular::want(std::span<const Triangle> triangles, std::span<const std::uint32_t> sources) {
+  for (Cluster& cluster : clusters_) cluster.wanted.clear();
+  for (std::size_t i = 0; i < triangles.size(); ++i) clusters_[cluster_of_[sources[i]]].wanted.push_back(triangles[i]);
+}
+
+std::vector<const Part*> Irregular::show(const Device& device, const Vec2& origin_enu_m) {
+  tbb::parallel_for_each(clusters_, [&](Cluster& cluster) {
+    if (cluster.wanted.empty()) {
+      cluster.part.reset();
+    } else if (!cluster.part || cluster.part->shown() != cluster.wanted) {
+      TrianglePart::Piece piece = piece_of(hierarchy_.mesh, cluster.wanted, origin_enu_m);
+      cluster.part = std::make_unique<TrianglePart>(device, std::move(piece), common_);
+      cluster.part->scene();
+    }
+  });
+  std::vector<const Part*> parts;
+  for (const Cluster& cluster : clusters_) {
+    if (cluster.part) parts.push_back(cluster.part.get());
+  }
+  return parts;
+}
+
+void Irregular::forget() {
+  for (Cluster& cluster : clusters_) cluster.part.reset();
+}
+
+std::size_t Irregular::triangles() const {
+  std::size_t sum = 0;
+  for (const Cluster& cluster : clusters_) sum += cluster.part ? cluster.part->triangles() : 0;
+  return sum;
+}
+
+}  // namespace ensonify::trace
