@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 
 #include "messages/array.h"
 
@@ -39,6 +41,56 @@ struct TileRelease {
   static void fields(Self& self, Visit&& visit) {
     visit("col", "1", "tile index, east", self.col);
     visit("row", "1", "tile index, north", self.row);
+  }
+};
+
+struct Mesh {
+  static constexpr const char* kType = "mesh/1";
+  static constexpr const char* kAbout =
+      "A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it "
+      "needs "
+      "the vertices and triangles alone; the splits tell how to coarsen it (docs/seabed/irregular-meshes.md).";
+  std::int64_t number = 0;
+  std::string name;
+  std::int64_t sediment = 0;
+  std::array<double, 3> origin_enu_m{};
+  Array<float> vertex_m;
+  Array<std::uint32_t> triangle;
+  Array<std::int32_t> split;
+  Array<float> split_deviation_m;
+  Array<float> split_box_m;
+  Array<std::uint32_t> born;
+  Array<std::uint32_t> coarsest;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", "1", "by which it is released", self.number);
+    visit("name", "", "in the scenario", self.name);
+    visit("sediment", "1", "sediment class of all of it", self.sediment);
+    visit("origin_enu_m", "m", "what its vertices count from", self.origin_enu_m);
+    visit("vertex_m", "m", "east, north, up of each vertex", self.vertex_m);
+    visit("triangle", "1", "three vertices each", self.triangle);
+    visit("split", "1",
+          "coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: "
+          "none), first and number of the triangles that come with it, in `born`",
+          self.split);
+    visit("split_deviation_m", "m", "how far the surface is off without it and what is below it, an estimate",
+          self.split_deviation_m);
+    visit("split_box_m", "m", "least and greatest east, north, up, as vertices, of all triangles that change below it",
+          self.split_box_m);
+    visit("born", "1", "triangles by the split that brings them", self.born);
+    visit("coarsest", "1", "triangles that are there without any split", self.coarsest);
+  }
+};
+
+struct MeshRelease {
+  static constexpr const char* kType = "mesh_release/1";
+  static constexpr const char* kAbout = "The pager will not refer to this mesh again until it sends it anew.";
+  std::int64_t number = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", "1", "the mesh's", self.number);
   }
 };
 

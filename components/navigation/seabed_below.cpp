@@ -31,6 +31,9 @@ void SeabedBelow::connect(Ports& ports, bool optional) {
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); }, {.optional = optional});
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& tile) { tiles_.release(tile); },
                              {.optional = optional});
+  ports.in<msg::Mesh>("mesh", [this](const msg::Mesh& mesh) { tiles_.insert(mesh); }, {.optional = true});
+  ports.in<msg::MeshRelease>("mesh_release", [this](const msg::MeshRelease& mesh) { tiles_.release(mesh); },
+                             {.optional = true});
 }
 
 std::optional<double> SeabedBelow::distance_m(const frames::HeadPose& from, const frames::Vec3& direction,

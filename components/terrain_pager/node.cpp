@@ -69,8 +69,11 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       grid_{Vec2::Zero(), source::post_spacing_m(config.terrain, *terrain_), 1024,
             source::lsb_m(config.terrain, *terrain_)},
       box_(box_of(terrain_->extent())),
+      meshes_(config, box_),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes})),
       releases_(ports.out<msg::TileRelease>("release")),
+      meshes_out_(ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes()})),
+      mesh_releases_(ports.out<msg::MeshRelease>("mesh_release")),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
@@ -99,8 +102,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
 
 SimTime TerrainPagerNode::step(SimTime now) {
   if (!events_.due(now)) return events_.next();
-  if (!chart_sent_) chart_.send(pager::make_chart(*terrain_));
-  chart_sent_ = true;
+  if (!chart_sent_) start();
   if (pose_) page(*pose_);
   tell_cache();
   return events_.next();
@@ -128,6 +130,13 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
   return tile;
 }
 
+void TerrainPagerNode::start() {
+  chart_sent_ = true;
+  chart_.send(pager::make_chart(*terrain_));
+  for (const std::string& name : meshes_.unprepared())
+    log::event(ports_, "mesh_unprepared", "mesh={} prepare_with=\"ensonify terrain lod\"", name);
+}
+
 pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
   pager::Paging::Rules rules;
   rules.margins = {feed_margin_m, feed_margin_m + config_.release_hysteresis_m};
@@ -147,6 +156,7 @@ void TerrainPagerNode::start_paging() {
       throw UserError(error.what());
     }
   }
+  margins_ = rules(feed_m).margins;
   paging_.emplace(grid_, box_, rules(feed_m));
 }
 
@@ -168,6 +178,7 @@ void TerrainPagerNode::page(const msg::Pose& pose) {
     releases_.send({key.east, key.north});
     ports_.count("tiles_released");
   }
+  exchange_meshes(motion.position_enu_m);
   tell_paging(decision);
   const bool inside = terrain_->extent().contains(motion.position_enu_m);
   ports_.health(inside ? "ok" : "degraded", inside ? "" : "the vehicle is outside the terrain");
@@ -185,6 +196,18 @@ void TerrainPagerNode::publish(const TileKey& key) {
 void TerrainPagerNode::tell_cache() {
   if (!cache_) return;
   for (const auto& notice : cache_->take_notices()) log::event(ports_, notice.event, "{}", notice.pairs);
+}
+
+void TerrainPagerNode::exchange_meshes(const Vec2& place_enu_m) {
+  const auto decision = meshes_.look(place_enu_m, margins_);
+  for (const msg::Mesh* mesh : decision.publish) {
+    meshes_out_.send(*mesh);
+    ports_.count("meshes_published");
+  }
+  for (const std::int64_t number : decision.release) {
+    mesh_releases_.send({number});
+    ports_.count("meshes_released");
+  }
 }
 
 /// A message only when poses have changed something; what disk and threads did goes behind it, for viewers.

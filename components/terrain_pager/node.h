@@ -5,6 +5,7 @@
 
 #include "components/runtime/ports.h"
 #include "components/terrain_pager/config.h"
+#include "components/terrain_pager/meshes.h"
 #include "components/terrain_pager/paging.h"
 #include "components/terrain_pager/tile_cache.h"
 #include "components/terrain_pager/tile_store.h"
@@ -32,11 +33,13 @@ class TerrainPagerNode {
   pager::Paging::Rules rules(double feed_margin_m) const;
   void open_cache();
   pager::TileStore::TilePtr made(const pager::TileKey& key);
+  void start();
   void start_paging();
   paging::Motion motion_of(const msg::Pose& pose);
   void page(const msg::Pose& pose);
   void publish(const pager::TileKey& key);
   void tell_cache();
+  void exchange_meshes(const source::Vec2& place_enu_m);
   void tell_paging(const pager::Paging::Decision& decision);
 
   Config config_;
@@ -45,13 +48,19 @@ class TerrainPagerNode {
   std::unique_ptr<source::TerrainSource> terrain_;
   pager::TileGrid grid_;
   pager::Box box_;
+  pager::Meshes meshes_;
   std::optional<pager::Paging> paging_;  // from the first look on, when it is known how far heads hear
   std::optional<pager::TileCache> cache_;
   std::optional<pager::TileStore> store_;  // its threads use what stands above
   double turn_rate_radps_ = 0.0;           // of the vehicle, smoothed
+  paging::Margins margins_;              // the same
+  std::optional<pager::TileStore> store_;
+  double turn_rate_radps_ = 0.0;  // of the vehicle, smoothed
   std::optional<msg::Pose> pose_;
   Ports::Out<msg::Tile> tiles_;
   Ports::Out<msg::TileRelease> releases_;
+  Ports::Out<msg::Mesh> meshes_out_;
+  Ports::Out<msg::MeshRelease> mesh_releases_;
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;

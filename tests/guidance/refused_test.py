@@ -85,6 +85,17 @@ WORLDS = [
     ("no sound", "sound_speed_mps: 1500", "sound_speed_mps: .nan", "sound_speed_mps: .nan"),
     ("no ground", "depth_m: 10, slope", "depth_m: .nan, slope", "depth_m: .nan"),
 ]
+GROUND = "layers: { ground"  # meshes stand before it
+MESHES = [
+    ("a mesh of nothing", "{}", "seabed.meshes.quay: needs one of file, sheet_pile_wall"),
+    ("a mesh that is not there", "{ file: no.obj }", "seabed.meshes.quay.file: .*no such file or folder"),
+    ("a mesh of numbers that are none", "{ file: holed.obj }", "holed.obj:1"),
+    ("a mesh of a map's coordinates", "{ file: far.obj }", "seabed.meshes.quay: lies at east 500000 .*outside the terrain; allowed is east"),
+    ("a mesh of no class", "{ file: far.obj, sediment: 5 }", "seabed.meshes.quay.sediment: is not a class of seabed.sediments"),
+    ("a wall of no length", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [5, 5] } }", "to_m: is less than a pile's width from from_m"),
+    ("a wall of no height", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [9, 5], foot_depth_m: 3, top_height_m: -3 } }", "top_height_m: is not above the foot"),
+    ("a wall of no number", "{ sheet_pile_wall: { from_m: [.nan, 5], to_m: [9, 5] } }", "from_m"),
+]
 SENSORS = [
     ("a rate below nothing", "NAVIGATION", "gnss: { rate_hz: -5 }", r"gnss.rate_hz: -5 is outside \[0.01, 1000\]"),
     ("a rate of no number", "NAVIGATION", "imu: { rate_hz: .nan }", "imu.rate_hz: .nan"),
@@ -102,6 +113,8 @@ class Refused(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="ensonify-refused-")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        (self.folder / "holed.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        (self.folder / "far.obj").write_text("v 500000 5900000 -9\nv 500001 5900000 -9\nv 500000 5900001 -9\nf 1 2 3\n")
         (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
 
     def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):
@@ -139,6 +152,11 @@ class Refused(unittest.TestCase):
         for what, good, wrong, cause in WORLDS:
             with self.subTest(what):
                 self.expect(self.write(world=(good, wrong)), "world.yaml" if "gauge" not in wrong else "", cause)
+
+    def test_meshes(self):
+        for what, mesh, cause in MESHES:
+            with self.subTest(what):
+                self.expect(self.write(world=(GROUND, f"meshes: {{ quay: {mesh} }}\n  {GROUND}")), "", cause)
 
     def test_sensors(self):
         for what, place, config, cause in SENSORS:

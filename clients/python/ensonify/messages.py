@@ -44,6 +44,8 @@ __all__ = [
     "SeabedImage",
     "Tile",
     "TileRelease",
+    "Mesh",
+    "MeshRelease",
     "Chart",
 ]
 
@@ -995,6 +997,48 @@ class TileRelease(Message):
 
 
 @dataclass(eq=False)
+class Mesh(Message):
+    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits tell how to coarsen it (docs/seabed/irregular-meshes.md).
+
+    number [1]: by which it is released
+    name: in the scenario
+    sediment [1]: sediment class of all of it
+    origin_enu_m [m]: what its vertices count from
+    vertex_m [m]: east, north, up of each vertex
+    triangle [1]: three vertices each
+    split [1]: coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: none), first and number of the triangles that come with it, in `born`
+    split_deviation_m [m]: how far the surface is off without it and what is below it, an estimate
+    split_box_m [m]: least and greatest east, north, up, as vertices, of all triangles that change below it
+    born [1]: triangles by the split that brings them
+    coarsest [1]: triangles that are there without any split
+    """
+
+    TYPE = "mesh/1"
+    number: int = 0
+    name: str = ""
+    sediment: int = 0
+    origin_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    vertex_m: np.ndarray = array("f4")
+    triangle: np.ndarray = array("u4")
+    split: np.ndarray = array("i4")
+    split_deviation_m: np.ndarray = array("f4")
+    split_box_m: np.ndarray = array("f4")
+    born: np.ndarray = array("u4")
+    coarsest: np.ndarray = array("u4")
+
+
+@dataclass(eq=False)
+class MeshRelease(Message):
+    """The pager will not refer to this mesh again until it sends it anew.
+
+    number [1]: the mesh's
+    """
+
+    TYPE = "mesh_release/1"
+    number: int = 0
+
+
+@dataclass(eq=False)
 class Chart(Message):
     """What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
 
@@ -1054,5 +1098,7 @@ TYPES = {cls.TYPE: cls for cls in (
     SeabedImage,
     Tile,
     TileRelease,
+    Mesh,
+    MeshRelease,
     Chart,
 )}

@@ -60,6 +60,9 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
                           {.optional = true});
   ports.in<msg::Tile>("tile", [this](const msg::Tile& tile) { tiles_.insert(tile); });
   ports.in<msg::TileRelease>("release", [this](const msg::TileRelease& release) { tiles_.release(release); });
+  ports.in<msg::Mesh>("mesh", [this](const msg::Mesh& mesh) { tiles_.insert(mesh); }, {.optional = true});
+  ports.in<msg::MeshRelease>("mesh_release", [this](const msg::MeshRelease& release) { tiles_.release(release); },
+                             {.optional = true});
   if (start.probe) {
     ports.in<msg::SoundSpeed>("sound_speed",
                               [this](const msg::SoundSpeed& probe) { probe_mps_ = probe.sound_speed_mps; },

@@ -14,9 +14,9 @@
 
 namespace ensonify {
 
-/// What a head is told, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `estimate`,
-/// `settings` and, of a head that has a probe at its face, `sound_speed`. A command is heard 100 ms later: it may well
-/// come from somebody who looks at the head's own pings.
+/// What a head is told, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `mesh`,
+/// `mesh_release`, `estimate`, `settings` and, of a head that has a probe at its face, `sound_speed`. A command is
+/// heard 100 ms later: it may well come from somebody who looks at the head's own pings.
 class HeadInputs {
  public:
   /// What is set by commands, apart from other channels of the head.

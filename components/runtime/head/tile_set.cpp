@@ -1,5 +1,7 @@
 #include "components/runtime/head/tile_set.h"
 
+#include "components/runtime/mesh_message.h"
+
 namespace ensonify {
 namespace {
 
@@ -29,6 +31,13 @@ void TileSet::insert(const msg::Tile& message) {
 }
 
 void TileSet::release(const msg::TileRelease& release) { scene_.remove(key_of(release.col, release.row)); }
+
+void TileSet::insert(const msg::Mesh& message) {
+  scene_.insert(message.number,
+                trace::IrregularMesh{hierarchy_of(message), static_cast<std::uint8_t>(message.sediment)});
+}
+
+void TileSet::release(const msg::MeshRelease& release) { scene_.remove(release.number); }
 
 bool TileSet::covers(const frames::Vec2& place_enu_m) const {
   return !scene_.empty() && scene_.contains(grid_.key_at(place_enu_m));

@@ -6,13 +6,15 @@
 
 namespace ensonify {
 
-/// The tiles that a head holds, ready for rays.
+/// The tiles and meshes that a head holds, ready for rays.
 class TileSet {
  public:
   explicit TileSet(const trace::LevelOfDetail& detail = {}) : scene_(frames::Vec2::Zero(), detail) {}
 
   void insert(const msg::Tile& tile);
   void release(const msg::TileRelease& release);
+  void insert(const msg::Mesh& mesh);
+  void release(const msg::MeshRelease& release);
 
   /// Whether a tile lies under the place.
   bool covers(const frames::Vec2& place_enu_m) const;

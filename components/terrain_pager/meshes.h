@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "components/terrain_pager/config.h"
+#include "kernels/paging/near.h"
+#include "kernels/paging/residency.h"
+#include "messages/terrain.h"
+
+namespace ensonify::pager {
+
+/// The scenario's meshes, and which of them heads hold: as with tiles, those nearer than the feed margin, until they
+/// are farther than the release margin. All are in memory from the start.
+class Meshes {
+ public:
+  /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain, and for more than
+  /// head_budget_mb of them.
+  Meshes(const TerrainPagerConfig& config, const paging::Box& terrain);
+
+  struct Decision {
+    std::vector<const msg::Mesh*> publish;  // in the scenario's order
+    std::vector<std::int64_t> release;
+  };
+  /// One look at where the vehicle is.
+  Decision look(const frames::Vec2& place_enu_m, const paging::Margins& margins);
+
+  /// Of the largest one, as a message.
+  std::size_t max_bytes() const;
+  /// Names of those whose splits had to be made at the start.
+  const std::vector<std::string>& unprepared() const { return unprepared_; }
+
+ private:
+  struct One {
+    msg::Mesh message;
+    paging::Box box;  // seen from above
+    bool at_heads = false;
+  };
+  std::vector<One> meshes_;
+  std::vector<std::string> unprepared_;
+};
+
+}  // namespace ensonify::pager

@@ -1,0 +1,76 @@
+#include "components/terrain_pager/meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/testing.h"
+#include "components/terrain_pager/node.h"
+
+using namespace ensonify;
+using pager::Meshes;
+
+namespace {
+
+/// Level ground of 400 m, and a wall of 24 m along the east, 100 m east and 50 m north of its middle.
+TerrainPagerConfig quay() {
+  TerrainPagerConfig config;
+  config.scenario_file = "world.yaml";
+  config.feed_margin_m = 60.0;
+  config.release_hysteresis_m = 20.0;
+  config.terrain.seabed.post_spacing_m = 1.0;
+  config.terrain.seabed.layered.size_m = {400.0, 400.0};
+  SeabedMesh wall{.name = "quay", .wall = progressive::SheetPileWall{}, .sediment = 0};
+  wall.wall->from_enu_m = {100.0, 50.0};
+  wall.wall->to_enu_m = {124.0, 50.0};
+  config.terrain.seabed.meshes = {wall};
+  return config;
+}
+
+const paging::Box kTerrain{{-200.0, -200.0}, {200.0, 200.0}};
+const paging::Margins kMargins{60.0, 80.0};
+
+}  // namespace
+
+TEST_CASE("a mesh is published when the vehicle comes near it, and released farther off than that") {
+  Meshes meshes(quay(), kTerrain);
+  const auto look = [&](double east_m) { return meshes.look({east_m, 50.0}, kMargins); };
+  CHECK(look(39.0).publish.empty());
+  const auto near = look(41.0);
+  REQUIRE(near.publish.size() == 1);
+  CHECK(near.publish[0]->name == "quay");
+  CHECK(near.publish[0]->number == 0);
+  CHECK(look(112.0).publish.empty());  // beside it: heads have it
+  CHECK(look(21.0).release.empty());
+  CHECK(look(19.0).release == std::vector<std::int64_t>{0});
+  CHECK(look(10.0).release.empty());
+  CHECK(look(60.0).publish.size() == 1);
+}
+
+TEST_CASE("what no head could ever meet or hold is refused, with its place") {
+  TerrainPagerConfig config = quay();
+  config.terrain.seabed.meshes[0].wall->from_enu_m = {400.0, 50.0};
+  config.terrain.seabed.meshes[0].wall->to_enu_m = {424.0, 50.0};
+  CHECK_THROWS_WITH(Meshes(config, kTerrain),
+                    "world.yaml: seabed.meshes.quay: lies at east 400 to 424, north 50 to 50 m, outside the terrain; "
+                    "allowed is east -200 to 200, north -200 to 200 m (position_m moves it)");
+  config = quay();
+  config.head_budget_mb = 0.05;
+  CHECK_THROWS_WITH(Meshes(config, kTerrain), Catch::Contains("world.yaml: seabed.meshes.quay: makes") &&
+                                                  Catch::Contains("at most 0.05 MB are allowed"));
+}
+
+TEST_CASE("the pager publishes a mesh in the event in which it publishes the tiles there") {
+  NodeUnderTest<TerrainPagerNode> node(quay());
+  for (int s = 0; s <= 20; ++s) {
+    msg::Pose pose;
+    pose.stamp_ns = SimTime(std::chrono::seconds(s)).count();
+    pose.position_enu_m = {20.0 + 5.0 * s, 50.0, 0.0};
+    node.give("pose", pose);
+  }
+  CHECK(node.step_until<msg::Mesh>("mesh", 3_s).empty());
+  const auto meshes = node.step_until<msg::Mesh>("mesh", 20_s);
+  REQUIRE(meshes.size() == 1);
+  CHECK(meshes[0].name == "quay");
+  CHECK(meshes[0].vertex_m.rows() == meshes[0].vertex_m.size() / 3);
+  CHECK(node.step_until<msg::MeshRelease>("mesh_release", 20_s).empty());
+}
