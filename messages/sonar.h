@@ -38,6 +38,7 @@ struct AppliedSettings {
   double frequency_hz = 0.0;
   std::string pulse = "cw";
   double pulse_length_s = 0.0;
+  double tapered_fraction = 0.0;
   double bandwidth_hz = 0.0;
   double source_level_db = 0.0;
   double range_m = 0.0;
@@ -60,6 +61,9 @@ struct AppliedSettings {
     visit("frequency_hz", "Hz", "centre frequency in force", self.frequency_hz);
     visit("pulse", "", "cw (rectangular), cw_tapered, fm_up or fm_down", self.pulse);
     visit("pulse_length_s", "s", "pulse length in force", self.pulse_length_s);
+    visit("tapered_fraction", "1",
+          "of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others",
+          self.tapered_fraction);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level in force, on the axis, rms", self.source_level_db);
     visit("range_m", "m", "range setting in force", self.range_m);

@@ -105,7 +105,7 @@ EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSetti
   heard.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
   fill(heard.ping.applied, settings);
   heard.ping.applied.frequency_hz = config_.frequency_hz;
-  heard.ping.applied.pulse = pulse_word(false, config_.tapered_fraction);
+  fill_shape(false, config_.tapered_fraction, heard.ping.applied);
   heard.ping.applied.transmit_beamwidth_rad = heard.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
   heard.ping.applied.sound_speed_mps = config_.sound_speed_mps;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);

@@ -118,7 +118,7 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, images_[0], ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
-  ping.applied.pulse = pulse_word(config_.pulse.chirp, config_.pulse.tapered_fraction);
+  fill_shape(config_.pulse.chirp, config_.pulse.tapered_fraction, ping.applied);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.bandwidth_hz = config_.pulse.chirp ? ranged.band_hz : 0.0;
   ping.applied.transmit_beamwidth_rad = config_.transmit_vertical_rad;

@@ -186,6 +186,7 @@ TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its sh
   const msg::Ping tapered = ping_of(config, scene);
   CHECK(rectangular.applied.pulse == "cw");
   CHECK(tapered.applied.pulse == "cw_tapered");
+  CHECK(tapered.applied.tapered_fraction == 0.5);
   for (const double R : {10.0, 15.0, 25.0}) {
     const auto level_db = [&](const msg::Ping& ping) { return db(mean_square(ping, -60, 60, R - 1.0, R + 1.0)); };
     // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.

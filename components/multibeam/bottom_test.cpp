@@ -263,6 +263,7 @@ TEST_CASE("a tapered tone finds the same flat seabed, and the same strength") {
   config.tapered_fraction = 0.5;
   const auto pings = survey(config, {.speed_mps = 3.0}, 1_s);
   CHECK(pings.back().applied.pulse == "cw_tapered");
+  CHECK(pings.back().applied.tapered_fraction == 0.5);
   // It brings 10 log(1 - 5/8 / 2) = 1.63 dB less energy.
   CHECK(lambert_mu_db(pings) == Approx(rectangular_db).margin(0.2));
   CHECK(std::abs(depth_error(pings, 0.0, 45.0).mean) < 0.015);

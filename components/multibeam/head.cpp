@@ -98,7 +98,7 @@ msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const HeadSettings
   if (!config_.effects.tvg) applied.gain_spreading_db = applied.gain_absorption_dbpm = 0.0;
   applied.range_m = shot.range_m;
   applied.frequency_hz = config_.frequency_hz;
-  applied.pulse = pulse_word(config_.chirp, config_.tapered_fraction);
+  fill_shape(config_.chirp, config_.tapered_fraction, applied);
   applied.bandwidth_hz = config_.bandwidth_hz;
   applied.transmit_beamwidth_rad = config_.transmit_beamwidth_rad;
   applied.receive_beamwidth_rad = config_.receive_beamwidth_rad;

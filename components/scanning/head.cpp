@@ -110,7 +110,7 @@ msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, d
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
   fill(ping.applied, settings);
   ping.applied.frequency_hz = config_.frequency_hz;
-  ping.applied.pulse = pulse_word(false, config_.pulse.tapered_fraction);
+  fill_shape(false, config_.pulse.tapered_fraction, ping.applied);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;

@@ -185,6 +185,7 @@ TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its sh
   config.pulse.tapered_fraction = 0.5;
   const msg::Ping tapered = ping();
   CHECK(tapered.applied.pulse == "cw_tapered");
+  CHECK(tapered.applied.tapered_fraction == 0.5);
   const auto level_db = [](const msg::Ping& row) {
     double sum = 0.0;
     for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {

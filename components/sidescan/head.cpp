@@ -182,7 +182,7 @@ msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& setti
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
   fill(ping.applied, settings);
   ping.applied.frequency_hz = channel_.frequency_hz;
-  ping.applied.pulse = pulse_word(channel_.chirp, channel_.tapered_fraction);
+  fill_shape(channel_.chirp, channel_.tapered_fraction, ping.applied);
   ping.applied.bandwidth_hz = channel_.bandwidth_hz;
   ping.applied.transmit_beamwidth_rad = channel_.horizontal_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = channel_.vertical_beamwidth_rad;

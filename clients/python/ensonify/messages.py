@@ -522,6 +522,7 @@ class AppliedSettings(Struct):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -543,6 +544,7 @@ class AppliedSettings(Struct):
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0
+    tapered_fraction: float = 0.0
     bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0
@@ -593,6 +595,7 @@ class Ping(Message):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -629,6 +632,7 @@ class Ping(Message):
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0
+    tapered_fraction: float = 0.0
     bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0
@@ -754,6 +758,7 @@ class Soundings(Message):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -799,6 +804,7 @@ class Soundings(Message):
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0
+    tapered_fraction: float = 0.0
     bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0
@@ -835,6 +841,7 @@ class Snippets(Message):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -865,6 +872,7 @@ class Snippets(Message):
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0
+    tapered_fraction: float = 0.0
     bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0
@@ -905,6 +913,7 @@ class SeabedImage(Message):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
+    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -942,6 +951,7 @@ class SeabedImage(Message):
     frequency_hz: float = 0.0
     pulse: str = "cw"
     pulse_length_s: float = 0.0
+    tapered_fraction: float = 0.0
     bandwidth_hz: float = 0.0
     source_level_db: float = 0.0
     range_m: float = 0.0

@@ -9,9 +9,9 @@ void read_taper(ConfigReader& from, bool chirp, double& tapered_fraction) {
   if (chirp && tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
 }
 
-const char* pulse_word(bool chirp, double tapered_fraction) {
-  if (chirp) return "fm_up";
-  return tapered_fraction > 0.0 ? "cw_tapered" : "cw";
+void fill_shape(bool chirp, double tapered_fraction, msg::AppliedSettings& applied) {
+  applied.pulse = chirp ? "fm_up" : (tapered_fraction > 0.0 ? "cw_tapered" : "cw");
+  applied.tapered_fraction = tapered_fraction;
 }
 
 }  // namespace ensonify
