@@ -50,12 +50,10 @@ class TerrainPagerNode {
   pager::Box box_;
   pager::Meshes meshes_;
   std::optional<pager::Paging> paging_;  // from the first look on, when it is known how far heads hear
+  paging::Margins margins_;              // the same
   std::optional<pager::TileCache> cache_;
   std::optional<pager::TileStore> store_;  // its threads use what stands above
   double turn_rate_radps_ = 0.0;           // of the vehicle, smoothed
-  paging::Margins margins_;              // the same
-  std::optional<pager::TileStore> store_;
-  double turn_rate_radps_ = 0.0;  // of the vehicle, smoothed
   std::optional<msg::Pose> pose_;
   Ports::Out<msg::Tile> tiles_;
   Ports::Out<msg::TileRelease> releases_;
