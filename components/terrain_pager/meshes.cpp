@@ -7,6 +7,8 @@
 
 #include "components/runtime/mesh_message.h"
 #include "components/runtime/terrain/prepared_mesh.h"
+#include "kernels/navigation/runline.h"
+#include "kernels/progressive/crossing.h"
 
 namespace ensonify::pager {
 namespace {
@@ -32,6 +34,26 @@ void refuse(const TerrainPagerConfig& config, const std::string& name, const std
   throw ConfigError({ConfigProblem{{config.scenario_file, 0, 0}, "seabed.meshes." + name, why}});
 }
 
+/// A line may lie beside a mesh, or above it where the vehicle dives; not through it, nor below.
+void check_lines(const TerrainPagerConfig& config, const std::string& name, const progressive::TriangleMesh& mesh) {
+  std::vector<ConfigProblem> problems;
+  const auto depths = config.mission.runline_depths_m();
+  for (std::size_t i = 0; i < config.mission.runlines.size(); ++i) {
+    const navigation::Runline& line = config.mission.runlines[i];
+    const double depth_m = i < depths.size() ? depths[i].value_or(0.0) : 0.0;
+    const auto along_m = progressive::first_crossing_m(mesh, {line.start_enu_m, line.end_enu_m, -depth_m});
+    if (!along_m) continue;
+    const frames::Vec2 place = navigation::point_on(line, *along_m);
+    problems.push_back(
+        {{config.scenario_file, 0, 0},
+         fmt::format("mission runline {}", i + 1),
+         fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a line beside it, or "
+                     "above",
+                     place.x(), place.y(), depth_m, name)});
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
 }  // namespace
 
 Meshes::Meshes(const TerrainPagerConfig& config, const paging::Box& terrain) {
@@ -48,6 +70,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const paging::Box& terrain) {
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
                       box.low.x(), box.high.x(), box.low.y(), box.high.y(), terrain.low.x(), terrain.high.x(),
                       terrain.low.y(), terrain.high.y()));
+    check_lines(config, mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());
     one.message.name = mesh.name;

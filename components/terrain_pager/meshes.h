@@ -15,8 +15,8 @@ namespace ensonify::pager {
 /// are farther than the release margin. All are in memory from the start.
 class Meshes {
  public:
-  /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain, and for more than
-  /// head_budget_mb of them.
+  /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain or stands in the way of a
+  /// runline, and for more than head_budget_mb of them. A line that follows the bottom is judged as one at the surface.
   Meshes(const TerrainPagerConfig& config, const paging::Box& terrain);
 
   struct Decision {

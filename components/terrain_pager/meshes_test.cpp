@@ -59,6 +59,33 @@ TEST_CASE("what no head could ever meet or hold is refused, with its place") {
                                                   Catch::Contains("at most 0.05 MB are allowed"));
 }
 
+TEST_CASE("a runline through a mesh is refused with its place, one beside it or above it is not") {
+  TerrainPagerConfig config = quay();
+  const auto refused = [&](const navigation::Runline& line, double depth_m) {
+    config.mission.runlines = {line};
+    config.mission.depth_m = depth_m;
+    config.mission.steps = {FlyLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
+    try {
+      Meshes(config, kTerrain);
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  config.terrain.seabed.meshes[0].wall->out_of_line_m = 0.0;
+  // Pans stand in and out by half the section's depth: the way up from the south meets one of them.
+  CHECK_THAT(
+      refused({{110.0, 0.0}, {110.0, 90.0}}, 0.0),
+      Catch::Matches(R"(world.yaml: mission runline 1: at \(110.0, (49.[89]|50.[0-2])\) m, 0.0 m deep, it runs into )"
+                     "the mesh quay; allowed is a line beside it, or above"));
+  CHECK_THAT(refused({{110.0, 90.0}, {110.0, 0.0}}, 3.0), Catch::Contains("3.0 m deep"));
+  CHECK(refused({{110.0, 0.0}, {110.0, 45.0}}, 0.0).empty());
+  CHECK(refused({{126.0, 0.0}, {126.0, 90.0}}, 0.0).empty());
+  config.terrain.seabed.meshes[0].wall->top_height_m = -2.0;
+  CHECK(refused({{110.0, 0.0}, {110.0, 90.0}}, 1.9).empty());
+  CHECK_FALSE(refused({{110.0, 0.0}, {110.0, 90.0}}, 2.0).empty());
+}
+
 TEST_CASE("the pager publishes a mesh in the event in which it publishes the tiles there") {
   NodeUnderTest<TerrainPagerNode> node(quay());
   for (int s = 0; s <= 20; ++s) {

@@ -1,6 +1,7 @@
 #include "kernels/progressive/cut.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ensonify::progressive {
 namespace {
@@ -29,6 +30,24 @@ bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& c
 constexpr int kQuarters = 4;
 
 }  // namespace
+
+double mean_edge_m(const TriangleMesh& mesh) {
+  double sum_m = 0.0;
+  for (const auto& [a, b, c] : mesh.triangle) {
+    const frames::Vec3 ab = (mesh.vertex_m[b] - mesh.vertex_m[a]).cast<double>();
+    const frames::Vec3 ac = (mesh.vertex_m[c] - mesh.vertex_m[a]).cast<double>();
+    sum_m += ab.norm() + ac.norm() + (ac - ab).norm();
+  }
+  return sum_m / (3.0 * std::max(1.0, static_cast<double>(mesh.triangle.size())));
+}
+
+std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m) {
+  constexpr double kTolerance = 0.1;  // mean edges, times 2^level
+  std::vector<View> looks;
+  for (const lod::View& view : views)
+    looks.push_back({view.frustum, view.level == 0 ? 0.0 : std::ldexp(kTolerance * mean_edge_m, view.level)});
+  return looks;
+}
 
 /// With all that must be undone before it.
 void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/lod/cover.h"
 #include "kernels/lod/frustum.h"
 #include "kernels/progressive/hierarchy.h"
 
@@ -14,6 +15,13 @@ struct View {
   lod::Frustum frustum;
   double tolerance_m = 0.0;
 };
+
+/// Of the sides of its triangles; 0 without any.
+double mean_edge_m(const TriangleMesh& mesh);
+
+/// Views of tiles as views of a mesh beside them: nothing off at level 0; at level n, which sees every 2^n-th post,
+/// 2^n tenths of the mesh's mean edge.
+std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m);
 
 /// The mesh of one ping: fine where views look and as coarse as it can be elsewhere. A function of the hierarchy and
 /// the views; what was chosen before leaves nothing but memory.

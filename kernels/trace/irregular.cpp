@@ -18,9 +18,6 @@ using terrain::Vec3;
 /// Embree divides the work on fewer than 1024 primitives among no threads.
 constexpr std::size_t kMostInCluster = 512;
 
-/// Of the mean edge, times 2^level: how far off the surface may be where a view of that level meets it.
-constexpr double kTolerance = 0.1;
-
 /// Cuts triangles in two by their middles along the longest side of what they span, until they are few.
 class Clusters {
  public:
@@ -102,16 +99,15 @@ Part::Content TrianglePart::content() const {
 Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
     : hierarchy_(std::move(mesh.hierarchy)), common_{number, 0.0F, mesh.sediment} {
   const TriangleMesh& whole = hierarchy_.mesh;
-  double edges_m = 0.0, area_m2 = 0.0;
+  double area_m2 = 0.0;
   for (const auto& [a, b, c] : whole.triangle) {
     const Vec3 ab = (whole.vertex_m[b] - whole.vertex_m[a]).cast<double>();
     const Vec3 ac = (whole.vertex_m[c] - whole.vertex_m[a]).cast<double>();
-    edges_m += ab.norm() + ac.norm() + (ac - ab).norm();
     area_m2 += 0.5 * ab.cross(ac).norm();
     for (const std::uint32_t v : {a, b, c}) box_enu_m_.extend(whole.origin_enu_m + whole.vertex_m[v].cast<double>());
   }
   const double count = std::max(1.0, static_cast<double>(whole.triangle.size()));
-  edge_m_ = edges_m / (3.0 * count);
+  edge_m_ = progressive::mean_edge_m(whole);
   common_.facet_m = static_cast<float>(std::sqrt(2.0 * area_m2 / count));
   Clusters clusters(whole);
   cluster_of_ = std::move(clusters.of_triangle);
@@ -119,10 +115,7 @@ Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
 }
 
 void Irregular::choose(std::span<const lod::View> views) {
-  std::vector<progressive::View> looks;
-  for (const lod::View& view : views)
-    looks.push_back({view.frustum, view.level == 0 ? 0.0 : std::ldexp(kTolerance * edge_m_, view.level)});
-  cut_.choose(hierarchy_, looks);
+  cut_.choose(hierarchy_, progressive::views_of(views, edge_m_));
   want(cut_.triangles(), cut_.sources());
 }
 

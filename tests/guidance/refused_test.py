@@ -86,15 +86,29 @@ WORLDS = [
     ("no ground", "depth_m: 10, slope", "depth_m: .nan, slope", "depth_m: .nan"),
 ]
 GROUND = "layers: { ground"  # meshes stand before it
+WALL = "sheet_pile_wall: { from_m: [50, 5], to_m: [90, 5] }"
 MESHES = [
-    ("a mesh of nothing", "{}", "seabed.meshes.quay: needs one of file, sheet_pile_wall"),
-    ("a mesh that is not there", "{ file: no.obj }", "seabed.meshes.quay.file: .*no such file or folder"),
-    ("a mesh of numbers that are none", "{ file: holed.obj }", "holed.obj:1"),
-    ("a mesh of a map's coordinates", "{ file: far.obj }", "seabed.meshes.quay: lies at east 500000 .*outside the terrain; allowed is east"),
-    ("a mesh of no class", "{ file: far.obj, sediment: 5 }", "seabed.meshes.quay.sediment: is not a class of seabed.sediments"),
-    ("a wall of no length", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [5, 5] } }", "to_m: is less than a pile's width from from_m"),
-    ("a wall of no height", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [9, 5], foot_depth_m: 3, top_height_m: -3 } }", "top_height_m: is not above the foot"),
-    ("a wall of no number", "{ sheet_pile_wall: { from_m: [.nan, 5], to_m: [9, 5] } }", "from_m"),
+    ("a mesh of nothing", "{}", "world.yaml:.* seabed.meshes.quay: needs one of file, sheet_pile_wall"),
+    ("a mesh that is not there", "{ file: no.obj }", "world.yaml:.* seabed.meshes.quay.file: .*no such file or folder"),
+    ("a mesh of numbers that are none", "{ file: holed.obj }", "holed.obj:1:1: .*is no vertex; allowed: v and three numbers"),
+    ("a mesh with a corner nowhere", "{ file: loose.obj }", 'loose.obj:4:1: .*"7" is no vertex; allowed'),
+    ("a mesh of no triangles", "{ file: points.obj }", "points.obj:1:1: .*holds no triangle; allowed are meshes in OBJ or PLY"),
+    ("a mesh that ends early", "{ file: cut.ply }", "cut.ply:1:1: .*ends within its 3 elements vertex"),
+    ("a mesh of another kind", "{ file: tide.csv }", "tide.csv:1:1: .*holds no triangle"),
+    ("a mesh of a map's coordinates", "{ file: far.obj }",
+     "world.yaml: seabed.meshes.quay: lies at east 500000 .*outside the terrain; allowed is east -300 to 300"),
+    ("a mesh below infinity", "{ file: far.obj, position_m: [0, 0, .inf] }", "world.yaml:.* seabed.meshes.quay.position_m"),
+    ("a mesh of no unit", "{ file: far.obj, unit_m: 0 }", r"world.yaml:.*unit_m: 0 is outside \[1e-06, 1000\]"),
+    ("a mesh of no class", "{ file: far.obj, sediment: 5 }", "world.yaml:.* seabed.meshes.quay.sediment: is not a class of seabed.sediments"),
+    ("a name twice", f"{{ {WALL} }}, quay: {{ {WALL} }}", "world.yaml:.* seabed.meshes.quay: is given twice"),
+    ("a wall of no length", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [5, 5] } }", "world.yaml:.*to_m: is less than a pile's width from from_m"),
+    ("a wall of no height", "{ sheet_pile_wall: { from_m: [5, 5], to_m: [9, 5], foot_depth_m: 3, top_height_m: -3 } }",
+     "world.yaml:.*top_height_m: is not above the foot"),
+    ("a wall of no number", "{ sheet_pile_wall: { from_m: [.nan, 5], to_m: [9, 5] } }", "world.yaml:.*from_m.*: .nan is not finite"),
+    ("a wall of too many piles", "{ sheet_pile_wall: { from_m: [-9000, 5], to_m: [9000, 5], row_m: 0.1 } }",
+     "world.yaml:.*row_m: makes 9060302 vertices; allowed: 500000"),
+    ("a wall across a line", "{ sheet_pile_wall: { from_m: [-9, 20], to_m: [9, 20] } }",
+     r"world.yaml: mission runline 1: at \(0.0, (19.[789]|20.[0-3])\) m, 0.0 m deep, it runs into the mesh quay; allowed is a line beside it"),
 ]
 SENSORS = [
     ("a rate below nothing", "NAVIGATION", "gnss: { rate_hz: -5 }", r"gnss.rate_hz: -5 is outside \[0.01, 1000\]"),
@@ -115,6 +129,11 @@ class Refused(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         (self.folder / "holed.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         (self.folder / "far.obj").write_text("v 500000 5900000 -9\nv 500001 5900000 -9\nv 500000 5900001 -9\nf 1 2 3\n")
+        (self.folder / "loose.obj").write_text("v 0 0 -9\nv 1 0 -9\nv 0 1 -9\nf 1 2 7\n")
+        (self.folder / "points.obj").write_text("v 0 0 -9\nv 1 0 -9\nv 0 1 -9\nf 1 1 2\n")
+        (self.folder / "cut.ply").write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                             "end_header\n0 0 -9\n1 0")
         (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
 
     def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):
@@ -157,6 +176,7 @@ class Refused(unittest.TestCase):
         for what, mesh, cause in MESHES:
             with self.subTest(what):
                 self.expect(self.write(world=(GROUND, f"meshes: {{ quay: {mesh} }}\n  {GROUND}")), "", cause)
+        self.assertEqual(self.check(self.write(world=(GROUND, f"meshes: {{ quay: {{ {WALL} }} }}\n  {GROUND}")))[0], 0)
 
     def test_sensors(self):
         for what, place, config, cause in SENSORS:

@@ -91,13 +91,13 @@ class SystemTest(unittest.TestCase):
     def command(self, launch, *options, out="out"):
         return [str(BIN / "ensonify"), "run", str(launch), "--out", str(self.folder / out), *map(str, options)]
 
-    def run_launch(self, launch, *options, out="out", timeout=60):
-        """Runs a launch file (a path, or its text) to its end."""
+    def run_launch(self, launch, *options, out="out", timeout=60, prefix=()):
+        """Runs a launch file (a path, or its text) to its end; `prefix` are words before the command."""
         if isinstance(launch, str) and "\n" in launch:
             launch = self.write(f"{out}.yaml", launch)
         began = time.monotonic()
-        done = subprocess.run(self.command(launch, *options, out=out), capture_output=True, text=True, timeout=timeout,
-                              env=self.environment)
+        done = subprocess.run([*prefix, *self.command(launch, *options, out=out)], capture_output=True, text=True,
+                              timeout=timeout, env=self.environment)
         return Result(done.returncode, done.stdout, done.stderr, self.folder / out, time.monotonic() - began)
 
     def start_launch(self, launch, *options, out="out"):
