@@ -37,21 +37,22 @@ std::string known_grades(const std::string& kind) {
 
 /// Reads the errors of a section: first from the file of its grade, then from the section itself.
 void read_graded(ConfigReader& from, const std::string& kind, const std::function<void(ConfigReader&)>& read) {
-  std::string grade;
+  std::string grade, path;
   from.optional("grade", grade);
-  if (!grade.empty()) {
-    std::string path = find_data(std::string(kGrades) + "/" + kind + "_" + grade + ".yaml", {});
-    if (path.empty() && grade.ends_with(".yaml")) path = find_data(grade, {"."});
-    if (path.empty()) {
+  if (grade.ends_with(".yaml")) {
+    from.optional_path("grade", path);
+  } else if (!grade.empty()) {
+    path = find_data(std::string(kGrades) + "/" + kind + "_" + grade + ".yaml", {});
+    if (path.empty())
       from.problem("grade", "\"" + grade + "\" is no grade of this instrument; allowed: " + known_grades(kind) +
                                 ", or a file *.yaml");
-    } else {
-      try {
-        ConfigReader file = from.also(parse_config_file(path));
-        read(file);
-      } catch (const ConfigError& error) {
-        from.add(error);
-      }
+  }
+  if (!path.empty()) {
+    try {
+      ConfigReader file = from.also(parse_config_file(path));
+      read(file);
+    } catch (const ConfigError& error) {
+      from.add(error);
     }
   }
   read(from);

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "components/navigation/test_sailing.h"
 #include "components/runtime/head/test_seabed.h"
@@ -46,6 +47,20 @@ TEST_CASE("every grade reads, and names its kind") {
   CHECK(config_of("imu: { grade: fog }").instruments.imu->errors.gyro.turn_on_bias == Approx(0.02 * kDegree / 3600));
   CHECK(config_of("imu: { grade: fog, gyro: { bias_degph: 0.5 } }").instruments.imu->errors.gyro.turn_on_bias ==
         Approx(0.5 * kDegree / 3600));
+}
+
+TEST_CASE("a grade of one's own is looked for beside the file that names it, wherever one stands") {
+  const auto folder = std::filesystem::temp_directory_path() / "ensonify_grade_beside";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "mine.yaml") << "gyro: { bias_degph: 0.5 }\n";
+  std::ofstream(folder / "nav.yaml") << "imu: { grade: mine.yaml }\n";
+  ConfigReader from = ConfigReader::from_file((folder / "nav.yaml").string());
+  const Instruments instruments = read_instruments(from);
+  from.finish();
+  CHECK(instruments.imu->errors.gyro.turn_on_bias == Approx(0.5 * kDegree / 3600));
+  std::filesystem::remove_all(folder);
+  CHECK(faults_of("imu: { grade: mine.yaml }").find("nav.yaml:1:15: imu.grade: \"mine.yaml\": no such file") !=
+        std::string::npos);
 }
 
 TEST_CASE("impossible instruments are refused with place and cause") {
