@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 install(DIRECTORY scenarios launch DESTINATION share/ensonify
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "README.md")
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "README.md")
 
 set(package lib/cmake/ensonify)
 install(EXPORT ensonifyTargets NAMESPACE ensonify:: DESTINATION ${package} COMPONENT development)
