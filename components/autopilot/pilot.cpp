@@ -47,7 +47,7 @@ Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
       steps_(std::move(steps)),
       speed_mps_(mission_.speed_mps),
       depth_(mission_, limits_.vertical_speed_mps),
-      headway_(config.patience_s) {
+      abort_watch_(mission_.abort, config.patience_s) {
   ENSONIFY_ASSERT(!steps_.empty(), "a pilot needs a step");
   const auto lines = std::count_if(steps_.begin(), steps_.end(),
                                    [](const MissionStep& step) { return std::holds_alternative<FlyLine>(step); });
@@ -239,25 +239,7 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
     drift_enu_mps_ = guidance::learn_drift(drift_enu_mps_, velocity, attitude.heading_rad, period_s_, drift_settle_s_);
   }
   if (depth_.steers()) height_ = depth_.order(now, here_.depth_m);
-  if (!height_.too_low) {
-    too_low_since_.reset();
-  } else if (!too_low_since_) {
-    too_low_since_ = now;
-  }
-}
-
-std::string Pilot::why_abort(SimTime now, const msg::Estimate& estimate) const {
-  const AbortRules& rules = mission_.abort;
-  const auto& variance = estimate.position_covariance_enu_m2;
-  const double sd_m = std::sqrt(std::max(variance[0], variance[4]));
-  if (rules.after_s && seconds(now) >= *rules.after_s) return "it took longer than abort.after_s";
-  if (rules.position_sd_m && sd_m > *rules.position_sd_m) return "the place is less certain than abort.position_sd_m";
-  if (rules.too_low_s && too_low_since_ && seconds(now - *too_low_since_) >= *rules.too_low_s) {
-    return "below the obstacle floor for abort.too_low_s";
-  }
-  if (headway_.lost(now))
-    return "no metre nearer to the goal in patience_s: the current may be stronger than the vehicle";
-  return "";
+  abort_watch_.look(now, height_.too_low);
 }
 
 /// What headway shortens: off the line counts too, for a vehicle may be carried past it sideways.
@@ -283,7 +265,7 @@ void Pilot::hear(const msg::Altitude& altitude) {
 void Pilot::update(SimTime now, const msg::Estimate& estimate) {
   look(now, estimate);
   if (!std::exchange(begun_, true)) begin_step(now);
-  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = why_abort(now, estimate);
+  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = abort_watch_.why(now, estimate);
   if (!given_up_.empty()) state_ = State::kAbort;
   const auto goal = std::tuple(state_, step_, round_, piece_);
   switch (state_) {
@@ -306,9 +288,7 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
     default: break;
   }
   if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
-  const auto to_go_m = way_to_go_m();
-  if (!to_go_m || goal != std::tuple(state_, step_, round_, piece_)) headway_.start_anew();
-  if (to_go_m) headway_.look(now, *to_go_m);
+  abort_watch_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
 }
 
 bool Pilot::ended() const {

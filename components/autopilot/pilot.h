@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "components/autopilot/abort_watch.h"
 #include "components/autopilot/config.h"
 #include "components/autopilot/depth_keeper.h"
-#include "components/autopilot/headway.h"
 #include "components/runtime/sim_time.h"
 #include "kernels/guidance/circle.h"
 #include "kernels/guidance/line.h"
@@ -44,7 +44,7 @@ class Pilot {
   /// Why the mission has been given up; empty: it has not.
   const std::string& given_up() const { return given_up_; }
   /// Whether the goal has not come nearer for a tenth of the patience.
-  bool held_up(SimTime now) const { return headway_.held_up(now); }
+  bool held_up(SimTime now) const { return abort_watch_.held_up(now); }
   msg::Guidance command(SimTime now) const;
   msg::MissionState mission_state(SimTime now) const;
 
@@ -82,7 +82,6 @@ class Pilot {
 
   // --- steering
   void look(SimTime now, const msg::Estimate& estimate);
-  std::string why_abort(SimTime now, const msg::Estimate& estimate) const;
   std::optional<double> way_to_go_m() const;
   guidance::LineGains gains() const;
   bool holds_line() const;
@@ -115,7 +114,6 @@ class Pilot {
   guidance::Circle circle_;
   double to_sweep_rad_ = 0.0;
   std::optional<msg::NextLine> offered_;
-  std::optional<SimTime> too_low_since_;
 
   // How it goes.
   Place here_;
@@ -125,7 +123,7 @@ class Pilot {
   double cosine_of_tilt_ = 1.0;
   DepthKeeper depth_;
   guidance::HeightOrder height_;
-  Headway headway_;
+  AbortWatch abort_watch_;
   std::string given_up_;
 
   std::vector<std::pair<std::string, msg::SonarSettings>> settings_;
