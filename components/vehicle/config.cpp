@@ -1,9 +1,42 @@
 #include "components/vehicle/config.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/config/own_vehicle.h"
 
 namespace ensonify {
+namespace {
+
+/// Holds a mission against what a vehicle's forces can do. With several vehicles the one that is flown is not known
+/// here; it is taken to be the one without a start of its own.
+void check_abilities(ConfigReader& from, const Scenario& scenario, const Vehicle& vehicle,
+                     const HydrodynamicVehicle& moved) {
+  if (vehicle.start && scenario.vehicles.size() > 1) return;
+  double fastest_mps = scenario.mission.speed_mps;
+  for (const MissionStep& step : scenario.mission.steps) {
+    if (const auto* go = std::get_if<GoAt>(&step)) fastest_mps = std::max(fastest_mps, go->speed_mps.value_or(0.0));
+  }
+  const motion::Body body(moved.body);
+  const double top_mps = motion::top_speed_mps(body);
+  if (fastest_mps > top_mps) {
+    from.problem("", fmt::format("the mission asks for {} m/s, more than {}'s propellers make; allowed: {:.2f} m/s",
+                                 fastest_mps, vehicle.name, std::floor(100.0 * top_mps) / 100.0));
+    return;
+  }
+  const double planned_m = motion::turning_circle_m(fastest_mps, vehicle.limits);
+  const double tightest_m = motion::tightest_circle_m(moved.helm, body, fastest_mps);
+  if (planned_m < tightest_m) {
+    from.problem("", fmt::format("the scenario has {} turn on {} m at {} m/s, tighter than its forces make; allowed: "
+                                 "turning_radius_m {:.1f} or more",
+                                 vehicle.name, planned_m, fastest_mps, std::ceil(10.0 * tightest_m) / 10.0));
+  }
+}
+
+}  // namespace
 
 VehicleConfig VehicleConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
   VehicleConfig config;
@@ -20,6 +53,7 @@ VehicleConfig VehicleConfig::read(ConfigReader& from, const Scenario& scenario, 
   if (!vehicle.dynamics_file.empty()) {
     try {
       config.hydrodynamics = read_dynamics(vehicle.dynamics_file);
+      check_abilities(from, scenario, vehicle, *config.hydrodynamics);
     } catch (const ConfigError& error) {
       from.add(error);
     }

@@ -52,6 +52,26 @@ TEST_CASE("a process finds its vehicle by its own name or by the key") {
   CHECK(problem("{}", Scenario{}, "auv").find("has no vehicle") != std::string::npos);
 }
 
+TEST_CASE("what a vehicle's forces cannot do of a mission is refused") {
+  Scenario scenario = two_vehicles();
+  scenario.vehicles.pop_back();
+  Vehicle& auv = scenario.vehicles[0];
+  auv.dynamics_file = std::string(std::getenv("ENSONIFY_FOLDER")) + "/hydrodynamic/remus_100.yaml";
+  auv.limits.turning_radius_m = 25;
+  scenario.mission.speed_mps = 2;
+  CHECK(problem("{}", scenario, "auv") == "");
+  auv.limits.turning_radius_m = 5;
+  CHECK(problem("{}", scenario, "auv") ==
+        "v.yaml:1:1: the scenario has auv turn on 5 m at 2 m/s, tighter than its forces make; allowed: "
+        "turning_radius_m 19.5 or more");
+  scenario.mission.steps = {GoAt{4.0, {}, {}}};
+  CHECK(problem("{}", scenario, "auv") ==
+        "v.yaml:1:1: the mission asks for 4 m/s, more than auv's propellers make; allowed: 2.55 m/s");
+  auv.start.emplace();  // somebody else may be the one that is flown
+  scenario.vehicles.push_back(two_vehicles().vehicles[1]);
+  CHECK(problem("{}", scenario, "auv") == "");
+}
+
 TEST_CASE("a vehicle told no start begins the first line's run-in at mission speed") {
   Scenario scenario = two_vehicles();
   scenario.mission.run_in_m = 15;

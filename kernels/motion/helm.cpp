@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace ensonify::motion {
 namespace {
@@ -38,14 +39,33 @@ Vec6 wanted_acceleration(const HelmParameters& helm, const Body& body, const Bod
   return rate;
 }
 
+/// The least and the most force ahead that the propellers can make at the speeds of the water along them.
+std::array<double, 2> thrusts_n(const HydrodynamicParameters& p, const Vec6& through_water) {
+  std::array<double, 2> least_and_most{};
+  for (const Propeller& propeller : p.propellers) {
+    const double along_mps = propeller.direction_body.dot(through_water.head<3>());
+    const double ahead = propeller.direction_body.x() * thrust_n(propeller, propeller.fastest_rps, along_mps);
+    const double astern = propeller.direction_body.x() * thrust_n(propeller, -propeller.fastest_rps, along_mps);
+    least_and_most[0] += std::min(ahead, astern);
+    least_and_most[1] += std::max(ahead, astern);
+  }
+  return least_and_most;
+}
+
 }  // namespace
 
 Eigen::VectorXd orders(const HelmParameters& helm, const Body& body, const BodyState& state, const Command& command,
                        const Surroundings& around) {
   const HydrodynamicParameters& p = body.parameters();
   const Vec6 nu = body.through_water(state, around);
-  const Vec6 wanted =
-      body.mass() * wanted_acceleration(helm, body, state, command, around) - body.passive_force(state, around);
+  const Vec6 passive = body.passive_force(state, around);
+  Vec6 rate = wanted_acceleration(helm, body, state, command, around);
+  // No speeding up that the propellers cannot make: a moment against it would pitch a body whose weight is off its
+  // axis.
+  const auto [least_n, most_n] = thrusts_n(p, nu);
+  const double mass_kg = body.mass()(0, 0);
+  rate(0) = std::clamp(rate(0), (passive(0) + least_n) / mass_kg, (passive(0) + most_n) / mass_kg);
+  const Vec6 wanted = body.mass() * rate - passive;
 
   // Columns: force of each actuator at its largest, so that the unknowns are shares of what it can.
   Eigen::Matrix<double, 6, Eigen::Dynamic> reach(6, static_cast<Eigen::Index>(p.actuators()));
@@ -82,6 +102,39 @@ Eigen::VectorXd orders(const HelmParameters& helm, const Body& body, const BodyS
     result(i) = limited(share(i), 1.0) * p.fins[static_cast<std::size_t>(i - along.size())].largest_rad;
   }
   return result;
+}
+
+double top_speed_mps(const Body& body) {
+  BodyState state = body.at_rest({frames::Vec3::Zero(), frames::enu_from_body({0.0, 0.0, 0.0})});
+  const auto& propellers = body.parameters().propellers;
+  for (std::size_t i = 0; i < propellers.size(); ++i) {
+    const double ahead = propellers[i].direction_body.x();
+    state.actuators(static_cast<Eigen::Index>(i)) =
+        ahead < 0.0 ? -propellers[i].fastest_rps : propellers[i].fastest_rps;
+  }
+  double slower_mps = 0.0, faster_mps = 100.0;
+  while (faster_mps - slower_mps > 1e-6) {
+    const double middle_mps = 0.5 * (slower_mps + faster_mps);
+    state.velocity(0) = middle_mps;
+    const bool gains = body.passive_force(state, {})(0) + body.actuator_force(state, {})(0) > 0.0;
+    (gains ? slower_mps : faster_mps) = middle_mps;
+  }
+  return slower_mps;
+}
+
+double tightest_circle_m(const HelmParameters& helm, const Body& body, double speed_mps) {
+  constexpr double kStep_s = 0.02, kTurning_s = 120.0;
+  BodyState state = body.at_rest({frames::Vec3::Zero(), frames::enu_from_body({0.0, 0.0, 0.0})});
+  state.velocity(0) = speed_mps;
+  Command command{0.0, speed_mps, 0.0};
+  for (int i = 0; i < static_cast<int>(kTurning_s / kStep_s); ++i) {
+    command.heading_rad = frames::attitude_of(state.pose.enu_from_body).heading_rad + 0.5 * std::numbers::pi;
+    state = body.step(state, orders(helm, body, state, command, {}), {}, kStep_s);
+  }
+  const frames::MovingPose moving = body.moving(state, {});
+  const frames::Vec3& over_ground = moving.velocity_enu_mps;
+  const double rate_radps = (moving.pose.enu_from_body * moving.angular_rate_body_radps).z();
+  return over_ground.head<2>().norm() / std::abs(rate_radps);
 }
 
 }  // namespace ensonify::motion

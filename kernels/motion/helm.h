@@ -27,9 +27,17 @@ struct HelmParameters {
 /// A cascade per axis: the error asks for a rate, within its limit, and the rate's error for an acceleration four times
 /// as fast, which is critical damping. What force this takes follows from the body's own equations (the forces that act
 /// anyway are taken off), and is spread over propellers and fins by weighted least squares, each weighted by its own
-/// largest force. It sees the true state: errors of the vehicle's sensors come in through what it is told to steer.
+/// largest force. Told a speed beyond what its propellers make, a body goes as fast as it can and still holds heading
+/// and depth. It sees the true state: errors of the vehicle's sensors come in through what it is told to steer.
 /// Speed is through the water. Axes that nothing pushes stay as they are.
 Eigen::VectorXd orders(const HelmParameters& helm, const Body& body, const BodyState& state, const Command& command,
                        const Surroundings& around);
+
+/// Highest speed through still water, level and straight ahead, at which all propellers together balance the drag.
+double top_speed_mps(const Body& body);
+
+/// Radius of the circle that a body goes round on in still water, told a speed and always a heading a quarter turn to
+/// starboard: integrated for two minutes.
+double tightest_circle_m(const HelmParameters& helm, const Body& body, double speed_mps);
 
 }  // namespace ensonify::motion

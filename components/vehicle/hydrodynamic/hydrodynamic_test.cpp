@@ -114,6 +114,48 @@ TEST_CASE("every vehicle comes to the heading and the speed it is told, and hold
   }
 }
 
+TEST_CASE("told to go faster than it can, a vehicle goes as fast as it can and keeps its depth and heading") {
+  const struct {
+    const char* name;
+    double top_mps, height_m;
+  } vehicles[] = {{"remus_100", 2.554, -12}, {"rov_heavy", 0.734, -12}, {"asv_twin_hull", knots(6), 0}};
+  for (const auto& vehicle : vehicles) {
+    HydrodynamicDynamics dynamics(config_of(vehicle.name), {{0, 0, vehicle.height_m}, 0.0, 0.5}, 0_s);
+    dynamics.command(0.0, 8.0, std::nullopt);
+    double off_m = 0.0;
+    for (SimTime t = 1_s; t <= 120_s; t += 1_s) {
+      dynamics.advance(t);
+      off_m = std::max(off_m, std::abs(dynamics.moving().pose.position_enu_m.z() - vehicle.height_m));
+    }
+    INFO(vehicle.name);
+    CHECK(off_m < 2.0);  // while it speeds up: the fins answer before the propeller does
+    CHECK(dynamics.moving().pose.position_enu_m.z() == Approx(vehicle.height_m).margin(0.05));
+    const double heading_rad = frames::attitude_of(dynamics.moving().pose.enu_from_body).heading_rad;
+    CHECK(frames::wrap_pi(heading_rad) == Approx(0.0).margin(0.02));
+    CHECK(dynamics.moving().velocity_enu_mps.y() == Approx(vehicle.top_mps).epsilon(0.01));
+  }
+}
+
+TEST_CASE("the highest speed is where thrust balances drag, and circles are as tight as rudder or helm make them") {
+  const auto ability = [](const char* name) {
+    const HydrodynamicVehicle vehicle = read_dynamics(file(name));
+    return std::pair(motion::Body(vehicle.body), vehicle.helm);
+  };
+  const auto [remus, remus_helm] = ability("remus_100");
+  const auto [rov, rov_helm] = ability("rov_heavy");
+  const auto [launch, launch_helm] = ability("survey_launch");
+  CHECK(motion::top_speed_mps(remus) == Approx(2.554).epsilon(0.01));  // the published model's
+  CHECK(motion::top_speed_mps(rov) == Approx(0.734).epsilon(0.01));
+  CHECK(motion::top_speed_mps(launch) == Approx(5.0).epsilon(0.01));
+  // A helm that is free to turn at 8 degrees a second cannot be tighter than v / rate; drift widens the circle. At low
+  // speed the rudder is too weak for that rate.
+  const double by_helm_m = 2.5 / remus_helm.turn_rate_radps,
+               tightest_m = motion::tightest_circle_m(remus_helm, remus, 2.5);
+  CHECK(tightest_m > by_helm_m);
+  CHECK(tightest_m < 1.1 * by_helm_m);
+  CHECK(motion::tightest_circle_m(remus_helm, remus, 0.6) > 2.0 * 0.6 / remus_helm.turn_rate_radps);
+}
+
 TEST_CASE("asking often does not change the path of a hydrodynamic vehicle") {
   const VehicleConfig config = config_of("remus_100");
   HydrodynamicDynamics a(config, {{0, 0, -5}, 0.0, 1.5}, 0_s), b(config, {{0, 0, -5}, 0.0, 1.5}, 0_s);
