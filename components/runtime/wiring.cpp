@@ -15,6 +15,12 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
   return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 
+/// Whether an output may be for an input that no rule names. One that is called after an input and a process, as
+/// settings_bow, is for that input of that process alone.
+bool may_be_for(const std::string& out, const std::string& in, const std::string& process) {
+  return !out.starts_with(in + "_") || out == in + "_" + process;
+}
+
 class Wirer {
  public:
   Wirer(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
@@ -149,7 +155,11 @@ class Wirer {
     const InPort& port = processes_[rank].ins[in];
     std::vector<std::size_t> offers;
     for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
-      if (graph_.topics[t].type == port.type && graph_.topics[t].publisher != rank) offers.push_back(t);
+      const Graph::Topic& topic = graph_.topics[t];
+      const std::string& out = processes_[topic.publisher].outs[topic.port].port;
+      if (topic.type == port.type && topic.publisher != rank && may_be_for(out, port.port, processes_[rank].process)) {
+        offers.push_back(t);
+      }
     }
     if (offers.size() == 1) {
       add_edge(offers[0], rank, in, port.delay);

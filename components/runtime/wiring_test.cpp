@@ -41,6 +41,25 @@ TEST_CASE("two publishers of a type must be told apart by a rule") {
   CHECK(wire(processes, {{"auv.command", "agent/command", SimTime{-1}, "x.yaml:3:1"}}).problems.empty());
 }
 
+TEST_CASE("an output that is called after an input and a process is for that one alone") {
+  std::vector<Declaration> processes;
+  for (const char* name : {"bow", "side", "stern"}) {
+    InPort settings = in("settings", "sonar_settings/1", 100_ms);
+    settings.optional = true;
+    processes.push_back(process(name, {}, {settings}));
+  }
+  processes.push_back(
+      process("pilot", {out("settings_bow", "sonar_settings/1"), out("settings_stern", "sonar_settings/1")}, {}));
+  const Graph graph = wire(processes, {});
+  CHECK(graph.problems.empty());
+  REQUIRE(graph.edges.size() == 2);  // the side head hears nobody
+  CHECK(graph.topics[graph.edges[0].topic].name == "pilot/settings_bow");
+  CHECK(graph.edges[0].to == 0);
+  CHECK(graph.topics[graph.edges[1].topic].name == "pilot/settings_stern");
+  CHECK(graph.edges[1].to == 2);
+  CHECK(wire(processes, {{"side.settings", "pilot/settings_bow", SimTime{-1}, "x.yaml:3:1"}}).edges.size() == 3);
+}
+
 TEST_CASE("a misspelt topic or input is named with the nearest one") {
   CHECK(only_problem(kLoop, {{"auv.command", "pilot/comand", SimTime{-1}, "x.yaml:3:1"}}) ==
         "x.yaml:3:1: wiring.auv.command: no process publishes pilot/comand (did you mean pilot/command?)");
