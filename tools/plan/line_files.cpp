@@ -90,6 +90,7 @@ LineSet read_csv(const std::string& path, bool projected) {
     return cells;
   };
   std::getline(file, text);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // the byte order mark that spreadsheets write
   std::map<std::string, std::size_t> column;
   const std::vector<std::string> header = cells_of(text);
   for (std::size_t i = 0; i < header.size(); ++i) column[header[i]] = i;
@@ -126,6 +127,9 @@ void check(const LineSet& set, const std::string& path) {
     const std::string place = fmt::format("{}: line {}", path, i + 1);
     if (places.size() < 2) throw UserError(place + ": has fewer than 2 places");
     for (std::size_t k = 0; k < places.size(); ++k) {
+      if (!std::isfinite(places[k][0]) || !std::isfinite(places[k][1])) {
+        throw UserError(fmt::format("{}: place {} is not of finite numbers", place, k + 1));
+      }
       if (set.geodetic && (std::abs(places[k][0]) > 89.9 || std::abs(places[k][1]) > 180.0)) {
         throw UserError(fmt::format("{}: [{}, {}] is no latitude and longitude; allowed: up to 89.9 and 180 degrees{}",
                                     place, places[k][0], places[k][1],

@@ -59,6 +59,7 @@ TEST_CASE("a CSV names its columns") {
   REQUIRE(set.lines.size() == 2);
   CHECK(set.lines[1].name == "B");
   CHECK(set.lines[0].places[1] == std::array<double, 2>{53.21, -9.6});
+  CHECK(read_lines(written("a.csv", "\xef\xbb\xbfline,east_m,north_m\n1,0,0\n1,0,9\n"), "").lines.size() == 1);
   CHECK(refused("b.csv", "x,y\n1,2\n").find("b.csv:1: the header is \"x,y\"; allowed: line, and either") == 0);
   CHECK(refused("c.csv", "line,east_m,north_m\n1,0,nan\n") == "c.csv:2: \"nan\" is no number");
 }
@@ -102,6 +103,8 @@ TEST_CASE("what is no plan is refused with its place, its cause and what is allo
   CHECK(refused("a.csv", "line,latitude_deg,longitude_deg\n1,-109.6,53.2\n1,-109.6,53.3\n") ==
         "a.csv: line 1: [-109.6, 53.2] is no latitude and longitude; allowed: up to 89.9 and 180 degrees; are they "
         "swapped?");
+  CHECK(refused("n.geojson", R"({"type": "LineString", "coordinates": [[-9.6, 53.2], [-9.6, NaN]]})") ==
+        "n.geojson: line 1: place 2 is not of finite numbers");
   CHECK(refused("a.geojson", "{").find("a.geojson: cannot be read") == 0);
   for (const std::string crs : {"EPSG:1", "nonsense"}) {
     CHECK_THROWS_WITH(read_lines(written("f.lnw", kLnw), crs),
