@@ -13,7 +13,11 @@ AutopilotConfig AutopilotConfig::read(ConfigReader& from, const Scenario& scenar
   from.optional("turn_speed_fraction", config.turn_speed_fraction, 0.1, 1);
   from.optional("drift_settle_s", config.drift_settle_s, 0, 1000);
   from.optional("patience_s", config.patience_s, 0, 1e6);
-  config.plan = MissionPlan::of(scenario, own_vehicle(from, scenario, process));
+  const Vehicle vehicle = own_vehicle(from, scenario, process);
+  config.plan = MissionPlan::of(scenario, vehicle);
+  if (vehicle.floats && scenario.mission.depth_m > 0.0) {
+    from.problem("", "the mission's depth_m needs a vehicle that dives; " + vehicle.name + " floats");
+  }
   if (!config.plan.needs_chart() && scenario.mission.steps.empty()) {
     from.problem("", "the scenario's mission has no step");
   }

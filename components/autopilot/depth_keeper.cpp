@@ -14,8 +14,8 @@ bool says_depth(const Mission& mission) {
     return go != nullptr && (go->depth_m || go->altitude_m);
   };
   const AbortRules& abort = mission.abort;
-  return mission.altitude_m || mission.least_altitude_m > 0.0 || abort.after_s || abort.position_sd_m ||
-         abort.too_low_s || std::any_of(mission.steps.begin(), mission.steps.end(), goes);
+  return mission.depth_m > 0.0 || mission.altitude_m || mission.least_altitude_m > 0.0 || abort.after_s ||
+         abort.position_sd_m || abort.too_low_s || std::any_of(mission.steps.begin(), mission.steps.end(), goes);
 }
 
 }  // namespace

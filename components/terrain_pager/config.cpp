@@ -28,6 +28,7 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   config.terrain.site = scenario.site;
   config.terrain.seabed = scenario.seabed;
   config.mission = scenario.mission;
+  config.vehicles = scenario.vehicles;
   if (!scenario.vehicles.empty()) config.fastest_mps = 0.0;
   for (const Vehicle& vehicle : scenario.vehicles)
     config.fastest_mps = std::max(config.fastest_mps, vehicle.fastest_mps);

@@ -32,6 +32,7 @@ struct TerrainPagerConfig {
   std::string scenario_text;  // canonical, as it is recorded; whoever has a launch puts it here
   source::TerrainOptions terrain;
   Mission mission;
+  std::vector<Vehicle> vehicles;
   double fastest_mps = 10.0;  // of all vehicles
 
   static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);

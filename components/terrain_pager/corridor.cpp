@@ -133,7 +133,7 @@ void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>&
     if (!extent.contains(visited.place_enu_m)) {
       fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
     }
-    if (fault) problems.push_back({{scenario_file, 0, 0}, "mission", *fault});
+    if (fault) problems.push_back({{scenario_file, 0, 0}, visited.key, *fault});
   }
   if (!problems.empty()) throw ConfigError(problems);
 }

@@ -21,10 +21,11 @@ struct CorridorRules {
   std::vector<std::optional<double>> depth_m = {};
 };
 
-/// A place that a mission visits besides its runlines, and how deep.
+/// A place that a mission visits besides its runlines or where a vehicle starts, and how deep.
 struct VisitedPlace {
   Vec2 place_enu_m;
   std::optional<double> depth_m;
+  std::string key = "mission";  // of the scenario that says so
 };
 
 /// Throws ConfigError, one problem per runline at most, if a line leaves the terrain, runs over land (above chart

@@ -30,12 +30,32 @@ constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
 
-/// What the mission visits besides lines: places, circles, and the far edge of an adaptive survey.
-std::vector<pager::VisitedPlace> places_of(const Mission& mission) {
+/// Where vehicles start that are told a place.
+std::vector<pager::VisitedPlace> starts_of(const std::vector<Vehicle>& vehicles) {
+  std::vector<pager::VisitedPlace> places;
+  for (const Vehicle& vehicle : vehicles) {
+    if (!vehicle.start) continue;
+    const frames::Vec3& place = vehicle.start->position_enu_m;
+    places.push_back({place.head<2>(), vehicle.floats ? 0.0 : -place.z(), "vehicles." + vehicle.name + ".start"});
+  }
+  return places;
+}
+
+/// What the mission visits besides lines: places, circles, the far edge of an adaptive survey, and the outer ends of
+/// run-ins and run-outs as far as they lie on the terrain.
+std::vector<pager::VisitedPlace> places_of(const Mission& mission, const pager::Extent& extent) {
   std::vector<pager::VisitedPlace> places;
   std::optional<double> depth_m = mission.altitude_m ? std::nullopt : std::optional(mission.depth_m);
   for (const MissionStep& step : mission.steps) {
     if (const auto* go = std::get_if<GoAt>(&step)) depth_m = depth_after(*go, depth_m);
+    if (const auto* line = std::get_if<FlyLine>(&step)) {
+      const auto& points = line->points_enu_m;
+      const std::size_t last = points.size() - 1;
+      const Vec2 before = navigation::extended({points[0], points[1]}, mission.run_in_m, 0.0).start_enu_m;
+      const Vec2 behind = navigation::extended({points[last - 1], points[last]}, 0.0, mission.run_out_m).end_enu_m;
+      if (extent.contains(before)) places.push_back({before, depth_m, "mission run-in"});
+      if (extent.contains(behind)) places.push_back({behind, depth_m, "mission run-out"});
+    }
     if (const auto* pass = std::get_if<PassPlace>(&step)) places.push_back({pass->place_enu_m, depth_m});
     const auto* keep = std::get_if<KeepPlace>(&step);
     if (keep != nullptr && keep->place_enu_m) places.push_back({*keep->place_enu_m, depth_m});
@@ -82,7 +102,8 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
                          {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse,
                           config.mission.runline_depths_m()},
                          config.scenario_file);
-  pager::check_places(*terrain_, places_of(config.mission), config.scenario_file);
+  pager::check_places(*terrain_, places_of(config.mission, terrain_->extent()), config.scenario_file);
+  pager::check_places(*terrain_, starts_of(config.vehicles), config.scenario_file);
   ports.note("post_spacing_m", grid_.spacing_m);
   ports.note("shallowest_m", pager::shallowest_m(*terrain_, config.mission.runlines));
   const double feed_m =

@@ -43,6 +43,7 @@ processes:
 # What is wrong; where it is written; the file that is blamed; the cause and what is allowed, as they are told.
 MISSIONS = [
     ("a line through land", "runlines: [{ from_m: [-200, 0], to_m: [100, 0] }]", "mission runline 1.*is land.*allowed is water"),
+    ("a run-in over land", "run_in_m: 150, runlines: [{ from_m: [0, 0], to_m: [100, 0] }]", r"mission run-in: \(-150.0, 0.0\) m is land"),
     ("a line below the seabed", f"depth_m: 15, {LINE}", "the vehicle would be 15.0 m deep and the seabed is at 10.0 m; allowed"),
     ("a depth above the water", f"depth_m: -2, {LINE}", r"mission.depth_m: -2 is outside \[0, 11000\]"),
     ("a step below the seabed", "steps: [{ depth_m: 30 }, { line: [[0, 0], [0, 50]] }]", "30.0 m deep.*allowed"),
@@ -64,6 +65,8 @@ MISSIONS = [
     ("another zone", "positions: geodetic, steps: [{ line: [[53, -3], [53.001, -3]] }]", "is 401 km from the site's origin; allowed: 100 km"),
     ("projected metres", "runlines: [{ from_m: [500000, 5900000], to_m: [500000, 5901000] }]", r"is outside \[-100000, 100000\]"),
     ("no number", "runlines: [{ from_m: [.nan, 0], to_m: [0, 50] }]", "from_m"),
+    ("a sonar that nobody carries", "steps: [{ set_sonar: bow, range_m: 20 }, { line: [[0, 0], [0, 50]] }]",
+     'no vehicle carries a head named "bow"; allowed: sounder'),
     ("no speed", f"speed_mps: .nan, {LINE}", "speed_mps: .nan"),
     ("no abort", f"abort: {{ after_s: .nan }}, {LINE}", "abort.after_s: .nan"),
     ("no width", "adaptive: { centre_m: [0, 0], length_m: 60, width_m: .nan, first_line_m: 10 }", "width_m: .nan"),
@@ -74,6 +77,10 @@ VEHICLES = [
     ("no brakes", "deceleration_mps2: 0", "deceleration_mps2: 0 is outside"),
     ("no sea", "disturbance: { heave: { oscillation_m: .nan } }", "oscillation_m: .nan"),
     ("no start", "start: { position_m: [0, .inf, 0] }", "position_m"),
+    ("a start above the water", "start: { position_m: [0, 0, 5] }", "vehicles.boat.start.position_m: up 5 is above the water"),
+    ("a start in the seabed", "start: { position_m: [0, 0, -30] }", "vehicles.boat.start: .* 30.0 m deep and the seabed is at 10.0 m"),
+    ("a start on land", "start: { position_m: [-200, 0, 0] }", "vehicles.boat.start: .* is land"),
+    ("a start outside the terrain", "start: { position_m: [0, 4000, 0] }", "vehicles.boat.start: .* is outside the terrain"),
     ("no mounting", "mountings: { sounder: { actual: { position_m: [0, 0, .nan] } } }", "position_m"),
     ("an altitude for what floats", "floats: {}", "altitude_m .*need a vehicle that dives; boat floats"),
 ]
@@ -81,6 +88,7 @@ WORLDS = [
     ("no current", "speed_mps: 0.2, heading", "speed_mps: .nan, heading", "speed_mps: .nan"),
     ("no tide", "constant_m: 0", "constant_m: .nan", "constant_m: .nan"),
     ("a tide that ends before the survey", "constant_m: 0", "gauge: tide.csv", "the tide's last reading is 10 s after the start.*allowed: a file that covers"),
+    ("a tide of no number", "constant_m: 0", "gauge: nan.csv", r"nan.csv:1:1: has no height in \[-20, 20\] m"),
     ("no origin", "latitude_deg: 53", "latitude_deg: .nan", "latitude_deg: .nan"),
     ("no sound", "sound_speed_mps: 1500", "sound_speed_mps: .nan", "sound_speed_mps: .nan"),
     ("no ground", "depth_m: 10, slope", "depth_m: .nan, slope", "depth_m: .nan"),
@@ -134,6 +142,7 @@ class Refused(unittest.TestCase):
         (self.folder / "cut.ply").write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                                              "end_header\n0 0 -9\n1 0")
+        (self.folder / "nan.csv").write_text("2025-06-01T00:00:00Z,nan\n2025-06-02T00:00:00Z,1.1\n")
         (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
 
     def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):

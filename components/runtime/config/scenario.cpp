@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -79,6 +81,10 @@ void read_start(ConfigReader& from, Vehicle& vehicle) {
   section.optional("heading_deg", state.heading_rad, -360, 360, kDegrees);
   section.optional("speed_mps", state.speed_mps, 0, 30);
   state.position_enu_m = {position[0], position[1], position[2]};
+  if (!vehicle.floats && state.position_enu_m.z() > 0.0) {
+    section.problem("position_m", fmt::format("up {} is above the water; allowed: 0 or less, or a vehicle with floats",
+                                              state.position_enu_m.z()));
+  }
   vehicle.start = state;
 }
 
@@ -127,12 +133,37 @@ void read_time(ConfigReader from, Scenario& scenario) {
   }
 }
 
-/// A tide must be known from the start for as long as the lines take at the least.
+/// How long one round of a mission's steps takes at the least: its lines, orbits and stays, without the ways between.
+/// Begins at a speed and leaves the one that is in force after it.
+double least_round_s(const Mission& mission, double& speed_mps) {
+  double round_s = 0.0;
+  for (const MissionStep& step : mission.steps) {
+    if (const auto* go = std::get_if<GoAt>(&step)) speed_mps = go->speed_mps.value_or(speed_mps);
+    if (const auto* keep = std::get_if<KeepPlace>(&step)) round_s += keep->for_s;
+    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
+      round_s += 2.0 * std::numbers::pi * orbit->radius_m * orbit->turns / speed_mps;
+    }
+    if (const auto* line = std::get_if<FlyLine>(&step)) {
+      double way_m = mission.run_in_m + mission.run_out_m;
+      for (std::size_t i = 1; i < line->points_enu_m.size(); ++i) {
+        way_m += (line->points_enu_m[i] - line->points_enu_m[i - 1]).norm();
+      }
+      round_s += way_m / speed_mps;
+    }
+  }
+  return round_s;
+}
+
+double least_duration_s(const Mission& mission) {
+  double speed_mps = mission.speed_mps;
+  const double first_s = least_round_s(mission, speed_mps), next_s = least_round_s(mission, speed_mps);
+  const double all_s = first_s + (mission.repeat - 1) * next_s;
+  return std::min(all_s, mission.abort.after_s.value_or(all_s));
+}
+
+/// A tide must be known from the start for as long as the mission takes at the least.
 void check_tide(ConfigReader& from, const Scenario& scenario) {
-  const Mission& mission = scenario.mission;
-  double way_m = 0.0;
-  for (const auto& line : mission.runlines) way_m += mission.run_in_m + navigation::length_m(line);
-  const double least_s = way_m / mission.speed_mps;
+  const double least_s = least_duration_s(scenario.mission);
   const vertical::Tide& tide = scenario.vertical.tide;
   if (tide.first_s() > 0.0) {
     from.problem("vertical",
@@ -140,9 +171,10 @@ void check_tide(ConfigReader& from, const Scenario& scenario) {
                              "or before",
                              tide.first_s()));
   } else if (tide.last_s() < least_s) {
-    from.problem("vertical", fmt::format("the tide's last reading is {:.0f} s after the start, and the mission's lines "
-                                         "take {:.0f} s without their turns; allowed: a file that covers the survey",
-                                         tide.last_s(), least_s));
+    from.problem("vertical",
+                 fmt::format("the tide's last reading is {:.0f} s after the start, and the mission takes {:.0f} s "
+                             "without its turns; allowed: a file that covers the survey",
+                             tide.last_s(), least_s));
   }
 }
 
@@ -157,6 +189,18 @@ void check_whole(ConfigReader& from, const Scenario& scenario) {
     }
     check_mission(from, scenario.mission, vehicle.name, vehicle.fastest_mps, vehicle.limits,
                   vehicle.floats.has_value());
+  }
+  const bool nobody_dives =
+      std::ranges::all_of(scenario.vehicles, [](const Vehicle& v) { return v.floats.has_value(); });
+  if (scenario.mission.depth_m > 0.0 && nobody_dives && !scenario.vehicles.empty()) {
+    from.problem("mission", "depth_m needs a vehicle that dives; " + scenario.vehicles.front().name + " floats");
+  }
+  for (const std::string& head : scenario.mission.sonars()) {
+    if (heads.contains(head)) continue;
+    std::string known;
+    for (const std::string& carried : heads) known += (known.empty() ? "" : ", ") + carried;
+    from.problem("mission", fmt::format("set_sonar: no vehicle carries a head named \"{}\"; allowed: {}", head,
+                                        known.empty() ? "none, for there is none" : known));
   }
   const bool generated = scenario.seabed.kind == Seabed::Kind::kLayers;
   if (scenario.site.origin_from_raster && generated) {

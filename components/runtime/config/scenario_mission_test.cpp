@@ -48,7 +48,8 @@ TEST_CASE("a mission of steps is read in order, and its straight pieces with the
     - mark: wreck
     - {depth_m: 3}
     - line: [[0, 0], [100, 0]]
-)")
+)",
+                                        "mountings: {bow: {actual: {}}}")
                               .mission;
   REQUIRE(mission.steps.size() == 10);
   CHECK(std::get<FlyLine>(mission.steps[0]).points_enu_m.size() == 3);
@@ -106,6 +107,13 @@ TEST_CASE("what cannot be flown is told before time starts") {
             .find("step 1: speed_mps is above what auv can do (fastest_mps)") != std::string::npos);
   CHECK(problems_of("  altitude_m: 5\n  steps:\n    - line: [[0, 0], [0, 90]]\n", "floats: {}")
             .find("need a vehicle that dives; auv floats") != std::string::npos);
+  CHECK(problems_of("  depth_m: 3\n  steps:\n    - line: [[0, 0], [0, 90]]\n", "floats: {}")
+            .find("depth_m needs a vehicle that dives; auv floats") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n    - {set_sonar: bow, range_m: 20}\n",
+                    "mountings: {stern: {actual: {}}}")
+            .find("set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n", "start: {position_m: [0, 0, 2]}")
+            .find("vehicles.auv.start.position_m: up 2 is above the water; allowed: 0 or less") != std::string::npos);
   CHECK(problems_of("  depth_m: -3\n  steps:\n    - line: [[0, 0], [0, 90]]\n")
             .find("mission.depth_m: -3 is outside [0, 11000]") != std::string::npos);
   CHECK(problems_of("  steps:\n    - {hover: 3}\n").find("is no step; allowed: line, pass, keep") != std::string::npos);

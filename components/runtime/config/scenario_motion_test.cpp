@@ -95,8 +95,17 @@ TEST_CASE("a gauge's file is read in UTC, and must cover the survey") {
 
   const std::string brief = written("tide_brief.csv", "2025-06-01T11:50:00Z,1.0\n2025-06-01T12:05:00Z,1.4\n");
   CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + brief + "}}")) ==
-        "bay.yaml:5:11: vertical: the tide's last reading is 300 s after the start, and the mission's lines take 500 s "
-        "without their turns; allowed: a file that covers the survey");
+        "bay.yaml:5:11: vertical: the tide's last reading is 300 s after the start, and the mission takes 500 s "
+        "without its turns; allowed: a file that covers the survey");
+  // Two rounds: a line of 80 m with 10 m before and 10 m behind it at 2 m/s, then at 1 m/s; twice 100 s of waiting and
+  // half a circle of 20 m at 1 m/s.
+  std::string rounds = scenario_text("", "vertical: {tide: {gauge: " + brief + "}}");
+  rounds.replace(rounds.find("mission:"), std::string::npos,
+                 "mission: {speed_mps: 2, run_in_m: 10, run_out_m: 10, repeat: 2, steps: [{line: [[0, 0], [0, 80]]}, "
+                 "{speed_mps: 1}, {wait_s: 100}, {orbit: [0, 80], radius_m: 20, turns: 0.5}]}\n");
+  CHECK(problems_of(rounds).find("and the mission takes 476 s without its turns") != std::string::npos);
+  rounds.replace(rounds.find("repeat: 2"), 9, "repeat: 2, abort: {after_s: 290}");
+  CHECK(problems_of(rounds) == "");
   const std::string late = written("tide_late.csv", "2025-06-01T12:05:00Z,1.0\n2025-06-01T13:05:00Z,1.4\n");
   CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + late + "}}")) ==
         "bay.yaml:5:11: vertical: the tide's first reading is 300 s after the start; allowed: one at the start or "
@@ -104,6 +113,9 @@ TEST_CASE("a gauge's file is read in UTC, and must cover the survey") {
   const std::string back = written("tide_back.csv", "2025-06-01T12:05:00Z,1.0\n2025-06-01T12:04:00Z,1.4\n");
   CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + back + "}}"))
             .find("tide_back.csv:2:1: is not later than the reading before") != std::string::npos);
+  const std::string none = written("tide_none.csv", "2025-06-01T11:50:00Z,1.0\n2025-06-01T12:05:00Z,nan\n");
+  CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + none + "}}"))
+            .find("tide_none.csv:2:1: has no height in [-20, 20] m") != std::string::npos);
 }
 
 TEST_CASE("a grid of separations is an Esri file from north to south") {

@@ -102,7 +102,7 @@ vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s)
     if (!time_ns && read.empty() && number == 1) continue;  // names of the columns
     if (!time_ns) refuse(path, number, "does not begin with a UTC time such as 2025-06-01T12:00:00Z");
     const auto height_m = parse_number(comma < line.size() ? line.substr(comma + 1) : "");
-    if (!height_m || std::abs(*height_m) > kHighest_m) {
+    if (!height_m || !(std::abs(*height_m) <= kHighest_m)) {  // nan is a number of YAML's
       refuse(path, number, fmt::format("has no height in [{}, {}] m after its time", -kHighest_m, kHighest_m));
     }
     const double time_s = static_cast<double>(*time_ns) * 1e-9 - start_unix_s;
