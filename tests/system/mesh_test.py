@@ -1,10 +1,12 @@
-"""A quay wall that is no heightfield, driven towards, along and away from: a head hears it where it stands as long as it is
-near, however the run is run."""
+"""What is no heightfield, heard. A quay's wall, driven towards, along and away from: a head hears it where it stands as long as
+it is near, however the run is run. A scanned coral on sand: an echo where it stands, and a shadow behind."""
+import re
+import shutil
 import unittest
 
 import ensonify
 import numpy as np
-from support import SOURCE, SystemTest
+from support import SHARED, SOURCE, SystemTest
 
 # The harbour and its quay, posts farther apart; the boat drives at the quay, turns beside it, and leaves.
 HARBOUR = (SOURCE / "scenarios/harbour/scenario.yaml").read_text()
@@ -163,6 +165,62 @@ class Mesh(SystemTest):
             self.assertLess(abs(10 * np.log10(refined.power_upa2 / whole.power_upa2)), 0.1)
         self.assertEqual(len(heard["without"]), len(heard["refined"]))
         self.assertFalse(any(ping.out.any() for ping in heard["without"]))
+
+    def test_the_shipped_launch_holds_what_it_expects_and_draws_its_image(self):
+        result = self.run_launch(SOURCE / "launch/quay.yaml", "--free", "--arg", "quality=0.1", timeout=200)
+        self.assertEqual(result.code, 0, result.stderr)
+        self.assertGreater(next(result.out.glob("fls_*.png")).stat().st_size, 100_000)
+
+
+# The walk-through of scenarios/meshes.md: a coral of 0.37 m on sand, 6 m ahead of a small AUV that is 2 m above the sand.
+_, REEF, REEF_LAUNCH = re.findall(r"^```yaml\n(.*?)^```", (SOURCE / "scenarios/meshes.md").read_text(), re.M | re.S)
+OF_REEF_LAUNCH = {"duration_s: 2": "duration_s: 0.5", "after: [[ensonify, plot, fls]]\n": "",
+                  "ping_rate_hz: 1 }": "ping_rate_hz: 1, beams: 128, most_samples: 500 }"}
+
+
+class Coral(SystemTest):
+    def first_image(self, name, *options):
+        """Power by beam and sample, and what the pager's log says."""
+        launch = REEF_LAUNCH
+        for there, here in OF_REEF_LAUNCH.items():
+            self.assertEqual(launch.count(there), 1, there)
+            launch = launch.replace(there, here)
+        result = self.run_launch(launch, "--free", *options, out=name, timeout=100)
+        self.assertEqual(result.code, 0, result.stderr)
+        with ensonify.Record(result.out / "reef.mcap") as record:
+            _, _, ping = next(iter(record.messages("eye/ping")))
+        self.range_m = (ping.first_sample_s + np.arange(500) * ping.sample_period_s) * ping.sound_speed_mps / 2
+        self.azimuth_deg = np.degrees(ping.beam_angle_rad)
+        return np.square(np.asarray(ping.amplitude_upa, dtype=float)), result.log("pager")
+
+    def test_a_scanned_coral_is_an_echo_and_a_shadow_and_is_prepared_once(self):
+        scan = SHARED / "data/objects/mcap_coral.obj"
+        if not scan.exists():
+            self.skipTest(f"{scan} is not there")
+        shutil.copy(scan, self.folder / "coral.obj")
+        self.write("reef.yaml", REEF)
+        unprepared, log = self.first_image("unprepared")
+        self.assertIn("mesh_unprepared mesh=coral", log)
+        prepared = self.tool("terrain", "lod", self.folder / "coral.obj")
+        self.assertEqual(prepared.returncode, 0, prepared.stderr)
+        heard, log = self.first_image("prepared")
+        self.assertNotIn("mesh_unprepared", log)
+        np.testing.assert_array_equal(heard, unprepared)
+        bare, _ = self.first_image("bare", "--set", "seabed.meshes={}")
+
+        # Its middle is 0.1 m above the sand, 0.3 m east and 6 m north of the head and 1.9 m below it; it is 0.37 m wide, 3.4
+        # degrees from there. The head is so high above the sand that the shadow of its top, 0.22 m up, ends 0.7 m behind it.
+        away_m, towards_deg = np.linalg.norm([0.3, 6.0, 1.9]), np.degrees(np.arctan2(0.3, 6.0))
+        beam, sample = np.unravel_index(np.argmax(heard), heard.shape)
+        self.assertLess(abs(self.range_m[sample] - away_m), 0.25)
+        self.assertLess(abs(self.azimuth_deg[beam] - towards_deg), 1.7 + 0.5)
+
+        def louder_db(from_m, to_m, half_deg):
+            there = np.ix_(abs(self.azimuth_deg - towards_deg) < half_deg, (self.range_m > away_m + from_m) & (self.range_m < away_m + to_m))
+            return 10 * np.log10(heard[there].mean() / bare[there].mean())
+
+        self.assertGreater(louder_db(-0.25, 0.25, 2.0), 12)  # 17 dB of Lambert's law, and a face that is upright
+        self.assertLess(louder_db(0.15, 0.45, 1.4), -5)      # there all of its width shades; what is left are side lobes
 
 
 if __name__ == "__main__":

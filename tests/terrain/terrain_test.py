@@ -105,6 +105,25 @@ class Terrain(SystemTest):
         self.assertEqual(beside.returncode, 2)
         self.assertIn("has no height at 5000, 0", beside.stderr)
 
+    def test_an_irregular_mesh_is_fine_where_the_fan_meets_it_and_is_left_out_beyond_reach(self):
+        harbour = SOURCE / "scenarios/harbour/scenario.yaml"
+        words = ["--at", 20, -112, "--altitude", 9, "--heading", 80]
+        (quay,) = json.loads(terrain("mesh", harbour, *words).stdout)["meshes"]
+        self.assertEqual(quay["name"], "quay")
+        self.assertLess(20 * len(quay["triangles"]), quay["triangles_of_all"])
+        places, own = np.array(quay["places_enu_m"]), np.array(quay["triangles"])[:quay["of_the_source"]]
+        self.assertGreater(len(own), 20)
+        # The fan stands across the heading: 14 m off it meets the wall 14 tan(10 deg) = 2.5 m farther east, 0.8 m wide.
+        # Piles are 0.6 m wide.
+        east, north, up = places[np.unique(own)].T
+        self.assertLess(np.abs(east - 22.5).max(), 0.8 + 4 * 0.6)
+        self.assertLess(np.abs(north + 126).max(), 0.215 + 0.06)
+        self.assertEqual(up.min(), -15)
+        self.assertEqual(json.loads(terrain("mesh", harbour, "--at", 20, 0, "--altitude", 9).stdout)["meshes"], [])
+        picture = self.folder / "lod.png"
+        subprocess.run([BIN / "ensonify-plot", "lod", harbour, *map(str, words), "--out", picture], check=True, capture_output=True, timeout=120)
+        self.assertGreater(picture.stat().st_size, 50_000)
+
     def test_info_and_verify(self):
         folder = self.build()
         facts = json.loads(terrain("info", folder, "--json").stdout)

@@ -6,13 +6,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "components/runtime/exit_error.h"
+#include "components/runtime/terrain/prepared_mesh.h"
 #include "components/runtime/terrain/tile_posts.h"
 #include "kernels/array/line.h"
 #include "kernels/frames/attitude.h"
 #include "kernels/lod/patch.h"
+#include "kernels/progressive/cut.h"
 #include "kernels/trace/views.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
@@ -80,6 +84,43 @@ frames::HeadPose head_of(const Options& options, const Opened& seabed) {
           frames::enu_from_body({options.heading_deg * kDegree, 0.0, 0.0})};
 }
 
+/// What the views see of a mesh that has a name, as places and the corners of triangles: first those of the source, as
+/// many as `of_the_source`, then those that stand for others. Nothing of a mesh beyond reach.
+nlohmann::ordered_json shown_of(const SeabedMesh& named, const Opened& seabed, std::span<const lod::View> views) {
+  const progressive::Hierarchy hierarchy = source::placed_mesh(named, seabed.seed).hierarchy;
+  const progressive::TriangleMesh& whole = hierarchy.mesh;
+  Eigen::AlignedBox3d box;
+  for (const auto& vertex : whole.vertex_m) box.extend(whole.origin_enu_m + vertex.cast<double>());
+  const lod::Frustum& frustum = views.front().frustum;
+  if (box.exteriorDistance(frustum.apex_enu_m) > frustum.max_range_m) return nullptr;
+  progressive::Cut cut;
+  cut.choose(hierarchy, progressive::views_of(views, progressive::mean_edge_m(whole)));
+  std::map<std::uint32_t, std::size_t> place_of;  // by vertex
+  nlohmann::ordered_json places = nlohmann::ordered_json::array(), corners = places;
+  const auto place = [&](std::uint32_t vertex) {
+    const auto [at, added] = place_of.try_emplace(vertex, places.size());
+    if (added) {
+      const frames::Vec3 enu_m = whole.origin_enu_m + whole.vertex_m[vertex].cast<double>();
+      places.push_back({enu_m.x(), enu_m.y(), enu_m.z()});
+    }
+    return at->second;
+  };
+  std::size_t own_count = 0;
+  for (const bool own : {true, false}) {
+    for (std::size_t i = 0; i < cut.triangles().size(); ++i) {
+      const auto& [a, b, c] = cut.triangles()[i];
+      if ((cut.triangles()[i] == whole.triangle[cut.sources()[i]]) != own) continue;
+      corners.push_back({place(a), place(b), place(c)});
+      own_count += own ? 1U : 0U;
+    }
+  }
+  return {{"name", named.name},
+          {"triangles_of_all", whole.triangle.size()},
+          {"of_the_source", own_count},
+          {"places_enu_m", places},
+          {"triangles", corners}};
+}
+
 int mesh(const Options& options) {
   const Opened seabed = open_seabed(options.seabed);
   const frames::HeadPose head = head_of(options, seabed);
@@ -104,12 +145,17 @@ int mesh(const Options& options) {
       blocks.push_back({low.x(), low.y(), high.x(), high.y(), leaf.level});
     }
   }
+  nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
+  for (const SeabedMesh& named : seabed.meshes) {
+    if (auto seen = shown_of(named, seabed, views); !seen.is_null()) meshes.push_back(std::move(seen));
+  }
   const frames::Vec3& place = head.position_enu_m;
   fmt::print("{}\n", nlohmann::ordered_json{{"head_enu_m", {place.x(), place.y(), place.z()}},
                                             {"spacing_m", seabed.spacing_m},
                                             {"triangles", shown},
                                             {"triangles_of_all_posts", all},
-                                            {"blocks", blocks}}
+                                            {"blocks", blocks},
+                                            {"meshes", meshes}}
                          .dump());
   return kExitOk;
 }
@@ -122,7 +168,8 @@ Verb add_mesh(CLI::App& parent) {
       "mesh",
       "Prints, as JSON, the blocks of the mesh that a multibeam's transmission makes of a seabed: west, south, east "
       "and "
-      "north edge (m) and level (0: all posts, n: every 2^n-th) of each; and how many triangles they have.");
+      "north edge (m) and level (0: all posts, n: every 2^n-th) of each; and how many triangles they have. Then what "
+      "it makes of the scenario's irregular meshes within its range.");
   app->add_option("seabed", options->seabed, "scenario file, or folder of a tile set")->required();
   app->add_option("--at", options->at, "EAST NORTH in m: where the head is")->expected(2)->required();
   app->add_option("--altitude", options->altitude_m, "of the head above the seabed, m")

@@ -20,6 +20,8 @@ Opened open_seabed(const std::string& scenario_or_folder) {
   opened.terrain = source::source_of(options);
   opened.spacing_m = source::post_spacing_m(options, *opened.terrain);
   opened.lsb_m = source::lsb_m(options, *opened.terrain);
+  opened.meshes = scenario.seabed.meshes;
+  opened.seed = scenario.seed;
   return opened;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "components/runtime/terrain/source_of.h"
 
@@ -11,6 +13,8 @@ namespace ensonify::terrain_tool {
 struct Opened {
   std::unique_ptr<source::TerrainSource> terrain;
   double spacing_m = 1.0, lsb_m = 2e-4;
+  std::vector<SeabedMesh> meshes;  // that the scenario names
+  std::uint64_t seed = 0;
 };
 Opened open_seabed(const std::string& scenario_or_folder);
 

@@ -12,12 +12,14 @@ from ensonify_plot.pictures import new_figure
 from ensonify_plot.survey import UserError
 
 LEVELS = 6
+OWN = "#c2410c"  # triangles of an irregular mesh as they are in their source
 COLOURS = matplotlib.colormaps["viridis"](np.linspace(1.0, 0.0, LEVELS))
 
 
 def add_lod(verbs) -> None:
     """The verb `lod`."""
-    text = "The mesh that one transmission of a multibeam makes of a seabed, seen from above and coloured by level of detail."
+    text = ("The mesh that one transmission of a multibeam makes of a seabed, seen from above and coloured by level of detail, and "
+            "of the irregular meshes within its range, from the side.")
     verb = verbs.add_parser("lod", help=text, description=text)
     verb.set_defaults(act=plot_lod)
     verb.add_argument("seabed", metavar="SCENARIO|FOLDER", help="a scenario file, or the folder of a tile set")
@@ -51,11 +53,11 @@ def read_mesh(options) -> dict:
 
 
 def lod_picture(mesh: dict):
-    """Each block in the colour of its level, from above."""
+    """Each block in the colour of its level, from above; below, from the side, what it makes of each irregular mesh."""
     blocks = np.array(mesh["blocks"])
     west, south, east, north, level = blocks.T
-    figure = new_figure(8.6, 7.0)
-    axes = figure.subplots()
+    figure = new_figure(8.6, 7.0 + 2.2 * len(mesh["meshes"]))
+    axes, *below = figure.subplots(1 + len(mesh["meshes"]), squeeze=False, height_ratios=[7.0] + [2.2] * len(mesh["meshes"]))[:, 0]
     boxes = [Rectangle((w, s), e - w, n - s) for w, s, e, n in blocks[:, :4]]
     axes.add_collection(PatchCollection(boxes, facecolor=COLOURS[level.astype(int)], edgecolor="white", linewidth=0.15))
     axes.plot(*mesh["head_enu_m"][:2], "r+", markersize=10)
@@ -65,4 +67,28 @@ def lod_picture(mesh: dict):
     axes.set_title(f"{mesh['triangles']:,} triangles, 1/{ratio:.0f} of those of all posts", fontsize=10)
     axes.legend(handles=[Patch(facecolor=COLOURS[k], label=f"{mesh['spacing_m'] * 2**k:g} m") for k in np.unique(level.astype(int))],
                 title="posts apart", loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False)
+    for side, irregular in zip(below, mesh["meshes"], strict=True):
+        axes.triplot(*np.array(irregular["places_enu_m"]).T[:2], irregular["triangles"], color=OWN, linewidth=0.4)
+        draw_from_the_side(side, irregular, np.array(mesh["head_enu_m"]))
     return figure
+
+
+def draw_from_the_side(axes, irregular: dict, head: np.ndarray) -> None:
+    """The triangles of an irregular mesh, along the longer of its sides against height."""
+    places, triangles = np.array(irregular["places_enu_m"]), np.array(irregular["triangles"])
+    own = irregular["of_the_source"]
+    _, _, (along, _) = np.linalg.svd(places[:, :2] - places[:, :2].mean(axis=0), full_matrices=False)
+    x = (places[:, :2] - head[:2]) @ (along * np.sign(along.sum()))  # towards the east, or the north
+    for some, colour, label in ((triangles[own:], "#8a8a8a", "moved"), (triangles[:own], OWN, "as in the source")):
+        if len(some):
+            axes.triplot(x, places[:, 2], some, color=colour, linewidth=0.4, label=label)
+    axes.plot(0, head[2], "r+", markersize=10)
+    low, high = places[:, 2].min(), max(places[:, 2].max(), head[2])
+    fine = x[triangles[:own] if own else triangles]
+    middle, half = (fine.min() + fine.max()) / 2, max((fine.max() - fine.min()) / 2, 2 * (high - low))
+    axes.set(aspect="equal", xlim=(middle - half, middle + half), ylim=(low - 1, high + 1), xlabel="along it, from the head (m)",
+             ylabel="height (m)")
+    axes.set_title(f"{irregular['name']} from the side: {len(triangles):,} triangles of {irregular['triangles_of_all']:,}", fontsize=10)
+    handles, labels = axes.get_legend_handles_labels()
+    named = dict(zip(labels, handles, strict=True))  # of a line of triangles, the last
+    axes.legend(named.values(), named.keys(), loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False)
