@@ -301,6 +301,26 @@ TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where 
   CHECK(worst_m < 1.5);  // 0.1 m/s of rise, looked ahead for 7 s, and awaited as long where it falls
 }
 
+TEST_CASE("a mission's depth is held from any start, and nothing that floats has one") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
+  config.plan.mission.depth_m = 6.0;
+  Loop loop(config, {{0, 0, -1}, 0.0, 2.0, 0.0});
+  double up_m = 0.0;
+  loop.run_until(60_s,
+                 [&](const msg::MissionState&, const motion::State& vehicle) { up_m = vehicle.position_enu_m.z(); });
+  CHECK(up_m == Approx(-6.0).margin(1e-6));
+
+  Scenario scenario;  // one vehicle dives, but it is the other that is flown
+  scenario.vehicles.resize(2);
+  scenario.vehicles[0].name = "auv";
+  scenario.vehicles[1].name = "boat";
+  scenario.vehicles[1].floats.emplace();
+  scenario.mission = config.plan.mission;
+  auto from = ConfigReader::from_text("vehicle: boat", "pilot.yaml");
+  AutopilotConfig::read(from, scenario, "pilot");
+  CHECK_THROWS_WITH(from.finish(), "pilot.yaml:1:1: the mission's depth_m needs a vehicle that dives; boat floats");
+}
+
 TEST_CASE("a mission that takes too long is given up at the surface") {
   AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
   config.plan.mission.depth_m = 10.0;
