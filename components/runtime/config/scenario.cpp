@@ -118,6 +118,10 @@ Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
     vehicle.floats = read_loading(*floats);
   }
   read_start(from, vehicle);
+  if (vehicle.start && vehicle.start->speed_mps > vehicle.fastest_mps) {
+    from.problem("start",
+                 fmt::format("speed_mps {} is above fastest_mps {}", vehicle.start->speed_mps, vehicle.fastest_mps));
+  }
   for (auto& [head, mounting] : from.named_sections("mountings")) {
     vehicle.mountings[head] = read_head(mounting);
   }

@@ -248,6 +248,22 @@ std::vector<navigation::Runline> straight_pieces(const std::vector<MissionStep>&
   return pieces;
 }
 
+/// An altitude below the obstacle floor is never flown.
+void check_altitudes(const ConfigReader& from, const Mission& mission) {
+  const auto fault = [&](double altitude_m) {
+    return fmt::format("altitude_m {} is below least_altitude_m {}; allowed: that or more", altitude_m,
+                       mission.least_altitude_m);
+  };
+  if (mission.altitude_m && *mission.altitude_m < mission.least_altitude_m)
+    from.problem("", fault(*mission.altitude_m));
+  for (std::size_t i = 0; i < mission.steps.size(); ++i) {
+    const auto* go = std::get_if<GoAt>(&mission.steps[i]);
+    if (go != nullptr && go->altitude_m && *go->altitude_m < mission.least_altitude_m) {
+      from.problem("", fmt::format("step {}: {}", i + 1, fault(*go->altitude_m)));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<MissionStep> steps_of(const std::vector<navigation::Runline>& lines) {
@@ -305,6 +321,7 @@ Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& o
                          "; give one of runlines, lawnmower, auto, adaptive, steps");
   }
   mission.runlines = straight_pieces(mission.steps);
+  check_altitudes(from, mission);
   return mission;
 }
 

@@ -114,6 +114,13 @@ TEST_CASE("what cannot be flown is told before time starts") {
             .find("set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") != std::string::npos);
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n", "start: {position_m: [0, 0, 2]}")
             .find("vehicles.auv.start.position_m: up 2 is above the water; allowed: 0 or less") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n",
+                    "fastest_mps: 3, start: {position_m: [0, 0, 0], speed_mps: 4}")
+            .find("vehicles.auv.start: speed_mps 4 is above fastest_mps 3") != std::string::npos);
+  CHECK(problems_of("  altitude_m: 2\n  least_altitude_m: 5\n  steps:\n    - line: [[0, 0], [0, 90]]\n")
+            .find("mission: altitude_m 2 is below least_altitude_m 5; allowed: that or more") != std::string::npos);
+  CHECK(problems_of("  least_altitude_m: 5\n  steps:\n    - line: [[0, 0], [0, 90]]\n    - {altitude_m: 4}\n")
+            .find("mission: step 2: altitude_m 4 is below least_altitude_m 5") != std::string::npos);
   CHECK(problems_of("  depth_m: -3\n  steps:\n    - line: [[0, 0], [0, 90]]\n")
             .find("mission.depth_m: -3 is outside [0, 11000]") != std::string::npos);
   CHECK(problems_of("  steps:\n    - {hover: 3}\n").find("is no step; allowed: line, pass, keep") != std::string::npos);
