@@ -58,6 +58,11 @@ double structure_m2(const Spectrum& spectrum, double distance_m) {
   return 2.0 * spectrum.rms_m * spectrum.rms_m * (1.0 - correlation);
 }
 
+double facet_mean_square_slope(const Spectrum& spectrum, double post_spacing_m) {
+  if (!(post_spacing_m > 0.0)) refuse("post_spacing_m", post_spacing_m, "more than 0");
+  return 2.0 * structure_m2(spectrum, post_spacing_m) / (post_spacing_m * post_spacing_m);
+}
+
 double strength(const Spectrum& spectrum) {
   // rms^2 = 2 pi w2 Integral of K (K^2 + Ko^2)^-(H+1) dK = pi w2 Ko^-2H / H
   return spectrum.rms_m * spectrum.rms_m * spectrum.hurst * std::pow(outer_radpm(spectrum), 2.0 * spectrum.hurst) / kPi;

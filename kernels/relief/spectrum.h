@@ -25,6 +25,11 @@ double density_m4(const Spectrum& spectrum, double wave_number_radpm);
 /// Mean of (z(a) - z(b))^2 over pairs of places `distance_m` apart, m^2.
 double structure_m2(const Spectrum& spectrum, double distance_m);
 
+/// Mean square slope (of the gradient: both directions together) of the triangles between posts of such a surface that
+/// stand this far apart, two triangles to a cell: 2 D(spacing) / spacing^2, since each is known by a difference along
+/// either axis.
+double facet_mean_square_slope(const Spectrum& spectrum, double post_spacing_m);
+
 /// Spectral strength w2 of the power law, W = w2 K^-gamma, in SI units (m^(4 - gamma); [APL1994]'s w2 in cm^4 times
 /// 10^(2 gamma - 8)), and the rms that a strength asks for.
 double strength(const Spectrum& spectrum);

@@ -7,6 +7,7 @@
 #include "kernels/seabed/backscatter.h"
 #include "kernels/seabed/lambert.h"
 #include "kernels/seabed/reflection.h"
+#include "kernels/seabed/resolved.h"
 
 namespace ensonify::seabed {
 namespace {
@@ -31,6 +32,10 @@ struct LawOf {
       const double taken = std::clamp((75.0 - grazing_rad / kDegree) / 15.0, 0.0, 1.0);  // share of its dB
       return part.roughness * std::pow(excess, -taken) + part.volume;
     };
+  }
+
+  Law operator()(const MeshedSediment& meshed) const {
+    return law_of_facets(std::visit(*this, meshed.whole), meshed.mean_square_slope);
   }
 
   Law operator()(const Lambert& lambert) const {

@@ -24,6 +24,13 @@ struct CappedSediment {
   SedimentParameters sediment;
 };
 
+/// A sediment part of whose relief the mesh has: facets that are tilted with this mean square slope return on average
+/// what the sediment does (resolved.h).
+struct MeshedSediment {
+  std::variant<SedimentParameters, CappedSediment> whole;
+  double mean_square_slope = 0.0;  // of the facets, both directions together
+};
+
 /// Soft body that is known by its target strength (lambert_of_target_strength).
 struct Tissue {
   double target_strength_db = 0.0;  // re 1 m^2, mean over aspects
@@ -31,9 +38,9 @@ struct Tissue {
 };
 
 /// Everything that scatters as a surface.
-using Scatterer = std::variant<SedimentParameters, CappedSediment, Lambert, Gsab, Material, Tissue>;
+using Scatterer = std::variant<SedimentParameters, CappedSediment, MeshedSediment, Lambert, Gsab, Material, Tissue>;
 
-/// @throws std::invalid_argument as SedimentBackscatter and lambert_of_target_strength do.
+/// @throws std::invalid_argument as SedimentBackscatter, law_of_facets and lambert_of_target_strength do.
 Law law_of(const Scatterer& scatterer, double frequency_hz, double sound_speed_mps);
 
 }  // namespace ensonify::seabed

@@ -1,6 +1,7 @@
 #include "kernels/seabed/backscatter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -27,6 +28,7 @@ struct Inputs {
   double frequency_hz = 100e3;
   double sound_speed_mps = 1500.0;
   double grazing_deg = 45.0;
+  double facet_slope_deg = 0.0;
 
   SedimentParameters sediment() const {
     if (source == kParameters) return given;
@@ -50,11 +52,13 @@ std::vector<std::pair<std::string, int>> sources() {
 /// The table of the row before serves the next one, unless more than the angle has changed.
 class LastTable {
  public:
-  const seabed::BackscatterTable& of(const SedimentParameters& sediment, double frequency_hz, double sound_speed_mps) {
-    const Key key{sediment, frequency_hz, sound_speed_mps};
+  const seabed::BackscatterTable& of(const SedimentParameters& sediment, double mean_square_slope, double frequency_hz,
+                                     double sound_speed_mps) {
+    const Key key{sediment, mean_square_slope, frequency_hz, sound_speed_mps};
     if (!table_ || !(key == key_)) {
       key_ = key;
-      table_.emplace(seabed::law_of(sediment, frequency_hz, sound_speed_mps));
+      const seabed::MeshedSediment facets{sediment, mean_square_slope};
+      table_.emplace(seabed::law_of(facets, frequency_hz, sound_speed_mps));
     }
     return *table_;
   }
@@ -62,6 +66,7 @@ class LastTable {
  private:
   struct Key {
     SedimentParameters sediment;
+    double mean_square_slope = 0.0;
     double frequency_hz = 0.0;
     double sound_speed_mps = 0.0;
     bool operator==(const Key&) const = default;
@@ -85,6 +90,7 @@ void add_inputs(Verb& verb, Inputs& in) {
   verb.number("frequency_hz", in.frequency_hz, 1e3, 2e6, "frequency; above 100 kHz the law is extrapolated");
   verb.number("sound_speed_mps", in.sound_speed_mps, 1300, 1700, "of the water at the seabed");
   verb.number("grazing_deg", in.grazing_deg, 0, 90, "grazing angle from the seabed");
+  verb.number("facet_slope_deg", in.facet_slope_deg, 0, 35, "rms slope of a mesh's facets, for facets_db");
 }
 
 }  // namespace
@@ -92,36 +98,42 @@ void add_inputs(Verb& verb, Inputs& in) {
 void add_backscatter(CLI::App& app, Verbs& verbs) {
   Verb& verb = verbs.emplace_back(app, "backscatter",
                                   "backscatter strength of the seabed after TR 9407, by parts, dB re 1 m2 per m2; the\n"
-                                  "parameters that were used; the same from a look-up table; loss of a reflection");
+                                  "parameters that were used; the same from a look-up table, and that of the facets\n"
+                                  "of a mesh which has part of the relief; loss of a reflection");
   const auto in = std::make_shared<Inputs>();
   add_inputs(verb, *in);
-  const auto table = std::make_shared<LastTable>();
-  verb.results(
-      {"rho", "nu", "delta", "sigma2", "gamma", "w2_cm4", "in_range", "kirchhoff_db", "composite_db",
-       "large_roughness_db", "roughness_db", "volume_db", "total_db", "capped_db", "table_db", "forward_loss_db"},
-      [in, table] {
-        const auto use = in->sediment();
-        const double grazing_rad = in->grazing_deg * std::numbers::pi / 180.0;
-        const auto part = seabed::SedimentBackscatter(use, in->frequency_hz, in->sound_speed_mps).parts(grazing_rad);
-        const auto capped = seabed::law_of(seabed::CappedSediment{use}, in->frequency_hz, in->sound_speed_mps);
-        const auto& look_up = table->of(use, in->frequency_hz, in->sound_speed_mps);
-        return Verb::Row{use.density_ratio,
-                         use.sound_speed_ratio,
-                         use.loss,
-                         use.volume_parameter,
-                         use.spectral_exponent,
-                         use.spectral_strength_cm4,
-                         seabed::in_range(use, in->frequency_hz) ? 1.0 : 0.0,
-                         db(part.kirchhoff),
-                         db(part.composite),
-                         db(part.large_roughness),
-                         db(part.roughness),
-                         db(part.volume),
-                         db(part.total),
-                         db(capped(grazing_rad)),
-                         db(static_cast<double>(look_up.at_angle(static_cast<float>(grazing_rad)))),
-                         seabed::forward_loss_db(use, grazing_rad)};
-      });
+  const auto table = std::make_shared<LastTable>(), facets = std::make_shared<LastTable>();
+  verb.results({"rho", "nu", "delta", "sigma2", "gamma", "w2_cm4", "in_range", "kirchhoff_db", "composite_db",
+                "large_roughness_db", "roughness_db", "volume_db", "total_db", "capped_db", "table_db", "facets_db",
+                "forward_loss_db"},
+               [in, table, facets] {
+                 const auto use = in->sediment();
+                 const double grazing_rad = in->grazing_deg * std::numbers::pi / 180.0;
+                 const auto part =
+                     seabed::SedimentBackscatter(use, in->frequency_hz, in->sound_speed_mps).parts(grazing_rad);
+                 const auto capped = seabed::law_of(seabed::CappedSediment{use}, in->frequency_hz, in->sound_speed_mps);
+                 const auto grazing = static_cast<float>(grazing_rad);
+                 const double slope = std::tan(in->facet_slope_deg * std::numbers::pi / 180.0);
+                 const auto& look_up = table->of(use, 0.0, in->frequency_hz, in->sound_speed_mps);
+                 const auto& of_facets = facets->of(use, slope * slope, in->frequency_hz, in->sound_speed_mps);
+                 return Verb::Row{use.density_ratio,
+                                  use.sound_speed_ratio,
+                                  use.loss,
+                                  use.volume_parameter,
+                                  use.spectral_exponent,
+                                  use.spectral_strength_cm4,
+                                  seabed::in_range(use, in->frequency_hz) ? 1.0 : 0.0,
+                                  db(part.kirchhoff),
+                                  db(part.composite),
+                                  db(part.large_roughness),
+                                  db(part.roughness),
+                                  db(part.volume),
+                                  db(part.total),
+                                  db(capped(grazing_rad)),
+                                  db(static_cast<double>(look_up.at_angle(grazing))),
+                                  db(static_cast<double>(of_facets.at_angle(grazing))),
+                                  seabed::forward_loss_db(use, grazing_rad)};
+               });
 }
 
 }  // namespace ensonify::physics

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "components/runtime/config/meshed_relief.h"
 #include "components/runtime/config/scalars.h"
 #include "components/runtime/config/scenario_sections.h"
 
@@ -109,7 +110,11 @@ std::optional<seabed::Scatterer> read_scatterer(ConfigReader from) {
     sediment = seabed::sediment_of_grain_size(grain_size_phi);
   }
   from.optional("capped", capped);
+  std::optional<double> slope_deg;  // of facets: what of the relief the heights have
+  from.optional("facet_slope_deg", slope_deg, 0, 35);
   if (!sediment) return std::nullopt;
+  if (slope_deg && capped) return on_facets(seabed::CappedSediment{*sediment}, *slope_deg);
+  if (slope_deg) return on_facets(*sediment, *slope_deg);
   if (capped) return seabed::CappedSediment{*sediment};
   return *sediment;
 }
@@ -206,6 +211,7 @@ Seabed read_seabed(ConfigReader from) {
     case Seabed::Kind::kRaster: seabed.raster = read_raster(from.section("raster")); break;
     case Seabed::Kind::kTiles: from.section("tiles").required_path("folder", seabed.tiles_folder); break;
   }
+  if (from.good()) count_meshed_relief(seabed);
   return seabed;
 }
 

@@ -1,10 +1,12 @@
 #include "components/runtime/config/scenario_sections.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "components/runtime/config/cast_file.h"
+#include "components/runtime/config/meshed_relief.h"
 
 namespace ensonify {
 namespace {
@@ -165,6 +167,45 @@ TEST_CASE("sediments are named, or given by grain size, parameters, Lambert's la
   CHECK(std::get<seabed::SedimentParameters>(bare.seabed.sediments.at(0)) == *seabed::sediment_of("medium sand"));
 }
 
+TEST_CASE("what a layered seabed's heights have of a sediment's relief is told to its law, by class") {
+  const auto slope_of = [](const seabed::Scatterer& scatterer) {
+    const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
+    return meshed == nullptr ? 0.0 : meshed->mean_square_slope;
+  };
+  const Section section = section_of(R"(seabed:
+  kind: layers
+  post_spacing_m: 0.1
+  sediments: {0: medium silt, 1: rock, 2: coarse sand, 3: {name: clay, facet_slope_deg: 0}, 4: {name: rock, capped: true, facet_slope_deg: 10}, 5: {lambert_mu_db: -20}}
+  layers:
+    ground: {plane: {}}
+    mud: {spectral: {as_sediment: medium silt, outer_scale_m: 1000}}
+    rock: {spectral: {rms_m: 1, outer_scale_m: 30, intermittency: 0.2}, sediment: 1}
+    sand: {spectral: {as_sediment: coarse sand, outer_scale_m: 1000}, join: cover, above: ground, sediment: 2}
+    patches: {spectral: {rms_m: 9, outer_scale_m: 30}, mask: {patches: {length_m: 20, share: 0.3}}}
+    not_there: {use: false, spectral: {rms_m: 9, outer_scale_m: 30}}
+)");
+  REQUIRE(section.problems.empty());
+  const auto& sediments = section.seabed.sediments;
+  // 2 C^2 d^-0.75, C^2 = 11.17 w2 and d = 10 in cm (w2 = 0.000518 and 0.006957 cm^4) [APL1994]; within the outer
+  // scale's part, 0.4 %. Coarse sand has the mud's slopes under its own, but no more than its own count.
+  const double of_strength = 2 * 11.17 * std::pow(10.0, -0.75);
+  CHECK(slope_of(sediments.at(0)) == Approx(of_strength * 0.000518).epsilon(0.005));
+  CHECK(slope_of(sediments.at(1)) == Approx(of_strength * 0.000518).epsilon(0.005));  // the mud's; rock's own is uneven
+  CHECK(slope_of(sediments.at(2)) == Approx(of_strength * 0.006957).epsilon(0.005));
+  CHECK(slope_of(sediments.at(3)) == 0.0);
+  CHECK(slope_of(sediments.at(4)) == Approx(std::pow(std::tan(10 * 3.14159265358979 / 180), 2)));
+  CHECK(std::holds_alternative<seabed::CappedSediment>(std::get<seabed::MeshedSediment>(sediments.at(4)).whole));
+  CHECK(std::holds_alternative<seabed::Lambert>(sediments.at(5)));
+
+  // A tile set's heights have what its own file says, to the last bit: the layers' slope is rounded for that.
+  const double told_deg = facet_slope_deg(section.seabed, 0, *seabed::sediment_of("medium silt"));
+  const Section on_tiles = section_of(
+      "seabed: {kind: tiles, tiles: {folder: .}, sediments: {0: {name: medium silt, "
+      "facet_slope_deg: " +
+      std::to_string(told_deg) + "}}}");
+  CHECK(slope_of(on_tiles.seabed.sediments.at(0)) == slope_of(sediments.at(0)));
+}
+
 TEST_CASE("mistakes in sediments have a place") {
   const auto of = [](const std::string& sediments) {
     return problems_of("seabed: {kind: layers, sediments: {" + sediments + "}}");
@@ -179,6 +220,10 @@ TEST_CASE("mistakes in sediments have a place") {
   CHECK(of("1: {}") ==
         "s.yaml:1:39: seabed.sediments.1: needs one of name, grain_size_phi, density_ratio (with the "
         "other five), lambert_mu_db, gsab");
+  CHECK(of("1: {name: clay, facet_slope_deg: 36}") ==
+        "s.yaml:1:69: seabed.sediments.1.facet_slope_deg: 36 is outside [0, 35]");
+  CHECK_THAT(of("1: {lambert_mu_db: -20, facet_slope_deg: 3}"),
+             Catch::StartsWith("s.yaml:1:60: seabed.sediments.1.facet_slope_deg: is not a known key"));
   CHECK(of("1: {lambert_mu_db: -4}") == "s.yaml:1:55: seabed.sediments.1.lambert_mu_db: -4 is outside [-60, -4.97]");
 }
 

@@ -1,12 +1,15 @@
 #include "components/runtime/head/environment.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "components/runtime/config/config_reader.h"
+#include "kernels/relief/spectral_surface.h"
 #include "kernels/water/noise.h"
 
 using namespace ensonify;
@@ -15,14 +18,15 @@ namespace {
 
 double db(double ratio) { return 10.0 * std::log10(ratio); }
 
-/// A world of the given water and sediments.
-Scenario world(const std::string& water, const std::string& sediments = "{}") {
-  auto from =
-      ConfigReader::from_text("ensonify: scenario/1\nsite: {latitude_deg: 45, longitude_deg: 0}\nwater: " + water +
-                                  "\nseabed: {kind: layers, sediments: " + sediments +
-                                  "}\nvehicles: {auv: {}}\n"
-                                  "mission: {depth_m: 10, runlines: [{from_m: [0, 0], to_m: [100, 0]}]}\n",
-                              "world.yaml");
+/// A world of the given water and sediments, over layers of its seabed.
+Scenario world(const std::string& water, const std::string& sediments = "{}",
+               const std::string& layers = "{ground: {plane: {}}}") {
+  auto from = ConfigReader::from_text(
+      "ensonify: scenario/1\nsite: {latitude_deg: 45, longitude_deg: 0}\nwater: " + water +
+          "\nseabed: {kind: layers, post_spacing_m: 0.1, sediments: " + sediments + ", layers: " + layers +
+          "}\nvehicles: {auv: {}}\n"
+          "mission: {depth_m: 10, runlines: [{from_m: [0, 0], to_m: [100, 0]}]}\n",
+      "world.yaml");
   const Scenario scenario = read_scenario(from, "world.yaml");
   from.finish();
   return scenario;
@@ -122,6 +126,48 @@ TEST_CASE("each class scatters by its sediment; classes without one as class 0")
     CHECK(in_table(mixed, 1) == in_table(mixed, 0));
     CHECK(in_table(mixed, 2) == Approx(db(rock(grazing))).margin(0.1));
   }
+}
+
+TEST_CASE("mud whose relief is in the heights answers on average as it does on a plane: nothing counts twice") {
+  const Scenario mud = world("{sound_speed_mps: 1500}", "{0: medium silt}",
+                             "{ground: {plane: {}}, mud: {spectral: {as_sediment: medium silt, outer_scale_m: 20}}}");
+  const Environment heard(mud, 300e3);
+  const auto whole = seabed::law_of(*seabed::sediment_of("medium silt"), 300e3, 1500.0);
+
+  // The heights that the pager would make, each cell two triangles as the tracer has them.
+  const auto& spectrum = std::get<layers::Spectral>(mud.seabed.layered.layers[1].form).spectrum;
+  constexpr int kPosts = 300;
+  const relief::Window window{0, 0, 0, kPosts, kPosts};
+  std::vector<float> z(window.size());
+  relief::SpectralSurface(spectrum, 0.1, 3, "mud").fill(window, z);
+  const auto mean_over_facets = [&](const auto& law, double grazing) {
+    const frames::Vec3 to_sonar(std::cos(grazing), 0.0, std::sin(grazing));
+    double sum = 0.0;
+    const auto add = [&](double east, double north) {
+      const frames::Vec3 area(-east, -north, 1.0);  // of the facet over that of its plan
+      const double sine = area.normalized().dot(to_sonar);
+      if (sine > 0.0) sum += area.norm() * law(std::asin(std::min(sine, 1.0)));
+    };
+    for (int j = 0; j + 1 < kPosts; ++j) {
+      for (int i = 0; i + 1 < kPosts; ++i) {
+        const auto at = [&](int a, int b) { return static_cast<double>(z[window.node(a, b)]); };
+        add((at(i + 1, j) - at(i, j)) / 0.1, (at(i, j + 1) - at(i, j)) / 0.1);
+        add((at(i + 1, j + 1) - at(i, j + 1)) / 0.1, (at(i + 1, j + 1) - at(i + 1, j)) / 0.1);
+      }
+    }
+    return sum / (2.0 * (kPosts - 1) * (kPosts - 1));
+  };
+  const auto of_head = [&](double grazing) {
+    return static_cast<double>(heard.backscatter().at_angle(0, static_cast<float>(grazing)));
+  };
+  for (const double grazing_deg : {20.0, 45.0, 70.0, 83.0, 90.0}) {
+    const double grazing = grazing_deg * std::numbers::pi / 180;
+    INFO(grazing_deg);
+    // 0.3 dB: what the law of facets is off at most; 180,000 facets scatter by less than 0.05 dB.
+    CHECK(db(mean_over_facets(of_head, grazing)) == Approx(db(whole(grazing))).margin(0.3));
+  }
+  const double up = 0.5 * std::numbers::pi;
+  CHECK(db(mean_over_facets(whole, up)) < db(whole(up)) - 0.8);  // with the plane's law on the facets
 }
 
 TEST_CASE("wind roughens the surface") {

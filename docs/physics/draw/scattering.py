@@ -81,6 +81,36 @@ def draw_table_error():
     save(figure, "backscatter_table_error")
 
 
+def draw_facets():
+    """A plane's law, and what facets tilted at random return with that law and with their own."""
+    rng = np.random.default_rng(1)
+    cases = (("medium-silt", 300e3, 2.604), ("coarse-sand", 100e3, 9.447))  # posts of 0.1 m: atan sqrt(2 C^2 d^-0.75)
+    figure, axes = panels(2, 12, 4.5, sharey=True)
+    for axis, (sediment, frequency_hz, slope_deg) in zip(axes, cases):
+        curve = physics("backscatter", "--sediment", sediment, "--frequency-hz", frequency_hz, "--facet-slope-deg", slope_deg,
+                        "--grazing-deg", "0:90:0.25")
+        east, north = rng.normal(0, np.tan(np.radians(slope_deg)) / np.sqrt(2), (2, 20000))
+        area = np.sqrt(1 + east**2 + north**2)
+
+        def tilted(column):
+            degrees = np.arange(2, 90.1, 2)
+            sums = []
+            for theta in np.radians(degrees):
+                sine = np.clip((np.sin(theta) - east * np.cos(theta)) / area, -1, 1)
+                level = np.interp(np.degrees(np.arcsin(sine)), curve["grazing_deg"], curve[column])
+                sums.append(10 * np.log10(np.mean(np.where(sine > 0, area * 10 ** (0.1 * level), 0))))
+            return degrees, sums
+
+        axis.plot(curve["grazing_deg"], curve["total_db"], "k", lw=1.3, label="plane")
+        axis.plot(curve["grazing_deg"], curve["facets_db"], "C0", lw=1, label="law of a facet")
+        axis.plot(*tilted("total_db"), "C3x", ms=5, label="facets with the plane's law: counted twice")
+        axis.plot(*tilted("facets_db"), "C0o", ms=4, mfc="none", label="facets with their own")
+        label(axis, f"{sediment.replace('-', ' ')}, {frequency_hz / 1e3:g} kHz, facets of {slope_deg:.1f}° rms")
+    axes[0].set(ylim=(-50, 0), ylabel="backscatter strength, dB re 1 m² per m²")
+    axes[0].legend(fontsize=8, loc="upper left")
+    save(figure, "backscatter_facets")
+
+
 def draw_surface():
     read_off = {15e3: [(3.5, 20, -47.0, -45.0)], 70e3: [(8, 30, -26.0, -22.0), (8, 60, -21.0, -17.0)]}
     figure, axes = panels(3, 14, 5, sharey=True)
@@ -113,5 +143,6 @@ def draw_materials():
 draw_sediments()
 draw_table_3()
 draw_table_error()
+draw_facets()
 draw_surface()
 draw_materials()
