@@ -132,6 +132,18 @@ class Cases(Import):
         self.assertEqual(report["holes"]["count"], 3)
         self.assertEqual(report["sources"][0]["marked_cells"], 100)
 
+    def test_a_lonely_zero_is_a_mark_and_a_beach_is_none(self):
+        def holed(mark):
+            return lambda x, y: np.where((x > CORNER[0] + 240) & (x < CORNER[0] + 320), mark, sea(x, y))
+        for mark in (0, -10):
+            self.refused(self.made("holed.tif", values=holed(mark)), causes=[f"holds {mark} in", f"--nodata {mark}"])
+        _, report = self.run_import(self.folder / "holed.tif", "--nodata", "-10")
+        self.assertGreater(report["sources"][0]["marked_cells"], 2000)
+        # Land that is drawn at 0, but rises out of shallows.
+        beach = self.made("beach.tif", values=lambda x, y: np.minimum(0, -12 + 0.03 * (x - CORNER[0])))
+        _, report = self.run_import(beach, name="beach")
+        self.assertEqual(report["highest_m"], 0)
+
     def test_classes_from_a_raster_by_nearest_cell_and_from_rules(self):
         path = self.made()
         classes = self.made("classes.tif", (CORNER[0], 20.0, 0, CORNER[1], 0, -20.0), (24, 15), kind=gdal.GDT_Byte, nodata=255,
@@ -256,6 +268,8 @@ class Cases(Import):
                      causes=["holds heights from -2", "--units cm", "between -11500 and 9000 m"])
         self.refused(self.made("cm.tif", values=lambda x, y: 100 * (0.03 * (x - CORNER[0]) - 40)),
                      causes=["steeper than 60 deg", "--units cm"])
+        self.refused(self.made("lost.tif", (math.nan, 4.0, 0, CORNER[1], 0, -4.0)), causes=["geotransform", "number which is none"])
+
         def ran_over(x, y):  # 32 m and deeper in mm, past -32,768, which it steps over
             return (-32000 - 7 * np.floor((x - CORNER[0]) / 4).astype(np.int64) + 2**15) % 2**16 - 2**15
         self.refused(self.made("ran_over.tif", kind=gdal.GDT_Int16, values=ran_over), "--units", "mm",

@@ -187,6 +187,8 @@ void RasterFile::read_geotransform() {
   if (dataset_->GetGeoTransform(map_from_cell_.data()) != CE_None) {
     refuse("is not georeferenced: it has no geotransform (origin and cell size)");
   }
+  if (!std::all_of(map_from_cell_.begin(), map_from_cell_.end(), [](double g) { return std::isfinite(g); }))
+    refuse("has a geotransform that holds a number which is none");
   invert_geotransform();
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 /// What files without a nodata entry write for "no value".
 constexpr std::array kUsualMarks = {-9999.0, 9999.0, -99999.0, 99999.0, -32768.0, 32767.0, 1e6, -1e6};
+/// What they write too, but a seabed may have: a mark where all else is far from it.
+constexpr std::array kPossibleMarks = {0.0, -10.0, 10.0, -99.0, 99.0, -999.0, 999.0};
 constexpr double kDeepest_m = 11'500.0, kHighest_m = 9'000.0;
 constexpr double kOverrun = 60'000.0;  // between neighbours: 16 bits that ran over differ by 65,536 less the relief
 
@@ -60,6 +62,28 @@ void refuse_overrun(const source::RasterFile& file, std::span<const float> value
                     "or a mark for "
                     "missing values that is not declared (--nodata); write such heights as 32-bit or real numbers",
                     values[i - 1], values[i], i % columns - 1, i % columns, i / columns));
+  }
+}
+
+/// A value that is often a mark, that stands at an end of the range, and from which all others are farther off than
+/// half of what they span and than 1: a plateau of land at 0 has beaches, a mark has none.
+void refuse_lonely_marks(const source::RasterFile& file, std::span<const float> values, const Range& range) {
+  for (const double mark : kPossibleMarks) {
+    if (range.lowest == range.highest || (range.lowest != mark && range.highest != mark)) continue;
+    double nearest = range.lowest == mark ? range.highest : range.lowest, farthest = nearest;
+    std::int64_t count = 0;
+    for (const float value : values) {
+      if (std::isnan(value)) continue;
+      const double v = value;
+      if (v == mark) ++count;
+      else if (std::abs(v - mark) < std::abs(nearest - mark)) nearest = v;
+    }
+    if (std::abs(nearest - mark) <= std::max(1.0, 0.5 * std::abs(farthest - nearest))) continue;
+    file.refuse(fmt::format(
+        "holds {:.6g} in {} cells and nothing else nearer to it than {:.6g}: a mark for missing values that "
+        "is not declared as one? "
+        "Declare it with --nodata {:.6g}; cells that are truly so deep are cut off, or given another value",
+        mark, count, nearest, mark));
   }
 }
 
@@ -143,6 +167,7 @@ ValueFacts elevations_of(const source::RasterFile& file, const FileOptions& opti
   const Range raw = range_of(values);
   if (raw.known == 0) file.refuse("holds no valid cell: all are nodata or NaN");
   refuse_usual_marks(file, raw.lowest, raw.highest);
+  refuse_lonely_marks(file, values, raw);
   refuse_overrun(file, values);
   facts.unit = options.units != "auto" ? options.units : file.hints().unit.empty() ? "m" : file.hints().unit;
   facts.unit_m = metres_in(facts.unit, file.name());
