@@ -208,7 +208,10 @@ class Maker {
   relief::Raster raster_of(const layers::Guide& guide) const {
     std::unique_ptr<TerrainSource> file;
     if (!guide.tiles_folder.empty()) {
-      file = std::make_unique<TileSetSource>(guide.tiles_folder);
+      auto tiles = std::make_unique<TileSetSource>(guide.tiles_folder);
+      if (const std::string fault = fault_of_origin(tiles->origin(), origin_); !fault.empty())
+        throw std::invalid_argument("the guide's tiles: their origin " + fault + "; allowed: the same");
+      file = std::move(tiles);
     } else {
       RasterOptions options;
       options.path = guide.raster;

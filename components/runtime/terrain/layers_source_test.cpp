@@ -208,6 +208,10 @@ TEST_CASE("a tile set can be the guide of a seabed, and what its cells lack is r
   const LayersSource rough(seabed_from(guide + ", detail: {restored: {guide: ground}}}}"), kOrigin);
   for (const double x : {-80.0, 4.0, 96.0})  // at its own values the guide is itself, to the lattices' steps
     CHECK(smooth.height_m({x, 2 * x}) == Approx(survey.height_m({x, 2 * x})).margin(5e-4));
+  const frames::Geodetic elsewhere{kOrigin.latitude_deg + 0.01, kOrigin.longitude_deg};
+  CHECK_THROWS_WITH(LayersSource(seabed_from(guide + "}}"), elsewhere),
+                    Catch::Contains("seabed.layers.ground: the guide's tiles: their origin is") &&
+                        Catch::Contains("allowed: the same"));
   const PostBlock block{-128, -128, 256, 256, 0.5};
   const auto rms_of = [&](const TerrainSource& source) {
     const relief_statistics::Surface surface{256, 256, 0.5, sampled(source, block).height_m};

@@ -14,10 +14,6 @@
 namespace ensonify::source {
 namespace {
 
-std::string place_text(const frames::Geodetic& place) {
-  return fmt::format("{:.9f}, {:.9f} deg", place.latitude_deg, place.longitude_deg);
-}
-
 std::unique_ptr<TerrainSource> raster(const TerrainOptions& options) {
   const RasterSeabed& seabed = options.seabed.raster;
   RasterOptions raster;
@@ -33,15 +29,12 @@ std::unique_ptr<TerrainSource> raster(const TerrainOptions& options) {
 }
 
 std::unique_ptr<TerrainSource> tile_set(const TerrainOptions& options) {
-  constexpr double kSame_deg = 1e-9;  // 0.1 mm
   auto source = std::make_unique<TileSetSource>(options.seabed.tiles_folder);
-  const frames::Geodetic own = source->origin(), wanted = options.site.origin;
-  if (!options.site.origin_from_raster && (std::abs(own.latitude_deg - wanted.latitude_deg) > kSame_deg ||
-                                           std::abs(own.longitude_deg - wanted.longitude_deg) > kSame_deg)) {
+  if (options.site.origin_from_raster) return source;
+  if (const std::string fault = fault_of_origin(source->origin(), options.site.origin); !fault.empty()) {
     throw ConfigError({ConfigProblem{{options.seabed.tiles_folder, 0, 0},
                                      "origin",
-                                     "is " + place_text(own) + ", and the scenario's site is " + place_text(wanted) +
-                                         "; write site: { origin: raster } to take that of the tiles"}});
+                                     fault + "; write site: { origin: raster } to take that of the tiles"}});
   }
   return source;
 }

@@ -1,5 +1,7 @@
 #include "components/runtime/terrain/tile_set_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,10 @@ namespace ensonify::source {
 namespace {
 
 constexpr std::size_t kKeptTiles = 8;  // 6 MB each at 1025 x 1025 posts
+
+std::string place_text(const frames::Geodetic& place) {
+  return fmt::format("{:.9f}, {:.9f} deg", place.latitude_deg, place.longitude_deg);
+}
 
 }  // namespace
 
@@ -113,6 +119,14 @@ double TileSetSource::height_m(const Vec2& place) const {
 std::uint8_t TileSetSource::sediment(const Vec2& place) const {
   const auto tile = tile_at(set_.grid.key_at(place));
   return tile ? terrain::sediment_at(*tile, place) : std::uint8_t{0};
+}
+
+std::string fault_of_origin(const frames::Geodetic& tiles, const frames::Geodetic& site) {
+  constexpr double kSame_deg = 1e-9;  // 0.1 mm
+  if (std::abs(tiles.latitude_deg - site.latitude_deg) <= kSame_deg &&
+      std::abs(tiles.longitude_deg - site.longitude_deg) <= kSame_deg)
+    return "";
+  return "is " + place_text(tiles) + ", and the scenario's site is " + place_text(site);
 }
 
 }  // namespace ensonify::source

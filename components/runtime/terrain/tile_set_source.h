@@ -52,4 +52,8 @@ class TileSetSource : public TerrainSource {
   mutable std::list<Kept> kept_;  // the last used first
 };
 
+/// What is wrong with tiles of this origin in a world whose origin is `site`: "", or where the two are if they are more
+/// than 0.1 mm apart. Tiles are squares of the world's own lattice and cannot be moved.
+std::string fault_of_origin(const frames::Geodetic& tiles, const frames::Geodetic& site);
+
 }  // namespace ensonify::source
