@@ -49,7 +49,8 @@ void read_format(ConfigReader& from, const std::string& wanted) {
 
 constexpr const char* kTileFormat = "tile/1";
 
-/// One virtual raster over all tiles, in metres.
+}  // namespace
+
 std::string vrt_text(const TileSet& set) {
   terrain::TileKey least{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()};
   terrain::TileKey most{std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min()};
@@ -84,8 +85,6 @@ std::string vrt_text(const TileSet& set) {
   }
   return text + "  </VRTRasterBand>\n</VRTDataset>\n";
 }
-
-}  // namespace
 
 std::string sidecar_text(const TileSet& set, const terrain::TileKey& key, const TileFacts& facts) {
   return fmt::format(

@@ -10,4 +10,7 @@ namespace ensonify::tiles {
 std::string sidecar_text(const TileSet& set, const terrain::TileKey& key, const TileFacts& facts);
 std::string world_file(const TileSet& set, const terrain::TileKey& key);
 
+/// What stands in seabed.vrt: one virtual raster over all tiles, in metres.
+std::string vrt_text(const TileSet& set);
+
 }  // namespace ensonify::tiles

@@ -103,6 +103,12 @@ TEST_CASE("verify finds a flipped bit, a missing tile, a wrong scale and a seam"
     std::ofstream(set.path_of({0, 0}, ".pgw")) << "0.25\n0\n0\n-0.25\n0\n16\n";
     only("e+0000_n+0000.pgw: says something else");
   }
+  SECTION("raster of all tiles") {
+    std::ofstream(folder.path + "/seabed.vrt", std::ios::app) << " ";
+    only("seabed.vrt: says something else");
+    std::filesystem::remove(folder.path + "/seabed.vrt");
+    only("seabed.vrt: cannot be read");
+  }
   SECTION("seam") {
     auto tile = terrain::sample_tile(
         set.grid, {0, 0}, [](double x, double y) { return seabed(x, y) + 2e-4; }, kind);

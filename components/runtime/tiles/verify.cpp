@@ -72,6 +72,11 @@ std::vector<std::string> faults_of(const TileSet& set) {
       faults.emplace_back(error.what());
     }
   }
+  try {
+    compare_text(set.folder + "/seabed.vrt", vrt_text(set), faults);
+  } catch (const TileError& error) {
+    faults.emplace_back(error.what());
+  }
   return faults;
 }
 
