@@ -120,4 +120,42 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
   CHECK(uncertainty["thu_95_m"] == 1.0);
   CHECK(uncertainty["share_in_special_order"].get<double>() == Approx(110.0 / 121.0));
   CHECK(uncertainty["share_in_order_1a"] == 1.0);
+  const auto order_1a = nlohmann::json::parse(report)["order_1a"];
+  CHECK(order_1a["uncertainty"] == true);
+  CHECK(order_1a["coverage"] == true);
+  CHECK(order_1a["feature_search"] == false);  // cubes of 2 m are not found everywhere
+  CHECK(order_1a["holds"] == false);
+}
+
+TEST_CASE("an order holds when soundings, coverage and feature search all do") {
+  // One sounding is enough; pings 0.5 m apart, beams up to 12 m x 1 degree / cos^2 = 0.84 m: one on every cube of 2 m
+  // less the two cells that are not told.
+  const auto folder = std::filesystem::temp_directory_path() / "ensonify_order_test";
+  std::filesystem::create_directories(folder);
+  Scenario scenario = slope();
+  scenario.mission.adaptive->centre_enu_m = {20, 30};
+  scenario.mission.adaptive->width_m = 20;
+  scenario.mission.adaptive->soundings = 1;
+  NodeUnderTest<CoverageNode> coverage(config_of(scenario), "test", folder);
+  SimTime t{0};
+  const auto report = [&](double from_m, double to_m) {
+    for (double north_m = from_m; north_m < to_m; north_m += 0.5, t += 100_ms) {
+      coverage.give("soundings", ping_at(20.0, north_m, t));
+    }
+    coverage.run_until(t);
+    coverage.node().finish_run();
+    std::ifstream file(folder / "coverage.json");
+    return nlohmann::json::parse(file);
+  };
+  const auto half = report(0.25, 30.0);
+  CHECK(half["order_1a"]["uncertainty"] == true);
+  CHECK(half["order_1a"]["coverage"] == false);
+  CHECK(half["order_1a"]["holds"] == false);
+  const auto whole = report(30.25, 60.0);
+  CHECK(whole["order_1a"]["coverage"] == true);
+  CHECK(whole["order_1a"]["feature_search"] == true);
+  CHECK(whole["order_1a"]["cube_m"] == 2.0);
+  CHECK(whole["order_1a"]["holds"] == true);
+  CHECK(whole["special_order"]["uncertainty"] == false);  // 9 % of the beams are too uncertain
+  CHECK(whole["special_order"]["holds"] == false);
 }

@@ -165,6 +165,23 @@ nlohmann::ordered_json CoverageNode::uncertainty_report() const {
   return report;
 }
 
+/// Whether the survey holds what an order asks for, and each part of it: soundings certain enough, every cell covered,
+/// every cube found. A survey whose soundings tell no uncertainty does not.
+nlohmann::ordered_json CoverageNode::order_report(const survey::SurveyOrder& order, std::size_t certain,
+                                                  double shallowest_m) const {
+  const double cube_m = survey::cube_m(order, std::max(0.0, shallowest_m));
+  const bool uncertainty = !tvu_m_.empty() && static_cast<double>(certain) >= 0.95 * static_cast<double>(tvu_m_.size());
+  const bool coverage = covered_.covered() >= 1.0;
+  const bool features = cubes_.found(cube_m, config_.plan.soundings) >= 1.0;
+  nlohmann::ordered_json report;
+  report["uncertainty"] = uncertainty;
+  report["coverage"] = coverage;
+  report["feature_search"] = features;
+  report["cube_m"] = cube_m;
+  report["holds"] = uncertainty && coverage && features;
+  return report;
+}
+
 void CoverageNode::finish_run() const {
   const auto depths = covered_.depths(-config_.head_depth_m);
   const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_cell_m * std::tan(swath_.half_angle_rad);
@@ -181,6 +198,8 @@ void CoverageNode::finish_run() const {
   report["cost"] = config_.cost_per_day * elapsed_s / 86400.0;
   report["uncertainty"] = uncertainty_report();
   report["cube_m"] = cube_report();
+  report["special_order"] = order_report(survey::kSpecialOrder, in_special_order_, depths.shallowest_cell_m);
+  report["order_1a"] = order_report(survey::kOrder1a, in_order_1a_, depths.shallowest_cell_m);
   report["shallowest_m"] = depths.shallowest_cell_m;
   report["columns_m"] = {depths.shallowest_column_m, depths.deepest_column_m};
   report["fixed_lines"] = fixed_lines;

@@ -36,6 +36,7 @@ class CoverageNode {
   std::vector<survey::Runline> lines_at(std::size_t count) const;
   nlohmann::ordered_json cube_report() const;
   nlohmann::ordered_json uncertainty_report() const;
+  nlohmann::ordered_json order_report(const survey::SurveyOrder& order, std::size_t certain, double shallowest_m) const;
 
   CoverageConfig config_;
   Ports& ports_;

@@ -13,4 +13,8 @@ TEST_CASE("the orders allow what S-44 prints") {
   CHECK(meets(kOrder1a, 100.0, order_1a_100_m - 1e-4, 10.0));
   CHECK_FALSE(meets(kOrder1a, 100.0, order_1a_100_m + 1e-4, 10.0));
   CHECK_FALSE(meets(kOrder1a, 100.0, 0.1, 10.01));
+  // Cubic features above 1 m; above 2 m down to 40 m and a tenth of the depth beyond.
+  CHECK(cube_m(kSpecialOrder, 100.0) == 1.0);
+  CHECK(cube_m(kOrder1a, 40.0) == 2.0);
+  CHECK(cube_m(kOrder1a, 100.0) == Approx(10.0));
 }
