@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "components/runtime/mesh_message.h"
 #include "components/runtime/terrain/prepared_mesh.h"
@@ -34,24 +38,55 @@ void refuse(const TerrainPagerConfig& config, const std::string& name, const std
   throw ConfigError({ConfigProblem{{config.scenario_file, 0, 0}, "seabed.meshes." + name, why}});
 }
 
-/// A line may lie beside a mesh, or above it where the vehicle dives; not through it, nor below.
-void check_lines(const TerrainPagerConfig& config, const std::string& name, const progressive::TriangleMesh& mesh) {
-  std::vector<ConfigProblem> problems;
-  const auto depths = config.mission.runline_depths_m();
-  for (std::size_t i = 0; i < config.mission.runlines.size(); ++i) {
-    const navigation::Runline& line = config.mission.runlines[i];
-    const double depth_m = i < depths.size() ? depths[i].value_or(0.0) : 0.0;
-    const auto along_m = progressive::first_crossing_m(mesh, {line.start_enu_m, line.end_enu_m, -depth_m});
-    if (!along_m) continue;
-    const frames::Vec2 place = navigation::point_on(line, *along_m);
-    problems.push_back(
-        {{config.scenario_file, 0, 0},
-         fmt::format("mission runline {}", i + 1),
-         fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a line beside it, or "
-                     "above",
-                     place.x(), place.y(), depth_m, name)});
+/// A straight piece of a mission, as its problems name it.
+struct Leg {
+  std::string key;
+  navigation::Runline line;
+  double depth_m;  // 0 where it follows the bottom
+};
+
+/// The pieces of lines, with what is run before and behind them, and of orbits.
+std::vector<Leg> legs_of(const Mission& mission) {
+  constexpr int kSides = 32;  // of a polygon for an orbit: within 0.5 % of its radius
+  std::vector<Leg> legs;
+  std::optional<double> depth_m = mission.altitude_m ? std::nullopt : std::optional(mission.depth_m);
+  std::size_t runlines = 0;
+  for (const MissionStep& step : mission.steps) {
+    if (const auto* go = std::get_if<GoAt>(&step)) depth_m = depth_after(*go, depth_m);
+    if (const auto* line = std::get_if<FlyLine>(&step)) {
+      const auto& points = line->points_enu_m;
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const double run_in_m = i == 0 ? mission.run_in_m : 0.0;
+        const double run_out_m = i + 2 == points.size() ? mission.run_out_m : 0.0;
+        legs.push_back({fmt::format("mission runline {}", ++runlines),
+                        navigation::extended({points[i], points[i + 1]}, run_in_m, run_out_m), depth_m.value_or(0.0)});
+      }
+    }
+    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
+      const auto place = [&](int i) {
+        const double bearing = 2.0 * std::numbers::pi * i / kSides;
+        return frames::Vec2(orbit->centre_enu_m + orbit->radius_m * frames::Vec2(std::sin(bearing), std::cos(bearing)));
+      };
+      for (int i = 0; i < kSides; ++i)
+        legs.push_back({"mission orbit", {place(i), place(i + 1)}, depth_m.value_or(0.0)});
+    }
   }
-  if (!problems.empty()) throw ConfigError(problems);
+  return legs;
+}
+
+/// A leg may lie beside a mesh, or above it where the vehicle dives; not through it, nor below. One problem a mesh.
+void check_legs(const TerrainPagerConfig& config, const std::string& name, const progressive::TriangleMesh& mesh) {
+  for (const Leg& leg : legs_of(config.mission)) {
+    const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, -leg.depth_m});
+    if (!along_m) continue;
+    const frames::Vec2 place = navigation::point_on(leg.line, *along_m);
+    throw ConfigError(
+        {ConfigProblem{{config.scenario_file, 0, 0},
+                       leg.key,
+                       fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a way "
+                                   "beside it, or above",
+                                   place.x(), place.y(), leg.depth_m, name)}});
+  }
 }
 
 }  // namespace
@@ -70,7 +105,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const paging::Box& terrain) {
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
                       box.low.x(), box.high.x(), box.low.y(), box.high.y(), terrain.low.x(), terrain.high.x(),
                       terrain.low.y(), terrain.high.y()));
-    check_lines(config, mesh.name, placed.hierarchy.mesh);
+    check_legs(config, mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());
     one.message.name = mesh.name;

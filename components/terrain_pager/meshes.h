@@ -16,7 +16,8 @@ namespace ensonify::pager {
 class Meshes {
  public:
   /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain or stands in the way of a
-  /// runline, and for more than head_budget_mb of them. A line that follows the bottom is judged as one at the surface.
+  /// mission's lines, their run-ins and run-outs, or orbits, and for more than head_budget_mb of them. What follows the
+  /// bottom is judged as if at the surface.
   Meshes(const TerrainPagerConfig& config, const paging::Box& terrain);
 
   struct Decision {

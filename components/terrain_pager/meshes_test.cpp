@@ -62,7 +62,6 @@ TEST_CASE("what no head could ever meet or hold is refused, with its place") {
 TEST_CASE("a runline through a mesh is refused with its place, one beside it or above it is not") {
   TerrainPagerConfig config = quay();
   const auto refused = [&](const navigation::Runline& line, double depth_m) {
-    config.mission.runlines = {line};
     config.mission.depth_m = depth_m;
     config.mission.steps = {FlyLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
     try {
@@ -77,10 +76,21 @@ TEST_CASE("a runline through a mesh is refused with its place, one beside it or 
   CHECK_THAT(
       refused({{110.0, 0.0}, {110.0, 90.0}}, 0.0),
       Catch::Matches(R"(world.yaml: mission runline 1: at \(110.0, (49.[89]|50.[0-2])\) m, 0.0 m deep, it runs into )"
-                     "the mesh quay; allowed is a line beside it, or above"));
+                     "the mesh quay; allowed is a way beside it, or above"));
   CHECK_THAT(refused({{110.0, 90.0}, {110.0, 0.0}}, 3.0), Catch::Contains("3.0 m deep"));
+  config.mission.run_out_m = 4.0;
   CHECK(refused({{110.0, 0.0}, {110.0, 45.0}}, 0.0).empty());
+  config.mission.run_out_m = 6.0;
+  CHECK_FALSE(refused({{110.0, 0.0}, {110.0, 45.0}}, 0.0).empty());
+  config.mission.run_out_m = 0.0;
+  config.mission.run_in_m = 6.0;
+  CHECK_FALSE(refused({{110.0, 45.0}, {110.0, 0.0}}, 0.0).empty());
+  config.mission.run_in_m = 0.0;
   CHECK(refused({{126.0, 0.0}, {126.0, 90.0}}, 0.0).empty());
+  config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 19.0}};
+  CHECK_NOTHROW(Meshes(config, kTerrain));
+  config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 21.0}};
+  CHECK_THROWS_WITH(Meshes(config, kTerrain), Catch::Contains("world.yaml: mission orbit: at"));
   config.terrain.seabed.meshes[0].wall->top_height_m = -2.0;
   CHECK(refused({{110.0, 0.0}, {110.0, 90.0}}, 1.9).empty());
   CHECK_FALSE(refused({{110.0, 0.0}, {110.0, 90.0}}, 2.0).empty());

@@ -255,6 +255,62 @@ TEST_CASE("side lobes hear a wall and a reef as loud as with all of them there, 
   }
 }
 
+TEST_CASE("a mesh smaller than a look of the probes answers as loud as rays at it alone tell") {
+  // A ball of 0.4 m on the ground, ahead of an imaging head 2 m above it at preview's quality: no facet has rays of its
+  // own. Over 40 draws of the rays its power deviates by 0.4 % at 10 m and by 3.9 % at 60 m; four times that, and 0.5 %
+  // of the rays at it alone, are 0.1 dB and 0.7 dB.
+  TransmitVolume volume;
+  volume.axis = TransmitVolume::Axis::kDown;
+  volume.sine = {-0.2, 0.4, -0.2, 0.4, 0.35};
+  volume.angle_rad = {-1.13, 1.13, -1.13, 1.13, 0.0175};
+  const HeadPose head{{0.0, 0.0, -8.0}, enu_from_body(frames::Attitude{})};
+  constexpr float kFar_m = 100.0F;
+  for (const auto& [away_m, most_db] : {std::pair{10.0, 0.1}, {60.0, 0.7}}) {
+    auto ball = progressive::bumpy_ball(48, 24);
+    for (auto& vertex : ball.vertex_m) vertex *= 0.02F;
+    ball.origin_enu_m = {1.0, away_m, -9.8};
+    Scene scene({0, 0});
+    const terrain::TileGrid grid{.origin_enu_m = {-128.0, -64.0}, .spacing_m = 1.0, .cells = 256};
+    scene.insert({0, 0}, terrain::sample_tile(grid, {0, 0}, [](double, double) { return -10.0; }));
+    scene.insert(0, IrregularMesh{progressive::hierarchy_of(ball, progressive::collapses_of(ball)), kSteel});
+    std::vector<Hit> hits;
+    const auto power = [&](const std::vector<Ray>& rays) {  // by Lambert's law, once the rays have been traced
+      double sum = 0.0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const double sine_over_range = static_cast<double>(hits[i].sin_grazing / std::max(1.0F, hits[i].range_m));
+        if (hits[i].hit() && hits[i].sediment == kSteel)
+          sum += static_cast<double>(rays[i].solid_angle_sr) * sine_over_range * sine_over_range;
+      }
+      return sum;
+    };
+    const random::Stream draws(17, "at the ball");
+    constexpr std::uint64_t kRays = 100'000;
+    const Vec3 middle = head.enu_from_head.conjugate() * (ball.origin_enu_m - head.position_enu_m);
+    const double half = 0.3 / away_m;
+    std::vector<Ray> at_ball;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+      const double u = middle.z() / middle.norm() + half * (2.0 * draws.uniform(i, 0) - 1.0);
+      const double phi = std::atan2(middle.y(), middle.x()) + half * (2.0 * draws.uniform(i, 1) - 1.0);
+      const double beside = std::sqrt(1.0 - u * u);
+      at_ball.push_back({Vec3(beside * std::cos(phi), beside * std::sin(phi), u).cast<float>(),
+                         static_cast<float>(4.0 * half * half / kRays)});
+    }
+    scene.trace(head, at_ball, kFar_m, hits);
+    const double wanted = power(at_ball);
+    REQUIRE(wanted > 0.0);
+    for (std::uint64_t draw = 0; draw < 3; ++draw) {
+      RayDistribution distribution(volume, {.quality = RaySettings::kPreview, .range_resolution_m = 0.02},
+                                   {draw, "rays"});
+      scene.trace(head, distribution.probes(), kFar_m, hits);
+      std::vector<Ray> rays;
+      distribution.fill(head, hits, scene.objects(), kFar_m, rays);
+      scene.trace(head, rays, kFar_m, hits);
+      distribution.settle(rays, hits);
+      CHECK(10.0 * std::log10(power(rays) / wanted) == Approx(0.0).margin(most_db));
+    }
+  }
+}
+
 TEST_CASE("far fewer triangles are held than a mesh has") {
   Scene scene = scene_of({.enabled = true});
   const auto triangles = [&](const HeadPose& head) {

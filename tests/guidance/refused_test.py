@@ -116,7 +116,7 @@ MESHES = [
     ("a wall of too many piles", "{ sheet_pile_wall: { from_m: [-9000, 5], to_m: [9000, 5], row_m: 0.1 } }",
      "world.yaml:.*row_m: makes 9060302 vertices; allowed: 500000"),
     ("a wall across a line", "{ sheet_pile_wall: { from_m: [-9, 20], to_m: [9, 20] } }",
-     r"world.yaml: mission runline 1: at \(0.0, (19.[789]|20.[0-3])\) m, 0.0 m deep, it runs into the mesh quay; allowed is a line beside it"),
+     r"world.yaml: mission runline 1: at \(0.0, (19.[789]|20.[0-3])\) m, 0.0 m deep, it runs into the mesh quay; allowed is a way beside it"),
 ]
 SENSORS = [
     ("a rate below nothing", "NAVIGATION", "gnss: { rate_hz: -5 }", r"gnss.rate_hz: -5 is outside \[0.01, 1000\]"),

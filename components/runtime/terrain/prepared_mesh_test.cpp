@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/tiles/file_bytes.h"
@@ -51,6 +52,8 @@ TEST_CASE("splits are read when they were made of this file in this unit, and ma
   auto bytes = tiles::read_file(lod);
   bytes[200] ^= 1;
   tiles::write_file(lod, bytes);
+  CHECK_FALSE(prepared_mesh(ridge.path, 1.0, lod).cached);
+  tiles::write_file(lod, std::string_view("ensonify: lod/2\n"));
   CHECK_FALSE(prepared_mesh(ridge.path, 1.0, lod).cached);
   write_lod_file(lod, made.lod);
   ridge.write(0.75);
