@@ -6,6 +6,7 @@
 
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
+#include "kernels/motion/disturbance_presets.h"
 
 using namespace ensonify;
 using frames::Vec3;
@@ -76,6 +77,40 @@ TEST_CASE("velocity and acceleration of a vehicle in all of it are the derivativ
   const Vec3 acceleration = (vec(after.velocity_enu_mps) - vec(before.velocity_enu_mps)) / 2e-3;
   CHECK((acceleration - vec(now.acceleration_enu_mps2)).norm() < 1e-5);
   CHECK(std::abs(now.acceleration_enu_mps2[2]) > 0.01);
+}
+
+TEST_CASE("600 s of a vehicle's accelerations and turn rates, on a tide and in a stream, integrate to its pose") {
+  VehicleConfig config = in_a_tide();
+  config.water.floats = vertical::Loading{{{0, 0.0}, {9, 0.3}}, 0.0, -1e-6};
+  config.water.current.profile = {{0.0, {0.3, 0.2}}};
+  config.water.current.streams = {{{0.5, 0.1}, kM2_radps, 0.4}};
+  config.disturbance = *motion::disturbance_preset("research_ship");
+  VehicleModel boat(config, {{0, 0, 0}, 0.5, 2.0}, 0_s);
+  const auto vec = [](const std::array<double, 3>& v) { return Vec3(v[0], v[1], v[2]); };
+  const auto slope = [&](const Eigen::Vector4d& q, const msg::Pose& pose) {
+    const frames::Quaternion spin(0.0, pose.rate_body_radps[0], pose.rate_body_radps[1], pose.rate_body_radps[2]);
+    return Eigen::Vector4d(0.5 * (frames::Quaternion(q) * spin).coeffs());
+  };
+  msg::Pose first = boat.pose();
+  Vec3 position = vec(first.position_enu_m), velocity = vec(first.velocity_enu_mps);
+  Eigen::Vector4d q = frames::quaternion_of(first.enu_from_body).coeffs();
+  constexpr double h = 0.04;
+  for (SimTime t{0}; t < 600_s; t += 40_ms) {
+    boat.advance(t + 20_ms);
+    const msg::Pose middle = boat.pose();
+    boat.advance(t + 40_ms);
+    const msg::Pose last = boat.pose();
+    // Simpson's rule, and the parabola's own double integral.
+    const Vec3 a = vec(first.acceleration_enu_mps2), b = vec(middle.acceleration_enu_mps2);
+    position += h * velocity + h * h / 6 * (a + 2 * b);
+    velocity += h / 6 * (a + 4 * b + vec(last.acceleration_enu_mps2));
+    const Eigen::Vector4d k1 = slope(q, first), k2 = slope(q + 0.5 * h * k1, middle),
+                          k3 = slope(q + 0.5 * h * k2, middle), k4 = slope(q + h * k3, last);
+    q = (q + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)).normalized();
+    first = last;
+  }
+  CHECK((position - vec(first.position_enu_m)).norm() < 1e-3);
+  CHECK(frames::Quaternion(q).angularDistance(frames::quaternion_of(first.enu_from_body)) < 1e-3 * kPi / 180);
 }
 
 TEST_CASE("two vehicles of one scenario are disturbed differently") {

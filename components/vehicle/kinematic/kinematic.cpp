@@ -1,6 +1,14 @@
 #include "components/vehicle/kinematic/kinematic.h"
 
 namespace ensonify {
+namespace {
+
+/// How the tide's rate changes, over two seconds: of constituents to 1e-8 of it; the lines of a gauge bend within them.
+double tide_acceleration_mps2(const vertical::Tide& tide, double t_s) {
+  return 0.5 * (tide.at(t_s + 1.0).rate_mps - tide.at(t_s - 1.0).rate_mps);
+}
+
+}  // namespace
 
 KinematicDynamics::KinematicDynamics(const VehicleConfig& config, const motion::State& start, SimTime now)
     : limits_(config.limits),
@@ -42,6 +50,7 @@ frames::MovingPose KinematicDynamics::moving() const {
   }
   moving.pose.position_enu_m.z() += level.height_m;
   moving.velocity_enu_mps.z() += level.rate_mps;
+  moving.acceleration_enu_mps2.z() += tide_acceleration_mps2(water_.tide, t_s);
   if (!water_.current.none()) {
     moving.velocity_enu_mps.head<2>() += water_.current.velocity_enu_mps(depth_below_datum_m(), t_s);
     moving.acceleration_enu_mps2.head<2>() += water_.current.acceleration_enu_mps2(t_s);
