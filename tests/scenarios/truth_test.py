@@ -4,6 +4,7 @@ The ranges are those of grids of real surveys (docs/seabed/statistics.md): reefs
 flat mud, a canyon's head, a river's bed. Plain fractional Brownian relief must fail the mixed one.
 """
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -94,6 +95,20 @@ class Truth(unittest.TestCase):
         for scenario, window, most_m in (("patch_test", "pad", 0.05), ("trawl_scars", "plain", 0.046)):
             rows = next(w for w in stored(scenario) if w["name"] == window)["roughness"]
             self.assertLess(next(row["rms_m"] for row in rows if row["side_m"] == 64), most_m, scenario)
+
+    def test_mud_and_sand_are_as_rough_as_their_sediments(self):
+        # The rms about a plane in squares grows as the root of the spectrum's strength and as side^0.625. The yardstick is
+        # unit/fbm, whose rms of 1.5 m and outer scale of 4 km make a strength of 1.5^2 H Ko^2H / pi, H = 0.625; strengths of
+        # TR 9407 in cm^4 are 10^-1.5 of that in SI. Sand lies on the mud that is everywhere. Medians scatter by 2 %.
+        fbm = 1.5**2 * 0.625 * (2 * math.pi / 4000)**1.25 / math.pi
+        row = stored("unit/fbm")[0]["roughness"][0]
+        for scenario, window, strength_cm4 in (("harbour", "basin", 0.000518), ("target_field", "mud", 0.000518),
+                                               ("target_field", "sand", 0.002715 + 0.000518)):
+            for mine in next(w for w in stored(scenario) if w["name"] == window)["roughness"]:
+                if mine["side_m"] > 2:
+                    continue  # longer waves have other layers, and an outer scale
+                expected = row["median_m"] * math.sqrt(strength_cm4 * 10**-1.5 / fbm) * (mine["side_m"] / row["side_m"])**0.625
+                self.assertAlmostEqual(mine["median_m"] / expected, 1, delta=0.06, msg=f"{scenario} {mine['side_m']} m")
 
     def test_the_border_of_the_ripples_is_sharp(self):
         # Local rms on both sides of a measured one: 15 to 1.
