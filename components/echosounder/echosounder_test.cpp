@@ -6,6 +6,7 @@
 #include "components/echosounder/node.h"
 #include "components/runtime/config/default_yaml.h"
 #include "components/runtime/head/test_config.h"
+#include "components/runtime/head/test_mesh.h"
 #include "components/runtime/head/test_seabed.h"
 #include "components/runtime/head/tile_set.h"
 #include "components/runtime/testing.h"
@@ -85,6 +86,33 @@ TEST_CASE("the depth below the piston is found to a sample, also when the boat r
     CHECK(survey.pings[0].beam_angle_rad.size() == 1);
     CHECK(survey.pings[0].track.pose_position_enu_m(0, 2) == -2.0);
   }
+}
+
+TEST_CASE("a mesh above the seabed is the bottom while the head holds it") {
+  const EchosounderConfig config = over_lambert();
+  Sounder sounder(config);
+  for (SimTime t{0}; t <= 1500_ms; t += 20_ms) {
+    msg::Pose pose;
+    pose.stamp_ns = t.count();
+    pose.position_enu_m = {0, 0, -2};
+    pose.enu_from_body = frames::wxyz_of(frames::enu_from_body({0, 0, 0}));
+    sounder.give("pose", pose);
+  }
+  sounder.give("tile", flat());
+  const auto loudest_m = [&](SimTime until) {  // of the newest ping: the track does not follow such a leap at once
+    const auto pings = sounder.step_until<msg::Ping>("ping", until);
+    REQUIRE(!pings.empty());
+    const auto samples = pings.back().amplitude_upa.flat();
+    const auto loudest = std::max_element(samples.begin(), samples.end()) - samples.begin();
+    return 750.0 * config.sample_period_s() * static_cast<double>(loudest);
+  };
+  // Within 4 degrees the bottom is 0.05 m farther than straight below; the pulse is 0.075 m long.
+  const double margin_m = 0.05 + 750.0 * config.pulse_length_s;
+  CHECK(loudest_m(450_ms) == Approx(20.0).margin(margin_m));
+  sounder.give_at("mesh", 460_ms, table_of(60.0, -12.0));
+  CHECK(loudest_m(950_ms) == Approx(10.0).margin(margin_m));
+  sounder.give_at("mesh_release", 960_ms, msg::MeshRelease{0});
+  CHECK(loudest_m(1450_ms) == Approx(20.0).margin(margin_m));
 }
 
 TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces, of a tapered tone too") {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "components/navigation/test_sailing.h"
+#include "components/runtime/head/test_mesh.h"
 #include "components/runtime/head/test_seabed.h"
 
 using namespace ensonify;
@@ -137,6 +138,20 @@ TEST_CASE("a dive: no fixes under water; log and depth hold the estimate; the se
   NodeUnderTest<NavigationNode> blind(config_of(carried));
   sail(blind, 2, dive);
   CHECK(!blind.step_until<msg::VelocityLog>("velocity_log", 2_s).back().bottom_lock);
+}
+
+TEST_CASE("an altimeter's beam ends on a mesh while it is there") {
+  NodeUnderTest<NavigationNode> navigation(config_of("altimeter: {}"));
+  navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
+  navigation.give_at("mesh", 4_s, table_of(300.0, -12.0));
+  navigation.give_at("mesh_release", 8_s, msg::MeshRelease{0});
+  sail(navigation, 12, kLevel);
+  const auto told = [&](SimTime until) { return navigation.step_until<msg::Altitude>("altitude", until).back(); };
+  for (const auto& [until, height_m] : {std::pair{3900_ms, -20.0}, {7900_ms, -12.0}, {11900_ms, -20.0}}) {
+    const auto altitude = told(until);
+    CHECK(altitude.valid);
+    CHECK(altitude.range_m == Approx(-1.0 - height_m).margin(0.3));  // rolling by 5 degrees makes 0.08 m
+  }
 }
 
 TEST_CASE("outages silence an instrument, latency delays it, its clock stamps it") {
