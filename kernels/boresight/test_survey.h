@@ -28,6 +28,30 @@ inline double calibration_site(double x, double y) {
   return -25.0 + rock - std::tan(5 * kDegree) * std::max(0.0, x);
 }
 
+/// The site with relief of sand upon it, drawn anew for each seed, alike for all lines: 40 waves of 20 to 0.6 m in
+/// random directions, whose spectrum falls with the wavenumber's power of 3.25 as in scenarios/patch_test.
+inline Ground with_relief(double sd_m, std::uint64_t seed) {
+  struct Wave {
+    double x, y, phase, height;
+  };
+  constexpr std::size_t kWaves = 40;
+  const Stream stream(seed, "relief");
+  std::vector<Wave> waves;
+  double squares = 0.0;
+  for (std::size_t n = 0; n < kWaves; ++n) {
+    const double k = 2 * M_PI / 20.0 * std::pow(20.0 / 0.6, (static_cast<double>(n) + stream.uniform(0, n)) / kWaves);
+    const double to = 2 * M_PI * stream.uniform(1, n), height = std::pow(k, -1.25 / 2);  // per octave: k^2 k^-3.25
+    waves.push_back({k * std::cos(to), k * std::sin(to), 2 * M_PI * stream.uniform(2, n), height});
+    squares += height * height / 2;
+  }
+  for (Wave& wave : waves) wave.height *= sd_m / std::sqrt(squares);
+  return [waves](double x, double y) {
+    double height = calibration_site(x, y);
+    for (const Wave& w : waves) height += w.height * std::cos(w.x * x + w.y * y + w.phase);
+    return height;
+  };
+}
+
 /// What the sensors err by, standard deviations. All but the white ones wander with `wander_s`.
 struct Errors {
   double range_m = 0.0, angle_rad = 0.0;                // white, each sounding

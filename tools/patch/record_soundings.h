@@ -9,9 +9,9 @@
 namespace ensonify::patch_tool {
 
 struct Reading {
-  std::string soundings;       // topic; "": the only one of that type
-  std::string estimate;        // likewise
-  std::size_t most = 400'000;  // soundings kept, thinned evenly
+  std::string soundings;         // topic; "": the only one of that type
+  std::string estimate;          // likewise
+  std::size_t most = 1'000'000;  // soundings kept, thinned evenly
 };
 
 /// What a record holds for a patch test: nothing but what instruments said.
