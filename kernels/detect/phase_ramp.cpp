@@ -6,6 +6,10 @@ namespace ensonify::detect {
 namespace {
 
 constexpr double kWindow = 1.5;  // footprints
+// Pulses that a footprint lasts at least where its phase is a ramp. A shorter one is heard all at once, and what a
+// whole beam hears at once is incoherent between its halves (van Cittert and Zernike). Here both errors are equal
+// (simulated).
+constexpr double kShortestFootprint = 2.0 / 3.0;
 constexpr int kMostPasses = 6;
 constexpr double kConverged = 1e-6;                 // relative; a hundredth of the best standard deviation
 constexpr double kSlopePriorSd = 0.5;               // of the slope over the expected one
@@ -123,6 +127,7 @@ PhaseRamp fit_phase_ramp(const BeamSeries& series, const ExpectedSeabed& seabed,
                          double phase_centres_in_waves) {
   PhaseRamp ramp;
   if (std::abs(seabed.sin_incidence()) < 2.0 * seabed.half_width()) return ramp;
+  if (seabed.footprint_s(near_s) < kShortestFootprint * series.pulse_length_s) return ramp;
   const double radians_per_sine = 2.0 * std::numbers::pi * phase_centres_in_waves;
   Model model{near_s};
   Line line = fit(series, seabed, radians_per_sine, model);
