@@ -10,6 +10,22 @@ constexpr double kKept = 0.98;    // from ping to ping: fifty pings are remember
 constexpr int kNeighbours = 4;    // places to either side
 constexpr double kHurst = 0.625;  // a seabed's spectrum falls as k^-3.25 in two dimensions; 0.35 to 0.9 were measured
 
+/// How a variance of bends grows with the footprint.
+double growth(double footprint_m) { return std::pow(footprint_m, 2.0 * kHurst); }
+
+/// unresolved_share between aspects that are tabled.
+double share_of(double aspect) {
+  constexpr double kStep = 0.25, kMost = 4.0;
+  static const std::vector<double> kShares = [] {
+    std::vector<double> shares;
+    for (double at = 0.0; at <= kMost + kStep; at += kStep) shares.push_back(uncertainty::unresolved_share(kHurst, at));
+    return shares;
+  }();
+  const double steps = std::clamp(aspect, 0.0, kMost) / kStep;
+  const auto below = static_cast<std::size_t>(steps);
+  return std::lerp(kShares[below], kShares[below + 1], steps - static_cast<double>(below));
+}
+
 }  // namespace
 
 void ReliefWatch::take(std::span<const Sounding> ping) {
@@ -21,14 +37,13 @@ void ReliefWatch::take(std::span<const Sounding> ping) {
     if (place >= by_place_.size()) by_place_.resize(place + 1);
     if (std::isnan(bends[i])) continue;
     Mean& mean = by_place_[place];
-    mean.bend_m2 = kKept * mean.bend_m2 + bends[i];
+    mean.bend_m2 = kKept * mean.bend_m2 + bends[i] / growth(ping[i].point.footprint_m);
     mean.weight = kKept * mean.weight + 1.0;
   }
 }
 
-double ReliefWatch::sd_m(int place) const {
-  static const double kShare = uncertainty::unresolved_share(kHurst);
-  // Profiles end a footprint before the swath does: the places next to what is known tell of the rest.
+double ReliefWatch::sd_m(int place, double footprint_m, double aspect) const {
+  // Profiles end two footprints before the swath does: the places next to what is known tell of the rest.
   const int places = static_cast<int>(by_place_.size());
   const auto known = [&](int at) { return by_place_[static_cast<std::size_t>(at)].weight > 0.0; };
   for (int reach = kNeighbours; reach < places; reach *= 2) {
@@ -39,7 +54,9 @@ double ReliefWatch::sd_m(int place) const {
       sum.bend_m2 += mean.bend_m2;
       sum.weight += mean.weight;
     }
-    if (sum.weight > 0.0) return std::sqrt(kShare * std::max(0.0, sum.bend_m2 / sum.weight));
+    if (sum.weight > 0.0) {
+      return std::sqrt(share_of(aspect) * growth(footprint_m) * std::max(0.0, sum.bend_m2 / sum.weight));
+    }
   }
   return 0.0;
 }

@@ -8,7 +8,8 @@
 namespace ensonify {
 
 /// How far soundings are from the points that they claim, by place in the swath, judged by how the profiles of the last
-/// pings bend from footprint to footprint. Places next to each other and pings before count as samples of one seabed.
+/// pings bend from footprint to footprint. Places next to each other and pings before count as samples of one seabed,
+/// whose bends grow with the footprint.
 class ReliefWatch {
  public:
   struct Sounding {
@@ -18,12 +19,13 @@ class ReliefWatch {
 
   void take(std::span<const Sounding> ping);
 
-  /// Standard deviation of the height; 0 where nothing was learned yet.
-  double sd_m(int place) const;
+  /// Standard deviation of the height; 0 where nothing was learned yet. `aspect`: the footprint's width along the track
+  /// over that across; beyond 4 it counts as 4.
+  double sd_m(int place, double footprint_m, double aspect) const;
 
  private:
   struct Mean {
-    double bend_m2 = 0.0, weight = 0.0;
+    double bend_m2 = 0.0, weight = 0.0;  // bends as of a footprint of 1 m
   };
   std::vector<Mean> by_place_;
   std::vector<uncertainty::ProfilePoint> profile_;

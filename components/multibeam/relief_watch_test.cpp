@@ -24,23 +24,27 @@ std::vector<ReliefWatch::Sounding> ping(std::uint64_t number, double rough_m) {
 
 TEST_CASE("what soundings miss is learned where the seabed is rough, up to the edge of the swath") {
   ReliefWatch watch;
-  CHECK(watch.sd_m(30) == 0.0);
+  CHECK(watch.sd_m(30, 1.0, 1.0) == 0.0);
   for (std::uint64_t n = 0; n < 100; ++n) watch.take(ping(n, 0.1));
-  CHECK(watch.sd_m(10) == 0.0);
-  // Independent heights bend by sqrt(6) of their deviation. Some 43 pings' weight x 9 places: within 7 %, at the edge
+  CHECK(watch.sd_m(10, 1.0, 1.0) == 0.0);
+  // Independent heights bend by sqrt(70) of their deviation. Some 43 pings' weight x 9 places: within 7 %, at the edge
   // within 10 %; three times that.
-  const double expected = 0.1 * std::sqrt(6.0 * uncertainty::unresolved_share(0.625));
-  CHECK(watch.sd_m(45) == Approx(expected).epsilon(0.2));
-  CHECK(watch.sd_m(59) == Approx(expected).epsilon(0.3));
+  const double expected = 0.1 * std::sqrt(70.0 * uncertainty::unresolved_share(0.625, 1.0));
+  CHECK(watch.sd_m(45, 1.0, 1.0) == Approx(expected).epsilon(0.2));
+  CHECK(watch.sd_m(59, 1.0, 1.0) == Approx(expected).epsilon(0.3));
+  // A footprint twice as wide misses 2^0.625 as much, one that is short along the track less.
+  CHECK(watch.sd_m(45, 2.0, 1.0) == Approx(std::exp2(0.625) * watch.sd_m(45, 1.0, 1.0)));
+  CHECK(watch.sd_m(45, 1.0, 0.3) < 0.8 * watch.sd_m(45, 1.0, 1.0));
+  CHECK(watch.sd_m(45, 1.0, 9.0) == watch.sd_m(45, 1.0, 4.0));
 
   for (std::uint64_t n = 100; n < 600; ++n) watch.take(ping(n, 0.0));  // 0.98^500: forgotten
-  CHECK(watch.sd_m(45) < 0.01 * expected);
+  CHECK(watch.sd_m(45, 1.0, 1.0) < 0.01 * expected);
 }
 
 TEST_CASE("a single ping that is too short to bend tells nothing") {
   ReliefWatch watch;
   watch.take(std::vector<ReliefWatch::Sounding>{{3, {0.0, -20.0, 1.0, 0.0}}, {4, {0.5, -20.5, 1.0, 0.0}}});
-  CHECK(watch.sd_m(3) == 0.0);
+  CHECK(watch.sd_m(3, 1.0, 1.0) == 0.0);
   watch.take({});
-  CHECK(watch.sd_m(100) == 0.0);
+  CHECK(watch.sd_m(100, 1.0, 1.0) == 0.0);
 }

@@ -75,6 +75,7 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), a
   for (const auto& sector : config.all_sectors()) {
     sectors_.push_back({sector.delay_s, receive_length_in_waves(config, sector.frequency_hz),
                         line.halves.baseline_m / line.wavelength_m * sector.frequency_hz / config.frequency_hz,
+                        2.0 * std::sin(0.5 * config.transmit_beamwidth_rad) * config.frequency_hz / sector.frequency_hz,
                         area_lengths(config, sector.frequency_hz)});
   }
 }
@@ -135,7 +136,17 @@ uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
   return motion;
 }
 
-/// Footprints are those of a level seabed, heights' noise that of the detection.
+SoundingMaker::Footprint SoundingMaker::footprint(std::size_t entry, const frames::Vec3& away_enu_m,
+                                                  const msg::Soundings& soundings) const {
+  const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
+  const double range_m = away_enu_m.norm();
+  const double cos_vertical = std::max(-away_enu_m.z() / range_m, kLeastCosine);
+  const double cos_beam = std::max(std::cos(static_cast<double>(soundings.beam_angle_rad[entry])), kLeastCosine);
+  const double receive_width = 2.0 * array::half_power_half_width(sector.receive_length_in_waves);  // sine
+  return {range_m * receive_width / (cos_vertical * cos_beam), range_m * sector.transmit_width};
+}
+
+/// Heights' noise is that of the detection.
 void SoundingMaker::watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
                                  const msg::Soundings& soundings) {
   const frames::Vec3 starboard = motion.enu_from_head * frames::Vec3::UnitY();
@@ -148,14 +159,11 @@ void SoundingMaker::watch_relief(const uncertainty::Geometry& motion, const fram
                             soundings.position_enu_m(i, 1) - head_enu_m.y(),
                             soundings.position_enu_m(i, 2) - head_enu_m.z());
     const double range_m = away.norm(), cos_vertical = std::max(-away.z() / range_m, kLeastCosine);
-    const double cos_beam = std::max(std::cos(static_cast<double>(soundings.beam_angle_rad[i])), kLeastCosine);
-    const double width =  // sine
-        2.0 * array::half_power_half_width(sectors_[static_cast<std::size_t>(echo.sector)].receive_length_in_waves);
     const double tan_vertical = std::sqrt(1.0 - cos_vertical * cos_vertical) / cos_vertical;
     const double along_ray_m = std::hypot(soundings.range_sd_m[i], range_m * tan_vertical * soundings.angle_sd_rad[i]);
     profile_.push_back(
         {echo.place,
-         {away.dot(across_enu), away.z(), range_m * width / (cos_vertical * cos_beam), along_ray_m * cos_vertical}});
+         {away.dot(across_enu), away.z(), footprint(i, away, soundings).across_m, along_ray_m * cos_vertical}});
   }
   relief_.take(profile_);
 }
@@ -171,9 +179,12 @@ void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geome
       const auto k = static_cast<Eigen::Index>(axis);
       geometry.away_enu_m[k] = soundings.position_enu_m(i, axis) - head[k];
     }
-    const uncertainty::Matrix3 covariance_enu_m2 = uncertainty::covariance_enu_m2(
-        geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i], relief_.sd_m(echoes_[i].place)}, ping.navigation,
-        config_.uncertainty.sources);
+    const Footprint on_seabed = footprint(i, geometry.away_enu_m, soundings);
+    const double relief_sd_m =
+        relief_.sd_m(echoes_[i].place, on_seabed.across_m, on_seabed.along_m / on_seabed.across_m);
+    const uncertainty::Matrix3 covariance_enu_m2 =
+        uncertainty::covariance_enu_m2(geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i], relief_sd_m},
+                                       ping.navigation, config_.uncertainty.sources);
     soundings.tvu_m[i] = static_cast<float>(uncertainty::tvu_m(covariance_enu_m2));
     soundings.thu_m[i] = static_cast<float>(uncertainty::thu_m(covariance_enu_m2));
   }

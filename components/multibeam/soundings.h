@@ -47,7 +47,12 @@ class SoundingMaker {
   /// The detector's view of one sector.
   struct Sector {
     double delay_s, receive_length_in_waves, phase_centres_in_waves;
+    double transmit_width;  // at half power, sine
     AreaLengths area;
+  };
+  /// Half-power widths on a level seabed.
+  struct Footprint {
+    double across_m, along_m;
   };
   struct Ping {
     const Shot& shot;
@@ -65,6 +70,7 @@ class SoundingMaker {
   void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
   void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
   uncertainty::Geometry motion(const Ping& ping) const;
+  Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const msg::Soundings& soundings) const;
   void watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
                     const msg::Soundings& soundings);
   void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings);

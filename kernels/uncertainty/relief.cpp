@@ -10,6 +10,10 @@
 namespace ensonify::uncertainty {
 namespace {
 
+constexpr std::array kFourth{1.0, -4.0, 6.0, -4.0, 1.0};  // difference: weights of heights a footprint apart
+constexpr int kReach = 2;                                 // footprints to either side
+constexpr int kPerWidth = 16, kHalfWindow = 12;           // places of a footprint: 1.5 half-power widths
+
 struct Height {
   double height_m, noise_m2;
 };
@@ -27,55 +31,86 @@ std::optional<Height> height_at(std::span<const ProfilePoint> profile, const std
                 std::pow((1.0 - share) * a.noise_sd_m, 2) + std::pow(share * b.noise_sd_m, 2)};
 }
 
+/// Of a beam's power, sum 1.
+std::vector<double> window() {
+  constexpr double kHalfPower = 0.8859;  // of sinc^2: its width
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (int i = -kHalfWindow; i <= kHalfWindow; ++i) {
+    const double x = std::numbers::pi * kHalfPower * i / kPerWidth;
+    sum += weights.emplace_back(i == 0 ? 1.0 : std::pow(std::sin(x) / x, 2));
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+/// Sums of products of weights so many places apart, either way.
+std::vector<double> by_distance(const std::vector<double>& weights) {
+  std::vector<double> sums(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) sums[i - j] += (i == j ? 1.0 : 2.0) * weights[i] * weights[j];
+  }
+  return sums;
+}
+
+/// Places and widths between neighbours in a footprint, across and along.
+double distance_power(std::size_t across, std::size_t along, double aspect, double hurst) {
+  const double x = static_cast<double>(across) / kPerWidth, y = aspect * static_cast<double>(along) / kPerWidth;
+  return std::pow(x * x + y * y, hurst);
+}
+
+/// Sum over all pairs of places: of differences' variance times both weights.
+double pairs(const std::vector<double>& across, const std::vector<double>& along, double aspect, double hurst) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < across.size(); ++i) {
+    for (std::size_t j = 0; j < along.size(); ++j) {
+      sum += across[i] * along[j] * distance_power(i, j, aspect, hurst);
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<double> squared_bends_m2(std::span<const ProfilePoint> profile) {
-  std::vector<double> bends(profile.size(), std::numeric_limits<double>::quiet_NaN());
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr Height kUnknown{kNan, kNan};
+  std::vector<double> bends(profile.size(), kNan);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (order.empty() || profile[i].across_m > profile[order.back()].across_m) order.push_back(i);
   }
   for (const std::size_t i : order) {
     const ProfilePoint& p = profile[i];
-    const auto low = height_at(profile, order, p.across_m - p.footprint_m);
-    const auto high = height_at(profile, order, p.across_m + p.footprint_m);
-    if (!low || !high) continue;
-    const double bend_m = low->height_m - 2.0 * p.height_m + high->height_m;
-    bends[i] = bend_m * bend_m - low->noise_m2 - 4.0 * p.noise_sd_m * p.noise_sd_m - high->noise_m2;
+    double bend_m = 0.0, noise_m2 = 0.0;
+    for (int k = -kReach; k <= kReach; ++k) {
+      const double weight = kFourth[static_cast<std::size_t>(k + kReach)];
+      const auto there = height_at(profile, order, p.across_m + k * p.footprint_m).value_or(kUnknown);
+      bend_m += weight * there.height_m;
+      noise_m2 += weight * weight * there.noise_m2;
+    }
+    bends[i] = bend_m * bend_m - noise_m2;
   }
   return bends;
 }
 
-double unresolved_share(double hurst) {
-  // Variance of a sum of heights with weights that add up to 0: -1/2 sum_ij a_i a_j D(|x_i - x_j|). Places in steps of
-  // a sixteenth of a footprint.
-  constexpr int kPerFootprint = 16, kHalfWindow = 12, kReach = kPerFootprint + kHalfWindow;
-  constexpr std::size_t kPlaces = 2 * kReach + 1;
-  std::array<double, 2 * kHalfWindow + 1> window{};
-  double sum = 0.0;
-  for (int i = -kHalfWindow; i <= kHalfWindow; ++i) {
-    constexpr double kHalfPower = 0.8859;  // of sinc^2: its width
-    const double x = std::numbers::pi * kHalfPower * i / kPerFootprint;
-    sum += window[static_cast<std::size_t>(i + kHalfWindow)] = i == 0 ? 1.0 : std::pow(std::sin(x) / x, 2);
+double unresolved_share(double hurst, double aspect) {
+  // Variance of a sum of heights with weights that add up to 0: -1/2 sum_ij a_i a_j D(|x_i - x_j|), D the variance of
+  // differences. Weights are products of one across and one along the track, and so are their sums by distance.
+  const std::vector<double> beam = window(), along = by_distance(beam);
+  std::vector<double> difference(static_cast<std::size_t>(2 * (kReach * kPerWidth + kHalfWindow) + 1));
+  for (std::size_t mean = 0; mean < kFourth.size(); ++mean) {
+    for (std::size_t i = 0; i < beam.size(); ++i) difference[mean * kPerWidth + i] += kFourth[mean] * beam[i];
   }
-  const auto variance = [&](std::array<double, 3> means, double point) {
-    std::array<double, kPlaces> weights{};
-    weights[kReach] = point;
-    for (int mean = 0; mean < 3; ++mean) {
-      for (int i = 0; i <= 2 * kHalfWindow; ++i) {
-        weights[static_cast<std::size_t>(mean * kPerFootprint + i)] +=
-            means[static_cast<std::size_t>(mean)] * window[static_cast<std::size_t>(i)] / sum;
-      }
+  double to_middle = 0.0;
+  for (std::size_t i = 0; i < beam.size(); ++i) {
+    for (std::size_t j = 0; j < beam.size(); ++j) {
+      const auto off = [](std::size_t k) { return k > kHalfWindow ? k - kHalfWindow : kHalfWindow - k; };
+      to_middle += beam[i] * beam[j] * distance_power(off(i), off(j), aspect, hurst);
     }
-    double total = 0.0;
-    for (std::size_t i = 0; i < kPlaces; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        total -= weights[i] * weights[j] * std::pow(static_cast<double>(i - j) / kPerFootprint, 2.0 * hurst);
-      }
-    }
-    return total;
-  };
-  return variance({0.0, 1.0, 0.0}, -1.0) / variance({1.0, -2.0, 1.0}, 0.0);
+  }
+  const double unresolved = to_middle - 0.5 * pairs(along, along, aspect, hurst);
+  return unresolved / (-0.5 * pairs(by_distance(difference), along, aspect, hurst));
 }
 
 }  // namespace ensonify::uncertainty

@@ -61,6 +61,7 @@ struct Geometry {
 
 /// Covariance of the sounding's place, m^2, east, north, up: sources taken as independent of each other, their effects
 /// as linear. With d the depth below the head, t its angle from the vertical and c the sound speed:
+/// what a footprint hides (relief) makes the echo on the beam's axis early or late: a height, and tan(t) of it outward;
 /// attitude and lever arm turn and shift head and sounding as one; a mounting turns the sounding about the head's axes;
 /// a latency takes it on with the velocity or the turning; a cast that is wrong by dc all the way makes ranges wrong by
 /// dc/c and bends rays by tan(t) dc/c, together d (1 - tan^2 t) dc/c in height; a face speed that is wrong by dc turns

@@ -101,6 +101,15 @@ TEST_CASE("what detection states is an error of the range along the beam") {
   CHECK(c(0, 0) == Approx(std::pow(along * std::sin(angle), 2)));
 }
 
+TEST_CASE("what a footprint hides moves a sounding along its beam") {
+  const double angle = 60 * kDegree;
+  const Matrix3 c = covariance_enu_m2(sounding(20.0, angle), {.relief_sd_m = 0.05}, {}, {});
+  CHECK(c(2, 2) == Approx(0.05 * 0.05));
+  CHECK(c(0, 0) == Approx(std::pow(0.05 * std::tan(angle), 2)));
+  CHECK(c(0, 2) == Approx(-0.05 * 0.05 * std::tan(angle)));  // too deep is too far out
+  CHECK(c(1, 1) == Approx(0.0).margin(1e-12));
+}
+
 TEST_CASE("95 % of errors are within TVU and THU") {
   Matrix3 c = Matrix3::Zero();
   c(2, 2) = 0.01;
