@@ -81,23 +81,23 @@ TrianglePart::TrianglePart(const Device& device, Piece piece, const Common& comm
       sediment_(common.sediment) {}
 
 Part::Content TrianglePart::content() const {
-  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
   static_assert(sizeof(piece_.places_m[0]) == 3 * sizeof(float));
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                           piece_.places_m.size());
+  void* vertices =
+      new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), piece_.places_m.size());
   std::memcpy(vertices, piece_.places_m.data(), piece_.places_m.size() * 3 * sizeof(float));
-  auto* corner = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), piece_.triangles.size()));
+  auto* corner = static_cast<std::uint32_t*>(
+      new_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, sizeof(Triangle), piece_.triangles.size()));
   for (const Triangle& triangle : piece_.triangles) {
     for (const std::uint32_t vertex : triangle)
       *corner++ =
           static_cast<std::uint32_t>(std::ranges::lower_bound(piece_.vertices, vertex) - piece_.vertices.begin());
   }
-  return {geometry, piece_.triangles.size()};
+  return {std::move(geometry), piece_.triangles.size()};
 }
 
 Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
-    : hierarchy_(std::move(mesh.hierarchy)), common_{number, 0.0F, mesh.sediment} {
+    : hierarchy_(std::move(mesh.hierarchy)), common_{number, 0.0F, mesh.sediment}, cut_(hierarchy_) {
   const TriangleMesh& whole = hierarchy_.mesh;
   double area_m2 = 0.0;
   for (const auto& [a, b, c] : whole.triangle) {

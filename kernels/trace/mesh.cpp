@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "kernels/lod/patch.h"
 
@@ -20,6 +23,11 @@ RTCBounds bounds_of(const Shown& shown, const terrain::Vec2& origin_enu_m) {
   return {lower(low.x() - origin_enu_m.x()),  lower(low.y() - origin_enu_m.y()),  lower(low.z()),  0.0F,
           upper(high.x() - origin_enu_m.x()), upper(high.y() - origin_enu_m.y()), upper(high.z()), 0.0F};
 }
+
+/// What Embree hands to callbacks. It is C: no exception may pass through it.
+struct Query : RTCIntersectContext {
+  std::exception_ptr failure;
+};
 
 float facet_of(const Shown& shown) { return static_cast<float>(std::ldexp(shown.tile->spacing_m, shown.leaf.level)); }
 
@@ -58,16 +66,22 @@ std::size_t Part::triangles() const {
 
 const Part::Built* Part::build() const {
   const Content made = content();
-  rtcCommitGeometry(made.geometry);
+  rtcCommitGeometry(made.geometry.get());
   auto one = std::make_unique<Built>(Built{EmbreeScene(rtcNewScene(device_)), made.triangles});
   rtcSetSceneFlags(one->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(one->scene.get(), made.geometry);
-  rtcReleaseGeometry(made.geometry);
+  rtcAttachGeometry(one->scene.get(), made.geometry.get());
   // Isolated: a thread that waits here must not take up other rays, for it may be in the middle of some.
   tbb::this_task_arena::isolate([&] { rtcCommitScene(one->scene.get()); });
   check(device_, "Embree could not build a part of the seabed");
   const Built* kept = nullptr;
   return built_.compare_exchange_strong(kept, one.get()) ? one.release() : kept;
+}
+
+void* Part::new_buffer(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t element_bytes,
+                       std::size_t count) const {
+  void* buffer = rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, element_bytes, count);
+  if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::bad_alloc();
+  return buffer;
 }
 
 BlockPart::BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m)
@@ -81,34 +95,42 @@ std::uint8_t BlockPart::sediment_at(const terrain::Vec2& place_enu_m) const {
 
 Part::Content BlockPart::content() const {
   const lod::Patch patch = lod::patch_of(*shown_.tile, *shown_.hierarchy, shown_.leaf, shown_.rim, origin_enu_m_);
-  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_GRID);
+  Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_GRID));
   static_assert(sizeof(patch.vertices_m[0]) == 3 * sizeof(float));
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                           patch.vertices_m.size());
+  void* vertices =
+      new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), patch.vertices_m.size());
   std::memcpy(vertices, patch.vertices_m.data(), patch.vertices_m.size() * 3 * sizeof(float));
-  void* grids =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
+  void* grids = new_buffer(geometry, RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
   std::ranges::transform(patch.grids, static_cast<RTCGrid*>(grids), [](const lod::Patch::Grid& grid) {
     return RTCGrid{grid.first, grid.stride, grid.columns, grid.rows};
   });
-  return {geometry, patch.triangles()};
+  return {std::move(geometry), patch.triangles()};
 }
 
 void Mesh::assign(const Device& device, std::span<const Part* const> parts) {
   parts_.assign(parts.begin(), parts.end());
   scene_.reset();
   if (parts_.empty()) return;
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(parts_.size()));
-  rtcSetGeometryUserData(geometry, parts_.data());
-  rtcSetGeometryBoundsFunction(geometry, bound, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect);
-  rtcCommitGeometry(geometry);
-  scene_.reset(rtcNewScene(device.get()));
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene_.get());
+  const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(parts_.size()));
+  rtcSetGeometryUserData(geometry.get(), parts_.data());
+  rtcSetGeometryBoundsFunction(geometry.get(), bound, nullptr);
+  rtcSetGeometryIntersectFunction(geometry.get(), enter);
+  rtcCommitGeometry(geometry.get());
+  EmbreeScene scene(rtcNewScene(device.get()));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcAttachGeometry(scene.get(), geometry.get());
+  rtcCommitScene(scene.get());
+  check(device.get(), "Embree could not build the tree over the parts of the seabed");
+  scene_ = std::move(scene);
+}
+
+void Mesh::intersect(const int* on, RTCRayHit16& rays) const {
+  if (!scene_) return;
+  Query query;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
+  rtcInitIntersectContext(&query);
+  rtcIntersect16(on, scene_.get(), &query, &rays);
+  if (query.failure) std::rethrow_exception(query.failure);
 }
 
 void Mesh::bound(const RTCBoundsFunctionArguments* of) {
@@ -116,8 +138,16 @@ void Mesh::bound(const RTCBoundsFunctionArguments* of) {
 }
 
 /// Embree asks with as many rays as it likes to trace together.
-void Mesh::intersect(const RTCIntersectFunctionNArguments* of) {
-  RTCScene scene = static_cast<const Part* const*>(of->geometryUserPtr)[of->primID]->scene();
+void Mesh::enter(const RTCIntersectFunctionNArguments* of) {
+  auto& failure = static_cast<Query*>(of->context)->failure;
+  if (failure) return;
+  RTCScene scene = nullptr;
+  try {
+    scene = static_cast<const Part* const*>(of->geometryUserPtr)[of->primID]->scene();
+  } catch (...) {
+    failure = std::current_exception();
+    return;
+  }
   of->context->instID[0] = of->primID;  // is written into what hits
   if (of->N == 1) {
     if (of->valid[0] != 0) rtcIntersect1(scene, of->context, reinterpret_cast<RTCRayHit*>(of->rayhit));

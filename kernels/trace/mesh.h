@@ -21,8 +21,12 @@ struct DeviceRelease {
 struct SceneRelease {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
+struct GeometryRelease {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
 using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
 using EmbreeScene = std::unique_ptr<RTCSceneTy, SceneRelease>;
+using Geometry = std::unique_ptr<RTCGeometryTy, GeometryRelease>;
 
 /// One instruction set everywhere that results must match. No number of threads: Embree would hold the whole process's
 /// TBB to it.
@@ -38,7 +42,8 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  /// Threads may ask at once: they build it twice, and one is kept.
+  /// Threads may ask at once: they build it twice, and one is kept. Throws when there is no memory for it; it may be
+  /// asked again.
   RTCScene scene() const;
   /// Around the scene, built or not.
   const RTCBounds& bounds() const { return bounds_; }
@@ -52,12 +57,15 @@ class Part {
 
  protected:
   struct Content {
-    RTCGeometry geometry;  // with its buffers, not yet committed
+    Geometry geometry;  // with its buffers, not yet committed
     std::size_t triangles;
   };
   Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m);
   virtual Content content() const = 0;
   RTCDevice device() const { return device_; }
+  /// Memory of Embree's for count elements of one of a geometry's buffers. Throws std::bad_alloc.
+  void* new_buffer(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t element_bytes,
+                   std::size_t count) const;
 
  private:
   struct Built;
@@ -105,14 +113,15 @@ class Mesh {
   /// The parts must outlive the mesh or the next call.
   void assign(const Device& device, std::span<const Part* const> parts);
 
-  /// Null without parts.
-  RTCScene scene() const { return scene_.get(); }
+  /// The nearest facet for each lane of a packet that is on, by instance number. Throws what kept a part from being
+  /// built when a ray came to it; the packet is then void.
+  void intersect(const int* on, RTCRayHit16& rays) const;
   /// By the instance number of a hit.
   const Part& part(unsigned number) const { return *parts_[number]; }
 
  private:
   static void bound(const RTCBoundsFunctionArguments* of);
-  static void intersect(const RTCIntersectFunctionNArguments* of);
+  static void enter(const RTCIntersectFunctionNArguments* of);
 
   std::vector<const Part*> parts_;
   EmbreeScene scene_;

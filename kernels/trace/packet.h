@@ -41,11 +41,7 @@ struct Packet {
 
   /// The nearest facet for each lane.
   void intersect(const Mesh& mesh) {
-    if (!mesh.scene()) return;
-    RTCIntersectContext
-        context;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
-    rtcInitIntersectContext(&context);
-    rtcIntersect16(on, mesh.scene(), &context, &rays);
+    mesh.intersect(on, rays);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) met[lane] = &mesh.part(rays.hit.instID[0][lane]);
     }
