@@ -11,10 +11,13 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/progressive/collapse.h"
 #include "kernels/progressive/sheet_pile_wall.h"
+#include "kernels/progressive/test_meshes.h"
+#include "kernels/random/stream.h"
 #include "kernels/trace/scene.h"
 #include "kernels/trace/views.h"
 #include "tests/support/fan.h"
@@ -133,26 +136,107 @@ void adapt(benchmark::State& state) {
   state.counters["paged_over_held"] = paged_over_held;
 }
 
-/// Along a quay wall of 250 m, 12 m off it, rolled towards it: half the fan meets the wall. 0.4 m a ping.
-void adapt_to_wall(benchmark::State& state) {
-  const progressive::SheetPileWall wall{
-      .from_enu_m = {-125.0, 0.0}, .to_enu_m = {125.0, 0.0}, .row_m = 1e-2 * static_cast<double>(state.range(0))};
-  const auto mesh = progressive::mesh_of(wall, {1, "wall"});
-  trace::Scene scene({0, 0}, {.enabled = true});
-  scene.insert(0, trace::IrregularMesh{progressive::hierarchy_of(mesh, progressive::collapses_of(mesh))});
+/// An irregular mesh, and a head that passes along it, 0.4 m a ping.
+struct Passed {
+  progressive::TriangleMesh mesh;
+  frames::HeadPose first;
+  double max_range_m;
+
+  frames::HeadPose at(int ping) const {
+    frames::HeadPose head = first;
+    head.position_enu_m.x() += 0.4 * ping;
+    return head;
+  }
+};
+
+/// A quay wall of 250 m, its vertices row_m apart up the piles and 0.3 m along; the head 12 m off it, rolled towards
+/// it: half the fan meets the wall.
+Passed wall(double row_m) {
+  const progressive::SheetPileWall piles{.from_enu_m = {-125.0, 0.0}, .to_enu_m = {125.0, 0.0}, .row_m = row_m};
+  return {progressive::mesh_of(piles, {1, "wall"}),
+          {{-40.0, -12.0, -2.0}, frames::enu_from_body(frames::Attitude{0.5 * std::numbers::pi, 0.02, 0.8})},
+          60.0};
+}
+
+/// A survey of 450 m x 300 m as triangles, soundings some metre apart; 50 m above it.
+Passed survey() {
+  const random::Stream soundings{2, "soundings"};
+  auto mesh = progressive::sheet(450, 300, [&](int i, int j) {
+    const auto column = static_cast<std::uint64_t>(i), row = static_cast<std::uint64_t>(j);
+    const double x = i - 225 + 0.7 * soundings.uniform(column, row, 0);
+    const double y = j - 150 + 0.7 * soundings.uniform(column, row, 1);
+    const double rough = 0.05 * soundings.normal(column, row, 2);
+    return frames::Vec3(x, y, -51.0 + std::sin(0.12 * x) * std::cos(0.18 * y) + rough).cast<float>().eval();
+  });
+  return {std::move(mesh),
+          {{-40.0, 0.0, -1.0}, frames::enu_from_body(frames::Attitude{0.5 * std::numbers::pi, 0.02, 0.03})},
+          130.0};
+}
+
+/// A box that is less by so much on each side, where it is long.
+Eigen::AlignedBox3d inside(Eigen::AlignedBox3d box, double by_m) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (box.sizes()[axis] < 10.0 * by_m) continue;
+    box.min()[axis] += by_m;
+    box.max()[axis] -= by_m;
+  }
+  return box;
+}
+
+/// Every ray of the main lobe must meet what it meets with the whole mesh there, to the bit, and every other one
+/// something, but for those at the mesh's own edge.
+void check_rays(const Passed& passed, const trace::Scene& whole, const trace::Scene& scene,
+                const frames::HeadPose& head) {
+  Eigen::AlignedBox3d box;
+  for (const auto& vertex : passed.mesh.vertex_m) box.extend(passed.mesh.origin_enu_m + vertex.cast<double>());
+  const Eigen::AlignedBox3d well_inside = inside(box, 1.0);
+  std::vector<trace::Ray> rays;
+  trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
+  std::vector<trace::Hit> all, some;
+  whole.trace(head, rays, static_cast<float>(passed.max_range_m), all);
+  scene.trace(head, rays, static_cast<float>(passed.max_range_m), some);
+  int main_lobe = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!all[i].hit()) continue;
+    const auto sine = static_cast<double>(rays[i].direction_head.x());
+    const bool main = kFan.sine.main_low <= sine && sine <= kFan.sine.main_high;
+    main_lobe += main ? 1 : 0;
+    const bool lost = !some[i].hit() && well_inside.contains(all[i].position_enu_m);
+    if (!lost && (!main || (all[i].range_m == some[i].range_m && all[i].normal_enu == some[i].normal_enu))) continue;
+    std::fprintf(stderr, lost ? "a ray is lost\n" : "a ray of the main lobe meets another mesh\n");
+    std::exit(1);
+  }
+  if (main_lobe > 1000) return;
+  std::fprintf(stderr, "hardly a ray meets the mesh\n");
+  std::exit(1);
+}
+
+void adapt_irregular(benchmark::State& state, const Passed& passed) {
+  const trace::IrregularMesh mesh{progressive::hierarchy_of(passed.mesh, progressive::collapses_of(passed.mesh))};
+  trace::Scene whole({0, 0}), scene({0, 0}, {.enabled = true});
+  whole.insert(0, mesh);
+  scene.insert(0, mesh);
+  const auto views = [&](int ping) { return trace::views_of(kFan, passed.at(ping), passed.max_range_m, {}, 2); };
+  scene.adapt(views(0));  // its memory is there, as in all pings but a head's first
   Clocks clocks;
-  double x = -40.0, whole_over_held = std::numeric_limits<double>::infinity();
+  double whole_over_held = std::numeric_limits<double>::infinity();
+  int ping = 0;
   for (auto _ : state) {
-    const frames::HeadPose head{{x += 0.4, -12.0, -2.0},
-                                frames::enu_from_body(frames::Attitude{0.5 * std::numbers::pi, 0.02, 0.8})};
-    clocks.time(state, [&] { scene.adapt(trace::views_of(kFan, head, 60.0, {}, 2)); });
+    ++ping;
+    clocks.time(state, [&] { scene.adapt(views(ping)); });
     whole_over_held =
-        std::min(whole_over_held, static_cast<double>(mesh.triangle.size()) / static_cast<double>(scene.triangles()));
+        std::min(whole_over_held, static_cast<double>(whole.triangles()) / static_cast<double>(scene.triangles()));
+    if (ping % 30 == 0) check_rays(passed, whole, scene, passed.at(ping));
   }
   clocks.tell(state);
-  state.counters["triangles"] = static_cast<double>(mesh.triangle.size());
+  state.counters["triangles"] = static_cast<double>(passed.mesh.triangle.size());
   state.counters["whole_over_held"] = whole_over_held;
 }
+
+void adapt_to_wall(benchmark::State& state) {
+  adapt_irregular(state, wall(1e-2 * static_cast<double>(state.range(0))));
+}
+void adapt_to_survey(benchmark::State& state) { adapt_irregular(state, survey()); }
 
 /// Paging, adaptation and rays over a world of one tile (10^6 posts), and of tiles without end; 20 m above the seabed,
 /// so that the swath fits on the tile. In turns: what the endless one takes more.
@@ -201,6 +285,7 @@ BENCHMARK(adapt_to_wall)
     ->UseManualTime()
     ->Iterations(150)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(adapt_to_survey)->UseManualTime()->Iterations(150)->Unit(benchmark::kMillisecond);
 BENCHMARK(endless_over_small)->Iterations(400)->Unit(benchmark::kMillisecond);
 
 /// The bench is void if a ray gets lost.

@@ -49,6 +49,12 @@ std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m)
   return looks;
 }
 
+Cut::Cut(const Hierarchy& hierarchy) : undone_(hierarchy.splits.size(), 0) {
+  for (std::size_t s = 0; s < hierarchy.splits.size(); ++s) {
+    if (hierarchy.splits[s].parent == kNone) roots_.push_back(static_cast<std::int32_t>(s));
+  }
+}
+
 /// With all that must be undone before it.
 void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
   for (; split != kNone && undone_[static_cast<std::size_t>(split)] == 0; split = at(hierarchy, split).parent) {
@@ -59,12 +65,9 @@ void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
 
 /// Down the tree, as far as views meet what lies below.
 void Cut::look(const Hierarchy& hierarchy, std::span<const View> views) {
-  undone_.assign(hierarchy.splits.size(), 0);
+  for (const std::int32_t s : all_undone_) undone_[static_cast<std::size_t>(s)] = 0;
   all_undone_.clear();
-  pending_.clear();
-  for (std::size_t s = 0; s < hierarchy.splits.size(); ++s) {
-    if (hierarchy.splits[s].parent == kNone) pending_.push_back(static_cast<std::int32_t>(s));
-  }
+  pending_ = roots_;
   while (!pending_.empty()) {
     const std::int32_t s = pending_.back();
     pending_.pop_back();
@@ -113,13 +116,18 @@ bool Cut::ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tole
   return true;
 }
 
-/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does.
+/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does. What is
+/// as it was in the round before has been asked back then, as far as it may be.
 bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
   bool changed = false;
   const auto& place = hierarchy.mesh.vertex_m;
+  std::size_t before = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& source = hierarchy.mesh.triangle[sources_[i]];
     if (triangles_[i] == source) continue;
+    while (before < settled_.size() && settled_sources_[before] < sources_[i]) ++before;
+    if (before < settled_.size() && settled_sources_[before] == sources_[i] && settled_[before] == triangles_[i])
+      continue;
     std::array<frames::Vec3, 3> corners;
     for (std::size_t c = 0; c < 3; ++c)
       corners[c] = hierarchy.mesh.origin_enu_m + place[triangles_[i][c]].cast<double>();
@@ -128,10 +136,14 @@ bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
       for (const std::uint32_t corner : source) changed = ask_back(hierarchy, corner, view.tolerance_m) || changed;
     }
   }
+  settled_sources_ = sources_;
+  settled_ = triangles_;
   return changed;
 }
 
 void Cut::choose(const Hierarchy& hierarchy, std::span<const View> views) {
+  settled_sources_.clear();
+  settled_.clear();
   look(hierarchy, views);
   gather(hierarchy);
   while (settle(hierarchy, views)) gather(hierarchy);

@@ -27,6 +27,9 @@ std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m)
 /// the views; what was chosen before leaves nothing but memory.
 class Cut {
  public:
+  explicit Cut(const Hierarchy& hierarchy);
+
+  /// For views of the hierarchy that this was made for.
   /// A path of a view of tolerance 0 meets what it would meet in the source, the same triangles: first every split
   /// whose box the view meets is undone, then, round by round, what has been moved and still stands in the view.
   void choose(const Hierarchy& hierarchy, std::span<const View> views);
@@ -44,11 +47,14 @@ class Cut {
   bool ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m);
   std::uint32_t shown(const Hierarchy& hierarchy, std::uint32_t vertex) const;
 
+  std::vector<std::int32_t> roots_;   // splits without a parent
   std::vector<std::uint8_t> undone_;  // by split
   std::vector<std::int32_t> all_undone_;
   std::vector<std::int32_t> pending_;
   std::vector<std::uint32_t> sources_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> settled_sources_;  // in order: of triangles that need not be looked at again ...
+  std::vector<Triangle> settled_;               // ... as long as they are these
 };
 
 }  // namespace ensonify::progressive

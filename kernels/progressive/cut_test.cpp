@@ -29,7 +29,7 @@ std::vector<View> views_of_quay(double x) {
 
 TEST_CASE("everything in view is the source, nothing in view the coarsest") {
   const Hierarchy quay = made_of(quay_wall(6.0));
-  Cut cut;
+  Cut cut(quay);
   View all = fan({0.0, 0.0, 30.0}, 0.0, 0.0, 1e4);
   all.frustum.low_sine = -1.0;
   all.frustum.high_sine = 1.0;
@@ -43,7 +43,7 @@ TEST_CASE("everything in view is the source, nothing in view the coarsest") {
 
 TEST_CASE("what meets a view of the main lobe is the source's own, and nothing else meets it") {
   const Hierarchy quay = made_of(quay_wall(40.0));
-  Cut cut;
+  Cut cut(quay);
   for (const double x : {-8.0, 0.0, 11.0}) {
     const auto views = views_of_quay(x);
     cut.choose(quay, views);
@@ -71,7 +71,7 @@ TEST_CASE("what meets a view of the main lobe is the source's own, and nothing e
 
 TEST_CASE("no cut has a crack: every edge of a closed surface is passed as often one way as the other") {
   const Hierarchy ball = made_of(bumpy_ball(80, 40));
-  Cut cut;
+  Cut cut(ball);
   for (int n = 0; n < 12; ++n) {
     const random::Stream draw{3, "cracks"};
     const auto k = static_cast<std::uint64_t>(n);
@@ -91,9 +91,9 @@ TEST_CASE("no cut has a crack: every edge of a closed surface is passed as often
 
 TEST_CASE("the mesh of a ping is a function of its views, however it was reached") {
   const Hierarchy quay = made_of(quay_wall(20.0));
-  Cut wandering;
+  Cut wandering(quay);
   for (const double x : {-6.0, 3.0, 5.0, 0.0}) wandering.choose(quay, views_of_quay(x));
-  Cut fresh;
+  Cut fresh(quay);
   fresh.choose(quay, views_of_quay(0.0));
   CHECK(std::equal(fresh.triangles().begin(), fresh.triangles().end(), wandering.triangles().begin(),
                    wandering.triangles().end()));
@@ -101,7 +101,7 @@ TEST_CASE("the mesh of a ping is a function of its views, however it was reached
 
 TEST_CASE("a tolerance holds where a view looks") {
   const Hierarchy ball = made_of(bumpy_ball(80, 40));
-  Cut cut;
+  Cut cut(ball);
   std::size_t finer = ball.mesh.triangle.size() + 1;
   for (const double tolerance_m : {0.02, 0.1, 0.4}) {
     View all = fan({0.0, 0.0, 0.0}, 0.0, tolerance_m, 50.0);

@@ -94,7 +94,7 @@ TEST_CASE("a mesh put elsewhere is refined there as it is here") {
     CHECK((place - moved(mesh.origin_enu_m + mesh.vertex_m[v].cast<double>())).norm() < 1e-5);
   }
   CHECK(fault_of(there).empty());
-  Cut of_here, of_there;
+  Cut of_here(here), of_there(there);
   const frames::Vec3 head(-5.0, -3.0, 4.0);
   of_here.choose(here, std::vector{fan(head, 0.3, 0.0, 25.0)});
   of_there.choose(there, std::vector{fan(moved(head), 0.3 + 0.5 * std::numbers::pi, 0.0, 25.0)});

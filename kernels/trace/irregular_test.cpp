@@ -71,7 +71,7 @@ struct Found {
 /// Random rays within a view of tolerance 0, against the refined mesh and against all of it. The same triangle must
 /// give the same bits; on an edge that two triangles share either of them may be told.
 Found compare(const Hierarchy& hierarchy, const Triangles& whole, const View& view, std::uint64_t rays) {
-  Cut cut;
+  Cut cut(hierarchy);
   cut.choose(hierarchy, std::vector<View>{view});
   const Triangles refined(hierarchy.mesh, cut.triangles());
   Found found;

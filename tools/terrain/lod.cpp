@@ -67,7 +67,7 @@ void write_ping(const std::string& path, const progressive::TriangleMesh& mesh, 
 
 nlohmann::ordered_json ping_of(const progressive::Hierarchy& hierarchy, const Options& options) {
   const std::vector<progressive::View> views = {view_of(options)};
-  progressive::Cut cut;
+  progressive::Cut cut(hierarchy);
   cut.choose(hierarchy, views);
   std::size_t own = 0;
   for (std::size_t i = 0; i < cut.triangles().size(); ++i)

@@ -53,7 +53,7 @@ TEST_CASE("a mesh with its splits comes back from a file, and no damage passes")
   view.frustum.low_sine = -0.05, view.frustum.high_sine = 0.05;
   view.frustum.low_angle_rad = -4.0, view.frustum.high_angle_rad = 4.0;
   const std::vector<progressive::View> views = {view};
-  progressive::Cut of_read, of_written;
+  progressive::Cut of_read(a), of_written(b);
   of_read.choose(a, views);
   of_written.choose(b, views);
   CHECK(of_read.triangles().size() > 20);
