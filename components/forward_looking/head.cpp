@@ -65,10 +65,10 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       weights_(weights_of(array_, config.effects.side_lobes)),
       receiver_(echo::element_line(array_, wavelength_m(config))),
-      power_receiver_(echo::power_line(receiver_.line())),
       noise_share_(faces_.noise_share()),
       images_(1),
       mean_square_(1) {
+  if (!config.effects.speckle) power_receiver_.emplace(echo::power_line(receiver_.line()));
   if (arrivals_.water_scatters()) {
     volume_directions_ = echo::directions_of_cells(
         receiver_,
@@ -173,7 +173,7 @@ void ForwardLookingHead::form_beams(std::span<const echo::Arrival> arrivals, con
     return;
   }
   const std::vector<std::vector<float>> power{echo::power_weights(weights_)};
-  power_receiver_.form({arrivals, gain_, listening_->squared, sampling, {}}, sin_beams_, power, mean_square_);
+  power_receiver_->form({arrivals, gain_, listening_->squared, sampling, {}}, sin_beams_, power, mean_square_);
   receiver_.form({{}, {}, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
   const auto& mean_square = mean_square_[0].envelope_upa;
   auto& envelope = images_[0].envelope_upa;

@@ -63,7 +63,8 @@ class ForwardLookingHead {
   random::Stream ambient_, electronic_, volume_;
   std::vector<float> beam_angle_rad_;
   std::vector<float> weights_;  // of elements
-  echo::LineReceiver receiver_, power_receiver_;
+  echo::LineReceiver receiver_;
+  std::optional<echo::LineReceiver> power_receiver_;       // without speckle
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
   double noise_share_;
   std::optional<Listening> listening_;

@@ -77,11 +77,12 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, std::size_t sector)
       electronic_(config.world.seed, stream_of(config, sector, "electronic")),
       volume_(config.world.seed, stream_of(config, sector, "volume")),
       receiver_(elements_of(config, frequency_hz_)),
-      power_receiver_(echo::power_line(receiver_.line())),
       weights_(weights_of(receive_line(config), config.effects.speckle)),
       power_weights_{echo::power_weights(weights_[0])},
       images_(3),
-      mean_square_(1) {}
+      mean_square_(1) {
+  if (!config.effects.speckle) power_receiver_.emplace(echo::power_line(receiver_.line()));
+}
 
 SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, double swath_rad) {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
@@ -205,7 +206,8 @@ void SectorEchoes::form_beams(std::span<const echo::Arrival> arrivals, const ech
     return;
   }
   const std::span whole(images_.data(), 1);
-  power_receiver_.form({arrivals, gain_, listening_->squared, sampling_, {}}, sin_beams_, power_weights_, mean_square_);
+  power_receiver_->form({arrivals, gain_, listening_->squared, sampling_, {}}, sin_beams_, power_weights_,
+                        mean_square_);
   receiver_.form({{}, {}, listening_->sampled, sampling_, background}, sin_beams_, weights_, whole);
   const auto& mean_square = mean_square_[0].envelope_upa;
   auto& envelope = images_[0].envelope_upa;

@@ -75,9 +75,10 @@ class SectorEchoes {
   SectorPattern pattern_;
   Arrivals arrivals_;
   random::Stream ambient_, electronic_, volume_;
-  echo::LineReceiver receiver_, power_receiver_;
-  std::vector<std::vector<float>> weights_;        // of the whole line, its starboard half, its port half
-  std::vector<std::vector<float>> power_weights_;  // of the whole line
+  echo::LineReceiver receiver_;
+  std::optional<echo::LineReceiver> power_receiver_;  // without speckle
+  std::vector<std::vector<float>> weights_;           // of the whole line, its starboard half, its port half
+  std::vector<std::vector<float>> power_weights_;     // of the whole line
   std::optional<Listening> listening_;
 
   // Memory of the ping path, sized by the first pings of a range.

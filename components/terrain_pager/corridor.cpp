@@ -83,7 +83,7 @@ std::optional<std::string> fault_at(const Vec2& place, double height_m, std::opt
   return std::nullopt;
 }
 
-std::optional<std::string> fault_of(const TerrainSource& terrain, const navigation::Runline& line,
+std::optional<std::string> fault_of(const TerrainSource& terrain, const navigation::Runline& line, const Looks& looks,
                                     const CorridorRules& rules, std::optional<double> depth_m) {
   const Extent extent = terrain.extent();
   for (const Vec2& end : {line.start_enu_m, line.end_enu_m}) {
@@ -93,7 +93,6 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
   }
   const Vec2 along = (line.end_enu_m - line.start_enu_m) / navigation::length_m(line);
   const Vec2 starboard(along.y(), -along.x());
-  const Looks looks = looks_along(terrain, line);
   for (std::size_t i = 0; i < looks.place.size(); ++i) {
     const Vec2& place = looks.place[i];
     if (const auto fault = fault_at(place, looks.height_m[i], depth_m)) return fault;
@@ -113,15 +112,21 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
 
 }  // namespace
 
-void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                     const CorridorRules& rules, const std::string& scenario_file) {
+double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
+                       const CorridorRules& rules, const std::string& scenario_file) {
   std::vector<ConfigProblem> problems;
+  double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
   for (std::size_t i = 0; i < runlines.size(); ++i) {
-    if (const auto fault = fault_of(terrain, runlines[i], rules, i < rules.depth_m.size() ? rules.depth_m[i] : 0.0)) {
+    const Looks looks = looks_along(terrain, runlines[i]);
+    for (const double height_m : looks.height_m)
+      highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
+    const std::optional<double> depth_m = i < rules.depth_m.size() ? rules.depth_m[i] : 0.0;
+    if (const auto fault = fault_of(terrain, runlines[i], looks, rules, depth_m)) {
       problems.push_back({{scenario_file, 0, 0}, "mission runline " + std::to_string(i + 1), *fault});
     }
   }
   if (!problems.empty()) throw ConfigError(problems);
+  return std::max(0.0, -highest_m);
 }
 
 void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
@@ -136,15 +141,6 @@ void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>&
     if (fault) problems.push_back({{scenario_file, 0, 0}, visited.key, *fault});
   }
   if (!problems.empty()) throw ConfigError(problems);
-}
-
-double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines) {
-  double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
-  for (const auto& line : runlines) {
-    for (const double height_m : looks_along(terrain, line).height_m)
-      highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
-  }
-  return std::max(0.0, -highest_m);
 }
 
 }  // namespace ensonify::pager

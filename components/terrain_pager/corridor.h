@@ -32,15 +32,12 @@ struct VisitedPlace {
 /// datum) or through the seabed, or, with refuse_holes, if a place of its corridor inside the terrain has no height.
 /// `scenario_file` is the place that the message names. A line is looked at in steps of the posts, but at most 2000,
 /// and the seabed as posts that far apart show it.
-void check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                     const CorridorRules& rules, const std::string& scenario_file);
+/// Returns the least depth that was looked at; without runlines, of the whole terrain. At least 0.
+double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
+                       const CorridorRules& rules, const std::string& scenario_file);
 
 /// The same for places, without corridors.
 void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
                   const std::string& scenario_file);
-
-/// Least depth under the runlines, as the check of corridors looks at them; without any, of the whole terrain. At least
-/// 0.
-double shallowest_m(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines);
 
 }  // namespace ensonify::pager

@@ -38,6 +38,8 @@ class Counting : public TerrainSource {
   std::function<double(double, double)> height_m_;
 };
 
+const CorridorRules kHolesAllowed{.refuse_holes = false};
+
 std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double depth_m) {
   try {
     check_corridors(terrain, {line}, {.refuse_holes = false, .depth_m = {depth_m}}, "sea.yaml");
@@ -52,14 +54,15 @@ std::string fault(const TerrainSource& terrain, const navigation::Runline& line,
 TEST_CASE("along a line of kilometres the least depth is found from few posts") {
   const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
   const navigation::Runline line{{-3000, -3000}, {3000, 3000}};
-  CHECK(shallowest_m(slope, {line}) == Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
+  CHECK(check_corridors(slope, {line}, kHolesAllowed, "sea.yaml") ==
+        Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
   // Looks stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
   CHECK(slope.posts_made < 2 * 32 * 50 * 50);
 }
 
 TEST_CASE("a short line is looked at post by post") {
   const Counting rock([](double x, double y) { return std::hypot(x - 20.0, y) < 0.5 ? -3.0 : -30.0; });
-  CHECK(shallowest_m(rock, {{{-40, 0}, {40, 0}}}) == Approx(3.0));
+  CHECK(check_corridors(rock, {{{-40, 0}, {40, 0}}}, kHolesAllowed, "sea.yaml") == Approx(3.0));
 }
 
 TEST_CASE("a line may not run over land nor through the seabed, and a hole is no fault of it") {

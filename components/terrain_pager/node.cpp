@@ -98,14 +98,15 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
                                                                          : RasterSeabed::Holes::kKeep;
-  pager::check_corridors(*terrain_, config.mission.runlines,
-                         {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse,
-                          config.mission.runline_depths_m()},
-                         config.scenario_file);
+  const double shallowest_m =
+      pager::check_corridors(*terrain_, config.mission.runlines,
+                             {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse,
+                              config.mission.runline_depths_m()},
+                             config.scenario_file);
   pager::check_places(*terrain_, places_of(config.mission, terrain_->extent()), config.scenario_file);
   pager::check_places(*terrain_, starts_of(config.vehicles), config.scenario_file);
   ports.note("post_spacing_m", grid_.spacing_m);
-  ports.note("shallowest_m", pager::shallowest_m(*terrain_, config.mission.runlines));
+  ports.note("shallowest_m", shallowest_m);
   const double feed_m =
       config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
   if (config.feed_margin_m > 0.0) pager::check_budgets(config, rules(feed_m).margins, grid_, box_);
@@ -118,12 +119,13 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     const pager::Paging probably(grid_, box_, rules(feed_m));
     store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
   }
+  made_chart_ = std::async(std::launch::async, [this] { return pager::make_chart(*terrain_); });
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
 }
 
 SimTime TerrainPagerNode::step(SimTime now) {
   if (!events_.due(now)) return events_.next();
-  if (!chart_sent_) start();
+  if (made_chart_.valid()) start();
   if (pose_) page(*pose_);
   tell_cache();
   return events_.next();
@@ -152,8 +154,7 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
 }
 
 void TerrainPagerNode::start() {
-  chart_sent_ = true;
-  chart_.send(pager::make_chart(*terrain_));
+  chart_.send(made_chart_.get());
   for (const std::string& name : meshes_.unprepared())
     log::event(ports_, "mesh_unprepared", "mesh={} prepare_with=\"ensonify terrain lod\"", name);
 }

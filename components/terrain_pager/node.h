@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -62,7 +63,7 @@ class TerrainPagerNode {
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;
-  bool chart_sent_ = false;
+  std::future<msg::Chart> made_chart_;  // while other processes start; until it is sent
 };
 
 }  // namespace ensonify

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -41,12 +44,23 @@ bool is_name_of_tile(const std::string& name) {
          name.find(".tile") != std::string::npos;
 }
 
-/// Elements in memory of its own: a view would keep the whole file.
-template <class T>
-msg::Array<T> copy_of(const msg::Array<T>& view) {
-  msg::Array<T> copy(view.shape());
-  std::copy(view.data(), view.data() + view.size(), copy.data());
-  return copy;
+msg::Buffer bytes_of(const fs::path& path) {
+  const std::size_t size = fs::file_size(path);
+  std::shared_ptr<std::byte[]> bytes = std::make_unique_for_overwrite<std::byte[]>(size);
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(bytes.get()), static_cast<std::streamsize>(size));
+  if (!stream) throw std::runtime_error("cannot be read to its end");
+  const std::byte* first = bytes.get();
+  return {std::move(bytes), first, size};
+}
+
+/// What goes behind the first line so that the heights stand where floats may: they need not be copied when they are
+/// read.
+std::string padding(std::size_t line, const msg::Buffer& payload) {
+  const msg::Value tile = msg::decode_inline(payload);
+  const std::byte* heights = tile.find("height_m")->as<msg::RawArray>()->bytes.data;
+  const std::size_t at = line + 1 + static_cast<std::size_t>(heights - payload.data);
+  return std::string((alignof(float) - at % alignof(float)) % alignof(float), ' ');
 }
 
 }  // namespace
@@ -69,26 +83,25 @@ fs::path TileCache::path_of(const TileKey& key) const {
   return folder_ / fmt::format("{}_e{:+05d}_n{:+05d}.tile", seabed_, key.east, key.north);
 }
 
-/// The first line of a file. Its checksum is of the tile's name and of all that follows the line.
-std::string TileCache::head_of(const TileKey& key, std::span<const std::byte> payload) const {
+/// The first line of a file, but for blanks at its end. Its checksum is of the tile's name and of all that follows the
+/// line.
+std::string TileCache::line_of(const TileKey& key, std::span<const std::byte> payload) const {
   const std::string name = path_of(key).filename().string();
   tiles::Sha256 sum;
   sum.add(std::as_bytes(std::span(name)));
   sum.add(payload);
-  return fmt::format("{} {}\n", kFormat, sum.digest());
+  return fmt::format("{} {}", kFormat, sum.digest());
 }
 
-msg::Tile TileCache::decoded(const TileKey& key, std::vector<std::uint8_t> file) const {
-  const msg::Buffer whole = msg::Buffer::own(std::move(file));
-  const std::size_t head = std::min(whole.text().find('\n'), whole.size - 1) + 1;
-  const msg::Buffer payload{whole.owner, whole.data + head, whole.size - head};
-  if (whole.text().substr(0, head) != head_of(key, payload.bytes())) {
+msg::Tile TileCache::decoded(const TileKey& key, const msg::Buffer& file) const {
+  const std::size_t head = std::min(file.text().find('\n'), file.size - 1) + 1;
+  const msg::Buffer payload{file.owner, file.data + head, file.size - head};
+  const std::string line = line_of(key, payload.bytes());
+  const std::string_view first = file.text().substr(0, head);
+  if (!first.starts_with(line) || first.find_first_not_of(' ', line.size()) != head - 1 || first.back() != '\n')
     throw std::runtime_error("is not what was written (SHA-256)");
-  }
   msg::Tile tile;
   msg::from_value(msg::decode_inline(payload), tile, "");
-  tile.height_m = copy_of(tile.height_m);
-  tile.sediment = copy_of(tile.sediment);
   return tile;
 }
 
@@ -97,7 +110,7 @@ TileCache::TilePtr TileCache::read(const TileKey& key) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return nullptr;
   try {
-    auto tile = std::make_shared<const msg::Tile>(decoded(key, tiles::read_file(path.string())));
+    auto tile = std::make_shared<const msg::Tile>(decoded(key, bytes_of(path)));
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
     const std::scoped_lock lock(mutex_);
     used_.insert(path.filename().string());
@@ -153,7 +166,8 @@ void TileCache::write(const msg::Tile& tile) {
   }
   const TileKey key{static_cast<std::int32_t>(tile.col), static_cast<std::int32_t>(tile.row)};
   const msg::Buffer payload = msg::encode_inline(msg::encode(tile));
-  const std::string head = head_of(key, payload.bytes());
+  std::string head = line_of(key, payload.bytes());
+  head += padding(head.size(), payload) + "\n";
   std::vector<std::uint8_t> file(head.begin(), head.end());
   const auto* first = reinterpret_cast<const std::uint8_t*>(payload.data);
   file.insert(file.end(), first, first + payload.size);

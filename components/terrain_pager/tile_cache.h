@@ -53,8 +53,8 @@ class TileCache {
   struct Kept;
 
   std::filesystem::path path_of(const terrain::TileKey& key) const;
-  std::string head_of(const terrain::TileKey& key, std::span<const std::byte> payload) const;
-  msg::Tile decoded(const terrain::TileKey& key, std::vector<std::uint8_t> file) const;
+  std::string line_of(const terrain::TileKey& key, std::span<const std::byte> payload) const;
+  msg::Tile decoded(const terrain::TileKey& key, const msg::Buffer& file) const;
   std::vector<Kept> kept() const;
   bool make_room(std::uint64_t bytes) const;
   void stop_writing(const Notice& why);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -79,10 +80,14 @@ LineReceiver::LineReceiver(const ElementLine& line)
   if (line.elements < 1 || !(line.spacing_in_waves > 0.0)) {
     throw std::invalid_argument("a line array needs elements and a spacing above 0");
   }
-  for (int m = 0; m < line.elements; ++m) {
-    const double phase = 2.0 * std::numbers::pi * (m - line.elements / 2) / cells_;
-    unspread_.push_back(static_cast<float>(1.0 / Spreading::transform(phase)));
-  }
+  const int half = line.elements / 2;
+  std::vector<float> at_distance(static_cast<std::size_t>(half) + 1);  // from the middle, in elements
+  tbb::parallel_for(0, half + 1, [&](int m) {
+    at_distance[static_cast<std::size_t>(m)] =
+        static_cast<float>(1.0 / Spreading::transform(2.0 * std::numbers::pi * m / cells_));
+  });
+  for (int m = 0; m < line.elements; ++m)
+    unspread_.push_back(at_distance[static_cast<std::size_t>(std::abs(m - half))]);
   for (int cell = 0; cell < cells_ && !white_; ++cell)
     isotropic_share_.push_back(static_cast<float>(std::sqrt(share_of_sphere(cell))));
 }

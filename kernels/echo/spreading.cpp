@@ -26,13 +26,16 @@ Spreading::Spreading() {
 double Spreading::transform(double phase) {
   // Midpoints; phi rises from its edges without a bound on its slope, hence the many points: error 1e-9.
   constexpr int kPoints = 20000;
-  const double step = static_cast<double>(kWidth) / kPoints;
+  constexpr double kStep = static_cast<double>(kWidth) / kPoints;
+  const auto place = [](int i) { return -0.5 * kWidth + (i + 0.5) * kStep; };
+  static const std::vector<double> window = [&] {
+    std::vector<double> values;
+    for (int i = 0; i < kPoints; ++i) values.push_back(phi(place(i)));
+    return values;
+  }();
   double sum = 0.0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double z = -0.5 * kWidth + (i + 0.5) * step;
-    sum += phi(z) * std::cos(phase * z);
-  }
-  return sum * step;
+  for (int i = 0; i < kPoints; ++i) sum += window[static_cast<std::size_t>(i)] * std::cos(phase * place(i));
+  return sum * kStep;
 }
 
 }  // namespace ensonify::echo

@@ -17,26 +17,39 @@ bool whole_cell(const terrain::Tile& tile, std::int32_t column, std::int32_t row
   return true;
 }
 
-/// A box around the whole cells of [column, column + width) x [row, row + height), within the tile; none without such.
-/// It is there only where a cell in or around the block is a hole, or where `all` of them are wanted.
+/// Cells of a tile, from the first to before the end.
+struct Cells {
+  std::int32_t first_column, first_row, end_column, end_row;
+};
+
+/// Whether one of the posts of these cells is a hole.
+bool touch_hole(const terrain::Tile& tile, const Cells& cells) {
+  for (std::int32_t row = cells.first_row; row <= cells.end_row; ++row) {
+    const float* post = tile.height_m.data() + tile.post(cells.first_column, row);
+    const float* end = post + (cells.end_column - cells.first_column + 1);
+    if (!std::all_of(post, end, [](float z) { return std::isfinite(z); })) return true;
+  }
+  return false;
+}
+
+/// A box around the whole cells of a square block, within the tile; none without such. It is there only where a cell in
+/// or around the block is a hole, or where `all` of them are wanted.
 void add_object(const terrain::Tile& tile, std::int32_t column, std::int32_t row, std::int32_t side, bool all,
                 std::vector<Object>& objects) {
-  Object object{
-      {}, nullptr, 0, column, row, std::min(column + side, tile.columns - 1), std::min(row + side, tile.rows - 1)};
-  bool holes = all;
-  for (std::int32_t r = std::max(row - 1, 0); r < std::min(row + side + 1, tile.rows - 1); ++r) {
-    for (std::int32_t c = std::max(column - 1, 0); c < std::min(column + side + 1, tile.columns - 1); ++c) {
-      const bool inside = row <= r && r < row + side && column <= c && c < column + side;
-      if (!whole_cell(tile, c, r)) {
-        holes = true;
-      } else if (inside) {
-        for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-          object.box_enu_m.extend(tile.position_enu_m(c + x, r + y));
-        }
-      }
+  const auto end = [side](std::int32_t first, std::int32_t posts) { return std::min(first + side, posts - 1); };
+  const Cells block{column, row, end(column, tile.columns), end(row, tile.rows)};
+  const Cells around{std::max(block.first_column - 1, 0), std::max(block.first_row - 1, 0),
+                     std::min(block.end_column + 1, tile.columns - 1), std::min(block.end_row + 1, tile.rows - 1)};
+  if (!all && !touch_hole(tile, around)) return;
+  Object object{{}, nullptr, 0, block.first_column, block.first_row, block.end_column, block.end_row};
+  for (std::int32_t r = block.first_row; r < block.end_row; ++r) {
+    for (std::int32_t c = block.first_column; c < block.end_column; ++c) {
+      if (!whole_cell(tile, c, r)) continue;
+      for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
+        object.box_enu_m.extend(tile.position_enu_m(c + x, r + y));
     }
   }
-  if (holes && !object.box_enu_m.isEmpty()) objects.push_back(object);
+  if (!object.box_enu_m.isEmpty()) objects.push_back(object);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "kernels/trace/packet.h"
 #include "kernels/trace/scene_impl.h"
@@ -66,11 +67,14 @@ Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
-void Scene::insert(const terrain::TileKey& key, const terrain::Tile& tile) {
+void Scene::insert(const terrain::TileKey& key, terrain::Tile tile) {
   if (const auto fault = terrain::fault_of(tile)) throw std::invalid_argument(*fault);
   impl_->change(key);
+  lod::Hierarchy hierarchy(tile);
+  const Heights heights = heights_of(tile);
+  std::vector<Object> objects = objects_of(tile);
   impl_->tiles.insert_or_assign(
-      key, Entry{++impl_->inserted, tile, lod::Hierarchy(tile), heights_of(tile), objects_of(tile), {}});
+      key, Entry{++impl_->inserted, std::move(tile), std::move(hierarchy), heights, std::move(objects), {}});
   impl_->gather_objects();
   impl_->show_all();
 }

@@ -84,7 +84,7 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
 
   /// Adds or replaces a tile. Throws std::invalid_argument with terrain::fault_of when its sizes do not fit.
-  void insert(const terrain::TileKey& key, const terrain::Tile& tile);
+  void insert(const terrain::TileKey& key, terrain::Tile tile);
 
   /// Takes a tile away; false when there was none.
   bool remove(const terrain::TileKey& key);

@@ -3,6 +3,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostLevels = 100;
 constexpr std::size_t kMostValues = 200'000;
-constexpr std::streamsize kMostBytes = 16 << 20;
+constexpr std::size_t kMostBytes = 16 << 20;
 
 [[noreturn]] void fail(const ConfigPlace& place, const std::string& message) {
   throw ConfigError({{place, "", message}});
@@ -230,12 +231,15 @@ ConfigDocument parse_config_file(const std::string& path) {
   if (!stream) {
     fail({path}, "cannot be read");
   }
-  std::string text(static_cast<std::size_t>(kMostBytes) + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.gcount() > kMostBytes) {
-    fail({path}, "is larger than 16 MiB");
+  std::string text;  // grows with what is read: a pipe does not tell its size
+  std::array<char, 1 << 16> part;
+  while (stream) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMostBytes) {
+      fail({path}, "is larger than 16 MiB");
+    }
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   return parse_config(text, path);
 }
 

@@ -1,5 +1,7 @@
 #include "components/runtime/head/tile_set.h"
 
+#include <utility>
+
 #include "components/runtime/mesh_message.h"
 
 namespace ensonify {
@@ -27,7 +29,7 @@ void TileSet::insert(const msg::Tile& message) {
   grid_.origin_enu_m = tile.origin_enu_m - grid_.side_m() * frames::Vec2(static_cast<double>(message.col),
                                                                          static_cast<double>(message.row));
   if (scene_.empty()) scene_.centre_near(tile.origin_enu_m);  // where the head will be: nothing is built twice
-  scene_.insert(key_of(message.col, message.row), tile);
+  scene_.insert(key_of(message.col, message.row), std::move(tile));
 }
 
 void TileSet::release(const msg::TileRelease& release) { scene_.remove(key_of(release.col, release.row)); }
