@@ -96,6 +96,20 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       mesh_releases_(ports.out<msg::MeshRelease>("mesh_release")),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
+  const double feed_m =
+      config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
+  if (config.feed_margin_m > 0.0) pager::check_budgets(config, rules(feed_m).margins, grid_, box_);
+  // Tiles and chart come while the mission is checked and other processes start.
+  open_cache();
+  store_.emplace([this](const TileKey& key) { return made(key); },
+                 pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
+  if (!config.mission.runlines.empty()) {
+    const navigation::Runline& line = config.mission.runlines.front();
+    const Vec2 ahead = (line.end_enu_m - line.start_enu_m).normalized();
+    const pager::Paging probably(grid_, box_, rules(feed_m));
+    store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
+  }
+  made_chart_ = std::async(std::launch::async, [this] { return chart(); });
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
                                                                          : RasterSeabed::Holes::kKeep;
   const double shallowest_m =
@@ -107,19 +121,6 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   pager::check_places(*terrain_, starts_of(config.vehicles), config.scenario_file);
   ports.note("post_spacing_m", grid_.spacing_m);
   ports.note("shallowest_m", shallowest_m);
-  const double feed_m =
-      config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
-  if (config.feed_margin_m > 0.0) pager::check_budgets(config, rules(feed_m).margins, grid_, box_);
-  open_cache();
-  store_.emplace([this](const TileKey& key) { return made(key); },
-                 pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
-  if (!config.mission.runlines.empty()) {
-    const navigation::Runline& line = config.mission.runlines.front();
-    const Vec2 ahead = (line.end_enu_m - line.start_enu_m).normalized();
-    const pager::Paging probably(grid_, box_, rules(feed_m));
-    store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
-  }
-  made_chart_ = std::async(std::launch::async, [this] { return pager::make_chart(*terrain_); });
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
 }
 
@@ -151,6 +152,15 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
   auto tile = std::make_shared<const msg::Tile>(pager::make_tile(*terrain_, grid_, key));
   if (cache_) cache_->write(*tile);
   return tile;
+}
+
+msg::Chart TerrainPagerNode::chart() {
+  if (cache_) {
+    if (const auto kept = cache_->read_chart()) return *kept;
+  }
+  msg::Chart chart = pager::make_chart(*terrain_);
+  if (cache_) cache_->write(chart);
+  return chart;
 }
 
 void TerrainPagerNode::start() {

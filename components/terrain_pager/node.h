@@ -34,6 +34,7 @@ class TerrainPagerNode {
   pager::Paging::Rules rules(double feed_margin_m) const;
   void open_cache();
   pager::TileStore::TilePtr made(const pager::TileKey& key);
+  msg::Chart chart();
   void start();
   void start_paging();
   paging::Motion motion_of(const msg::Pose& pose);

@@ -1,16 +1,21 @@
 #include "components/terrain_pager/tile_cache.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
-#include <fstream>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "components/runtime/tiles/file_bytes.h"
@@ -38,29 +43,52 @@ fs::path part_of(const fs::path& path) {
   return fmt::format("{}.{}-{}", path.string(), ::getpid(), ++parts);
 }
 
-/// `<SHA-256 of the seabed>_e+0003_n-0001.tile`, or that with a writer's numbers behind it.
+/// `<SHA-256 of the seabed>_e+0003_n-0001.tile` or `..._chart.tile`, or that with a writer's numbers behind it.
 bool is_name_of_tile(const std::string& name) {
   return name.size() > kDigits && name.find_first_not_of("0123456789abcdef") == kDigits && name[kDigits] == '_' &&
          name.find(".tile") != std::string::npos;
 }
 
-msg::Buffer bytes_of(const fs::path& path) {
-  const std::size_t size = fs::file_size(path);
-  std::shared_ptr<std::byte[]> bytes = std::make_unique_for_overwrite<std::byte[]>(size);
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.get()), static_cast<std::streamsize>(size));
-  if (!stream) throw std::runtime_error("cannot be read to its end");
-  const std::byte* first = bytes.get();
-  return {std::move(bytes), first, size};
+/// A file's bytes where the system has them: files of a cache are put in place and removed, never written again.
+msg::Buffer mapped(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
+  struct stat info {};
+  const std::size_t size = ::fstat(file, &info) == 0 ? static_cast<std::size_t>(info.st_size) : 0;
+  void* bytes = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0) : nullptr;
+  ::close(file);
+  if (bytes == MAP_FAILED) throw std::runtime_error("cannot be mapped");
+  std::shared_ptr<const void> owner(bytes, [size](void* mapping) { ::munmap(mapping, size); });
+  return {std::move(owner), static_cast<const std::byte*>(bytes), size};
 }
 
 /// What goes behind the first line so that the heights stand where floats may: they need not be copied when they are
 /// read.
 std::string padding(std::size_t line, const msg::Buffer& payload) {
-  const msg::Value tile = msg::decode_inline(payload);
-  const std::byte* heights = tile.find("height_m")->as<msg::RawArray>()->bytes.data;
+  const msg::Value message = msg::decode_inline(payload);
+  const std::byte* heights = message.find("height_m")->as<msg::RawArray>()->bytes.data;
   const std::size_t at = line + 1 + static_cast<std::size_t>(heights - payload.data);
   return std::string((alignof(float) - at % alignof(float)) % alignof(float), ' ');
+}
+
+/// The first line of a file, but for blanks at its end. Its checksum is of the file's name and of all that follows the
+/// line.
+std::string line_of(const std::string& name, std::span<const std::byte> payload) {
+  tiles::Sha256 sum;
+  sum.add(std::as_bytes(std::span(name)));
+  sum.add(payload);
+  return fmt::format("{} {}", kFormat, sum.digest());
+}
+
+/// What follows the first line.
+msg::Buffer checked(const std::string& name, const msg::Buffer& file) {
+  const std::size_t head = std::min(file.text().find('\n'), file.size - 1) + 1;
+  const msg::Buffer payload{file.owner, file.data + head, file.size - head};
+  const std::string line = line_of(name, payload.bytes());
+  const std::string_view first = file.text().substr(0, head);
+  if (!first.starts_with(line) || first.find_first_not_of(' ', line.size()) != head - 1 || first.back() != '\n')
+    throw std::runtime_error("is not what was written (SHA-256)");
+  return payload;
 }
 
 }  // namespace
@@ -79,43 +107,25 @@ TileCache::TileCache(fs::path folder, const std::string& seabed, std::uint64_t m
       most_bytes_(most_bytes),
       begin_(fs::file_time_type::clock::now() - std::chrono::seconds(1)) {}
 
-fs::path TileCache::path_of(const TileKey& key) const {
-  return folder_ / fmt::format("{}_e{:+05d}_n{:+05d}.tile", seabed_, key.east, key.north);
+std::string TileCache::name_of(const TileKey& key) const {
+  return fmt::format("{}_e{:+05d}_n{:+05d}.tile", seabed_, key.east, key.north);
 }
 
-/// The first line of a file, but for blanks at its end. Its checksum is of the tile's name and of all that follows the
-/// line.
-std::string TileCache::line_of(const TileKey& key, std::span<const std::byte> payload) const {
-  const std::string name = path_of(key).filename().string();
-  tiles::Sha256 sum;
-  sum.add(std::as_bytes(std::span(name)));
-  sum.add(payload);
-  return fmt::format("{} {}", kFormat, sum.digest());
-}
+std::string TileCache::name_of_chart() const { return seabed_ + "_chart.tile"; }
 
-msg::Tile TileCache::decoded(const TileKey& key, const msg::Buffer& file) const {
-  const std::size_t head = std::min(file.text().find('\n'), file.size - 1) + 1;
-  const msg::Buffer payload{file.owner, file.data + head, file.size - head};
-  const std::string line = line_of(key, payload.bytes());
-  const std::string_view first = file.text().substr(0, head);
-  if (!first.starts_with(line) || first.find_first_not_of(' ', line.size()) != head - 1 || first.back() != '\n')
-    throw std::runtime_error("is not what was written (SHA-256)");
-  msg::Tile tile;
-  msg::from_value(msg::decode_inline(payload), tile, "");
-  return tile;
-}
-
-TileCache::TilePtr TileCache::read(const TileKey& key) {
-  const fs::path path = path_of(key);
+template <class Message>
+std::shared_ptr<const Message> TileCache::read_named(const std::string& name) {
+  const fs::path path = folder_ / name;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return nullptr;
   try {
-    auto tile = std::make_shared<const msg::Tile>(decoded(key, bytes_of(path)));
+    auto message = std::make_shared<Message>();
+    msg::from_value(msg::decode_inline(checked(name, mapped(path))), *message, "");
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
     const std::scoped_lock lock(mutex_);
-    used_.insert(path.filename().string());
-    ++statistics_.read;
-    return tile;
+    used_.insert(name);
+    statistics_.read += std::is_same_v<Message, msg::Tile> ? 1 : 0;
+    return message;
   } catch (const std::exception& error) {
     if (!fs::exists(path, ignored)) return nullptr;  // another process has just released it
     fs::remove(path, ignored);
@@ -124,6 +134,10 @@ TileCache::TilePtr TileCache::read(const TileKey& key) {
     return nullptr;
   }
 }
+
+TileCache::TilePtr TileCache::read(const TileKey& key) { return read_named<msg::Tile>(name_of(key)); }
+
+std::shared_ptr<const msg::Chart> TileCache::read_chart() { return read_named<msg::Chart>(name_of_chart()); }
 
 std::vector<TileCache::Kept> TileCache::kept() const {
   std::vector<Kept> all;
@@ -159,20 +173,20 @@ void TileCache::stop_writing(const Notice& why) {
   notices_.push_back(why);
 }
 
-void TileCache::write(const msg::Tile& tile) {
+template <class Message>
+void TileCache::write_named(const std::string& name, const Message& message) {
   {
     const std::scoped_lock lock(mutex_);
     if (!writing_) return;
   }
-  const TileKey key{static_cast<std::int32_t>(tile.col), static_cast<std::int32_t>(tile.row)};
-  const msg::Buffer payload = msg::encode_inline(msg::encode(tile));
-  std::string head = line_of(key, payload.bytes());
+  const msg::Buffer payload = msg::encode_inline(msg::encode(message));
+  std::string head = line_of(name, payload.bytes());
   head += padding(head.size(), payload) + "\n";
   std::vector<std::uint8_t> file(head.begin(), head.end());
   const auto* first = reinterpret_cast<const std::uint8_t*>(payload.data);
   file.insert(file.end(), first, first + payload.size);
 
-  const fs::path path = path_of(key), part = part_of(path);
+  const fs::path path = folder_ / name, part = part_of(path);
   const std::scoped_lock lock(mutex_);
   if (!writing_) return;
   try {
@@ -187,9 +201,15 @@ void TileCache::write(const msg::Tile& tile) {
     fs::remove(part, ignored);
     return stop_writing({"tile_cache_failed", fmt::format("why=\"{}\"", error.what())});
   }
-  used_.insert(path.filename().string());
-  ++statistics_.written;
+  used_.insert(name);
+  statistics_.written += std::is_same_v<Message, msg::Tile> ? 1 : 0;
 }
+
+void TileCache::write(const msg::Tile& tile) {
+  write_named(name_of({static_cast<std::int32_t>(tile.col), static_cast<std::int32_t>(tile.row)}), tile);
+}
+
+void TileCache::write(const msg::Chart& chart) { write_named(name_of_chart(), chart); }
 
 std::vector<TileCache::Notice> TileCache::take_notices() {
   const std::scoped_lock lock(mutex_);

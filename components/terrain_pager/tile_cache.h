@@ -15,9 +15,10 @@
 
 namespace ensonify::pager {
 
-/// Made tiles kept on disk from run to run, so that the next start need not make them again. A tile holds the same bits
-/// with and without. Files carry a checksum of what they hold and of which tile of which seabed it is: one that is
-/// damaged, or in another's place, is made anew. All functions may be called from any thread.
+/// Made tiles, and the chart of their seabed, kept on disk from run to run, so that the next start need not make them
+/// again. A tile holds the same bits with and without. Files carry a checksum of what they hold and of which tile of
+/// which seabed it is: one that is damaged, or in another's place, is made anew. All functions may be called from any
+/// thread.
 ///
 /// The folder holds a file per tile and may be deleted at any time. It keeps a budget: tiles that this run has not used
 /// make room for new ones, those of other seabeds first, the least recently used first. When all that is left was used
@@ -36,6 +37,10 @@ class TileCache {
   /// Keeps a tile if there is room. A disk that refuses, full or not to be written, is noted, and no more is kept.
   void write(const msg::Tile& tile);
 
+  /// The same for the chart, which counts as a tile.
+  std::shared_ptr<const msg::Chart> read_chart();
+  void write(const msg::Chart& chart);
+
   /// What a user should hear of: a word for the log and its key=value pairs. Each is given once.
   struct Notice {
     std::string event;
@@ -43,6 +48,7 @@ class TileCache {
   };
   std::vector<Notice> take_notices();
 
+  /// Of tiles.
   struct Statistics {
     std::int64_t read = 0;
     std::int64_t written = 0;
@@ -52,9 +58,12 @@ class TileCache {
  private:
   struct Kept;
 
-  std::filesystem::path path_of(const terrain::TileKey& key) const;
-  std::string line_of(const terrain::TileKey& key, std::span<const std::byte> payload) const;
-  msg::Tile decoded(const terrain::TileKey& key, const msg::Buffer& file) const;
+  std::string name_of(const terrain::TileKey& key) const;
+  std::string name_of_chart() const;
+  template <class Message>
+  std::shared_ptr<const Message> read_named(const std::string& name);
+  template <class Message>
+  void write_named(const std::string& name, const Message& message);
   std::vector<Kept> kept() const;
   bool make_room(std::uint64_t bytes) const;
   void stop_writing(const Notice& why);

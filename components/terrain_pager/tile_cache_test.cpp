@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "messages/codec.h"
+
 using namespace ensonify;
 using pager::TileCache;
 using terrain::TileKey;
@@ -106,6 +108,24 @@ TEST_CASE("a tile comes back from the cache as it went in, to the bit, in the ne
   CHECK(cache.statistics().read == 1);
   CHECK(cache.read({0, 0}) == nullptr);
   CHECK(cache.take_notices().empty());
+}
+
+TEST_CASE("the chart comes back to the bit too; it is not counted as a tile") {
+  const Folder folder;
+  msg::Chart chart;
+  chart.west_m = -0.1;
+  chart.spacing_m = 2.0 / 3.0;
+  chart.height_m = msg::Array<float>({3, 2});
+  for (std::size_t i = 0; i < chart.height_m.size(); ++i) chart.height_m[i] = -10.1F * static_cast<float>(i);
+  TileCache(folder.path, "a seabed", kPlenty).write(chart);
+  TileCache cache(folder.path, "a seabed", kPlenty);
+  const auto kept = cache.read_chart();
+  REQUIRE(kept);
+  CHECK(msg::same_bytes(msg::encode_inline(msg::encode(*kept)), msg::encode_inline(msg::encode(chart))));
+  CHECK(cache.statistics().read == 0);
+  CHECK(TileCache(folder.path, "another", kPlenty).read_chart() == nullptr);
+  damage(files_in(folder.path).at(0), 200);
+  CHECK(cache.read_chart() == nullptr);
 }
 
 TEST_CASE("another seabed has tiles of its own") {

@@ -38,6 +38,9 @@ struct MultipathHead {
 /// through.
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
 
+/// Of add_multipath, for each scatterer, at most.
+inline constexpr std::size_t kMostMultipathEach = 4;
+
 /// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.
 ///
 /// With z mirrored at the surface (the head's depth d, a scatterer's depth D), for each scatterer:

@@ -1,6 +1,7 @@
 #include "kernels/lod/hierarchy.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace ensonify::lod {
@@ -21,6 +22,22 @@ std::int32_t cells_between(std::int32_t first, std::int32_t last, std::int32_t l
 
 }  // namespace
 
+/// By columns, so that the loop over a row has no order to keep.
+Hierarchy::Bounds Hierarchy::bounds_under(const terrain::Tile& tile, const Posts& under) {
+  std::array<float, span_cells(0) + 1> lowest, highest;
+  lowest.fill(std::numeric_limits<float>::infinity());
+  highest.fill(-std::numeric_limits<float>::infinity());
+  const auto columns = static_cast<std::size_t>(under.east - under.west + 1);
+  for (std::int32_t y = under.south; y <= under.north; ++y) {
+    const float* height_m = tile.height_m.data() + tile.post(under.west, y);
+    for (std::size_t x = 0; x < columns; ++x) {  // comparisons with a hole are false
+      lowest[x] = height_m[x] < lowest[x] ? height_m[x] : lowest[x];
+      highest[x] = height_m[x] > highest[x] ? height_m[x] : highest[x];
+    }
+  }
+  return {*std::ranges::min_element(lowest), *std::ranges::max_element(highest)};
+}
+
 Hierarchy::Hierarchy(const terrain::Tile& tile)
     : origin_enu_m_(tile.origin_enu_m),
       spacing_m_(tile.spacing_m),
@@ -35,15 +52,7 @@ Hierarchy::Hierarchy(const terrain::Tile& tile)
   }
   for (std::int32_t row = 0; row < rows(0); ++row) {
     for (std::int32_t column = 0; column < columns(0); ++column) {
-      const Posts under = posts({0, column, row});
-      float lowest = kInfinity, highest = -kInfinity;
-      for (std::int32_t y = under.south; y <= under.north; ++y) {
-        for (std::int32_t x = under.west; x <= under.east; ++x) {
-          const float height = tile.height_m[tile.post(x, y)];  // comparisons with a hole are false
-          lowest = height < lowest ? height : lowest;
-          highest = height > highest ? height : highest;
-        }
-      }
+      const auto [lowest, highest] = bounds_under(tile, posts({0, column, row}));
       for (std::int32_t size = 0; size <= kLargest; ++size) {
         Size& of = sizes_[static_cast<std::size_t>(size)];
         Bounds& all = of.bounds[static_cast<std::size_t>((row >> size) * of.columns + (column >> size))];

@@ -51,6 +51,7 @@ class Hierarchy {
     std::int32_t columns, rows;
     std::vector<Bounds> bounds;
   };
+  static Bounds bounds_under(const terrain::Tile& tile, const Posts& under);
   const Bounds& bounds(const Block& block) const;
 
   terrain::Vec2 origin_enu_m_;

@@ -1,5 +1,8 @@
 #include "kernels/progressive/cut.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +31,7 @@ bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& c
 }
 
 constexpr int kQuarters = 4;
+constexpr std::size_t kPerTask = 128;
 
 }  // namespace
 
@@ -100,11 +104,13 @@ void Cut::gather(const Hierarchy& hierarchy) {
     sources_.insert(sources_.end(), first, first + at(hierarchy, s).born);
   }
   std::sort(sources_.begin(), sources_.end());
-  triangles_.clear();
-  for (const std::uint32_t source : sources_) {
-    const auto& [a, b, c] = hierarchy.mesh.triangle[source];
-    triangles_.push_back({shown(hierarchy, a), shown(hierarchy, b), shown(hierarchy, c)});
-  }
+  triangles_.resize(sources_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sources_.size(), kPerTask), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto& [a, b, c] = hierarchy.mesh.triangle[sources_[i]];
+      triangles_[i] = {shown(hierarchy, a), shown(hierarchy, b), shown(hierarchy, c)};
+    }
+  });
 }
 
 /// Brings a vertex near enough to its place. False if it was.
@@ -116,25 +122,39 @@ bool Cut::ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tole
   return true;
 }
 
-/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does. What is
-/// as it was in the round before has been asked back then, as far as it may be.
-bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
-  bool changed = false;
-  const auto& place = hierarchy.mesh.vertex_m;
+/// Triangles that were moved, but for those that are as they were in the round before: they have been asked back, as
+/// far as they may be.
+void Cut::find_moved(const Hierarchy& hierarchy) {
+  moved_.clear();
   std::size_t before = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const Triangle& source = hierarchy.mesh.triangle[sources_[i]];
-    if (triangles_[i] == source) continue;
+    if (triangles_[i] == hierarchy.mesh.triangle[sources_[i]]) continue;
     while (before < settled_.size() && settled_sources_[before] < sources_[i]) ++before;
-    if (before < settled_.size() && settled_sources_[before] == sources_[i] && settled_[before] == triangles_[i])
-      continue;
-    std::array<frames::Vec3, 3> corners;
-    for (std::size_t c = 0; c < 3; ++c)
-      corners[c] = hierarchy.mesh.origin_enu_m + place[triangles_[i][c]].cast<double>();
-    for (const View& view : views) {
-      if (!stands_in(view.frustum, corners, kQuarters)) continue;
-      for (const std::uint32_t corner : source) changed = ask_back(hierarchy, corner, view.tolerance_m) || changed;
+    const bool known = before < settled_.size() && settled_sources_[before] == sources_[i];
+    if (!known || settled_[before] != triangles_[i]) moved_.push_back(i);
+  }
+}
+
+/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does.
+bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
+  find_moved(hierarchy);
+  stands_.assign(moved_.size() * views.size(), 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved_.size(), kPerTask), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      std::array<frames::Vec3, 3> corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Eigen::Vector3f& place = hierarchy.mesh.vertex_m[triangles_[moved_[i]][c]];
+        corners[c] = hierarchy.mesh.origin_enu_m + place.cast<double>();
+      }
+      for (std::size_t v = 0; v < views.size(); ++v)
+        stands_[i * views.size() + v] = stands_in(views[v].frustum, corners, kQuarters) ? 1 : 0;
     }
+  });
+  bool changed = false;
+  for (std::size_t i = 0; i < stands_.size(); ++i) {
+    if (stands_[i] == 0) continue;
+    for (const std::uint32_t corner : hierarchy.mesh.triangle[sources_[moved_[i / views.size()]]])
+      changed = ask_back(hierarchy, corner, views[i % views.size()].tolerance_m) || changed;
   }
   settled_sources_ = sources_;
   settled_ = triangles_;

@@ -43,6 +43,7 @@ class Cut {
   void undo(const Hierarchy& hierarchy, std::int32_t split);
   void look(const Hierarchy& hierarchy, std::span<const View> views);
   void gather(const Hierarchy& hierarchy);
+  void find_moved(const Hierarchy& hierarchy);
   bool settle(const Hierarchy& hierarchy, std::span<const View> views);
   bool ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m);
   std::uint32_t shown(const Hierarchy& hierarchy, std::uint32_t vertex) const;
@@ -53,6 +54,8 @@ class Cut {
   std::vector<std::int32_t> pending_;
   std::vector<std::uint32_t> sources_;
   std::vector<Triangle> triangles_;
+  std::vector<std::size_t> moved_;              // places in triangles_
+  std::vector<std::uint8_t> stands_;            // by these and by view
   std::vector<std::uint32_t> settled_sources_;  // in order: of triangles that need not be looked at again ...
   std::vector<Triangle> settled_;               // ... as long as they are these
 };

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "kernels/trace/scene_impl.h"
@@ -17,6 +19,13 @@ bool whole_cell(const terrain::Tile& tile, std::int32_t column, std::int32_t row
   return true;
 }
 
+/// Looks at all posts: so there is no branch in the loop.
+bool has_hole(std::span<const float> height_m) {
+  int holes = 0;
+  for (const float z : height_m) holes |= std::abs(z) <= std::numeric_limits<float>::max() ? 0 : 1;
+  return holes != 0;
+}
+
 /// Cells of a tile, from the first to before the end.
 struct Cells {
   std::int32_t first_column, first_row, end_column, end_row;
@@ -25,9 +34,8 @@ struct Cells {
 /// Whether one of the posts of these cells is a hole.
 bool touch_hole(const terrain::Tile& tile, const Cells& cells) {
   for (std::int32_t row = cells.first_row; row <= cells.end_row; ++row) {
-    const float* post = tile.height_m.data() + tile.post(cells.first_column, row);
-    const float* end = post + (cells.end_column - cells.first_column + 1);
-    if (!std::all_of(post, end, [](float z) { return std::isfinite(z); })) return true;
+    const auto posts = static_cast<std::size_t>(cells.end_column - cells.first_column + 1);
+    if (has_hole(std::span(tile.height_m).subspan(tile.post(cells.first_column, row), posts))) return true;
   }
   return false;
 }
@@ -60,7 +68,7 @@ std::vector<Object> objects_of(const terrain::Tile& tile) {
   std::vector<Object> objects;
   if (is_small(tile)) {
     add_object(tile, 0, 0, kSmallTileCells, true, objects);
-  } else if (!std::all_of(tile.height_m.begin(), tile.height_m.end(), [](float z) { return std::isfinite(z); })) {
+  } else if (has_hole(tile.height_m)) {
     for (std::int32_t row = 0; row < tile.rows - 1; row += kObjectCells) {
       for (std::int32_t column = 0; column < tile.columns - 1; column += kObjectCells) {
         add_object(tile, column, row, kObjectCells, false, objects);

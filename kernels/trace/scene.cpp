@@ -20,13 +20,16 @@ using frames::Vec3;
 
 constexpr double kLattice_m = 2048.0;  // of Embree's origins: none of a head's tiles is 4 km away
 
-Heights heights_of(const terrain::Tile& tile) {
+Heights heights_of(const lod::Hierarchy& tile) {
   Heights heights{.lowest_m = std::numeric_limits<double>::infinity(),
                   .highest_m = -std::numeric_limits<double>::infinity()};
-  for (const float post : tile.height_m) {
-    if (!std::isfinite(post)) continue;
-    heights.lowest_m = std::min(heights.lowest_m, static_cast<double>(post));
-    heights.highest_m = std::max(heights.highest_m, static_cast<double>(post));
+  for (lod::Block block{.size = lod::kLargest}; block.row < tile.rows(lod::kLargest); ++block.row) {
+    for (block.column = 0; block.column < tile.columns(lod::kLargest); ++block.column) {
+      if (tile.empty(block)) continue;
+      const auto [low, high] = tile.box_enu_m(block);
+      heights.lowest_m = std::min(heights.lowest_m, low.z());
+      heights.highest_m = std::max(heights.highest_m, high.z());
+    }
   }
   return heights;
 }
@@ -71,7 +74,7 @@ void Scene::insert(const terrain::TileKey& key, terrain::Tile tile) {
   if (const auto fault = terrain::fault_of(tile)) throw std::invalid_argument(*fault);
   impl_->change(key);
   lod::Hierarchy hierarchy(tile);
-  const Heights heights = heights_of(tile);
+  const Heights heights = heights_of(hierarchy);
   std::vector<Object> objects = objects_of(tile);
   impl_->tiles.insert_or_assign(
       key, Entry{++impl_->inserted, std::move(tile), std::move(hierarchy), heights, std::move(objects), {}});
