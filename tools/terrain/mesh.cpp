@@ -93,7 +93,7 @@ nlohmann::ordered_json shown_of(const SeabedMesh& named, const Opened& seabed, s
   for (const auto& vertex : whole.vertex_m) box.extend(whole.origin_enu_m + vertex.cast<double>());
   const lod::Frustum& frustum = views.front().frustum;
   if (box.exteriorDistance(frustum.apex_enu_m) > frustum.max_range_m) return nullptr;
-  progressive::Cut cut;
+  progressive::Cut cut(hierarchy);
   cut.choose(hierarchy, progressive::views_of(views, progressive::mean_edge_m(whole)));
   std::map<std::uint32_t, std::size_t> place_of;  // by vertex
   nlohmann::ordered_json places = nlohmann::ordered_json::array(), corners = places;
