@@ -55,7 +55,6 @@ Swept launched_towards(const Frustum& frustum, const Vec3& to_centre_m, double r
               {depression, depression},
               around};
   const Water& water = frustum.water;
-  if (water.slowest_mps == water.fastest_mps) return swept;
   const Interval chords{std::max(depression - around, -0.5 * pi), std::min(depression + around, 0.5 * pi)};
   const Interval all = launches(water, chords);
   // Either all directions within what a path bends at most, best where it is steep and bends little ...
@@ -80,17 +79,40 @@ Interval sines_of(const Swept& swept, const Vec3& axis) {
   return {low < other && other < high ? -greatest : std::min(a, b), low < at && at < high ? greatest : std::max(a, b)};
 }
 
-bool angles_overlap(const Frustum& frustum, const Swept& swept, double around_axis_rad) {
-  const auto angle = [&](double depression) {
-    const Vec3 direction = swept.at(depression);
-    return std::atan2(direction.dot(frustum.side_enu), direction.dot(frustum.zero_enu));
-  };
-  const double first = angle(swept.depression_rad.low);
-  const double turn = std::remainder(angle(swept.depression_rad.high) - first, 2.0 * pi);  // of less than half a circle
-  const double middle = first + 0.5 * turn, half = 0.5 * std::abs(turn) + around_axis_rad;
-  const double frustum_middle = 0.5 * (frustum.low_angle_rad + frustum.high_angle_rad);
-  const double frustum_half = 0.5 * (frustum.high_angle_rad - frustum.low_angle_rad);
-  return std::abs(std::remainder(middle - frustum_middle, 2.0 * pi)) <= half + frustum_half;
+double angle_of(const Frustum& frustum, const Vec3& direction) {
+  return std::atan2(direction.dot(frustum.side_enu), direction.dot(frustum.zero_enu));
+}
+
+/// Angles about the axis of the swept directions themselves.
+Interval angles_of(const Frustum& frustum, const Swept& swept) {
+  const double first = angle_of(frustum, swept.at(swept.depression_rad.low));
+  const double last = angle_of(frustum, swept.at(swept.depression_rad.high));
+  const double turn = std::remainder(last - first, 2.0 * pi);  // of less than half a circle
+  return {std::min(first, first + turn), std::max(first, first + turn)};
+}
+
+/// Whether directions, and all within an angle of one of them, are partly the frustum's. `angles()`: about the axis.
+template <class Angles>
+bool overlap(const Frustum& frustum, const Interval& from_plane_rad, double around_rad, const Angles& angles) {
+  const auto [low, high] = from_plane_rad;
+  if (high + around_rad < std::asin(frustum.low_sine) || low - around_rad > std::asin(frustum.high_sine)) return false;
+  const double nearest_axis = std::cos(std::max(std::abs(low), std::abs(high))), sine = std::sin(around_rad);
+  if (sine >= nearest_axis) return true;
+  const Interval about = angles();
+  const double between = 0.5 * (about.low + about.high - frustum.low_angle_rad - frustum.high_angle_rad);
+  const double halves = 0.5 * (about.high - about.low + frustum.high_angle_rad - frustum.low_angle_rad);
+  return std::abs(std::remainder(between, 2.0 * pi)) <= halves + std::asin(sine / nearest_axis);
+}
+
+/// Most of what is asked for lies far beside a thin fan. Sines differ by no more than their angles, a sphere hides less
+/// than pi/2 x radius / distance of them to either side, and a launch is within twice the angle between the flattest
+/// path and a level one of its chord.
+bool far_beside(const Frustum& frustum, const Vec3& to_centre_m, double distance_m, double radius_m) {
+  const Water& water = frustum.water;
+  const double sine = to_centre_m.dot(frustum.axis_enu) / distance_m;
+  const double beside = std::max(frustum.low_sine - sine, sine - frustum.high_sine) - 0.5 * pi * radius_m / distance_m;
+  if (beside <= 0.0) return false;
+  return water.slowest_mps == water.fastest_mps || beside > 2.0 * std::acos(water.slowest_mps / water.fastest_mps);
 }
 
 }  // namespace
@@ -100,16 +122,21 @@ bool meets(const Frustum& frustum, const Sphere& sphere) {
   const double distance_m = to_centre_m.norm();
   if (distance_m - sphere.radius_m > frustum.max_range_m) return false;
   if (distance_m <= sphere.radius_m) return true;
+  if (far_beside(frustum, to_centre_m, distance_m, sphere.radius_m)) return false;
+  const auto angle_from_plane = [](double sine) { return std::asin(std::clamp(sine, -1.0, 1.0)); };
+  if (frustum.water.slowest_mps == frustum.water.fastest_mps) {  // as below, with one direction
+    const Vec3 direction = to_centre_m / distance_m;
+    const double from_plane = angle_from_plane(direction.dot(frustum.axis_enu));
+    return overlap(frustum, {from_plane, from_plane}, std::asin(sphere.radius_m / distance_m), [&] {
+      const double angle = angle_of(frustum, direction);
+      return Interval{angle, angle};
+    });
+  }
   const Swept swept = launched_towards(frustum, to_centre_m, sphere.radius_m);
   if (swept.around_rad >= 0.5 * pi) return true;
   const auto [low, high] = sines_of(swept, frustum.axis_enu);
-  const double low_rad = std::asin(std::clamp(low, -1.0, 1.0)), high_rad = std::asin(std::clamp(high, -1.0, 1.0));
-  if (high_rad + swept.around_rad < std::asin(frustum.low_sine)) return false;
-  if (low_rad - swept.around_rad > std::asin(frustum.high_sine)) return false;
-  const double nearest_axis = std::cos(std::max(std::abs(low_rad), std::abs(high_rad)));
-  const double sine = std::sin(swept.around_rad);
-  if (sine >= nearest_axis) return true;
-  return angles_overlap(frustum, swept, std::asin(sine / nearest_axis));
+  return overlap(frustum, {angle_from_plane(low), angle_from_plane(high)}, swept.around_rad,
+                 [&] { return angles_of(frustum, swept); });
 }
 
 }  // namespace ensonify::lod
