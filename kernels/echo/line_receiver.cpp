@@ -192,8 +192,8 @@ void LineReceiver::draw_volume(const Input& input, int block, Memory& memory) co
   const int first = block * kBlock - input.pulse.support() + 1;
   std::fill(memory.draws.begin(), memory.draws.end(), std::complex<float>{});
   for (int r = 0; r < rows; ++r) {
-    const auto row =
-        std::span(memory.draws).subspan(static_cast<std::size_t>(r * stride_), static_cast<std::size_t>(cells_));
+    const auto first_draw = static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+    const auto row = std::span(memory.draws).subspan(first_draw, static_cast<std::size_t>(cells_));
     random::add_gaussian(*background.volume, background.ping, counter_of(first + r), component_sd(1.0), row);
   }
 }

@@ -15,9 +15,9 @@ double phi(double z) {
 Spreading::Spreading() {
   for (int step = 0; step <= kSteps + 1; ++step) {  // one more, so that an offset of 1 has a next entry
     Taps taps;
+    constexpr int kBefore = kWidth / 2 - 1;
     for (int i = 0; i < kWidth; ++i) {
-      taps[2 * i] = taps[2 * i + 1] =
-          static_cast<float>(phi(i - (kWidth / 2 - 1) - static_cast<double>(step) / kSteps));
+      taps[2 * i] = taps[2 * i + 1] = static_cast<float>(phi(i - kBefore - static_cast<double>(step) / kSteps));
     }
     table_.push_back(taps);
   }

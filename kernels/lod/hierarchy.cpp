@@ -27,7 +27,8 @@ Hierarchy::Bounds Hierarchy::bounds_under(const terrain::Tile& tile, const Posts
   std::array<float, span_cells(0) + 1> lowest, highest;
   lowest.fill(std::numeric_limits<float>::infinity());
   highest.fill(-std::numeric_limits<float>::infinity());
-  const auto columns = static_cast<std::size_t>(under.east - under.west + 1);
+  const std::int32_t width = under.east - under.west + 1;
+  const auto columns = static_cast<std::size_t>(width);
   for (std::int32_t y = under.south; y <= under.north; ++y) {
     const float* height_m = tile.height_m.data() + tile.post(under.west, y);
     for (std::size_t x = 0; x < columns; ++x) {  // comparisons with a hole are false
@@ -55,7 +56,8 @@ Hierarchy::Hierarchy(const terrain::Tile& tile)
       const auto [lowest, highest] = bounds_under(tile, posts({0, column, row}));
       for (std::int32_t size = 0; size <= kLargest; ++size) {
         Size& of = sizes_[static_cast<std::size_t>(size)];
-        Bounds& all = of.bounds[static_cast<std::size_t>((row >> size) * of.columns + (column >> size))];
+        const std::int32_t place = (row >> size) * of.columns + (column >> size);
+        Bounds& all = of.bounds[static_cast<std::size_t>(place)];
         all = {std::min(all.lowest_m, lowest), std::max(all.highest_m, highest)};
       }
     }
@@ -70,7 +72,8 @@ Posts Hierarchy::posts(const Block& block) const {
 
 const Hierarchy::Bounds& Hierarchy::bounds(const Block& block) const {
   const Size& size = sizes_[static_cast<std::size_t>(block.size)];
-  return size.bounds[static_cast<std::size_t>(block.row * size.columns + block.column)];
+  const std::int32_t place = block.row * size.columns + block.column;
+  return size.bounds[static_cast<std::size_t>(place)];
 }
 
 std::array<Vec3, 2> Hierarchy::box_enu_m(const Block& block) const {

@@ -66,7 +66,7 @@ TrianglePart::Piece piece_of(const TriangleMesh& mesh, const std::vector<Triangl
   TrianglePart::Piece piece{triangles, {}, {}};
   for (const Triangle& corners : triangles) piece.vertices.insert(piece.vertices.end(), corners.begin(), corners.end());
   std::ranges::sort(piece.vertices);
-  piece.vertices.erase(std::ranges::unique(piece.vertices).begin(), piece.vertices.end());
+  piece.vertices.erase(std::unique(piece.vertices.begin(), piece.vertices.end()), piece.vertices.end());
   const Vec3 shift = mesh.origin_enu_m - Vec3(origin_enu_m.x(), origin_enu_m.y(), 0.0);
   for (const std::uint32_t v : piece.vertices)
     piece.places_m.push_back((shift + mesh.vertex_m[v].cast<double>()).cast<float>());
@@ -85,7 +85,7 @@ Part::Content TrianglePart::content() const {
   static_assert(sizeof(piece_.places_m[0]) == 3 * sizeof(float));
   void* vertices =
       new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), piece_.places_m.size());
-  std::memcpy(vertices, piece_.places_m.data(), piece_.places_m.size() * 3 * sizeof(float));
+  std::memcpy(vertices, piece_.places_m.data()->data(), piece_.places_m.size() * 3 * sizeof(float));
   auto* corner = static_cast<std::uint32_t*>(
       new_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, sizeof(Triangle), piece_.triangles.size()));
   for (const Triangle& triangle : piece_.triangles) {

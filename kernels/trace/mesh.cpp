@@ -99,7 +99,7 @@ Part::Content BlockPart::content() const {
   static_assert(sizeof(patch.vertices_m[0]) == 3 * sizeof(float));
   void* vertices =
       new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), patch.vertices_m.size());
-  std::memcpy(vertices, patch.vertices_m.data(), patch.vertices_m.size() * 3 * sizeof(float));
+  std::memcpy(vertices, patch.vertices_m.data()->data(), patch.vertices_m.size() * 3 * sizeof(float));
   void* grids = new_buffer(geometry, RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
   std::ranges::transform(patch.grids, static_cast<RTCGrid*>(grids), [](const lod::Patch::Grid& grid) {
     return RTCGrid{grid.first, grid.stride, grid.columns, grid.rows};

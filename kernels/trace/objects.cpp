@@ -34,8 +34,9 @@ struct Cells {
 /// Whether one of the posts of these cells is a hole.
 bool touch_hole(const terrain::Tile& tile, const Cells& cells) {
   for (std::int32_t row = cells.first_row; row <= cells.end_row; ++row) {
-    const auto posts = static_cast<std::size_t>(cells.end_column - cells.first_column + 1);
-    if (has_hole(std::span(tile.height_m).subspan(tile.post(cells.first_column, row), posts))) return true;
+    const std::int32_t posts = cells.end_column - cells.first_column + 1;
+    const std::size_t first = tile.post(cells.first_column, row);
+    if (has_hole(std::span(tile.height_m).subspan(first, static_cast<std::size_t>(posts)))) return true;
   }
   return false;
 }

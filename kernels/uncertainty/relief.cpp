@@ -83,9 +83,9 @@ std::vector<double> squared_bends_m2(std::span<const ProfilePoint> profile) {
   for (const std::size_t i : order) {
     const ProfilePoint& p = profile[i];
     double bend_m = 0.0, noise_m2 = 0.0;
-    for (int k = -kReach; k <= kReach; ++k) {
-      const double weight = kFourth[static_cast<std::size_t>(k + kReach)];
-      const auto there = height_at(profile, order, p.across_m + k * p.footprint_m).value_or(kUnknown);
+    for (std::size_t k = 0; k < kFourth.size(); ++k) {
+      const double weight = kFourth[k], steps = static_cast<double>(k) - kReach;
+      const auto there = height_at(profile, order, p.across_m + steps * p.footprint_m).value_or(kUnknown);
       bend_m += weight * there.height_m;
       noise_m2 += weight * weight * there.noise_m2;
     }
