@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ensonify::progressive {
 namespace {
@@ -31,6 +32,7 @@ bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& c
 }
 
 constexpr int kQuarters = 4;
+constexpr std::uint32_t kUnknown = 0xFFFFFFFFU;
 constexpr std::size_t kPerTask = 128;
 
 }  // namespace
@@ -53,7 +55,12 @@ std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m)
   return looks;
 }
 
-Cut::Cut(const Hierarchy& hierarchy) : undone_(hierarchy.splits.size(), 0) {
+Cut::Cut(const Hierarchy& hierarchy)
+    : undone_(hierarchy.splits.size(), 0),
+      becomes_(hierarchy.mesh.vertex_m.size()),
+      shown_(hierarchy.mesh.vertex_m.size(), kUnknown) {
+  std::iota(becomes_.begin(), becomes_.end(), 0U);
+  for (const Split& split : hierarchy.splits) becomes_[split.removed] = split.kept;
   for (std::size_t s = 0; s < hierarchy.splits.size(); ++s) {
     if (hierarchy.splits[s].parent == kNone) roots_.push_back(static_cast<std::int32_t>(s));
   }
@@ -63,13 +70,18 @@ Cut::Cut(const Hierarchy& hierarchy) : undone_(hierarchy.splits.size(), 0) {
 void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
   for (; split != kNone && undone_[static_cast<std::size_t>(split)] == 0; split = at(hierarchy, split).parent) {
     undone_[static_cast<std::size_t>(split)] = 1;
+    const std::uint32_t back = at(hierarchy, split).removed;
+    becomes_[back] = back;
     all_undone_.push_back(split);
   }
 }
 
 /// Down the tree, as far as views meet what lies below.
 void Cut::look(const Hierarchy& hierarchy, std::span<const View> views) {
-  for (const std::int32_t s : all_undone_) undone_[static_cast<std::size_t>(s)] = 0;
+  for (const std::int32_t s : all_undone_) {
+    undone_[static_cast<std::size_t>(s)] = 0;
+    becomes_[at(hierarchy, s).removed] = at(hierarchy, s).kept;
+  }
   all_undone_.clear();
   pending_ = roots_;
   while (!pending_.empty()) {
@@ -88,29 +100,37 @@ void Cut::look(const Hierarchy& hierarchy, std::span<const View> views) {
   }
 }
 
-/// What a vertex has become.
-std::uint32_t Cut::shown(const Hierarchy& hierarchy, std::uint32_t vertex) const {
-  for (;;) {
-    const std::int32_t split = hierarchy.split_of[vertex];
-    if (split == kNone || undone_[static_cast<std::size_t>(split)] != 0) return vertex;
-    vertex = at(hierarchy, split).kept;
+/// What a vertex has become, remembered for all that it passes on its way: neighbours share most of theirs.
+std::uint32_t Cut::shown(std::uint32_t vertex) {
+  way_.clear();
+  while (shown_[vertex] == kUnknown) {
+    way_.push_back(vertex);
+    if (becomes_[vertex] == vertex) break;
+    vertex = becomes_[vertex];
   }
+  const std::uint32_t end = shown_[vertex] == kUnknown ? vertex : shown_[vertex];
+  for (const std::uint32_t passed : way_) shown_[passed] = end;
+  shown_known_.insert(shown_known_.end(), way_.begin(), way_.end());
+  return end;
 }
 
+/// The triangles of what is undone now. Those that were born stay; their corners may not.
 void Cut::gather(const Hierarchy& hierarchy) {
-  sources_ = hierarchy.coarsest;
-  for (const std::int32_t s : all_undone_) {
-    const auto first = hierarchy.born.begin() + at(hierarchy, s).first_born;
-    sources_.insert(sources_.end(), first, first + at(hierarchy, s).born);
+  const auto known = static_cast<std::ptrdiff_t>(sources_.size());
+  for (; gathered_ < all_undone_.size(); ++gathered_) {
+    const Split& split = at(hierarchy, all_undone_[gathered_]);
+    const auto first = hierarchy.born.begin() + split.first_born;
+    sources_.insert(sources_.end(), first, first + split.born);
   }
-  std::sort(sources_.begin(), sources_.end());
-  triangles_.resize(sources_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sources_.size(), kPerTask), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto& [a, b, c] = hierarchy.mesh.triangle[sources_[i]];
-      triangles_[i] = {shown(hierarchy, a), shown(hierarchy, b), shown(hierarchy, c)};
-    }
-  });
+  std::sort(sources_.begin() + known, sources_.end());
+  std::inplace_merge(sources_.begin(), sources_.begin() + known, sources_.end());
+  for (const std::uint32_t vertex : shown_known_) shown_[vertex] = kUnknown;
+  shown_known_.clear();
+  triangles_.clear();
+  for (const std::uint32_t source : sources_) {
+    const auto& [a, b, c] = hierarchy.mesh.triangle[source];
+    triangles_.push_back({shown(a), shown(b), shown(c)});
+  }
 }
 
 /// Brings a vertex near enough to its place. False if it was.
@@ -165,6 +185,9 @@ void Cut::choose(const Hierarchy& hierarchy, std::span<const View> views) {
   settled_sources_.clear();
   settled_.clear();
   look(hierarchy, views);
+  sources_ = hierarchy.coarsest;
+  std::sort(sources_.begin(), sources_.end());
+  gathered_ = 0;
   gather(hierarchy);
   while (settle(hierarchy, views)) gather(hierarchy);
 }

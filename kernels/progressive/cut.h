@@ -46,12 +46,17 @@ class Cut {
   void find_moved(const Hierarchy& hierarchy);
   bool settle(const Hierarchy& hierarchy, std::span<const View> views);
   bool ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m);
-  std::uint32_t shown(const Hierarchy& hierarchy, std::uint32_t vertex) const;
+  std::uint32_t shown(std::uint32_t vertex);
 
   std::vector<std::int32_t> roots_;   // splits without a parent
   std::vector<std::uint8_t> undone_;  // by split
   std::vector<std::int32_t> all_undone_;
+  std::vector<std::uint32_t> becomes_;  // by vertex: another one, or itself where that is undone
   std::vector<std::int32_t> pending_;
+  std::size_t gathered_ = 0;                // of all_undone_: in sources_
+  std::vector<std::uint32_t> shown_;        // by vertex, as far as it is known
+  std::vector<std::uint32_t> shown_known_;  // vertices of which it is
+  std::vector<std::uint32_t> way_;
   std::vector<std::uint32_t> sources_;
   std::vector<Triangle> triangles_;
   std::vector<std::size_t> moved_;              // places in triangles_
