@@ -81,6 +81,7 @@ class Participant {
     const auto begin = std::chrono::steady_clock::now();
     protocol::Done done;
     done.finish = stepper_.run_to(grant.horizon);
+    link_.flush();
     done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
     done.epoch = epoch_;
     done.next = done.finish ? stepper_.last() + SimTime{1} : stepper_.next();

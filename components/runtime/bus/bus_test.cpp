@@ -70,7 +70,8 @@ TEST_CASE("a message arrives whole over ipc and tcp, its arrays as views of the 
   for (const bool tcp : {false, true}) {
     Pair pair(tcp);
     const msg::Tile sent = tile_of(129);
-    for (std::uint64_t seq = 0; seq < 100; ++seq) pair.publisher.publish(packet_of(sent, seq));
+    for (std::uint64_t seq = 0; seq < 100; ++seq)
+      pair.publisher.publish(packet_of(sent, seq));  // each over what is held
     pair.subscriber.wait_arrived({{3, 100}});
     const auto packets = pair.subscriber.take();
     REQUIRE(packets.size() == 100);
@@ -91,6 +92,7 @@ TEST_CASE("what is larger than declared, or of another type, ends the receiver w
   msg::Packet packet = packet_of(tile_of(3));
   packet.envelope.type_hash = msg::type_hash("tile/2");
   wrong.publisher.publish(packet);
+  wrong.publisher.flush();
   CHECK_THROWS_WITH(wrong.subscriber.wait_arrived({{3, 1}}), Catch::Contains("pager/tile: is not tile/1"));
 }
 
@@ -98,6 +100,7 @@ TEST_CASE("messages of an older epoch are discarded") {
   Pair pair(false);
   pair.publisher.publish(packet_of(tile_of(3), 0, 0));
   pair.publisher.publish(packet_of(tile_of(3), 0, 1));
+  pair.publisher.flush();
   pair.subscriber.wait_arrived({{3, 1}});
   const auto packets = pair.subscriber.take();
   REQUIRE(packets.size() == 1);

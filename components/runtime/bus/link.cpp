@@ -1,5 +1,6 @@
 #include "components/runtime/bus/link.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <map>
@@ -15,8 +16,9 @@
 namespace ensonify::bus {
 
 namespace {
-constexpr int kLookAroundMs = 500;  // how soon a lost clock is noticed
-}
+constexpr int kLookAroundMs = 500;                 // how soon a lost clock is noticed
+constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better under way while its publisher works on
+}  // namespace
 
 struct Link::Sockets {
   Sockets(const std::string& name, const std::string& clock_endpoint)
@@ -38,6 +40,11 @@ struct Link::Sockets {
   zmq::socket_t monitor;
   std::string sync_endpoint;
   std::string live_endpoint;
+  Audience participants;
+  Audience viewers;
+  bool looked_for_viewers = false;                // since the last flush: asking costs a system call
+  std::vector<std::vector<zmq::message_t>> held;  // for participants, until the next flush
+  std::size_t held_bytes = 0;
 };
 
 /// The thread that drains the SUB socket whether or not a grant has come, and what it has received.
@@ -83,7 +90,14 @@ struct Link::Receiver {
     const std::lock_guard lock(mutex);
     ++arrived[s.topic_id];
     packets.push_back(std::move(packet));
-    news.notify_one();
+    if (awaited && all_arrived(*awaited)) news.notify_one();
+  }
+
+  bool all_arrived(const TopicCounts& counts) const {
+    return std::all_of(counts.begin(), counts.end(), [this](const auto& count) {
+      const auto found = arrived.find(count.first);
+      return count.second == 0 || (found != arrived.end() && found->second >= count.second);
+    });
   }
 
   void fail(std::exception_ptr why) {
@@ -99,6 +113,7 @@ struct Link::Receiver {
   std::mutex mutex;
   std::condition_variable news;
   std::map<std::uint32_t, std::uint64_t> arrived;
+  const TopicCounts* awaited = nullptr;  // what the other thread sleeps for: it is not woken for less
   std::vector<msg::Packet> packets;
   std::exception_ptr error;
 };
@@ -140,9 +155,8 @@ Link::Event Link::wait() {
       return {Event::kControl, message.to_string(), {}};
     }
     Event event{Event::kTokens, {}, {}};
-    while (sockets_->sync.recv(message, zmq::recv_flags::dontwait)) {
-      const std::string_view text = message.to_string_view();
-      if (text.starts_with("\x01~")) event.tokens.emplace_back(text.substr(2));
+    for (const std::string& asked : sockets_->participants.read(sockets_->sync)) {
+      if (asked.starts_with('~')) event.tokens.push_back(asked.substr(1));
     }
     if (!event.tokens.empty()) return event;
     if (items[2].revents) return {Event::kClockLost, {}, {}};
@@ -153,15 +167,11 @@ void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32
   receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch);
 }
 
-void Link::wait_arrived(const std::vector<std::pair<std::uint32_t, std::uint64_t>>& counts) {
+void Link::wait_arrived(const TopicCounts& counts) {
   std::unique_lock lock(receiver_->mutex);
-  receiver_->news.wait(lock, [&] {
-    if (receiver_->error) return true;
-    for (const auto& [topic_id, count] : counts) {
-      if (receiver_->arrived[topic_id] < count) return false;
-    }
-    return true;
-  });
+  receiver_->awaited = &counts;
+  receiver_->news.wait(lock, [&] { return receiver_->error || receiver_->all_arrived(counts); });
+  receiver_->awaited = nullptr;
   if (receiver_->error) std::rethrow_exception(receiver_->error);
 }
 
@@ -171,9 +181,26 @@ std::vector<msg::Packet> Link::take() {
 }
 
 void Link::publish(const msg::Packet& packet) {
+  Sockets& s = *sockets_;
+  if (!s.looked_for_viewers) s.viewers.read(s.live);
+  s.looked_for_viewers = true;
+  const bool heard = s.participants.hears(packet.topic);
+  if (!heard && s.viewers.empty()) return;
+
   std::vector<zmq::message_t> frames = to_frames(packet);
-  send_frames(sockets_->sync, frames);
-  send_live(sockets_->live, frames);
+  if (!s.viewers.empty()) send_frames(s.live, frames);
+  if (!heard) return;
+  s.held.push_back(std::move(frames));
+  s.held_bytes += packet.body.size();
+  if (s.held_bytes > kHoldAtMostBytes) flush();
+}
+
+void Link::flush() {
+  Sockets& s = *sockets_;
+  for (std::vector<zmq::message_t>& frames : s.held) send_frames(s.sync, frames);
+  s.held.clear();
+  s.held_bytes = 0;
+  s.looked_for_viewers = false;
 }
 
 }  // namespace ensonify::bus

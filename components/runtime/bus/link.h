@@ -56,12 +56,16 @@ class Link {
   /// Starts receiving. The token of each topic is subscribed after the topic itself.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
   /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread met.
-  void wait_arrived(const std::vector<std::pair<std::uint32_t, std::uint64_t>>& counts);
+  using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
+  void wait_arrived(const TopicCounts& counts);
   /// Everything received since the last call, in order per topic.
   std::vector<msg::Packet> take();
 
-  /// Blocks while a participant's queue is full; never for an observer.
+  /// To observers at once, never waiting. To participants with the next flush(): none of them acts on a message before
+  /// its publisher is done, and many small ones together cost a fraction of the switches between threads. What they
+  /// would hold in memory is bounded; beyond it they go. Blocks while a participant's queue is full.
   void publish(const msg::Packet& packet);
+  void flush();
 
  private:
   struct Sockets;

@@ -38,6 +38,7 @@ struct Router::Sockets {
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::router};
   zmq::socket_t live{context, zmq::socket_type::xpub};
+  Audience viewers;
   int alarm = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);  // zmq_poll alone knows milliseconds only
   std::string endpoint;
   std::string live_endpoint;
@@ -92,8 +93,10 @@ bool Router::send(const std::string& to, std::string_view text) {
 const std::string& Router::live_endpoint() const { return sockets_->live_endpoint; }
 
 void Router::publish_live(const msg::Packet& packet) {
+  sockets_->viewers.read(sockets_->live);
+  if (sockets_->viewers.empty()) return;
   std::vector<zmq::message_t> frames = to_frames(packet);
-  send_live(sockets_->live, frames);
+  send_frames(sockets_->live, frames);
 }
 
 struct Asker::Sockets {

@@ -1,6 +1,7 @@
 #include "components/runtime/bus/sockets.h"
 
-#include "components/runtime/bus/frames.h"
+#include <algorithm>
+
 #include "components/runtime/exit_error.h"
 
 namespace ensonify::bus {
@@ -30,11 +31,23 @@ std::string bind_live(zmq::socket_t& socket, const Address& address, const std::
   return bind(socket, address, process + ".live");
 }
 
-void send_live(zmq::socket_t& socket, std::vector<zmq::message_t>& frames) {
-  zmq::message_t subscription;
-  while (socket.recv(subscription, zmq::recv_flags::dontwait)) {  // lets ZeroMQ take note of new viewers
+std::vector<std::string> Audience::read(zmq::socket_t& xpub) {
+  constexpr char kSubscribe = 1;  // ZeroMQ's first byte; 0 takes it back when the last subscriber of it has gone
+  std::vector<std::string> fresh;
+  zmq::message_t message;
+  while (xpub.recv(message, zmq::recv_flags::dontwait)) {
+    const std::string_view text = message.to_string_view();
+    if (text.empty()) continue;
+    if (text[0] != kSubscribe) prefixes_.erase(std::string(text.substr(1)));
+    else if (prefixes_.emplace(text.substr(1)).second) fresh.emplace_back(text.substr(1));
   }
-  send_frames(socket, frames);
+  return fresh;
+}
+
+bool Audience::hears(const std::string& topic) const {
+  const std::string_view frame(topic.c_str(), topic.size() + 1);
+  return std::any_of(prefixes_.begin(), prefixes_.end(),
+                     [&](const std::string& prefix) { return frame.starts_with(prefix); });
 }
 
 void connect_control(zmq::socket_t& dealer, const std::string& endpoint) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 #include <zmq.hpp>
 
@@ -19,8 +21,17 @@ std::string bind(zmq::socket_t& socket, const Address& address, const std::strin
 /// Makes an XPUB the live plane of a process: a tiny queue, nothing is waited for. Binds it and returns its endpoint.
 std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process);
 
-/// Sends to the viewers that keep up; never waits.
-void send_live(zmq::socket_t& socket, std::vector<zmq::message_t>& frames);
+/// What the subscribers of an XPUB have asked for, so that what nobody hears need not be sent.
+class Audience {
+ public:
+  /// Reads what they have said since the last call; returns what is asked for now and was not before.
+  std::vector<std::string> read(zmq::socket_t& xpub);
+  bool empty() const { return prefixes_.empty(); }
+  bool hears(const std::string& topic) const;
+
+ private:
+  std::set<std::string> prefixes_;  // of frame 0: a topic with the NUL that ends it, or less
+};
 
 /// Options and connect of a DEALER to the clock.
 void connect_control(zmq::socket_t& dealer, const std::string& endpoint);
