@@ -113,6 +113,26 @@ TEST_CASE("600 s of a vehicle's accelerations and turn rates, on a tide and in a
   CHECK(frames::Quaternion(q).angularDistance(frames::quaternion_of(first.enu_from_body)) < 1e-3 * kPi / 180);
 }
 
+TEST_CASE("a ramp of speed makes no step in vertical velocity: acceleration integrates to the settlement") {
+  VehicleConfig config = in_a_tide();
+  config.water.tide = {};
+  config.limits.acceleration_mps2 = 0.3;
+  config.water.floats = vertical::Loading{{{0, 0.0}, {2, 0.02}, {5, 0.11}}, 0.0, 0.0};
+  KinematicDynamics boat(config, {{0, 0, 0}, 0.0, 1.0}, 0_s);
+  boat.command(0.0, 4.0, std::nullopt);  // 10 s
+  double height_m = boat.moving().pose.position_enu_m.z(), climb_mps = 0.0, before_mps2 = 0.0;
+  constexpr double h = 0.01;
+  for (SimTime t = 10_ms; t <= 30_s; t += 10_ms) {
+    boat.advance(t);
+    const double now_mps2 = boat.moving().acceleration_enu_mps2.z();
+    height_m += h * climb_mps + h * h / 6 * (2 * before_mps2 + now_mps2);
+    climb_mps += 0.5 * h * (before_mps2 + now_mps2);
+    before_mps2 = now_mps2;
+  }
+  CHECK(boat.moving().pose.position_enu_m.z() == Approx(-0.08).margin(1e-6));  // of 4 m/s
+  CHECK(height_m == Approx(boat.moving().pose.position_enu_m.z()).margin(1e-4));
+}
+
 TEST_CASE("two vehicles of one scenario are disturbed differently") {
   VehicleConfig a = in_a_tide();
   a.disturbance.roll = {.oscillation_sd = 0.05, .period_s = 5};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/vehicle/dynamics.h"
+#include "kernels/vertical/settling.h"
 
 namespace ensonify {
 
@@ -16,10 +17,12 @@ class KinematicDynamics : public Dynamics {
 
  private:
   double depth_below_datum_m() const;
+  double settlement_m() const;
 
   motion::Limits limits_;
   VehicleWater water_;
-  motion::State state_;  // its height counts from the water level
+  vertical::Settling settling_;  // where it floats
+  motion::State state_;          // its height counts from the water level
   motion::Command command_;
   SimTime now_;
 };
