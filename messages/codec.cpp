@@ -1,5 +1,6 @@
 #include "messages/codec.h"
 
+#include <algorithm>
 #include <bit>
 #include <msgpack.hpp>
 #include <optional>
@@ -121,9 +122,9 @@ class Builder : public msgpack::null_visitor {
     return add({RawArray{Dtype::u8, {size}, {source_.owner, reinterpret_cast<const std::byte*>(v), size}}});
   }
   bool visit_ext(const char*, std::uint32_t) { return fail("holds a msgpack extension type"); }
-  bool start_array(std::uint32_t) { return open({Value{Value::List{}}, {}}); }
+  bool start_array(std::uint32_t count) { return open(with_room<Value::List>(count)); }
   bool end_array() { return close(); }
-  bool start_map(std::uint32_t) { return open({Value{Value::Map{}}, {}}); }
+  bool start_map(std::uint32_t count) { return open(with_room<Value::Map>(count)); }
   bool start_map_key() { return expects_key_ = true; }
   bool end_map_key() { return expects_key_ ? fail("a map key is not text") : true; }
   bool end_map() { return close(); }
@@ -144,10 +145,19 @@ class Builder : public msgpack::null_visitor {
     if (error_.empty()) error_ = what;
   }
 
-  bool open(Open open) {
+  /// Room for the elements announced, if they are few: more is not believed until its bytes are there.
+  template <class Container>
+  static Value with_room(std::uint32_t count) {
+    constexpr std::uint32_t kBelieved = 16;
+    Container container;
+    container.reserve(std::min(count, kBelieved));
+    return {std::move(container)};
+  }
+
+  bool open(Value value) {
     if (expects_key_) return fail("a map key is not text");
     if (open_.size() >= kMaxDepth) return fail("is nested deeper than " + std::to_string(kMaxDepth));
-    open_.push_back(std::move(open));
+    open_.push_back({std::move(value), {}});
     return true;
   }
 
@@ -176,7 +186,7 @@ class Builder : public msgpack::null_visitor {
     if (parent.value.find(parent.key)) return fail(parent.key + ": stands twice");
     auto& map = std::get<Value::Map>(parent.value.is);
     if (map.size() >= kMaxKeys) return fail("has a map of more than " + std::to_string(kMaxKeys) + " keys");
-    map.emplace_back(parent.key, std::move(value));
+    map.emplace_back(std::move(parent.key), std::move(value));
     return true;
   }
 
