@@ -64,6 +64,7 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
   if (carried_.imu) {
     estimator_.emplace(carried_, config.seed, config.process);
     increments_ = ports.out<msg::InertialIncrements>("imu", {.rate = rate_of(carried_.imu->instrument.rate_hz)});
+    ports.note("pose_least_hz", rate_of(carried_.imu->instrument.rate_hz).hz());  // fewer make fewer readings
   }
   if (carried_.motion_sensor) {
     motion_sensor_.emplace(*carried_.motion_sensor, config.seed, config.process);

@@ -1,5 +1,7 @@
 #include "components/runtime/wiring.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -174,6 +176,12 @@ class Wirer {
   }
 
   void add_edge(std::size_t topic, std::size_t to, std::size_t in, SimTime delay) {
+    const Rate has = graph_.topics[topic].rate;
+    const auto needs = processes_[to].notes.find(processes_[to].ins[in].port + "_least_hz");
+    if (needs != processes_[to].notes.end() && has.num > 0 && has.hz() < needs->second) {
+      problem(fmt::format("{}: needs at least {:g} Hz, and {} has {:g} Hz", placed_name(to, in), needs->second,
+                          graph_.topics[topic].name, has.hz()));
+    }
     graph_.edges.push_back({topic, to, in, delay});
   }
 

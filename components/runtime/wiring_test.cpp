@@ -76,6 +76,17 @@ TEST_CASE("a wrong type, a missing publisher and a shortened delay are refused")
       "x.yaml:3:1: wiring.auv.command: delay_ms 50 is shorter than the port's 100; a launch file may only lengthen it");
 }
 
+TEST_CASE("a publisher that is slower than an input needs is refused") {
+  Declaration nav = process("nav", {}, {in("pose", "pose/1")});
+  nav.notes["pose_least_hz"] = 200.0;
+  const auto with_rate = [&](Rate rate) {
+    return std::vector{process("auv", {{"pose", "pose/1", 4096, rate}}, {}), nav};
+  };
+  CHECK(only_problem(with_rate({100, 1})) == "nav.pose: needs at least 200 Hz, and auv/pose has 100 Hz");
+  CHECK(wire(with_rate({200, 1}), {}).problems.empty());
+  CHECK(wire(with_rate({}), {}).problems.empty());  // declares none
+}
+
 TEST_CASE("another major version of a type is another type") {
   CHECK(only_problem({process("auv", {out("pose", "pose/2")}, {}), process("head", {}, {in("pose", "pose/1")})}) ==
         "head.pose: no publisher offers pose/1");

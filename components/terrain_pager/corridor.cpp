@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-
 namespace ensonify::pager {
 namespace {
 
@@ -91,6 +89,15 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
       return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
     }
   }
+  double deepest_m = 0.0;
+  for (const double height_m : looks.height_m) deepest_m = std::max(deepest_m, std::isnan(height_m) ? 0.0 : -height_m);
+  if (deepest_m > 0.0 && rules.least_altitude_m >= deepest_m) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "least_altitude_m %.1f leaves no depth to dive to, the deepest place is at %.1f m; allowed is less",
+                  rules.least_altitude_m, deepest_m);
+    return text;
+  }
   const Vec2 along = (line.end_enu_m - line.start_enu_m) / navigation::length_m(line);
   const Vec2 starboard(along.y(), -along.x());
   for (std::size_t i = 0; i < looks.place.size(); ++i) {
@@ -113,7 +120,7 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
 }  // namespace
 
 double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                       const CorridorRules& rules, const std::string& scenario_file) {
+                       const CorridorRules& rules, const ConfigPlace& mission) {
   std::vector<ConfigProblem> problems;
   double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
   for (std::size_t i = 0; i < runlines.size(); ++i) {
@@ -122,15 +129,15 @@ double check_corridors(const TerrainSource& terrain, const std::vector<navigatio
       highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
     const std::optional<double> depth_m = i < rules.depth_m.size() ? rules.depth_m[i] : 0.0;
     if (const auto fault = fault_of(terrain, runlines[i], looks, rules, depth_m)) {
-      problems.push_back({{scenario_file, 0, 0}, "mission runline " + std::to_string(i + 1), *fault});
+      const ConfigPlace& place = i < rules.place.size() ? rules.place[i] : mission;
+      problems.push_back({place, "mission runline " + std::to_string(i + 1), *fault});
     }
   }
   if (!problems.empty()) throw ConfigError(problems);
   return std::max(0.0, -highest_m);
 }
 
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
-                  const std::string& scenario_file) {
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places) {
   std::vector<ConfigProblem> problems;
   const Extent extent = terrain.extent();
   for (const VisitedPlace& visited : places) {
@@ -138,7 +145,7 @@ void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>&
     if (!extent.contains(visited.place_enu_m)) {
       fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
     }
-    if (fault) problems.push_back({{scenario_file, 0, 0}, visited.key, *fault});
+    if (fault) problems.push_back({visited.place, visited.key, *fault});
   }
   if (!problems.empty()) throw ConfigError(problems);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/config/config_error.h"
 #include "components/runtime/terrain/terrain_source.h"
 #include "kernels/navigation/runline.h"
 
@@ -19,25 +20,27 @@ struct CorridorRules {
   bool refuse_holes = true;       // else only the lines' ends and the depth under them are asked for
   /// Of each runline, below chart datum; nothing where it follows the bottom. Fewer than runlines: 0.
   std::vector<std::optional<double>> depth_m = {};
+  std::vector<ConfigPlace> place = {};  // of each runline in its file; fewer than runlines: the mission's
+  double least_altitude_m = 0.0;        // obstacle floor of a vehicle that dives; 0: none
 };
 
 /// A place that a mission visits besides its runlines or where a vehicle starts, and how deep.
 struct VisitedPlace {
   Vec2 place_enu_m;
   std::optional<double> depth_m;
-  std::string key = "mission";  // of the scenario that says so
+  ConfigPlace place;            // in the file that says so
+  std::string key = "mission";  // there
 };
 
 /// Throws ConfigError, one problem per runline at most, if a line leaves the terrain, runs over land (above chart
-/// datum) or through the seabed, or, with refuse_holes, if a place of its corridor inside the terrain has no height.
-/// `scenario_file` is the place that the message names. A line is looked at in steps of the posts, but at most 2000,
-/// and the seabed as posts that far apart show it.
+/// datum) or through the seabed, if all of it is too shallow for the obstacle floor, or, with refuse_holes, if a place
+/// of its corridor inside the terrain has no height. `mission` is the place that the message names where the rules name
+/// none. A line is looked at in steps of the posts, but at most 2000, and the seabed as posts that far apart show it.
 /// Returns the least depth that was looked at; without runlines, of the whole terrain. At least 0.
 double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                       const CorridorRules& rules, const std::string& scenario_file);
+                       const CorridorRules& rules, const ConfigPlace& mission);
 
 /// The same for places, without corridors.
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places,
-                  const std::string& scenario_file);
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places);
 
 }  // namespace ensonify::pager

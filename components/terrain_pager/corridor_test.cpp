@@ -42,7 +42,8 @@ const CorridorRules kHolesAllowed{.refuse_holes = false};
 
 std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double depth_m) {
   try {
-    check_corridors(terrain, {line}, {.refuse_holes = false, .depth_m = {depth_m}}, "sea.yaml");
+    check_corridors(terrain, {line}, {.refuse_holes = false, .depth_m = {depth_m}, .place = {{"sea.yaml", 12, 7}}},
+                    {"sea.yaml", 9, 3});
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -54,7 +55,7 @@ std::string fault(const TerrainSource& terrain, const navigation::Runline& line,
 TEST_CASE("along a line of kilometres the least depth is found from few posts") {
   const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
   const navigation::Runline line{{-3000, -3000}, {3000, 3000}};
-  CHECK(check_corridors(slope, {line}, kHolesAllowed, "sea.yaml") ==
+  CHECK(check_corridors(slope, {line}, kHolesAllowed, {"sea.yaml", 0, 0}) ==
         Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
   // Looks stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
   CHECK(slope.posts_made < 2 * 32 * 50 * 50);
@@ -62,7 +63,24 @@ TEST_CASE("along a line of kilometres the least depth is found from few posts") 
 
 TEST_CASE("a short line is looked at post by post") {
   const Counting rock([](double x, double y) { return std::hypot(x - 20.0, y) < 0.5 ? -3.0 : -30.0; });
-  CHECK(check_corridors(rock, {{{-40, 0}, {40, 0}}}, kHolesAllowed, "sea.yaml") == Approx(3.0));
+  CHECK(check_corridors(rock, {{{-40, 0}, {40, 0}}}, kHolesAllowed, {"sea.yaml", 0, 0}) == Approx(3.0));
+}
+
+TEST_CASE("an obstacle floor above all of a line's water is refused, one above some of it is not") {
+  const Counting slope([](double x, double) { return -30.0 + 5e-3 * x; });  // 10 to 50 m deep
+  const navigation::Runline line{{-4000, 0}, {4000, 0}};
+  const auto with_floor = [&](double least_altitude_m) {
+    try {
+      check_corridors(slope, {line}, {.refuse_holes = false, .least_altitude_m = least_altitude_m}, {"sea.yaml", 9, 3});
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(with_floor(49.0) == "accepted");
+  CHECK(with_floor(51.0) ==
+        "sea.yaml:9:3: mission runline 1: least_altitude_m 51.0 leaves no depth to dive to, the deepest place is at "
+        "50.0 m; allowed is less");
 }
 
 TEST_CASE("a line may not run over land nor through the seabed, and a hole is no fault of it") {
@@ -71,7 +89,7 @@ TEST_CASE("a line may not run over land nor through the seabed, and a hole is no
   const navigation::Runline line{{-4000, 10}, {4000, 10}};
   CHECK(fault(ridge, line, 0.5) == "accepted");
   const std::string through = fault(ridge, line, 20.0);
-  CHECK(through.find("sea.yaml: mission runline 1: at (-") == 0);
+  CHECK(through.find("sea.yaml:12:7: mission runline 1: at (-") == 0);
   CHECK(through.find("the vehicle would be 20.0 m deep and the seabed is at") != std::string::npos);
   const Counting island([](double x, double) { return -40.0 + 45.0 * std::exp(-x * x / 1e4); });
   CHECK(fault(island, line, 0.0).find("is land") != std::string::npos);

@@ -14,7 +14,8 @@ namespace {
 
 using navigation::Vec2;
 
-constexpr double kShortest_m = 1.0;  // less is no line
+constexpr double kShortest_m = 1.0;       // less is no line
+constexpr double kWidestTurn_m = 1000.0;  // as turning_radius_m has: the largest ships need some hundred metres
 
 /// Reads places in the frame that the mission says.
 class Places {
@@ -330,6 +331,11 @@ void check_mission(const ConfigReader& from, const Mission& mission, const std::
   const auto too_fast = [&](double speed_mps) { return speed_mps > fastest_mps; };
   if (too_fast(mission.speed_mps))
     from.problem("mission", "speed_mps is above what " + vehicle + " can do (fastest_mps)");
+  if (const double circle_m = motion::turning_circle_m(mission.speed_mps, limits); circle_m > kWidestTurn_m) {
+    from.problem("vehicles", fmt::format("{}: turn_rate_dps makes it turn on a radius of {:.0f} m at {} m/s; allowed: "
+                                         "{:.0f} m or less",
+                                         vehicle, circle_m, mission.speed_mps, kWidestTurn_m));
+  }
   bool dives = mission.altitude_m.has_value();
   double speed_mps = mission.speed_mps;
   for (std::size_t i = 0; i < mission.steps.size(); ++i) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/runtime/config/config_error.h"
+#include "components/runtime/config/scenario_mission.h"
+
+namespace ensonify::pager {
+
+/// Where a scenario's file says what is flown, for messages. What the launch file has changed stands nowhere there, and
+/// has the file alone.
+struct MissionPlaces {
+  ConfigPlace mission;
+  std::vector<ConfigPlace> steps;             // of each; lines laid out by a rule have that of the rule, once
+  std::map<std::string, ConfigPlace> starts;  // by vehicle
+
+  const ConfigPlace& step(std::size_t i) const;
+  const ConfigPlace& start(const std::string& vehicle) const;
+  /// Of each of the mission's runlines.
+  std::vector<ConfigPlace> runlines(const Mission& mission) const;
+};
+
+/// Reads `scenario_file` again, if it is there and `scenario_text`, the scenario in force in its canonical form, is
+/// not empty.
+MissionPlaces mission_places(const std::string& scenario_file, const std::string& scenario_text);
+
+}  // namespace ensonify::pager

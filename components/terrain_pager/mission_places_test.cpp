@@ -1,0 +1,60 @@
+#include "components/terrain_pager/mission_places.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "components/runtime/config/config_node.h"
+
+using namespace ensonify;
+using namespace ensonify::pager;
+
+namespace {
+
+constexpr const char* kWorld = R"(vehicles:
+  boat: { start: { position_m: [0, 0, 0] } }
+  tender: {}
+mission:
+  speed_mps: 2
+  steps:
+    - { mark: begin }
+    - { line: [[0, 0], [0, 50], [0, 90]] }
+    - { line: [[9, 0], [9, 50]] }
+)";
+
+/// The places in a scenario file of that text; `in_force`, what a launch made of it.
+MissionPlaces places_of(const std::string& text, const std::string& in_force) {
+  const auto file = std::filesystem::temp_directory_path() / "ensonify_mission_places.yaml";
+  std::ofstream(file) << text;
+  return mission_places(file.string(), to_canonical_yaml(parse_config(in_force, "run").root));
+}
+
+}  // namespace
+
+TEST_CASE("each runline stands where its step does, and a vehicle's start where it is given") {
+  const MissionPlaces places = places_of(kWorld, kWorld);
+  CHECK(places.mission.line == 5);
+  CHECK(places.start("boat").line == 2);
+  Mission mission;
+  mission.steps = {SetMark{}, FlyLine{{{0, 0}, {0, 50}, {0, 90}}}, FlyLine{{{9, 0}, {9, 50}}}};
+  const auto runlines = places.runlines(mission);
+  REQUIRE(runlines.size() == 3);
+  CHECK(runlines[0].line == 8);
+  CHECK(runlines[1].line == 8);
+  CHECK(runlines[2].line == 9);
+}
+
+TEST_CASE("lines laid out by a rule stand where the rule does") {
+  const std::string world = "mission:\n  speed_mps: 2\n  lawnmower: { length_m: 9, spacing_m: 9, count: 3 }\n";
+  const MissionPlaces places = places_of(world, world);
+  CHECK(places.step(0).line == 3);
+  CHECK(places.step(2).line == 3);
+}
+
+TEST_CASE("what a launch has changed does not stand in the scenario's file") {
+  std::string changed = kWorld;
+  changed.replace(changed.find("9, 50"), 5, "9, 60");
+  const MissionPlaces places = places_of(kWorld, changed);
+  CHECK(places.step(1).line == 0);
+  CHECK(places.start("boat").line == 2);  // and what it has not, does
+}
