@@ -1,4 +1,4 @@
-"""Is the stated uncertainty of soundings honest? Fifty surveys with acoustics, each wrong in its own way by what it states."""
+"""Is the stated uncertainty of soundings honest? A hundred surveys with acoustics, each wrong in its own way by what it states."""
 import pathlib
 import statistics
 import subprocess
@@ -14,7 +14,7 @@ sys.path += [str(ROOT / "tools/plot"), str(ROOT / "clients/python")]
 import ensonify  # noqa: E402
 from ensonify_plot.true_places import Judged, Mounting, judge  # noqa: E402
 
-SURVEYS, QUICK_SURVEYS = 50, 5
+SURVEYS, QUICK_SURVEYS = 100, 5
 CLASSES = 10  # of beam angle, as many soundings in each
 SETTLED_S = 30  # by then the navigation filter is settled, its heading last: the alignment that a run starts with is assumed
 LEAST, MOST = 0.93, 0.97  # of the errors are to be inside what is stated at 95 %
@@ -33,8 +33,8 @@ ERRORS = {
 def drawn_errors(surveys: int) -> list:
     """Arguments of each survey: normal errors of the stated deviations. Each source has one value in every `surveys`-th of its
     distribution (a Latin hypercube), then all are mixed a little so that over the surveys they are uncorrelated and of mean 0 and exactly
-    their deviation: so then is what any sum of them does to a sounding, and fifty surveys tell as much as several hundred drawn freely
-    (thirteen times as many of THU, forty times of TVU, by a linear model of the errors)."""
+    their deviation: so then is what any sum of them does to a sounding. What the navigation errs by for most of a survey, above all its heading,
+    is not drawn here and not spread evenly: docs/uncertainty.md."""
     draw = np.random.default_rng(20250601)
     deviations = [(name, deviation) for name, (_, several) in ERRORS.items() for deviation in several]
     levels = np.stack([(draw.permutation(surveys) + draw.random(surveys)) / surveys for _ in deviations], axis=1)

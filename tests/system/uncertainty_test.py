@@ -1,5 +1,5 @@
 """launch/uncertainty.yaml: soundings of a survey that is wrong by what it states err by as much as they say. bench/uncertainty_bench.py
-asks fifty surveys; these are the first two, shortened."""
+asks a hundred surveys; these are the first two, shortened."""
 import sys
 import unittest
 
