@@ -4,6 +4,7 @@ import io
 import json
 import subprocess
 import sys
+import tempfile
 
 
 def physics(*words):
@@ -130,6 +131,13 @@ near(value("turning_depth_m", "ray", "--water", "linear", "--gradient-per-s", "0
 near(value("horizontal_m", "ray", "--until", "point", "--distance-m", "150"), 150, 1e-5)
 assert rows("ray", "--depression-deg", "-30")[0]["horizontal_m"] == "nan"  # it goes up for good
 assert physics("ray", "--profile", "/none")[0] == 2, "a profile that is not there"
+with tempfile.NamedTemporaryFile("w", suffix=".csv") as cast:
+    cast.write("depth_m,speed_mps\n0,1500\n100,1500\n")
+    cast.flush()
+    row = rows("ray", "--profile", cast.name, "--target-depth-m", "50")[0]
+    assert row["water"] == "profile", row
+    near(float(row["path_length_m"]), 100, 1e-6)
+refused("--water profile: needs --profile and a file", "ray", "--water", "profile")
 
 # Generated seabed: one post alone is the same as in a sweep; a layer's own mistakes are the user's.
 relief = ["relief", "--layer", "outcrops", "--north-m", "12.8"]

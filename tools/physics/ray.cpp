@@ -20,7 +20,7 @@ using refraction::SoundSpeedProfile;
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-enum class Water { kThermocline, kLinear };
+enum class Water { kThermocline, kLinear, kProfile };
 enum class Until { kDepth, kTime, kDistance, kPoint };
 enum class Method { kExact, kTable };
 
@@ -60,7 +60,10 @@ SoundSpeedProfile read_profile(const std::string& path) {
 }
 
 SoundSpeedProfile profile_of(const Inputs& in) {
-  if (!in.profile.empty()) return read_profile(in.profile);
+  if (in.water == Water::kProfile) {
+    if (in.profile.empty()) throw std::invalid_argument("--water profile: needs --profile and a file");
+    return read_profile(in.profile);
+  }
   if (in.water == Water::kThermocline) return refraction::summer_thermocline();
   constexpr double kDeep_m = 1000.0;
   return SoundSpeedProfile(
@@ -111,8 +114,9 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   Verb& verb = verbs.emplace_back(
       app, "ray", "the bent path of sound through layers: where it ends, when, and how its bundle spreads");
   const auto in = std::make_shared<Inputs>();
-  verb.choice("water", in->water, {{"thermocline", Water::kThermocline}, {"linear", Water::kLinear}},
-              "an example of ten layers over 80 m, or speed linear in depth");
+  verb.choice("water", in->water,
+              {{"thermocline", Water::kThermocline}, {"linear", Water::kLinear}, {"profile", Water::kProfile}},
+              "an example of ten layers over 80 m, speed linear in depth, or the file of --profile");
   verb.choice(
       "until", in->until,
       {{"depth", Until::kDepth}, {"time", Until::kTime}, {"distance", Until::kDistance}, {"point", Until::kPoint}},
@@ -128,8 +132,10 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   verb.number("time_s", in->time_s, 0, 100, "one-way time, for time");
   verb.number("distance_m", in->distance_m, 0, 1e5, "horizontal distance, for distance and point");
   verb.number("most_turns", in->most_turns, 0, 1000, "how often the path may turn on its way to a depth");
-  verb.options().add_option("--profile", in->profile,
-                            "file of the water: lines of depth in m and speed in m/s, instead of --water");
+  verb.options()
+      .add_option("--profile", in->profile,
+                  "file of the water: lines of depth in m and speed in m/s; chooses --water profile")
+      ->each([&verb](const std::string&) { verb.choose("water", "profile"); });
   verb.results({"launch_deg", "horizontal_m", "depth_m", "arrival_deg", "travel_time_s", "path_length_m", "tube_m2",
                 "horizontal_per_rad_m", "turns", "turning_depth_m"},
                [in] { return row_of(*in); });

@@ -49,6 +49,12 @@ void Verb::add_choice(const std::string& column, std::vector<Name> names, const 
       ->capture_default_str();
 }
 
+void Verb::choose(const std::string& column, const std::string& name) {
+  for (Choice& choice : choices_) {
+    if (choice.column == column) choice.given = name;
+  }
+}
+
 void Verb::results(std::vector<std::string> columns, std::function<Row()> compute) {
   result_columns_ = std::move(columns);
   compute_ = std::move(compute);
