@@ -58,6 +58,13 @@ void LognormalCascade::fill(const Window& window, std::span<float> amplitude) co
   fill_from_level(finest_, at_level, window, amplitude);
 }
 
+double LognormalCascade::ln_variance() const {
+  double variance = 0.0;
+  for (int octaves = coarsest_ - finest_; octaves > 0; --octaves)
+    variance += node_sd_ * node_sd_ * variance_of_coefficients(octaves);
+  return variance;
+}
+
 HeightGain::HeightGain(SpectralSurface reference, double gain, int finest_level)
     : reference_(std::move(reference)), gain_(gain), finest_(finest_level) {
   if (!(std::abs(gain) <= 1.0))
@@ -74,14 +81,20 @@ void HeightGain::fill(const Window& window, std::span<float> amplitude) const {
     // Octaves coarser than this level only, so that the amplitude knows nothing of the noise that it multiplies.
     const auto above = [this](const Window& coarse, std::span<float> height_m) { reference_.fill(coarse, height_m); };
     fill_from_level(nodes.level + 1, above, nodes, out);
-    double variance = 0.0;
-    const std::vector<double>& octaves = reference_.octaves().variance_m2;
-    for (auto level = static_cast<std::size_t>(nodes.level) + 1; level < octaves.size(); ++level)
-      variance += octaves[level] / (rms_m * rms_m);
-    const auto per_m = static_cast<float>(gain_ / rms_m), offset = static_cast<float>(gain_ * gain_ * variance);
+    const auto per_m = static_cast<float>(gain_ / rms_m), offset = static_cast<float>(ln_variance(nodes.level));
     for (float& x : out) x = exponential(per_m * x - offset);
   };
   fill_from_level(finest_, at_level, window, amplitude);
+}
+
+double HeightGain::ln_variance() const { return reference_.spectrum().rms_m == 0.0 ? 0.0 : ln_variance(finest_); }
+
+double HeightGain::ln_variance(int level) const {
+  const double rms_m = reference_.spectrum().rms_m;
+  double variance = 0.0;
+  const std::vector<double>& octaves = reference_.octaves().variance_m2;
+  for (auto k = static_cast<std::size_t>(level) + 1; k < octaves.size(); ++k) variance += octaves[k] / (rms_m * rms_m);
+  return gain_ * gain_ * variance;
 }
 
 }  // namespace ensonify::relief

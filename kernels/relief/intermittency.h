@@ -34,6 +34,10 @@ class LognormalCascade {
   /// The amplitude of the octave of the window's level, a Field for SpectralSurface::fill.
   void fill(const Window& window, std::span<float> amplitude) const;
 
+  /// Variance of ln amplitude in the octaves with all its detail, those of the posts. Half of all places have less
+  /// than exp(-2 of it) of the mean square, which few rough ones make.
+  double ln_variance() const;
+
  private:
   float node_sd_ = 0.0F;
   int coarsest_ = 0;
@@ -49,7 +53,12 @@ class HeightGain {
   HeightGain(SpectralSurface reference, double gain, int finest_level = 2);
   void fill(const Window& window, std::span<float> amplitude) const;
 
+  /// As LognormalCascade's.
+  double ln_variance() const;
+
  private:
+  double ln_variance(int level) const;
+
   SpectralSurface reference_;
   double gain_;
   int finest_;

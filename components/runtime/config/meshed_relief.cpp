@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernels/relief/intermittency.h"
 
 namespace ensonify {
 namespace {
@@ -18,13 +24,64 @@ relief::Spectrum spectrum_of(const seabed::SedimentParameters& sediment) {
   return {.rms_m = relief::rms_of_strength_m(strength_si, hurst, kFar_m), .hurst = hurst, .outer_scale_m = kFar_m};
 }
 
-/// The relief of a layer, if it shows on this class and is as rough everywhere.
-const relief::Spectrum* even_relief(const layers::Layer& layer, std::uint8_t seabed_class) {
-  const auto* spectral = std::get_if<layers::Spectral>(&layer.form);
-  if (spectral == nullptr || !layer.used) return nullptr;
-  if (spectral->intermittency != 0.0 || spectral->height_gain != 0.0 || spectral->rough) return nullptr;
-  const bool everywhere = layer.join == relief::Layer::Join::kAdd && !layer.mask && !layer.sediment;
-  return everywhere || layer.sediment == seabed_class ? &spectral->spectrum : nullptr;
+/// Mean of a polygon's mask over the seabed's rectangle, by 64 x 64 places.
+double share_of_polygon(const layers::Mask& mask, const LayeredSeabed& seabed) {
+  constexpr int kPlaces = 64;  // per side
+  std::vector<float> inside(static_cast<std::size_t>(kPlaces) * kPlaces);
+  const double step_m = seabed.size_m.maxCoeff() / kPlaces;
+  const frames::Vec2 corner = (seabed.centre_enu_m - 0.5 * seabed.size_m) / step_m;
+  const relief::Window window{0, std::llround(corner.x()), std::llround(corner.y()),
+                              std::max(1, static_cast<int>(std::lround(seabed.size_m.x() / step_m))),
+                              std::max(1, static_cast<int>(std::lround(seabed.size_m.y() / step_m)))};
+  const auto places = std::span(inside).first(window.size());
+  relief::in_polygon(mask.polygon_enu_m, mask.polygon_softness_m, step_m)(window, places);
+  return std::accumulate(places.begin(), places.end(), 0.0) / static_cast<double>(places.size());
+}
+
+/// Share of the places of a class where a mask holds, its terms taken as independent of each other and of the class.
+/// Nothing where that is up to the seabed's shape: depth, slope, curvature.
+std::optional<double> share_of(const layers::Mask& mask, std::uint8_t seabed_class, const LayeredSeabed& seabed) {
+  double share = 1.0;
+  const bool of_shape = mask.depth_m || mask.slope || mask.curvature_1pm;
+  if (!mask.sediments.empty() && std::ranges::find(mask.sediments, seabed_class) == mask.sediments.end()) share = 0.0;
+  if (!mask.polygon_enu_m.empty()) share *= share_of_polygon(mask, seabed);
+  if (mask.patches) share *= mask.patches->share;
+  if (!mask.any.empty()) {
+    double none = 1.0;
+    for (const layers::Mask& one : mask.any) {
+      const auto part = share_of(one, seabed_class, seabed);
+      if (!part) return std::nullopt;
+      none *= 1.0 - *part;
+    }
+    share *= 1.0 - none;
+  }
+  if (of_shape && share > 0.0) return std::nullopt;
+  return mask.reverse ? 1.0 - share : share;
+}
+
+bool holds_at_most_places(const std::optional<layers::Mask>& mask, std::uint8_t seabed_class,
+                          const LayeredSeabed& seabed) {
+  return !mask || share_of(*mask, seabed_class, seabed).value_or(0.0) >= 0.5;
+}
+
+/// Whether a layer is part of the seabed at a typical place of the class.
+bool shows_on(const layers::Layer& layer, std::uint8_t seabed_class, const LayeredSeabed& seabed) {
+  if (!layer.used) return false;
+  if (layer.sediment) return layer.sediment == seabed_class;
+  return layer.join == relief::Layer::Join::kAdd && holds_at_most_places(layer.mask, seabed_class, seabed);
+}
+
+/// Mean square slope of its facets at a typical place: half of all places have less.
+double typical_mean_square(const layers::Spectral& spectral, std::uint8_t seabed_class, const Seabed& seabed) {
+  const double d = seabed.post_spacing_m;
+  double ln_variance = 0.0, amplitude = 1.0;  // of the amplitude where each octave is made
+  if (spectral.intermittency > 0.0)
+    ln_variance +=
+        relief::LognormalCascade({spectral.intermittency, spectral.spectrum.outer_scale_m}, d, 0, "").ln_variance();
+  if (spectral.height_gain != 0.0)
+    ln_variance += relief::HeightGain({spectral.spectrum, d, 0, ""}, spectral.height_gain).ln_variance();
+  if (!holds_at_most_places(spectral.rough, seabed_class, seabed.layered)) amplitude = spectral.smooth_amplitude;
+  return amplitude * amplitude * std::exp(-2.0 * ln_variance) * relief::facet_mean_square_slope(spectral.spectrum, d);
 }
 
 }  // namespace
@@ -32,8 +89,9 @@ const relief::Spectrum* even_relief(const layers::Layer& layer, std::uint8_t sea
 double facet_slope_deg(const Seabed& seabed, std::uint8_t seabed_class, const seabed::SedimentParameters& sediment) {
   double mean_square = 0.0;
   for (const layers::Layer& layer : seabed.layered.layers) {
-    if (const auto* spectrum = even_relief(layer, seabed_class))
-      mean_square += relief::facet_mean_square_slope(*spectrum, seabed.post_spacing_m);
+    const auto* spectral = std::get_if<layers::Spectral>(&layer.form);
+    if (spectral != nullptr && shows_on(layer, seabed_class, seabed.layered))
+      mean_square += typical_mean_square(*spectral, seabed_class, seabed);
   }
   const double own = relief::facet_mean_square_slope(spectrum_of(sediment), seabed.post_spacing_m);
   const double slope_deg = std::atan(std::sqrt(std::min(mean_square, own))) / kDegree;
