@@ -165,13 +165,16 @@ msg::Chart TerrainPagerNode::chart() {
   if (cache_) {
     if (const auto kept = cache_->read_chart()) return *kept;
   }
-  msg::Chart chart = pager::make_chart(*terrain_);
+  const source::Overview overview = terrain_->overview();
+  overview_fault_ = overview.fault;
+  msg::Chart chart = pager::make_chart(*terrain_, overview);
   if (cache_) cache_->write(chart);
   return chart;
 }
 
 void TerrainPagerNode::start() {
   chart_.send(made_chart_.get());
+  if (!overview_fault_.empty()) log::event(ports_, "overview_unusable", "why=\"{}\"", overview_fault_);
   for (const std::string& name : meshes_.unprepared())
     log::event(ports_, "mesh_unprepared", "mesh={} prepare_with=\"ensonify terrain lod\"", name);
 }

@@ -64,6 +64,7 @@ class TerrainPagerNode {
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;
+  std::string overview_fault_;          // of what the chart is made of; set before made_chart_ is
   std::future<msg::Chart> made_chart_;  // while other processes start; until it is sent
 };
 

@@ -306,7 +306,7 @@ TEST_CASE("runlines must lie on the terrain, and their corridor must be known") 
 
 TEST_CASE("a chart has at most 256 posts a side, the origin and the range of depths") {
   const RasterSource source(options_for(MadeRaster{}), std::nullopt);
-  const auto chart = make_chart(source);
+  const auto chart = make_chart(source, source.overview());
   CHECK(chart.height_m.rows() <= 256);
   CHECK(chart.height_m.cols() >= 255);
   CHECK(chart.height_m.cols() <= 256);

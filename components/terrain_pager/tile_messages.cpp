@@ -1,17 +1,10 @@
 #include "components/terrain_pager/tile_messages.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "components/runtime/terrain/tile_posts.h"
 
 namespace ensonify::pager {
-namespace {
-
-constexpr int kChartPosts = 256;
-
-}  // namespace
 
 using source::PostBlock;
 using source::Vec2;
@@ -31,19 +24,8 @@ msg::Tile make_tile(const TerrainSource& terrain, const terrain::TileGrid& grid,
   return tile;
 }
 
-msg::Chart make_chart(const TerrainSource& terrain) {
-  const Extent extent = terrain.extent();
-  const double side = std::max(extent.east_m - extent.west_m, extent.north_m - extent.south_m);
-  PostBlock block;
-  block.spacing_m = side / (kChartPosts - 1);
-  block.first_east = static_cast<std::int64_t>(std::ceil(extent.west_m / block.spacing_m));
-  block.first_north = static_cast<std::int64_t>(std::ceil(extent.south_m / block.spacing_m));
-  const auto count = [&](double to, std::int64_t first) {
-    return std::clamp(static_cast<int>(std::floor(to / block.spacing_m) - static_cast<double>(first)) + 1, 1,
-                      kChartPosts);
-  };
-  block.columns = count(extent.east_m, block.first_east);
-  block.rows = count(extent.north_m, block.first_north);
+msg::Chart make_chart(const TerrainSource& terrain, const source::Overview& overview) {
+  const PostBlock& block = overview.posts;
   msg::Chart chart;
   chart.origin_latitude_deg = terrain.origin().latitude_deg;
   chart.origin_longitude_deg = terrain.origin().longitude_deg;
@@ -55,8 +37,7 @@ msg::Chart make_chart(const TerrainSource& terrain) {
   chart.deepest_m = -terrain.lowest_m();
   chart.spacing_m = block.spacing_m;
   chart.height_m = msg::Array<float>({static_cast<std::size_t>(block.rows), static_cast<std::size_t>(block.columns)});
-  std::vector<std::uint8_t> sediment(block.size());
-  terrain.sample(block, chart.height_m.flat(), sediment);
+  std::ranges::copy(overview.height_m, chart.height_m.flat().begin());
   return chart;
 }
 

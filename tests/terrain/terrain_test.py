@@ -128,7 +128,14 @@ class Terrain(SystemTest):
         folder = self.build()
         facts = json.loads(terrain("info", folder, "--json").stdout)
         self.assertEqual((facts["tiles"], facts["spacing_m"], facts["lsb_m"]), (8, 0.25, LSB_M))
+        self.assertEqual(facts["overview"], "overview.npy")
         self.assertEqual(terrain("verify", folder).returncode, 0)
+        manifest = (folder / "tileset.yaml").read_text()
+        (folder / "tileset.yaml").write_text("".join(line for line in manifest.splitlines(True) if "overview" not in line))
+        self.assertEqual(json.loads(terrain("info", folder, "--json").stdout)["overview"], "none")
+        self.assertEqual(terrain("verify", folder).returncode, 0)
+        self.assertEqual(terrain("build", SCENARIO, folder).returncode, 0)  # made anew, no tile is
+        self.assertEqual((folder / "tileset.yaml").read_text(), manifest)
         tile = sorted((folder / "tiles").glob("*+0000.png"))[0]
         data = bytearray(tile.read_bytes())
         data[len(data) // 2] ^= 4
@@ -136,6 +143,23 @@ class Terrain(SystemTest):
         done = terrain("verify", folder)
         self.assertEqual(done.returncode, 1)
         self.assertIn(tile.name, done.stdout)
+
+    def test_an_overview_is_read_by_numpy_and_a_damaged_one_is_found_and_made_anew(self):
+        folder = self.build()
+        overview = folder / "overview.npy"
+        heights, whole = np.load(overview), overview.read_bytes()
+        self.assertEqual(heights.shape, (255, 127))  # every 4.02 m over the 1024 m of four tiles, counted from the origin
+        step = 1024 / 255
+        posts = [(row, column) for row in range(70, 190, 17) for column in range(10, 120, 13)]
+        points = "east_m,north_m\n" + "".join(f"{(column - 63) * step!r},{(row - 127) * step!r}\n" for row, column in posts)
+        lines = list(csv.DictReader(io.StringIO(terrain("sample", folder, "--points", "-", text=points).stdout)))
+        np.testing.assert_allclose([heights[post] for post in posts], [float(line["elevation_m"]) for line in lines], atol=1e-4)
+        overview.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+        done = terrain("verify", folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("overview.npy: is not that of the manifest's tiles (SHA-256)", done.stdout)
+        self.assertEqual(terrain("build", SCENARIO, folder).returncode, 0)
+        self.assertEqual(overview.read_bytes(), whole)
 
     def test_the_same_tiles_by_one_thread_and_by_three(self):
         one, three = self.build("one", "--threads", 1), self.build("three", "--threads", 3)

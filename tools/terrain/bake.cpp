@@ -16,7 +16,9 @@
 
 #include "components/runtime/exit_error.h"
 #include "components/runtime/terrain/tile_posts.h"
+#include "components/runtime/terrain/tile_set_source.h"
 #include "components/runtime/tiles/file_bytes.h"
+#include "components/runtime/tiles/overview.h"
 #include "components/runtime/tool.h"
 
 namespace ensonify::terrain_tool {
@@ -135,6 +137,8 @@ bool bake(const source::TerrainSource& source, const std::string& what, int thre
     make_tiles(source, keys_of(set.grid, source.extent()), threads, set);
     if (interrupted()) return false;
     if (set.tiles.empty()) throw UserError(what + ": the seabed has no height anywhere");
+    const source::Overview overview = source::TileSetSource(set).overview();
+    tiles::write_overview(set, {overview.posts.columns, overview.posts.rows, overview.height_m});
     tiles::write_manifest(set);
   } catch (const tiles::TileError& error) {
     throw UserError(error.what());

@@ -9,6 +9,7 @@
 
 #include "components/runtime/exit_error.h"
 #include "components/runtime/terrain/tile_set_source.h"
+#include "components/runtime/tiles/overview.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
@@ -43,6 +44,7 @@ int info(const Options& options) {
                                   {"spacing_m", set.grid.spacing_m},
                                   {"lsb_m", set.grid.lsb_m},
                                   {"largest_error_m", 0.5 * set.grid.lsb_m},
+                                  {"overview", set.overview_sha256.empty() ? "none" : tiles::kOverview},
                                   {"west_m", extent.west_m},
                                   {"south_m", extent.south_m},
                                   {"east_m", extent.east_m},

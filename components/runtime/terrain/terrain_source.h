@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/frames/local_projection.h"
@@ -37,6 +38,16 @@ struct PostBlock {
   double north_m(int row) const { return static_cast<double>(first_north + row) * spacing_m; }
 };
 
+/// The posts of a terrain's overview: the lattice of 256 over the longer side of its extent.
+PostBlock overview_posts(const Extent& extent);
+
+/// A terrain as a whole, as charts show it.
+struct Overview {
+  PostBlock posts;              // overview_posts of its extent
+  std::vector<float> height_m;  // as sample() has them
+  std::string fault;            // why one that was kept could not be used, and these heights were made anew; or ""
+};
+
 /// Where heights come from: a raster or a generator. All functions are pure and may be called from any thread.
 class TerrainSource {
  public:
@@ -57,6 +68,8 @@ class TerrainSource {
   /// Heights (ENU z, m; NaN where nothing is known) and sediment classes, row by row from the south-west. The value of
   /// a post depends on its place in the lattice only, so blocks that share posts agree bit by bit.
   virtual void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const = 0;
+  /// The same of overview_posts(extent()), the heights.
+  virtual Overview overview() const;
   /// Height at one place; NaN where nothing is known.
   virtual double height_m(const Vec2& place) const = 0;
 };

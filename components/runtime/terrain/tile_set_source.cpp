@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "components/runtime/tiles/overview.h"
 
 namespace ensonify::source {
 namespace {
@@ -17,7 +20,9 @@ std::string place_text(const frames::Geodetic& place) {
 
 }  // namespace
 
-TileSetSource::TileSetSource(const std::string& folder) : set_(tiles::open_tile_set(folder)) {
+TileSetSource::TileSetSource(const std::string& folder) : TileSetSource(tiles::open_tile_set(folder)) {}
+
+TileSetSource::TileSetSource(tiles::TileSet set) : set_(std::move(set)) {
   constexpr double kFar = std::numeric_limits<double>::max();
   extent_ = {kFar, kFar, -kFar, -kFar};
   lowest_m_ = kFar;
@@ -67,6 +72,16 @@ void TileSetSource::sample(const PostBlock& posts, std::span<float> height_m, st
     std::ranges::copy(tile->sediment, sediment.begin());
     return;
   }
+  // From tile to tile, not row by row over all of them: each is decoded once.
+  for (int first = 0, behind = 0; first < posts.columns; first = behind) {
+    const auto tile_of = [&](int column) { return set_.grid.key_at({posts.east_m(column), posts.north_m(0)}).east; };
+    for (behind = first + 1; behind < posts.columns && tile_of(behind) == tile_of(first);) ++behind;
+    sample_columns(posts, first, behind, height_m, sediment);
+  }
+}
+
+void TileSetSource::sample_columns(const PostBlock& posts, int first, int behind, std::span<float> height_m,
+                                   std::span<std::uint8_t> sediment) const {
   const bool own = posts.spacing_m == set_.grid.spacing_m;
   terrain::TileKey held{std::numeric_limits<std::int32_t>::min(), 0};
   TilePtr tile;
@@ -75,9 +90,10 @@ void TileSetSource::sample(const PostBlock& posts, std::span<float> height_m, st
     held = key;
     tile = tile_at(key);
   };
-  std::size_t k = 0;
   for (int row = 0; row < posts.rows; ++row) {
-    for (int column = 0; column < posts.columns; ++column, ++k) {
+    for (int column = first; column < behind; ++column) {
+      const std::size_t k =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(posts.columns) + static_cast<std::size_t>(column);
       height_m[k] = std::numeric_limits<float>::quiet_NaN();
       sediment[k] = 0;
       if (own) {
@@ -108,6 +124,22 @@ void TileSetSource::sample(const PostBlock& posts, std::span<float> height_m, st
       }
     }
   }
+}
+
+Overview TileSetSource::overview() const {
+  if (set_.overview_sha256.empty()) return TerrainSource::overview();
+  std::string fault;
+  try {
+    tiles::Overview kept = tiles::read_overview(set_);
+    const PostBlock posts = overview_posts(extent_);
+    if (kept.columns == posts.columns && kept.rows == posts.rows) return {posts, std::move(kept.height_m), ""};
+    fault = fmt::format("{}/{}: is not of {} x {} posts", set_.folder, tiles::kOverview, posts.rows, posts.columns);
+  } catch (const tiles::TileError& error) {
+    fault = error.what();
+  }
+  Overview made = TerrainSource::overview();
+  made.fault = fault;
+  return made;
 }
 
 double TileSetSource::height_m(const Vec2& place) const {

@@ -16,6 +16,8 @@ class TileSetSource : public TerrainSource {
  public:
   /// Throws ConfigError for a folder that holds no set.
   explicit TileSetSource(const std::string& folder);
+  /// A set whose manifest may not be written yet.
+  explicit TileSetSource(tiles::TileSet set);
 
   Extent extent() const override { return extent_; }
   double lowest_m() const override { return lowest_m_; }
@@ -25,6 +27,8 @@ class TileSetSource : public TerrainSource {
   std::optional<double> lsb_m() const override { return set_.grid.lsb_m; }
   /// Throws tiles::TileError for a damaged file.
   void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const override;
+  /// The one that is kept with the set; of a set without one, or with one that is damaged, all tiles are read.
+  Overview overview() const override;
   double height_m(const Vec2& place) const override;
 
   /// Class of the nearest post; 0 where the set has no tile.
@@ -41,6 +45,10 @@ class TileSetSource : public TerrainSource {
 
   /// Nothing where the set has no tile.
   TilePtr tile_at(const terrain::TileKey& key) const;
+
+  /// Of sample(): columns from `first` to before `behind`.
+  void sample_columns(const PostBlock& posts, int first, int behind, std::span<float> height_m,
+                      std::span<std::uint8_t> sediment) const;
 
   /// The tile whose posts these are, all and no others; nothing if there is none.
   TilePtr whole_tile(const PostBlock& posts) const;

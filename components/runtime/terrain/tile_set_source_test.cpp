@@ -4,7 +4,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+
+#include "components/runtime/tiles/overview.h"
 
 using namespace ensonify;
 using namespace ensonify::source;
@@ -71,6 +74,45 @@ TEST_CASE("between posts a set is bilinear") {
   source.sample(coarse, height, sediment);
   CHECK(height[0] == Approx(seabed(-14.8, -14.8)).margin(0.0025));
   CHECK(sediment[0] == 1);
+}
+
+TEST_CASE(
+    "a set's overview has the bits of its posts, kept with the set, not kept, and where the kept one is damaged") {
+  Set made;
+  const Overview from_tiles = TileSetSource(made.set).overview();
+  CHECK(from_tiles.fault.empty());
+  REQUIRE(from_tiles.posts.size() == 255U * 255U);
+  const auto same = [&](const Overview& other) {
+    return other.posts.size() == from_tiles.posts.size() && other.posts.first_east == from_tiles.posts.first_east &&
+           std::memcmp(other.height_m.data(), from_tiles.height_m.data(), 255 * 255 * sizeof(float)) == 0;
+  };
+  std::size_t k = 0, holes = 0;
+  for (int row = 0; row < 255; ++row) {
+    for (int column = 0; column < 255; ++column, ++k) {
+      const Vec2 place(from_tiles.posts.east_m(column), from_tiles.posts.north_m(row));
+      if (std::isnan(from_tiles.height_m[k])) ++holes;
+      else REQUIRE(from_tiles.height_m[k] == Approx(seabed(place.x(), place.y())).margin(0.0025));
+    }
+  }
+  CHECK(holes == 128U * 128U);  // the missing tile's
+
+  tiles::write_overview(made.set, {255, 255, from_tiles.height_m});
+  tiles::write_manifest(made.set);
+  for (const TileKey key : {TileKey{-1, -1}, {-1, 0}, {0, -1}})  // no tile is read for it
+    std::filesystem::rename(made.set.path_of(key, ".png"), made.set.path_of(key, ".away"));
+  const Overview kept = TileSetSource(made.folder).overview();
+  CHECK(kept.fault.empty());
+  CHECK(same(kept));
+  for (const TileKey key : {TileKey{-1, -1}, {-1, 0}, {0, -1}})
+    std::filesystem::rename(made.set.path_of(key, ".away"), made.set.path_of(key, ".png"));
+
+  std::filesystem::resize_file(made.folder + "/" + tiles::kOverview, 1000);
+  const Overview anew = TileSetSource(made.folder).overview();
+  CHECK(anew.fault == made.folder + "/overview.npy: is no overview as this program writes them");
+  CHECK(same(anew));
+
+  tiles::write_overview(made.set, {2, 2, {0, 0, 0, 0}});
+  CHECK(TileSetSource(made.set).overview().fault == made.folder + "/overview.npy: is not of 255 x 255 posts");
 }
 
 TEST_CASE("a whole tile has the bits that its posts have in a block that is none") {

@@ -122,6 +122,7 @@ TileSet open_tile_set(const std::string& folder) {
   origin.required("longitude_deg", set.origin.longitude_deg, -180, 180);
   read_grid(from, set.grid);
   from.required("made_from", set.made_from);
+  from.optional("overview_sha256", set.overview_sha256);
   for (auto& tile : from.list("tiles")) {
     TileFacts facts;
     const terrain::TileKey key = read_facts(tile, facts);
@@ -138,7 +139,9 @@ void write_manifest(const TileSet& set) {
       "# A seabed on disk (docs/tiles.md). East and north count tiles from the world's origin.\nensonify: {}\n"
       "made_from: \"{}\"\norigin: {{ latitude_deg: {}, longitude_deg: {} }}\n",
       kFormat, set.made_from, set.origin.latitude_deg, set.origin.longitude_deg);
-  text += grid_text(set) + "tiles:\n";
+  text += grid_text(set);
+  if (!set.overview_sha256.empty()) text += "overview_sha256: " + set.overview_sha256 + "\n";
+  text += "tiles:\n";
   for (const auto& [key, facts] : set.tiles) text += "  - { " + facts_text(key, facts, ", ") + " }\n";
   write_file(set.folder + "/seabed.vrt", vrt_text(set));
   write_file(set.folder + "/" + kManifest, text);

@@ -38,6 +38,7 @@ struct TileSet {
   terrain::TileGrid grid;   // its origin_enu_m is zero
   std::string made_from;    // what the builder worked from, for people
   std::map<terrain::TileKey, TileFacts> tiles;
+  std::string overview_sha256;  // of its overview (overview.h); "": it has none
 
   std::string path_of(const terrain::TileKey& key, const std::string& ending) const;  // e.g. ".png"
 };
@@ -60,7 +61,7 @@ terrain::Tile read_tile(const TileSet& set, const terrain::TileKey& key);
 void write_manifest(const TileSet& set);
 
 /// Every fault of a set: missing or unreadable files, wrong checksums, sidecars and world files that contradict the
-/// manifest, neighbours whose shared posts differ. Empty: all is well.
+/// manifest, neighbours whose shared posts differ, an overview that is not that of the tiles. Empty: all is well.
 std::vector<std::string> faults_of(const TileSet& set);
 
 }  // namespace ensonify::tiles

@@ -2,10 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/tiles/overview.h"
 
 using namespace ensonify;
 using namespace ensonify::tiles;
@@ -117,6 +119,52 @@ TEST_CASE("verify finds a flipped bit, a missing tile, a wrong scale and a seam"
     const auto faults = faults_of(open_tile_set(folder.path));
     REQUIRE(faults.size() == 2);
     CHECK_THAT(faults[0], Contains("33 of the posts that it shares with tile (-1, 0) differ"));
+  }
+}
+
+TEST_CASE(
+    "an overview comes back to the bit, holes included; a changed one, a missing one, one of other tiles does not") {
+  const Folder folder;
+  TileSet set = written(folder.path);
+  CHECK_THROWS_WITH(read_overview(set), Contains("overview.npy"));
+  const std::string path = folder.path + "/" + kOverview;
+  Overview overview{.columns = 3, .rows = 2, .height_m = {-20.125F, -19.7F, std::nanf(""), -21.0F, -20.0F, -22.5F}};
+  write_overview(set, overview);
+  write_manifest(set);
+  set = open_tile_set(folder.path);
+  const Overview back = read_overview(set);
+  CHECK(back.columns == 3);
+  CHECK(back.rows == 2);
+  REQUIRE(back.height_m.size() == 6);
+  CHECK(std::memcmp(back.height_m.data(), overview.height_m.data(), 6 * sizeof(float)) == 0);
+  CHECK(faults_of(set).empty());
+
+  const auto refused = [&](const std::string& words) {
+    const auto faults = faults_of(open_tile_set(folder.path));
+    REQUIRE(faults.size() == 1);
+    CHECK_THAT(faults[0], Contains(words));
+    CHECK_THROWS_WITH(read_overview(set), Contains(words));
+  };
+  SECTION("a height") {
+    flip(path, 9);
+    refused("overview.npy: is not that of the manifest's tiles");
+  }
+  SECTION("numbers of posts") {
+    flip(path, 6 * 4 + 128 - 61);  // the digit of the rows: behind the magic word and 51 letters
+    refused("overview.npy: is no overview as this program writes them");
+  }
+  SECTION("cut off") {
+    std::filesystem::resize_file(path, 20);
+    refused("overview.npy: is no overview as this program writes them");
+  }
+  SECTION("gone") {
+    std::filesystem::remove(path);
+    refused("overview.npy: cannot be read");
+  }
+  SECTION("of other tiles") {
+    const auto deeper = terrain::sample_tile(set.grid, {0, 0}, [](double x, double y) { return seabed(x, y) - 1.0; });
+    set.tiles[{0, 0}] = write_tile(set, {0, 0}, deeper);
+    CHECK_THROWS_WITH(read_overview(set), Contains("is not that of the manifest's tiles"));
   }
 }
 

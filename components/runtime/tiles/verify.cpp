@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/runtime/tiles/file_bytes.h"
+#include "components/runtime/tiles/overview.h"
 #include "components/runtime/tiles/sidecar.h"
 #include "components/runtime/tiles/tile_set.h"
 
@@ -71,6 +72,11 @@ std::vector<std::string> faults_of(const TileSet& set) {
     } catch (const TileError& error) {
       faults.emplace_back(error.what());
     }
+  }
+  try {
+    if (!set.overview_sha256.empty()) read_overview(set);
+  } catch (const TileError& error) {
+    faults.emplace_back(error.what());
   }
   try {
     compare_text(set.folder + "/seabed.vrt", vrt_text(set), faults);
