@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "components/autopilot/node.h"
 #include "components/coverage/node.h"
@@ -58,27 +60,28 @@ msg::Soundings sound(const source::TerrainSource& terrain, const motion::State& 
   return soundings;
 }
 
-}  // namespace
-
-TEST_CASE(
-    "slope_overlap takes at least 45 % less track than lines at a fixed distance, leaves no gap, and is near the "
-    "bound") {
-  const std::string file = std::string(std::getenv("ENSONIFY_SOURCE")) + "/scenarios/slope_overlap/scenario.yaml";
-  const Scenario scenario = read_scenario(
-      file,
+/// The seabed of slope_overlap, and the adaptive survey of launch/adaptive.yaml over it.
+struct Slope {
+  Scenario scenario = read_scenario(
+      std::string(std::getenv("ENSONIFY_SOURCE")) + "/scenarios/slope_overlap/scenario.yaml",
       {{"mission", parse_config_value("{speed_mps: 4, run_in_m: 30, adaptive: {centre_m: [0, 0], heading_deg: 180, "
                                       "length_m: 60, width_m: 2900, first_line_m: 12, overlap: 0.02, cell_m: 6}}",
                                       {"adaptive_test", 0, 0})}});
-  const auto terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+  std::unique_ptr<source::TerrainSource> terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+};
+
+/// Flies a mission over the slope while coverage looks on, and, where the mission is adaptive, lays the lines. Returns
+/// coverage's report.
+nlohmann::json fly(const Slope& slope, const Scenario& flown) {
   auto empty = ConfigReader::from_text("{}", "test.yaml");
-  const auto pilot_config = AutopilotConfig::read(empty, scenario, "pilot");
-  const auto coverage_config = CoverageConfig::read(empty, scenario, "coverage");
+  const auto pilot_config = AutopilotConfig::read(empty, flown, "pilot");
+  const auto coverage_config = CoverageConfig::read(empty, slope.scenario, "coverage");
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_adaptive_test";
   std::filesystem::create_directories(folder);
 
   NodeUnderTest<AutopilotNode> pilot(pilot_config);
   NodeUnderTest<CoverageNode> coverage(coverage_config, "test", folder);
-  motion::State boat = start_of(pilot_config.plan, scenario.mission.runlines);
+  motion::State boat = start_of(pilot_config.plan, flown.mission.runlines);
   motion::Command command{boat.heading_rad, boat.speed_mps, 0.0};
   for (SimTime now{0}; now < 7200_s && !pilot.finished(); now += 100_ms) {
     msg::Estimate estimate;
@@ -88,12 +91,15 @@ TEST_CASE(
     estimate.velocity_enu_mps = {boat.speed_mps * std::sin(boat.heading_rad),
                                  boat.speed_mps * std::cos(boat.heading_rad), 0.0};
     pilot.give("estimate", estimate);
-    for (const auto& line : coverage.step_until<msg::NextLine>("next_line", now)) pilot.give_at("next_line", now, line);
+    const auto next_lines = coverage.step_until<msg::NextLine>("next_line", now);
+    if (flown.mission.adaptive) {
+      for (const auto& line : next_lines) pilot.give_at("next_line", now, line);
+    }
     const auto orders = pilot.step_until<msg::Guidance>("command", now);
     for (const auto& mission : pilot.step_until<msg::MissionState>("mission", now)) {
       coverage.give_at("mission", now, mission);
       const bool pings = now.count() % 500'000'000 == 0 && mission.state != "turn";  // 2 Hz
-      if (pings) coverage.give_at("soundings", now, sound(*terrain, boat, now));
+      if (pings) coverage.give_at("soundings", now, sound(*slope.terrain, boat, now));
     }
     boat = motion::advance(boat, command, 0.1, pilot_config.plan.limits);
     if (!orders.empty()) command = {orders[0].heading_grid_rad, orders[0].speed_mps, 0.0};
@@ -101,10 +107,42 @@ TEST_CASE(
   REQUIRE(pilot.finished());
   coverage.node().finish_run();
   std::ifstream stream(folder / "coverage.json");
-  const auto report = nlohmann::json::parse(stream);
+  return nlohmann::json::parse(stream);
+}
+
+/// The same survey with so many lines at one distance, from the shallow side to the deep one.
+Scenario with_fixed_lines(const Slope& slope, std::size_t count) {
+  Scenario fixed = slope.scenario;
+  const AdaptivePlan plan = *std::exchange(fixed.mission.adaptive, std::nullopt);
+  fixed.mission.runlines.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    AdaptivePlan at = plan;
+    at.first_line_m = plan.width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    navigation::Runline line = first_line(at);
+    if (i % 2 == 1) std::swap(line.start_enu_m, line.end_enu_m);
+    fixed.mission.runlines.push_back(line);
+  }
+  fixed.mission.steps = steps_of(fixed.mission.runlines);
+  return fixed;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "slope_overlap takes at least 45 % less track than lines at a fixed distance, leaves no gap, and is near the "
+    "bound") {
+  const Slope slope;
+  const auto report = fly(slope, slope.scenario);
   INFO(report.dump(2));
   CHECK(report["holes"] == 0);
   CHECK(report["covered"] == 1.0);
   CHECK(report["share_of_fixed"] <= 0.55);
   CHECK(report["share_of_fixed"] <= 1.15 * report["bound"].get<double>());
+
+  // Lines at one distance are flown too: as many as adaptive ones over 0.55 leave gaps, so what covers as
+  // much takes more.
+  const auto lines = report["lines"].get<double>();
+  const auto wide = fly(slope, with_fixed_lines(slope, static_cast<std::size_t>(lines / 0.55)));
+  INFO(wide.dump(2));
+  CHECK(wide["covered"] < 1.0);
 }
