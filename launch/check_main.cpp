@@ -22,9 +22,10 @@ int check(const LaunchOptions& options, bool as_json) {
   try {
     const Launch launch = read_launch(options);
     processes = launch.processes.size();
-    checked = check_ports(launch, {program_folder(), "", options.out});
-    const auto wiring = wiring_problems(launch, checked);
-    checked.problems.insert(checked.problems.end(), wiring.begin(), wiring.end());
+    const RunPlaces places{program_folder(), "", options.out};
+    checked = check_ports(launch, places);
+    for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places)})
+      checked.problems.insert(checked.problems.end(), found.begin(), found.end());
     warnings = resolution_warnings(checked);
     for (const auto& name : checked.unknown) {
       warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");

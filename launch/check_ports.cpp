@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "components/runtime/launch_wiring.h"
 #include "components/runtime/protocol.h"
@@ -45,7 +47,6 @@ struct Answer {
 };
 
 Answer ask(Command command, const std::string& folder, Signals& signals) {
-  command.argv.emplace_back("--check");
   command.log_file = folder + "/out";
   command.error_file = folder + "/error";
   Child child(command);
@@ -96,7 +97,9 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
       continue;
     }
     try {
-      const Answer answer = ask(process_command(launch, process, places, ""), folder.path, signals);
+      Command command = process_command(launch, process, places, "");
+      command.argv.emplace_back("--check");
+      const Answer answer = ask(std::move(command), folder.path, signals);
       const bool native = process.argv.empty();
       if (answer.ending.signal == 0 && answer.ending.exit_code == kExitOk &&
           add_declaration(answer.out, process.name, checked)) {
@@ -113,6 +116,23 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
     }
   }
   return checked;
+}
+
+std::vector<std::string> unpaged_mission_problems(const Launch& launch, const RunPlaces& places) {
+  const auto runs = [&](const char* component) {
+    return std::any_of(launch.processes.begin(), launch.processes.end(),
+                       [&](const ProcessSpec& process) { return process.component == component; });
+  };
+  if (!launch.has_scenario || !runs("autopilot") || runs("terrain_pager")) return {};
+  Command command;
+  command.argv = {places.program_folder + "/ensonify-terrain_pager", "--check-mission"};
+  const auto arguments = to_arguments(launch.options);
+  command.argv.insert(command.argv.end(), arguments.begin(), arguments.end());
+  const ScratchFolder folder;
+  Signals signals;
+  const Answer answer = ask(std::move(command), folder.path, signals);
+  if (answer.ending.signal != 0 || answer.ending.exit_code != kExitUserError) return {};
+  return {answer.error};
 }
 
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked) {

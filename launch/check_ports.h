@@ -20,6 +20,10 @@ struct CheckedPorts {
 /// is ended and counted as unknown.
 CheckedPorts check_ports(const Launch& launch, const RunPlaces& places);
 
+/// What the seabed has against the mission of a launch that flies one but runs no pager, which looks itself before time
+/// starts.
+std::vector<std::string> unpaged_mission_problems(const Launch& launch, const RunPlaces& places);
+
 /// Wiring mistakes, each with its place. Nothing is said when some processes are unknown or could not tell their
 /// ports, since those may be the publishers that seem to be missing.
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked);

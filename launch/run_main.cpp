@@ -12,6 +12,7 @@
 #include "components/runtime/exit_error.h"
 #include "components/runtime/version.h"
 #include "launch/after.h"
+#include "launch/check_ports.h"
 #include "launch/supervisor.h"
 
 namespace {
@@ -114,6 +115,9 @@ int run(Options& options) {
   }
   const Launch launch = read_launch(options.launch);
   const std::string& out = options.launch.out;
+  if (const auto problems = unpaged_mission_problems(launch, {program_folder(), "", out}); !problems.empty()) {
+    throw UserError(problems.front());
+  }
   RunReport report;
   if (options.in_process) {
     if (!launch.exits.empty()) {

@@ -85,7 +85,7 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const navigati
                                     const CorridorRules& rules, std::optional<double> depth_m) {
   const Extent extent = terrain.extent();
   for (const Vec2& end : {line.start_enu_m, line.end_enu_m}) {
-    if (!extent.contains(end)) {
+    if (rules.refuse_beyond && !extent.contains(end)) {
       return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
     }
   }
@@ -137,12 +137,14 @@ double check_corridors(const TerrainSource& terrain, const std::vector<navigatio
   return std::max(0.0, -highest_m);
 }
 
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places) {
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, bool refuse_beyond) {
   std::vector<ConfigProblem> problems;
   const Extent extent = terrain.extent();
   for (const VisitedPlace& visited : places) {
-    auto fault = fault_at(visited.place_enu_m, terrain.height_m(visited.place_enu_m), visited.depth_m);
-    if (!extent.contains(visited.place_enu_m)) {
+    std::optional<std::string> fault;
+    if (extent.contains(visited.place_enu_m)) {
+      fault = fault_at(visited.place_enu_m, terrain.height_m(visited.place_enu_m), visited.depth_m);
+    } else if (refuse_beyond) {
       fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
     }
     if (fault) problems.push_back({visited.place, visited.key, *fault});

@@ -22,6 +22,7 @@ struct CorridorRules {
   std::vector<std::optional<double>> depth_m = {};
   std::vector<ConfigPlace> place = {};  // of each runline in its file; fewer than runlines: the mission's
   double least_altitude_m = 0.0;        // obstacle floor of a vehicle that dives; 0: none
+  bool refuse_beyond = true;            // else a line may leave the terrain
 };
 
 /// A place that a mission visits besides its runlines or where a vehicle starts, and how deep.
@@ -41,6 +42,6 @@ double check_corridors(const TerrainSource& terrain, const std::vector<navigatio
                        const CorridorRules& rules, const ConfigPlace& mission);
 
 /// The same for places, without corridors.
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places);
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, bool refuse_beyond = true);
 
 }  // namespace ensonify::pager

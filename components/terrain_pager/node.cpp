@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "components/runtime/config/config_error.h"
@@ -14,72 +13,20 @@
 #include "components/runtime/log.h"
 #include "components/runtime/terrain/source_of.h"
 #include "components/terrain_pager/budget.h"
-#include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/demand.h"
-#include "components/terrain_pager/mission_places.h"
+#include "components/terrain_pager/mission_check.h"
 #include "components/terrain_pager/seabed_identity.h"
 #include "components/terrain_pager/tile_messages.h"
 
 namespace ensonify {
 namespace {
 
+using frames::Vec2;
 using pager::TileKey;
-using pager::Vec2;
 
 constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 4096;
 constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
-
-/// Where vehicles start that are told a place.
-std::vector<pager::VisitedPlace> starts_of(const std::vector<Vehicle>& vehicles, const pager::MissionPlaces& where) {
-  std::vector<pager::VisitedPlace> places;
-  for (const Vehicle& vehicle : vehicles) {
-    if (!vehicle.start) continue;
-    const frames::Vec3& place = vehicle.start->position_enu_m;
-    places.push_back({place.head<2>(), vehicle.floats ? 0.0 : -place.z(), where.start(vehicle.name),
-                      "vehicles." + vehicle.name + ".start"});
-  }
-  return places;
-}
-
-/// What the mission visits besides lines: places, circles, the far edge of an adaptive survey, and the outer ends of
-/// run-ins and run-outs as far as they lie on the terrain.
-std::vector<pager::VisitedPlace> places_of(const Mission& mission, const pager::Extent& extent,
-                                           const pager::MissionPlaces& where) {
-  std::vector<pager::VisitedPlace> places;
-  std::optional<double> depth_m = mission.altitude_m ? std::nullopt : std::optional(mission.depth_m);
-  for (std::size_t i = 0; i < mission.steps.size(); ++i) {
-    const MissionStep& step = mission.steps[i];
-    const ConfigPlace& here = where.step(i);
-    if (const auto* go = std::get_if<GoAt>(&step)) depth_m = depth_after(*go, depth_m);
-    if (const auto* line = std::get_if<FlyLine>(&step)) {
-      const auto& points = line->points_enu_m;
-      const std::size_t last = points.size() - 1;
-      const Vec2 before = navigation::extended({points[0], points[1]}, mission.run_in_m, 0.0).start_enu_m;
-      const Vec2 behind = navigation::extended({points[last - 1], points[last]}, 0.0, mission.run_out_m).end_enu_m;
-      if (extent.contains(before)) places.push_back({before, depth_m, here, "mission run-in"});
-      if (extent.contains(behind)) places.push_back({behind, depth_m, here, "mission run-out"});
-    }
-    if (const auto* pass = std::get_if<PassPlace>(&step)) places.push_back({pass->place_enu_m, depth_m, here});
-    const auto* keep = std::get_if<KeepPlace>(&step);
-    if (keep != nullptr && keep->place_enu_m) places.push_back({*keep->place_enu_m, depth_m, here});
-    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
-      for (int k = 0; k < 16; ++k) {
-        const double bearing = kPi / 8.0 * k;
-        places.push_back(
-            {orbit->centre_enu_m + orbit->radius_m * Vec2(std::sin(bearing), std::cos(bearing)), depth_m, here});
-      }
-    }
-  }
-  if (mission.adaptive) {
-    AdaptivePlan last = *mission.adaptive;
-    last.first_line_m = last.width_m;
-    places.push_back({first_line(last).start_enu_m, depth_m, where.step(0)});
-    places.push_back({first_line(last).end_enu_m, depth_m, where.step(0)});
-  }
-  return places;
-}
 
 pager::Box box_of(const pager::Extent& extent) {
   return {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}};
@@ -116,16 +63,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
   }
   made_chart_ = std::async(std::launch::async, [this] { return chart(); });
-  const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
-                                                                         : RasterSeabed::Holes::kKeep;
-  const pager::MissionPlaces places = pager::mission_places(config.scenario_file, config.scenario_text);
-  const double shallowest_m = pager::check_corridors(
-      *terrain_, config.mission.runlines,
-      {config.corridor_half_deg * kPi / 180.0, holes == RasterSeabed::Holes::kRefuse, config.mission.runline_depths_m(),
-       places.runlines(config.mission), config.mission.least_altitude_m},
-      places.mission);
-  pager::check_places(*terrain_, places_of(config.mission, terrain_->extent(), places));
-  pager::check_places(*terrain_, starts_of(config.vehicles, places));
+  const double shallowest_m = pager::check_mission(*terrain_, config, pager::Beyond::kRefused);
   ports.note("post_spacing_m", grid_.spacing_m);
   ports.note("shallowest_m", shallowest_m);
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });

@@ -196,14 +196,25 @@ class Refused(unittest.TestCase):
             with self.subTest(what):
                 self.expect(self.write(launch=LAUNCH.replace(place, config)), "launch.yaml:", cause)
 
-    def test_a_run_is_refused_before_time_starts(self):
-        launch = self.write(mission=MISSIONS[0][1])
+    def run_refused(self, launch, cause):
         done = subprocess.run([BIN / "ensonify", "run", launch, "--out", self.folder / "out"], capture_output=True, text=True,
                               timeout=60, env=dict(os.environ, XDG_RUNTIME_DIR=str(self.folder)))
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertRegex(done.stderr, MISSIONS[0][2])
+        self.assertRegex(done.stderr, cause)
         log = self.folder / "out/log/clock.log"
         self.assertNotIn(" go ", log.read_text() if log.exists() else "")
+
+    def test_a_run_is_refused_before_time_starts(self):
+        self.run_refused(self.write(mission=MISSIONS[0][1]), MISSIONS[0][2])
+
+    def test_a_mission_is_held_against_the_seabed_without_a_pager_too(self):
+        launch = "".join(line for line in LAUNCH.splitlines(True) if "terrain_pager" not in line and "echosounder" not in line)
+        for what, mission, cause in MISSIONS[:3]:
+            with self.subTest(what):
+                self.expect(self.write(mission=mission, launch=launch), "world.yaml", cause)
+        self.run_refused(self.write(mission=MISSIONS[0][1], launch=launch), MISSIONS[0][2])
+        beyond = "runlines: [{ from_m: [0, 0], to_m: [0, 900] }]"  # where nobody needs tiles the terrain may end
+        self.assertEqual(self.check(self.write(mission=beyond, launch=launch))[0], 0)
 
 
 if __name__ == "__main__":
