@@ -94,20 +94,22 @@ void check_legs(const TerrainPagerConfig& config, const std::string& name, const
 
 }  // namespace
 
-Meshes::Meshes(const TerrainPagerConfig& config, const paging::Box& terrain) {
+Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain) {
+  const source::Extent known = terrain.extent();
   std::size_t bytes = 0;
   for (const SeabedMesh& mesh : config.terrain.seabed.meshes) {
-    const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed);
+    const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain);
     if (!placed.cached) unprepared_.push_back(mesh.name);
     if (placed.hierarchy.mesh.triangle.empty()) refuse(config, mesh.name, "has no triangles");
     const paging::Box box = box_of(placed.hierarchy.mesh);
-    if ((box.low.array() > terrain.high.array()).any() || (box.high.array() < terrain.low.array()).any())
+    if (box.low.x() > known.east_m || box.low.y() > known.north_m || box.high.x() < known.west_m ||
+        box.high.y() < known.south_m)
       refuse(
           config, mesh.name,
           fmt::format("lies at east {:.0f} to {:.0f}, north {:.0f} to {:.0f} m, outside the terrain; allowed is east "
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
-                      box.low.x(), box.high.x(), box.low.y(), box.high.y(), terrain.low.x(), terrain.high.x(),
-                      terrain.low.y(), terrain.high.y()));
+                      box.low.x(), box.high.x(), box.low.y(), box.high.y(), known.west_m, known.east_m, known.south_m,
+                      known.north_m));
     check_legs(config, mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
 #include "kernels/paging/near.h"
 #include "kernels/paging/residency.h"
@@ -18,7 +19,7 @@ class Meshes {
   /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain or stands in the way of a
   /// mission's lines, their run-ins and run-outs, or orbits, and for more than head_budget_mb of them. What follows the
   /// bottom is judged as if at the surface.
-  Meshes(const TerrainPagerConfig& config, const paging::Box& terrain);
+  Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain);
 
   struct Decision {
     std::vector<const msg::Mesh*> publish;  // in the scenario's order

@@ -26,13 +26,13 @@ TerrainPagerConfig quay() {
   return config;
 }
 
-const paging::Box kTerrain{{-200.0, -200.0}, {200.0, 200.0}};
+Meshes meshes_of(const TerrainPagerConfig& config) { return {config, *source::source_of(config.terrain)}; }
 const paging::Margins kMargins{60.0, 80.0};
 
 }  // namespace
 
 TEST_CASE("a mesh is published when the vehicle comes near it, and released farther off than that") {
-  Meshes meshes(quay(), kTerrain);
+  Meshes meshes = meshes_of(quay());
   const auto look = [&](double east_m) { return meshes.look({east_m, 50.0}, kMargins); };
   CHECK(look(39.0).publish.empty());
   const auto near = look(41.0);
@@ -50,13 +50,13 @@ TEST_CASE("what no head could ever meet or hold is refused, with its place") {
   TerrainPagerConfig config = quay();
   config.terrain.seabed.meshes[0].wall->from_enu_m = {400.0, 50.0};
   config.terrain.seabed.meshes[0].wall->to_enu_m = {424.0, 50.0};
-  CHECK_THROWS_WITH(Meshes(config, kTerrain),
+  CHECK_THROWS_WITH(meshes_of(config),
                     "world.yaml: seabed.meshes.quay: lies at east 400 to 424, north 50 to 50 m, outside the terrain; "
                     "allowed is east -200 to 200, north -200 to 200 m (position_m moves it)");
   config = quay();
   config.head_budget_mb = 0.05;
-  CHECK_THROWS_WITH(Meshes(config, kTerrain), Catch::Contains("world.yaml: seabed.meshes.quay: makes") &&
-                                                  Catch::Contains("at most 0.05 MB are allowed"));
+  CHECK_THROWS_WITH(meshes_of(config), Catch::Contains("world.yaml: seabed.meshes.quay: makes") &&
+                                           Catch::Contains("at most 0.05 MB are allowed"));
 }
 
 TEST_CASE("a runline through a mesh is refused with its place, one beside it or above it is not") {
@@ -65,7 +65,7 @@ TEST_CASE("a runline through a mesh is refused with its place, one beside it or 
     config.mission.depth_m = depth_m;
     config.mission.steps = {FlyLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
     try {
-      Meshes(config, kTerrain);
+      meshes_of(config);
     } catch (const ConfigError& error) {
       return std::string(error.what());
     }
@@ -88,9 +88,9 @@ TEST_CASE("a runline through a mesh is refused with its place, one beside it or 
   config.mission.run_in_m = 0.0;
   CHECK(refused({{126.0, 0.0}, {126.0, 90.0}}, 0.0).empty());
   config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 19.0}};
-  CHECK_NOTHROW(Meshes(config, kTerrain));
+  CHECK_NOTHROW(meshes_of(config));
   config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 21.0}};
-  CHECK_THROWS_WITH(Meshes(config, kTerrain), Catch::Contains("world.yaml: mission orbit: at"));
+  CHECK_THROWS_WITH(meshes_of(config), Catch::Contains("world.yaml: mission orbit: at"));
   config.terrain.seabed.meshes[0].wall->top_height_m = -2.0;
   CHECK(refused({{110.0, 0.0}, {110.0, 90.0}}, 1.9).empty());
   CHECK_FALSE(refused({{110.0, 0.0}, {110.0, 90.0}}, 2.0).empty());

@@ -42,7 +42,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       grid_{Vec2::Zero(), source::post_spacing_m(config.terrain, *terrain_), 1024,
             source::lsb_m(config.terrain, *terrain_)},
       box_(box_of(terrain_->extent())),
-      meshes_(config, box_),
+      meshes_(config, *terrain_),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes})),
       releases_(ports.out<msg::TileRelease>("release")),
       meshes_out_(ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes()})),

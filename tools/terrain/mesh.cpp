@@ -87,7 +87,7 @@ frames::HeadPose head_of(const Options& options, const Opened& seabed) {
 /// What the views see of a mesh that has a name, as places and the corners of triangles: first those of the source, as
 /// many as `of_the_source`, then those that stand for others. Nothing of a mesh beyond reach.
 nlohmann::ordered_json shown_of(const SeabedMesh& named, const Opened& seabed, std::span<const lod::View> views) {
-  const progressive::Hierarchy hierarchy = source::placed_mesh(named, seabed.seed).hierarchy;
+  const progressive::Hierarchy hierarchy = source::placed_mesh(named, seabed.seed, *seabed.terrain).hierarchy;
   const progressive::TriangleMesh& whole = hierarchy.mesh;
   Eigen::AlignedBox3d box;
   for (const auto& vertex : whole.vertex_m) box.extend(whole.origin_enu_m + vertex.cast<double>());

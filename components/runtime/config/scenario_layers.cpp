@@ -50,17 +50,6 @@ std::optional<relief::Band> read_band(const ConfigReader& mask, const char* key,
   return band;
 }
 
-std::vector<std::uint8_t> read_classes(ConfigReader& from, const char* key) {
-  std::vector<double> numbers;
-  std::vector<std::uint8_t> classes;
-  from.optional(key, numbers, 0, 255);
-  for (const double number : numbers) {
-    if (number != std::floor(number)) from.problem(key, "holds a number that is not a class, a whole number");
-    else classes.push_back(static_cast<std::uint8_t>(number));
-  }
-  return classes;
-}
-
 layers::Mask read_mask(ConfigReader from, const Names& earlier) {
   layers::Mask mask;
   const auto same = [](double x) { return x; };
@@ -322,6 +311,17 @@ layers::Layer read_layer(const std::string& name, ConfigReader& from, const Name
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> read_classes(ConfigReader& from, const char* key) {
+  std::vector<double> numbers;
+  std::vector<std::uint8_t> classes;
+  from.optional(key, numbers, 0, 255);
+  for (const double number : numbers) {
+    if (number != std::floor(number)) from.problem(key, "holds a number that is not a class, a whole number");
+    else classes.push_back(static_cast<std::uint8_t>(number));
+  }
+  return classes;
+}
 
 std::vector<layers::Layer> read_layers(const ConfigReader& seabed) {
   std::vector<layers::Layer> layers;

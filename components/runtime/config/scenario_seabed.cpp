@@ -1,7 +1,5 @@
 #include "components/runtime/config/scenario_seabed.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <optional>
@@ -134,57 +132,6 @@ void read_sediments(ConfigReader from, Seabed& seabed) {
   }
 }
 
-frames::Vec2 read_place(ConfigReader& from, const char* key) {
-  std::array<double, 2> place{};
-  from.required(key, place, -kFarAway_m, kFarAway_m);
-  return {place[0], place[1]};
-}
-
-progressive::SheetPileWall read_wall(ConfigReader from) {
-  constexpr double kMostVertices = 500'000;
-  progressive::SheetPileWall wall;
-  wall.from_enu_m = read_place(from, "from_m");
-  wall.to_enu_m = read_place(from, "to_m");
-  from.optional("foot_depth_m", wall.foot_depth_m, -100, 11000);
-  from.optional("top_height_m", wall.top_height_m, -11000, 100);
-  from.optional("pile_width_m", wall.pile_width_m, 0.1, 10);
-  from.optional("profile_depth_m", wall.profile_depth_m, 0.01, 10);
-  from.optional("out_of_line_m", wall.out_of_line_m, 0, 1);
-  from.optional("row_m", wall.row_m, 0.05, 100);
-  if (!from.good()) return wall;
-  if ((wall.to_enu_m - wall.from_enu_m).norm() < wall.pile_width_m)
-    from.problem("to_m", "is less than a pile's width from from_m");
-  else if (wall.foot_depth_m + wall.top_height_m < 0.1)
-    from.problem("top_height_m", "is not above the foot; allowed: at least 0.1 m above it");
-  else if (progressive::vertices_of(wall) > kMostVertices)
-    from.problem("row_m",
-                 fmt::format("makes {:.0f} vertices; allowed: {:.0f}", progressive::vertices_of(wall), kMostVertices));
-  return wall;
-}
-
-SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& seabed) {
-  SeabedMesh mesh;
-  mesh.name = name;
-  from.optional("sediment", mesh.sediment, 0, 255);
-  if (!seabed.sediments.contains(mesh.sediment)) from.problem("sediment", "is not a class of seabed.sediments");
-  const auto wall = from.optional_section("sheet_pile_wall");
-  if (wall.has_value() == from.has("file")) {
-    from.problem("", "needs one of file, sheet_pile_wall");
-    return mesh;
-  }
-  if (wall) {
-    mesh.wall = read_wall(*wall);
-    return mesh;
-  }
-  std::array<double, 3> position{};
-  from.required_path("file", mesh.file);
-  from.optional("unit_m", mesh.unit_m, 1e-6, 1e3);
-  from.optional("position_m", position, -1e7, 1e7);  // a file may have a map's coordinates
-  from.optional("heading_deg", mesh.heading_rad, -360, 360, kDegrees);
-  mesh.position_enu_m = {position[0], position[1], position[2]};
-  return mesh;
-}
-
 }  // namespace
 
 Seabed read_seabed(ConfigReader from) {
@@ -197,7 +144,7 @@ Seabed read_seabed(ConfigReader from) {
   if (const auto sediments = from.optional_section("sediments")) {
     read_sediments(*sediments, seabed);
   }
-  for (const auto& [name, mesh] : from.named_sections("meshes")) seabed.meshes.push_back(read_mesh(name, mesh, seabed));
+  read_meshes(from, seabed);
   const std::array<std::pair<Seabed::Kind, const char*>, 5> sections = {{{Seabed::Kind::kLayers, "layers"},
                                                                          {Seabed::Kind::kLayers, "size_m"},
                                                                          {Seabed::Kind::kLayers, "centre_m"},

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/config/config_error.h"
 #include "components/runtime/config/scenario_layers.h"
+#include "kernels/progressive/bars.h"
 #include "kernels/progressive/sheet_pile_wall.h"
+#include "kernels/progressive/strewn.h"
 #include "kernels/seabed/law.h"
 
 namespace ensonify {
@@ -29,15 +32,25 @@ struct LayeredSeabed {
   std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
 };
 
-/// A surface of triangles that stands in the seabed: of a file, or a generated quay wall.
+/// Copies that stand on the ground, each with its origin at the ground's height.
+struct StrewnCopies {
+  int count = 1;
+  progressive::Strewn where;
+  std::vector<std::uint8_t> on;  // classes of the ground on which they stand; none: on any
+  ConfigPlace place;             // for messages
+};
+
+/// A surface of triangles that stands in the seabed: of a file, of bars, or a quay wall.
 struct SeabedMesh {
   std::string name;
-  std::string file;                                    // as found on disk; "": the wall
+  std::string file;                                    // as found on disk; "": what follows
   double unit_m = 1.0;                                 // metres in the file's unit
-  frames::Vec3 position_enu_m = frames::Vec3::Zero();  // of the file's origin
-  double heading_rad = 0.0;                            // of the file's y axis, clockwise from north
+  frames::Vec3 position_enu_m = frames::Vec3::Zero();  // of the file's origin, or the bars'
+  double heading_rad = 0.0;                            // of its y axis, clockwise from north
   std::optional<progressive::SheetPileWall> wall;
   std::uint8_t sediment = 0;  // of all of it, one of Seabed::sediments
+  std::vector<progressive::Bar> bars;
+  std::optional<StrewnCopies> strewn;  // of the file or the bars; without it there is one, at the position
 };
 
 struct Seabed {

@@ -13,5 +13,9 @@ Water read_water(ConfigReader from);
 Seabed read_seabed(ConfigReader from);
 /// The list `layers` of a seabed.
 std::vector<layers::Layer> read_layers(const ConfigReader& seabed);
+/// The map `meshes` of a seabed whose sediments are known.
+void read_meshes(const ConfigReader& from, Seabed& seabed);
+/// A list of classes of the seabed; empty when left out.
+std::vector<std::uint8_t> read_classes(ConfigReader& from, const char* key);
 
 }  // namespace ensonify

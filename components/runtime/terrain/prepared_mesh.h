@@ -5,6 +5,7 @@
 
 #include "components/runtime/config/scenario_seabed.h"
 #include "components/runtime/terrain/lod_file.h"
+#include "components/runtime/terrain/terrain_source.h"
 
 namespace ensonify::source {
 
@@ -25,8 +26,9 @@ struct PlacedMesh {
   bool cached = true;  // false: a file's splits had to be made
 };
 
-/// A scenario's mesh where it stands. A generated one is a function of the scenario's seed and its name. Throws as
-/// above.
-PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed);
+/// A scenario's mesh where it stands. What is random in it is a function of the scenario's seed and its name. Strewn
+/// copies stand on `ground`, none where it has no height. Throws as above, and where too little ground is of the
+/// classes that copies stand on: when of a thousand draws per copy too few have hit it.
+PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed, const TerrainSource& ground);
 
 }  // namespace ensonify::source

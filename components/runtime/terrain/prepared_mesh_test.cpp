@@ -1,17 +1,24 @@
 #include "components/runtime/terrain/prepared_mesh.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/terrain/source_of.h"
 #include "components/runtime/tiles/file_bytes.h"
 
 using namespace ensonify;
 using namespace ensonify::source;
 
 namespace {
+
+constexpr double kPi = 3.14159265358979;
 
 /// A ridge of 3 x 3 vertices as an OBJ that lives as long as the test.
 struct Ridge {
@@ -36,6 +43,26 @@ struct Ridge {
 
 frames::Vec3 vertex(const progressive::Hierarchy& hierarchy, std::size_t v) {
   return hierarchy.mesh.origin_enu_m + hierarchy.mesh.vertex_m[v].cast<double>();
+}
+
+/// Ground of 100 m square, 20 m deep at its middle, that falls to the east by a metre in ten. Class 3 east of 10 m.
+std::unique_ptr<TerrainSource> slope() {
+  TerrainOptions options;
+  options.seabed.layered.size_m = {100.0, 100.0};
+  const relief::Plane plane{.depth_m = 20.0, .slope = 0.1, .downhill_heading_rad = 0.5 * kPi};
+  layers::Layer east{.name = "east", .form = layers::Paint{}, .sediment = 3};
+  east.mask.emplace().polygon_enu_m = {{10, -50}, {50, -50}, {50, 50}, {10, 50}};
+  options.seabed.layered.layers = {{.name = "ground", .form = plane}, east};
+  return source_of(options);
+}
+
+/// A pole a metre high, standing on the ground.
+SeabedMesh poles(int count, std::vector<std::uint8_t> on = {}) {
+  SeabedMesh mesh{.name = "poles", .bars = {{.from_m = {0, 0, 0}, .to_m = {0, 0, 1}, .diameter_m = 0.2}}};
+  mesh.strewn = {
+      .count = count, .where = {.from_enu_m = {-50, 0}, .to_enu_m = {50, 0}, .width_m = 60}, .on = std::move(on)};
+  mesh.strewn->place = {"s.yaml", 3, 9};
+  return mesh;
 }
 
 }  // namespace
@@ -69,12 +96,12 @@ TEST_CASE("a mesh of a file stands where the scenario says, turned clockwise, ca
                         .unit_m = 10.0,
                         .position_enu_m = {100.0, 50.0, -9.0},
                         .heading_rad = 0.5 * 3.14159265358979};
-  const PlacedMesh placed = placed_mesh(mesh, 1);
+  const PlacedMesh placed = placed_mesh(mesh, 1, *slope());
   CHECK_FALSE(placed.cached);
   // 20 m along the file's x and 40 m along its y: 40 m to the east and 20 m to the south.
   CHECK((vertex(placed.hierarchy, 7) - frames::Vec3(140.0, 30.0, -4.0)).norm() < 1e-4);
   write_lod_file(lod_path_of(ridge.path), prepared_mesh(ridge.path, 10.0, "").lod);
-  const PlacedMesh again = placed_mesh(mesh, 1);
+  const PlacedMesh again = placed_mesh(mesh, 1, *slope());
   CHECK(again.cached);
   CHECK(again.hierarchy.mesh.vertex_m == placed.hierarchy.mesh.vertex_m);
   CHECK(again.hierarchy.born == placed.hierarchy.born);
@@ -83,12 +110,54 @@ TEST_CASE("a mesh of a file stands where the scenario says, turned clockwise, ca
 TEST_CASE("a generated wall depends on the seed and on its name") {
   SeabedMesh mesh{.name = "quay", .wall = progressive::SheetPileWall{}};
   mesh.wall->to_enu_m = {12.0, 0.0};
-  const auto at_seed = [&](std::uint64_t seed) { return placed_mesh(mesh, seed).hierarchy.mesh.vertex_m; };
+  const auto at_seed = [&](std::uint64_t seed) { return placed_mesh(mesh, seed, *slope()).hierarchy.mesh.vertex_m; };
   const auto quay = at_seed(1);
   CHECK(at_seed(1) == quay);
   CHECK(at_seed(2) != quay);
   mesh.name = "pier";
   CHECK(at_seed(1) != quay);
+}
+
+TEST_CASE("bars stand where the scenario says, turned clockwise") {
+  SeabedMesh mesh{.name = "beam", .position_enu_m = {100, 50, -9}, .heading_rad = 0.5 * kPi};
+  mesh.bars = {{.from_m = {0, 0, 0}, .to_m = {0, 30, 0}, .section_m = {1, 2}}};
+  const auto placed = placed_mesh(mesh, 1, *slope());
+  CHECK(placed.cached);
+  Eigen::AlignedBox3d box;
+  for (std::size_t v = 0; v < placed.hierarchy.mesh.vertex_m.size(); ++v) box.extend(vertex(placed.hierarchy, v));
+  CHECK((box.min() - frames::Vec3(100, 49.5, -10)).norm() < 1e-4);
+  CHECK((box.max() - frames::Vec3(130, 50.5, -8)).norm() < 1e-4);
+}
+
+TEST_CASE("strewn copies stand on the ground, on the classes that are asked for, by the seed and the name") {
+  const auto ground = slope();
+  const auto feet = [&](const SeabedMesh& mesh, std::uint64_t seed) {  // the middle of the lower end
+    const auto hierarchy = placed_mesh(mesh, seed, *ground).hierarchy;
+    std::vector<frames::Vec3> places;
+    for (std::size_t v = 32; v < hierarchy.mesh.vertex_m.size(); v += 34) places.push_back(vertex(hierarchy, v));
+    return places;
+  };
+  const auto all = feet(poles(40), 1), east = feet(poles(40, {3}), 1);
+  REQUIRE(all.size() == 40);
+  REQUIRE(east.size() == 40);
+  for (const auto& foot : all) CHECK(foot.z() == Approx(-20 - 0.1 * foot.x()).margin(3e-4));  // a step of heights
+  for (const auto& foot : east) CHECK(foot.x() > 10 - 0.25);                                  // half a post
+  CHECK(std::any_of(all.begin(), all.end(), [](const frames::Vec3& foot) { return foot.x() < 0; }));
+  CHECK(feet(poles(40), 1) == all);
+  CHECK(feet(poles(40), 2) != all);
+  SeabedMesh other = poles(40);
+  other.name = "posts";
+  CHECK(feet(other, 1) != all);
+  CHECK(std::equal(all.begin(), all.begin() + 10, feet(poles(10), 1).begin(),
+                   [](const auto& a, const auto& b) { return (a - b).norm() < 1e-4; }));  // fewer: the first ones
+}
+
+TEST_CASE("copies without ground, or too many of them, are refused") {
+  CHECK_THROWS_WITH(
+      placed_mesh(poles(5, {7}), 1, *slope()),
+      "s.yaml:3:9: seabed.meshes.poles.strewn: found ground for 0 of 5 copies; widen the rectangle, or `on`");
+  CHECK_THROWS_WITH(placed_mesh(poles(100'000), 1, *slope()),
+                    "s.yaml:3:9: seabed.meshes.poles.strewn: makes 3400000 vertices; allowed: 2000000");
 }
 
 TEST_CASE("a mesh beyond what floats tell is refused, with its file") {
