@@ -124,6 +124,48 @@ class Terrain(SystemTest):
         subprocess.run([BIN / "ensonify-plot", "lod", harbour, *map(str, words), "--out", picture], check=True, capture_output=True, timeout=120)
         self.assertGreater(picture.stat().st_size, 50_000)
 
+    def test_marks_are_where_the_seabed_is_furrowed(self):
+        scars = SOURCE / "scenarios/trawl_scars/scenario.yaml"
+        rows = list(csv.DictReader(io.StringIO(terrain("marks", scars, "--points", 201).stdout)))
+        marks = {}
+        for row in rows:
+            self.assertEqual(row["layer"], "scars")
+            marks.setdefault(int(row["mark"]), []).append([float(row[key]) for key in ("east_m", "north_m", "half_width_m", "depth_m")])
+        self.assertGreater(len(marks), 20)
+        deep, points = 0, []
+        for line in map(np.array, marks.values()):
+            self.assertEqual(len(line), 201)
+            inner = line[40:160:12]  # a tenth of its length at each end it fades
+            ahead = line[42:162:12, :2] - line[38:158:12, :2]
+            across = np.column_stack([ahead[:, 1], -ahead[:, 0]]) / np.linalg.norm(ahead, axis=1)[:, None]
+            inside = (abs(inner[:, 0]) < 980) & (abs(inner[:, 1]) < 480)
+            depth_m, away_m = line[0, 3], 4 * line[0, 2]
+            if depth_m < 0.15 or inside.sum() < 4:
+                continue
+            deep += 1
+            on, aside = inner[inside, :2], away_m * across[inside]
+            points.append((depth_m, np.concatenate([on, on + aside, on - aside])))
+        self.assertGreater(deep, 8)
+        text = "".join(f"{x},{y}\n" for _, places in points for x, y in places)
+        heights = [float(row["elevation_m"]) for row in csv.DictReader(io.StringIO(terrain("sample", scars, "--points", "-", text=text).stdout))]
+        for depth_m, places in points:
+            (middle, port, starboard), heights = np.reshape(heights[:len(places)], (3, -1)), heights[len(places):]
+            # Mud and swell differ by 2 cm over some metres; a line between posts 0.2 m apart is not the deepest: up to a tenth of depth.
+            self.assertAlmostEqual(np.median(0.5 * (port + starboard) - middle), depth_m, delta=0.02 + 0.1 * depth_m)
+
+        collection = json.loads(terrain("marks", scars, "--points", 201, "--geojson").stdout)
+        self.assertEqual(len(collection["features"]), len(marks))
+        for feature, line in zip(collection["features"], marks.values()):
+            self.assertEqual(feature["geometry"]["type"], "LineString")
+            longitude, latitude = np.array(feature["geometry"]["coordinates"]).T
+            line = np.array(line)
+            # The ellipsoid's radii at 61 N: 111,429 m to a degree of latitude, 54,108 m to one of longitude; 0.1 % for grid north.
+            np.testing.assert_allclose((latitude - 61.0) * 111_429, line[:, 1], atol=3)
+            np.testing.assert_allclose((longitude - 3.5) * 54_108, line[:, 0], atol=3)
+        refused = terrain("marks", self.build())
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is no seabed of layers; only those have marks", refused.stderr)
+
     def test_info_and_verify(self):
         folder = self.build()
         facts = json.loads(terrain("info", folder, "--json").stdout)

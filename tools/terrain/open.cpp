@@ -22,6 +22,7 @@ Opened open_seabed(const std::string& scenario_or_folder) {
   opened.lsb_m = source::lsb_m(options, *opened.terrain);
   opened.meshes = scenario.seabed.meshes;
   opened.seed = scenario.seed;
+  if (scenario.seabed.kind == Seabed::Kind::kLayers) opened.layered = scenario.seabed.layered;
   return opened;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Opened {
   double spacing_m = 1.0, lsb_m = 2e-4;
   std::vector<SeabedMesh> meshes;  // that the scenario names
   std::uint64_t seed = 0;
+  std::optional<LayeredSeabed> layered;  // of a generated one
 };
 Opened open_seabed(const std::string& scenario_or_folder);
 

@@ -21,6 +21,7 @@ Verb add_grid(CLI::App& parent);
 Verb add_import(CLI::App& parent);
 Verb add_info(CLI::App& parent);
 Verb add_lod(CLI::App& parent);
+Verb add_marks(CLI::App& parent);
 Verb add_mesh(CLI::App& parent);
 Verb add_plot(CLI::App& parent);
 Verb add_sample(CLI::App& parent);

@@ -29,6 +29,11 @@ Field owned(Kernel kernel) {
   return [shared](const Window& window, std::span<float> out) { shared->fill(window, out); };
 }
 
+relief::Marks marks_in(const relief::MarkParameters& form, const std::string& layer, double post_spacing_m,
+                       std::uint64_t seed) {
+  return {form, post_spacing_m, seed, "seabed/" + layer};
+}
+
 Field heights_of(const relief::Seabed& seabed) {
   auto shared = std::make_shared<const relief::Seabed>(seabed);
   return [shared](const Window& window, std::span<float> out) { shared->fill(window, out, {}); };
@@ -176,7 +181,7 @@ class Maker {
     return owned(relief::Ripples(form, spacing_m_, description_.seed, "seabed/" + layer));
   }
   Field height_of(const relief::MarkParameters& form, const std::string& layer) const {
-    return owned(relief::Marks(form, spacing_m_, description_.seed, "seabed/" + layer));
+    return owned(marks_in(form, layer, spacing_m_, description_.seed));
   }
   Field height_of(const relief::BodyParameters& form, const std::string& layer) const {
     return owned(relief::Bodies(form, spacing_m_, description_.seed, "seabed/" + layer));
@@ -252,6 +257,19 @@ class Maker {
 
 relief::Seabed seabed_of(const LayeredSeabed& seabed, double post_spacing_m, const frames::Geodetic& origin) {
   return Maker(seabed, post_spacing_m, origin).make();
+}
+
+std::vector<NamedMark> marks_of(const LayeredSeabed& seabed, double post_spacing_m) {
+  const frames::Vec2 half = 0.5 * seabed.size_m;
+  std::vector<NamedMark> marks;
+  for (const layers::Layer& layer : seabed.layers) {
+    const auto* form = std::get_if<relief::MarkParameters>(&layer.form);
+    if (form == nullptr || !layer.used) continue;
+    for (const relief::Mark& mark : marks_in(*form, layer.name, post_spacing_m, seabed.seed)
+                                        .within(seabed.centre_enu_m - half, seabed.centre_enu_m + half))
+      marks.push_back({layer.name, mark});
+  }
+  return marks;
 }
 
 }  // namespace ensonify::source
