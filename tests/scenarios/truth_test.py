@@ -7,7 +7,9 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
+import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
@@ -37,6 +39,12 @@ SLOPES = {
     ("canyon_head", "walls"): {"p50": (14, 18), "p95": (33, 41), "p99.9": (50, 60)},  # measured: 16, 37, 55
     ("coral_bank/inset", "reef"): {"p50": (33, 41), "p95": (74, 82), "p99.9": (85, 90)},  # 37, 78, 88
     ("trawl_scars", "plain"): {"p50": (0.4, 0.6)},  # 0.5
+}
+# Flat mud: scenario: window, and the layers that lie on it there.
+MUD = {
+    "trawl_scars": ("scars", ("scars",)),
+    "target_field": ("mud", ("clutter",)),
+    "harbour": ("basin", ("drags", "scour", "rubble", "anchor", "anchor_pit", "anchor_spoil")),
 }
 
 
@@ -109,6 +117,23 @@ class Truth(unittest.TestCase):
                     continue  # longer waves have other layers, and an outer scale
                 expected = row["median_m"] * math.sqrt(strength_cm4 * 10**-1.5 / fbm) * (mine["side_m"] / row["side_m"])**0.625
                 self.assertAlmostEqual(mine["median_m"] / expected, 1, delta=0.06, msg=f"{scenario} {mine['side_m']} m")
+
+    def test_mud_under_what_lies_on_it_is_even(self):
+        # As measured flat mud: K2 0-0.05, rms/median 1.0-1.3, p95/p5 2-3, where plain fractional Brownian relief has 0.00, 1.04 and
+        # 2.1. Here that has 0.00, 1.04 and 1.84 (unit/fbm: our local rms is of no high-passed heights), and scatters by 0.01 in K2.
+        even = {"k2": (-0.01, 0.05), "rms_over_median": (1.0, 1.3), "p95_over_p5": (2 * 1.84 / 2.1, 3)}
+        windows = {name: {w["name"]: w for w in stored(name)} for name in MUD}
+        for name, (window, layers) in MUD.items():
+            text = scenario_of(truth_file(name)).read_text(encoding="utf-8")
+            for layer in layers:
+                text, count = re.subn(rf"^    {layer}:( \{{|\n     )", lambda m: m[0] + (" use: false," if "{" in m[1] else " use: false\n     "),
+                                      text, flags=re.M)
+                self.assertEqual(count, 1, layer)
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                bare = pathlib.Path(folder) / "scenario.yaml"
+                bare.write_text(text, encoding="utf-8")
+                measured = truth(bare, [windows[name][window]])[0]
+                self.assertEqual(outside(measured, even), [], measured)
 
     def test_the_border_of_the_ripples_is_sharp(self):
         # Local rms on both sides of a measured one: 15 to 1.
