@@ -84,8 +84,7 @@ double check_mission(const source::TerrainSource& terrain, const TerrainPagerCon
 
 void check_mission_alone(const TerrainPagerConfig& config) {
   const auto terrain = source::source_of(config.terrain);
-  const Extent extent = terrain->extent();
-  const Meshes meshes(config, {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}});
+  const Meshes meshes(config, *terrain);
   check_mission(*terrain, config, Beyond::kAllowed);
 }
 
