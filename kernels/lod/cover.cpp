@@ -4,9 +4,23 @@
 #include <numeric>
 
 namespace ensonify::lod {
+namespace {
 
-void Cover::choose(const Hierarchy& hierarchy, std::span<const View> views) {
+/// The greatest size of a block that a view meets. Smaller ones make more blocks, whose neighbours change as the view
+/// moves; of larger ones much is built that the view does not look at.
+constexpr std::int32_t kLargestMet = 1;
+
+}  // namespace
+
+struct Cover::Looked {
+  PreparedFrustum frustum;
+  std::int32_t level;
+};
+
+void Cover::choose(const Hierarchy& hierarchy, std::span<const View> wanted) {
   clear(hierarchy);
+  std::vector<Looked> views;
+  for (const View& view : wanted) views.push_back({PreparedFrustum(view.frustum), view.level});
   for (std::int32_t row = 0; row < hierarchy.rows(kLargest); ++row) {
     for (std::int32_t column = 0; column < hierarchy.columns(kLargest); ++column) {
       met_.resize(views.size());
@@ -35,20 +49,21 @@ void Cover::clear(const Hierarchy& hierarchy) {
 
 /// The views that the block above has met are numbered in `met_`, from `first` on; those that this one meets, or may
 /// meet, are added for the blocks below it.
-void Cover::cover(const Hierarchy& hierarchy, std::span<const View> views, std::size_t first, const Block& block) {
+void Cover::cover(const Hierarchy& hierarchy, std::span<const Looked> views, std::size_t first, const Block& block) {
   if (hierarchy.empty(block)) return;
   const Sphere sphere = hierarchy.sphere(block);
   const std::size_t end = met_.size();
   std::int32_t level = kCoarsest;
   for (std::size_t i = first; i < end; ++i) {
-    const View& view = views[met_[i]];
+    const Looked& view = views[met_[i]];
     const bool matters = view.level < level;
-    if (matters && !meets(view.frustum, sphere)) continue;
+    if (matters && !view.frustum.meets(sphere)) continue;
     if (matters) level = view.level;
     met_.push_back(met_[i]);
   }
   const std::int32_t size = block.size;
-  if (size > 0 && (level < size || !hierarchy.has_room({block, size}))) {
+  const std::int32_t largest = level == kCoarsest ? kLargest : kLargestMet;
+  if (size > 0 && (size > largest || !hierarchy.has_room({block, size}))) {
     for (const std::int32_t row : {2 * block.row, 2 * block.row + 1}) {
       for (const std::int32_t column : {2 * block.column, 2 * block.column + 1}) {
         const bool inside = column < hierarchy.columns(size - 1) && row < hierarchy.rows(size - 1);
@@ -85,6 +100,10 @@ Rim rim_of(const Leaf& leaf, const Cover& cover, const Neighbours& neighbours) {
   const std::int32_t span = 1 << block.size;
   const std::int32_t west = block.column * span, east = std::min(west + span, cover.columns());
   const std::int32_t south = block.row * span, north = std::min(south + span, cover.rows());
+  if (leaf.level != kCoarsest) {
+    const auto all = [](std::int32_t blocks) { return ~0U >> (32 - blocks); };
+    return {all(east - west), all(east - west), all(north - south), all(north - south)};
+  }
   // Beyond the tile's edge lies the neighbour's first or last block.
   const auto beyond = [&](std::int32_t column, std::int32_t row) {
     if (column < 0) return neighbours.west ? neighbours.west->level_over(cover.columns() - 1, row) : Cover::kNone;
@@ -95,8 +114,7 @@ Rim rim_of(const Leaf& leaf, const Cover& cover, const Neighbours& neighbours) {
   };
   Rim rim{};
   const auto add = [&](Side side, std::int32_t at, std::int32_t level) {
-    const bool coarsest = leaf.level == kCoarsest && (level == Cover::kNone || level == kCoarsest);
-    if (!coarsest) rim[side] |= 1U << at;
+    if (level != Cover::kNone && level != kCoarsest) rim[side] |= 1U << at;
   };
   for (std::int32_t column = west; column < east; ++column) {
     add(kSouth, column - west, beyond(column, south - 1));

@@ -40,7 +40,8 @@ class Cover {
 
  private:
   void clear(const Hierarchy& hierarchy);
-  void cover(const Hierarchy& hierarchy, std::span<const View> views, std::size_t first, const Block& block);
+  struct Looked;  // a view, prepared
+  void cover(const Hierarchy& hierarchy, std::span<const Looked> views, std::size_t first, const Block& block);
   void add(const Leaf& leaf);
 
   std::int32_t columns_ = 0, rows_ = 0;  // blocks of size 0

@@ -49,7 +49,7 @@ TEST_CASE("blocks cover a tile once, as finely as the views ask for") {
   for (const Leaf& leaf : cover.leaves()) {
     const Posts under = hierarchy.posts(leaf.block);
     levels.insert(leaf.level);
-    small_and_coarse += leaf.block.size == 0 && leaf.level == 3 ? 1U : 0U;
+    small_and_coarse += leaf.block.size == 1 && leaf.level == 4 ? 1U : 0U;
     for (int y = under.south; y < under.north; ++y) {
       for (int x = under.west; x < under.east; ++x) ++covered[std::size_t(y * 1024 + x)];
     }

@@ -91,19 +91,6 @@ Interval angles_of(const Frustum& frustum, const Swept& swept) {
   return {std::min(first, first + turn), std::max(first, first + turn)};
 }
 
-/// Whether directions, and all within an angle of one of them, are partly the frustum's. `angles()`: about the axis.
-template <class Angles>
-bool overlap(const Frustum& frustum, const Interval& from_plane_rad, double around_rad, const Angles& angles) {
-  const auto [low, high] = from_plane_rad;
-  if (high + around_rad < std::asin(frustum.low_sine) || low - around_rad > std::asin(frustum.high_sine)) return false;
-  const double nearest_axis = std::cos(std::max(std::abs(low), std::abs(high))), sine = std::sin(around_rad);
-  if (sine >= nearest_axis) return true;
-  const Interval about = angles();
-  const double between = 0.5 * (about.low + about.high - frustum.low_angle_rad - frustum.high_angle_rad);
-  const double halves = 0.5 * (about.high - about.low + frustum.high_angle_rad - frustum.low_angle_rad);
-  return std::abs(std::remainder(between, 2.0 * pi)) <= halves + std::asin(sine / nearest_axis);
-}
-
 /// Most of what is asked for lies far beside a thin fan. Sines differ by no more than their angles, a sphere hides less
 /// than pi/2 x radius / distance of them to either side, and a launch is within twice the angle between the flattest
 /// path and a level one of its chord.
@@ -111,32 +98,62 @@ bool far_beside(const Frustum& frustum, const Vec3& to_centre_m, double distance
   const Water& water = frustum.water;
   const double sine = to_centre_m.dot(frustum.axis_enu) / distance_m;
   const double beside = std::max(frustum.low_sine - sine, sine - frustum.high_sine) - 0.5 * pi * radius_m / distance_m;
-  if (beside <= 0.0) return false;
-  return water.slowest_mps == water.fastest_mps || beside > 2.0 * std::acos(water.slowest_mps / water.fastest_mps);
+  return beside > 0.0 && beside > 2.0 * std::acos(water.slowest_mps / water.fastest_mps);
 }
+
+double cosine_of(double sine) { return std::sqrt(std::max(0.0, 1.0 - sine * sine)); }
 
 }  // namespace
 
-bool meets(const Frustum& frustum, const Sphere& sphere) {
-  const Vec3 to_centre_m = sphere.centre_enu_m - frustum.apex_enu_m;
+PreparedFrustum::PreparedFrustum(const Frustum& frustum)
+    : frustum_(frustum),
+      straight_(frustum.water.slowest_mps == frustum.water.fastest_mps),
+      low_rad_(std::asin(frustum.low_sine)),
+      high_rad_(std::asin(frustum.high_sine)),
+      half_rad_(0.5 * (frustum.high_angle_rad - frustum.low_angle_rad)),
+      half_cosine_(std::cos(half_rad_)),
+      half_sine_(std::sin(half_rad_)) {
+  const double middle = 0.5 * (frustum.low_angle_rad + frustum.high_angle_rad);
+  middle_enu_ = std::cos(middle) * frustum.zero_enu + std::sin(middle) * frustum.side_enu;
+}
+
+bool PreparedFrustum::meets(const Sphere& sphere) const {
+  const Vec3 to_centre_m = sphere.centre_enu_m - frustum_.apex_enu_m;
   const double distance_m = to_centre_m.norm();
-  if (distance_m - sphere.radius_m > frustum.max_range_m) return false;
+  if (distance_m - sphere.radius_m > frustum_.max_range_m) return false;
   if (distance_m <= sphere.radius_m) return true;
-  if (far_beside(frustum, to_centre_m, distance_m, sphere.radius_m)) return false;
-  const auto angle_from_plane = [](double sine) { return std::asin(std::clamp(sine, -1.0, 1.0)); };
-  if (frustum.water.slowest_mps == frustum.water.fastest_mps) {  // as below, with one direction
-    const Vec3 direction = to_centre_m / distance_m;
-    const double from_plane = angle_from_plane(direction.dot(frustum.axis_enu));
-    return overlap(frustum, {from_plane, from_plane}, std::asin(sphere.radius_m / distance_m), [&] {
-      const double angle = angle_of(frustum, direction);
-      return Interval{angle, angle};
-    });
-  }
-  const Swept swept = launched_towards(frustum, to_centre_m, sphere.radius_m);
-  if (swept.around_rad >= 0.5 * pi) return true;
-  const auto [low, high] = sines_of(swept, frustum.axis_enu);
-  return overlap(frustum, {angle_from_plane(low), angle_from_plane(high)}, swept.around_rad,
-                 [&] { return angles_of(frustum, swept); });
+  if (straight_) return straight_paths_meet(to_centre_m / distance_m, sphere.radius_m / distance_m);
+  return bent_paths_meet(to_centre_m, distance_m, sphere.radius_m);
+}
+
+/// By sines and cosines of sums of angles, for there are many spheres.
+bool PreparedFrustum::straight_paths_meet(const Vec3& direction, double around_sine) const {
+  const double sine = direction.dot(frustum_.axis_enu), cosine = cosine_of(sine),
+               around_cosine = cosine_of(around_sine);
+  const double a = sine * around_cosine, b = cosine * around_sine;
+  const double c = cosine * around_cosine, d = sine * around_sine;
+  if (c - d > 0.0 && a + b < frustum_.low_sine) return false;   // cosine and sine of the greatest angle from the plane
+  if (c + d > 0.0 && a - b > frustum_.high_sine) return false;  // of the least
+  if (around_sine >= cosine || half_rad_ >= pi) return true;
+  const double about_sine = around_sine / cosine, about_cosine = cosine_of(about_sine);
+  const bool all_about = half_sine_ * about_cosine + half_cosine_ * about_sine <= 0.0;  // half a circle to either side
+  return all_about || direction.dot(middle_enu_) >= cosine * (half_cosine_ * about_cosine - half_sine_ * about_sine);
+}
+
+bool PreparedFrustum::bent_paths_meet(const Vec3& to_centre_m, double distance_m, double radius_m) const {
+  if (far_beside(frustum_, to_centre_m, distance_m, radius_m)) return false;
+  const Swept swept = launched_towards(frustum_, to_centre_m, radius_m);
+  const double around = swept.around_rad;
+  if (around >= 0.5 * pi) return true;
+  const auto [low_sine, high_sine] = sines_of(swept, frustum_.axis_enu);
+  const double low = std::asin(std::clamp(low_sine, -1.0, 1.0)), high = std::asin(std::clamp(high_sine, -1.0, 1.0));
+  if (high + around < low_rad_ || low - around > high_rad_) return false;
+  const double nearest_axis = std::cos(std::max(std::abs(low), std::abs(high))), sine = std::sin(around);
+  if (sine >= nearest_axis) return true;
+  const Interval about = angles_of(frustum_, swept);
+  const double between = 0.5 * (about.low + about.high - frustum_.low_angle_rad - frustum_.high_angle_rad);
+  const double halves = 0.5 * (about.high - about.low) + half_rad_;
+  return std::abs(std::remainder(between, 2.0 * pi)) <= halves + std::asin(sine / nearest_axis);
 }
 
 }  // namespace ensonify::lod

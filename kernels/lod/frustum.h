@@ -30,10 +30,29 @@ struct Frustum {
   bool operator==(const Frustum&) const = default;
 };
 
-/// Whether a path of the frustum can touch the sphere: never false when one does. Straight paths are judged exactly but
-/// for the corners of the frustum. Of bent ones it is known that they keep their azimuth and that Snell's law holds
-/// between the speeds of `water`, so a path that ends at a place left the head within some interval of depression;
-/// all of it counts.
-bool meets(const Frustum& frustum, const Sphere& sphere);
+/// A frustum to which many spheres are held: what does not depend on them is worked out once.
+class PreparedFrustum {
+ public:
+  explicit PreparedFrustum(const Frustum& frustum);
+
+  /// Whether a path of the frustum can touch the sphere: never false when one does. Straight paths are judged exactly
+  /// but for the corners of the frustum. Of bent ones it is known that they keep their azimuth and that Snell's law
+  /// holds between the speeds of `water`, so a path that ends at a place left the head within some interval of
+  /// depression; all of it counts.
+  bool meets(const Sphere& sphere) const;
+
+ private:
+  bool straight_paths_meet(const frames::Vec3& direction, double around_sine) const;
+  bool bent_paths_meet(const frames::Vec3& to_centre_m, double distance_m, double radius_m) const;
+
+  Frustum frustum_;
+  bool straight_;
+  double low_rad_, high_rad_;  // from the plane across the axis
+  frames::Vec3 middle_enu_;    // across the axis, in the middle of the angles about it ...
+  double half_rad_;            // ... which go so far to either side
+  double half_cosine_, half_sine_;
+};
+
+inline bool meets(const Frustum& frustum, const Sphere& sphere) { return PreparedFrustum(frustum).meets(sphere); }
 
 }  // namespace ensonify::lod

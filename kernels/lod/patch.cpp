@@ -1,7 +1,9 @@
 #include "kernels/lod/patch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace ensonify::lod {
 namespace {
@@ -12,6 +14,7 @@ using terrain::Vec2;
 /// A post of a tile.
 struct Post {
   std::int32_t column, row;
+  bool operator==(const Post&) const = default;
 };
 
 /// Every 2^level-th post of a row or column, and the last.
@@ -48,6 +51,13 @@ class Builder {
     }
   }
 
+  /// Room for a grid of so many vertices and a rim.
+  void reserve(std::size_t vertices) {
+    const std::size_t around = 2 * (x_m_.size() + y_m_.size());
+    patch_.vertices_m.reserve(vertices + 9 * around / 4 + 36);
+    patch_.grids.reserve(around / 4 + 5);
+  }
+
   /// A grid of posts: `at(column, row)` of the grid.
   template <class At>
   void add(std::size_t columns, std::size_t rows, const At& at) {
@@ -76,9 +86,37 @@ class Builder {
     }
   }
 
+  /// What lies between two lines of posts, inner ones to the left of the outer ones' way. A ray tracer counts grids by
+  /// squares of 2 x 2 cells. Where there are more posts outside than inside, a square takes four steps outside and one
+  /// inside: five triangles, and three that are none.
+  void add_strip(const std::vector<Post>& outer, const std::vector<Post>& inner) {
+    std::vector<std::size_t> ends{0};  // of squares, among the posts
+    while (ends.back() + 1 < outer.size()) {
+      const std::size_t first = ends.back();
+      std::size_t end = first + 1;
+      while (end - first < 4 && end + 1 < outer.size() && inner[end] == inner[first]) ++end;
+      ends.push_back(end);
+    }
+    const bool fewer = 3 * ends.size() < outer.size();  // than 2 x 2 cells of one strip by a good deal
+    if (!fewer || has_hole(outer) || has_hole(inner))
+      return add(outer.size(), 2, [&](std::size_t i, std::size_t row) { return row == 0 ? outer[i] : inner[i]; });
+    for (std::size_t square = 0; square + 1 < ends.size(); ++square) {
+      const std::size_t first = ends[square], end = ends[square + 1];
+      const auto out = [&](std::size_t step) { return outer[std::min(first + step, end)]; };
+      const Post in = inner[first];
+      const std::array<Post, 9> posts{out(0), out(1), out(2), in, in, out(3), in, inner[end], out(4)};
+      add(3, 3, [&](std::size_t column, std::size_t row) { return posts[3 * row + column]; });
+    }
+  }
+
   Patch take() { return std::move(patch_); }
 
  private:
+  bool has_hole(const std::vector<Post>& posts) const {
+    return std::ranges::any_of(
+        posts, [&](const Post& post) { return !std::isfinite(tile_.height_m[tile_.post(post.column, post.row)]); });
+  }
+
   void add_grid(std::size_t first, std::size_t stride, std::size_t columns, std::size_t rows) {
     patch_.grids.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(stride),
                             static_cast<std::uint16_t>(columns), static_cast<std::uint16_t>(rows)});
@@ -91,14 +129,15 @@ class Builder {
 };
 
 /// For each outer post the inner one that stands across the rim from it: of those that the rim's inner edge has, the
-/// last that is not beyond it, or the first.
+/// last that is not beyond it, or the first. Both run the same way.
 std::vector<std::int32_t> across(const std::vector<std::int32_t>& outer, const std::vector<std::int32_t>& own) {
+  const auto way = [&](std::int32_t post) { return std::abs(post - outer.front()); };
   auto at = own.begin() + 1;
   const auto last = own.end() - 2;
   std::vector<std::int32_t> inner;
   inner.reserve(outer.size());
   for (const std::int32_t post : outer) {
-    while (at != last && *(at + 1) <= post) ++at;
+    while (at != last && way(*(at + 1)) <= way(post)) ++at;
     inner.push_back(*at);
   }
   return inner;
@@ -134,27 +173,29 @@ Patch patch_of(const Tile& tile, const Hierarchy& hierarchy, const Leaf& leaf, c
   const Posts under = hierarchy.posts(leaf.block);
   const auto columns = steps(under.west, under.east, leaf.level), rows = steps(under.south, under.north, leaf.level);
   Builder builder(tile, under, origin_enu_m);
+  builder.reserve((columns.size() - 2) * (rows.size() - 2));
   builder.add(columns.size() - 2, rows.size() - 2, [&](std::size_t column, std::size_t row) {
     return Post{columns[column + 1], rows[row + 1]};
   });
-  const auto along_row = [&](Side side, std::int32_t outer_row, std::int32_t inner_row) {
-    const auto outer = rim_steps(under.west, under.east, rim[side]), inner = across(outer, columns);
-    const bool outside_first = side == kSouth;
-    builder.add(outer.size(), 2, [&](std::size_t i, std::size_t row) {
-      return (row == 0) == outside_first ? Post{outer[i], outer_row} : Post{inner[i], inner_row};
-    });
+  // Counterclockwise around the block.
+  const auto add_side = [&](Side side) {
+    const bool in_row = side == kSouth || side == kNorth, back = side == kNorth || side == kWest;
+    auto own = in_row ? columns : rows;
+    auto outer = rim_steps(own.front(), own.back(), rim[side]);
+    if (back) std::ranges::reverse(own), std::ranges::reverse(outer);
+    const auto& lines = in_row ? rows : columns;
+    const bool first = side == kSouth || side == kWest;
+    const std::int32_t edge = first ? lines.front() : lines.back();
+    const std::int32_t inside = first ? lines[1] : lines[lines.size() - 2];
+    const auto posts = [&](const std::vector<std::int32_t>& along, std::int32_t line) {
+      std::vector<Post> all;
+      all.reserve(along.size());
+      for (const std::int32_t at : along) all.push_back(in_row ? Post{at, line} : Post{line, at});
+      return all;
+    };
+    builder.add_strip(posts(outer, edge), posts(across(outer, own), inside));
   };
-  const auto along_column = [&](Side side, std::int32_t outer_column, std::int32_t inner_column) {
-    const auto outer = rim_steps(under.south, under.north, rim[side]), inner = across(outer, rows);
-    const bool outside_first = side == kWest;
-    builder.add(2, outer.size(), [&](std::size_t column, std::size_t i) {
-      return (column == 0) == outside_first ? Post{outer_column, outer[i]} : Post{inner_column, inner[i]};
-    });
-  };
-  along_row(kSouth, under.south, rows[1]);
-  along_row(kNorth, under.north, rows[rows.size() - 2]);
-  along_column(kWest, under.west, columns[1]);
-  along_column(kEast, under.east, columns[columns.size() - 2]);
+  for (const Side side : {kSouth, kEast, kNorth, kWest}) add_side(side);
   return builder.take();
 }
 

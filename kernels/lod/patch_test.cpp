@@ -166,3 +166,18 @@ TEST_CASE("no cell has a hole at a corner") {
     for (const Place& place : t) REQUIRE(std::isfinite(place[2]));
   }
 }
+
+TEST_CASE("a hole in a coarse block's rim takes the cells that it is a corner of, and no more") {
+  Sea sea;
+  terrain::Tile& tile = sea.tiles[{0, 0}];
+  tile.height_m[tile.post(16, 0)] = std::nanf("");
+  const Patch patch = patch_of(tile, Hierarchy(tile), {{0, 0, 0}, 2}, {1, 1, 1, 1}, {0, 0});
+  double area_m2 = 0.0;
+  for (const Triangle& t : triangles_of(patch)) {
+    for (const Place& place : t) REQUIRE(std::isfinite(place[2]));
+    area_m2 += plan_area_m2(t);
+  }
+  // Posts 0.25 m apart, the inner edge 1 m inside: a cell from posts 15 and 16 to 12 and 16, a triangle from 16 and 17
+  // to 16.
+  CHECK(area_m2 == Approx(8.0 * 8.0 - 0.5 * (0.25 + 1.0) - 0.5 * 0.25).epsilon(1e-9));
+}

@@ -30,11 +30,12 @@ bool continues(const terrain::Tile& a, const terrain::Tile& b, bool to_east) {
 void Scene::Impl::adapt(std::span<const lod::View> wanted) {
   if (!stale && std::equal(wanted.begin(), wanted.end(), views.begin(), views.end())) return;
   views.assign(wanted.begin(), wanted.end());
-  tbb::parallel_for_each(tiles, [&](auto& tile) {
+  const auto choose_in = [&](auto& tile) {
     Entry& entry = tile.second;
     is_small(entry.tile) ? entry.cover.choose_all(entry.hierarchy) : entry.cover.choose(entry.hierarchy, views);
-  });
-  tbb::parallel_for_each(irregular, [&](auto& one) { one.second.choose(views); });
+  };
+  tbb::parallel_invoke([&] { tbb::parallel_for_each(irregular, [&](auto& one) { one.second.choose(views); }); },
+                       [&] { tbb::parallel_for_each(tiles, choose_in); });
   show();
 }
 
@@ -65,8 +66,10 @@ std::vector<PartKey> Scene::Impl::wanted() const {
     auto& [key, keys] = one;
     const lod::Cover& cover = tiles.at(*key).cover;
     const lod::Neighbours neighbours = neighbours_of(*key);
-    for (const lod::Leaf& leaf : cover.leaves()) keys.push_back({*key, leaf, lod::rim_of(leaf, cover, neighbours)});
-    std::ranges::sort(keys);
+    std::vector<lod::Leaf> leaves = cover.leaves();
+    std::ranges::sort(leaves);
+    keys.reserve(leaves.size());
+    for (const lod::Leaf& leaf : leaves) keys.push_back({*key, leaf, lod::rim_of(leaf, cover, neighbours)});
   });
   std::vector<PartKey> all;
   for (const auto& [key, keys] : by_tile) all.insert(all.end(), keys.begin(), keys.end());
@@ -93,19 +96,21 @@ void Scene::Impl::use(const std::vector<PartKey>& keys) {
 }
 
 /// A vehicle that rolls comes back to blocks at full detail soon or never. Coarse ones come back when the main lobe has
-/// passed: they stay as long as there is room, the last used longest. What no ray has come to costs nothing to make.
+/// passed: they stay as long as there is room, fine ones first, then the last used longest. What no ray has come to
+/// costs nothing to make.
 void Scene::Impl::forget() {
   const auto looks = static_cast<std::uint64_t>(detail.looks);
   const auto age = [&](const CachedPart& cached) { return (adaptations - cached.used) / looks; };  // in pings
-  std::size_t paged = 0, held = 0;
+  std::size_t paged = 0, held = 0, fine = 0;
   for (const auto& [key, entry] : tiles)
     paged += 2 * static_cast<std::size_t>(entry.tile.columns - 1) * static_cast<std::size_t>(entry.tile.rows - 1);
   std::map<std::uint64_t, std::size_t> spare;  // triangles of coarse blocks by age
   for (CachedPart& cached : parts) {
     if (cached.triangles == 0) cached.triangles = cached.part->triangles();
-    const bool kept = age(cached) == 0 || cached.key.leaf.level == 0;
-    (kept ? held : spare[age(cached)]) += cached.triangles;
+    (age(cached) == 0 ? held : cached.key.leaf.level == 0 ? fine : spare[age(cached)]) += cached.triangles;
   }
+  const bool fine_stay = (held + fine) * kShareHeld <= paged;
+  if (fine_stay) held += fine;
   std::uint64_t oldest = 0;
   for (const auto& [pings, triangles] : spare) {
     held += triangles;
@@ -114,7 +119,7 @@ void Scene::Impl::forget() {
   }
   std::vector<std::unique_ptr<BlockPart>> given_up;
   std::erase_if(parts, [&](CachedPart& cached) {
-    const std::uint64_t pings = cached.key.leaf.level == 0 ? kFinePings : oldest;
+    const std::uint64_t pings = cached.key.leaf.level > 0 ? oldest : fine_stay ? kFinePings : 0;
     if (age(cached) == 0 || (cached.triangles > 0 && age(cached) <= pings)) return false;
     given_up.push_back(std::move(cached.part));
     return true;
