@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -20,12 +21,12 @@ bool too_far(const Split& split, double tolerance_m) {
 
 /// Whether a view can meet a triangle: by spheres around quarters of quarters of it, so that a long one beside a narrow
 /// view need not come back.
-bool stands_in(const lod::Frustum& frustum, const std::array<frames::Vec3, 3>& corner, int quarters) {
+bool stands_in(const lod::PreparedFrustum& frustum, const std::array<frames::Vec3, 3>& corner, int quarters) {
   Eigen::AlignedBox3d box;
   for (const frames::Vec3& place : corner) box.extend(place);
-  if (!lod::meets(frustum, {box.center(), 0.5 * box.diagonal().norm() + kSlack_m})) return false;
-  if (quarters == 0) return true;
+  if (!frustum.meets({box.center(), 0.5 * box.diagonal().norm() + kSlack_m})) return false;
   const auto& [a, b, c] = corner;
+  if (quarters == 0 || frustum.meets({(a + b + c) / 3.0, kSlack_m})) return true;
   const frames::Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
   return stands_in(frustum, {a, ab, ca}, quarters - 1) || stands_in(frustum, {ab, b, bc}, quarters - 1) ||
          stands_in(frustum, {ca, bc, c}, quarters - 1) || stands_in(frustum, {ab, bc, ca}, quarters - 1);
@@ -55,15 +56,41 @@ std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m)
   return looks;
 }
 
+struct Cut::Looked {
+  lod::PreparedFrustum frustum;
+  double tolerance_m;
+  std::span<const std::int32_t> back;
+};
+
 Cut::Cut(const Hierarchy& hierarchy)
     : undone_(hierarchy.splits.size(), 0),
       becomes_(hierarchy.mesh.vertex_m.size()),
-      shown_(hierarchy.mesh.vertex_m.size(), kUnknown) {
+      shown_(hierarchy.mesh.vertex_m.size(), kUnknown),
+      changes_(hierarchy.mesh.vertex_m.size(), 0),
+      there_(hierarchy.mesh.triangle.size() / 64 + 1, 0) {
   std::iota(becomes_.begin(), becomes_.end(), 0U);
   for (const Split& split : hierarchy.splits) becomes_[split.removed] = split.kept;
   for (std::size_t s = 0; s < hierarchy.splits.size(); ++s) {
     if (hierarchy.splits[s].parent == kNone) roots_.push_back(static_cast<std::int32_t>(s));
   }
+}
+
+/// By vertex: the split that brings it near enough to its place.
+std::span<const std::int32_t> Cut::back_within(const Hierarchy& hierarchy, double tolerance_m) {
+  const auto [known, is_new] = back_.try_emplace(tolerance_m);
+  if (is_new) {
+    std::vector<std::int32_t> near;  // by split: itself, or the one above it
+    near.reserve(hierarchy.splits.size());
+    for (const Split& split : hierarchy.splits) {
+      const bool far = too_far(split, tolerance_m);
+      near.push_back(far                     ? static_cast<std::int32_t>(near.size())
+                     : split.parent == kNone ? kNone
+                                             : near[static_cast<std::size_t>(split.parent)]);
+    }
+    for (const std::int32_t split : hierarchy.split_of)
+      known->second.push_back(split == kNone ? kNone : near[static_cast<std::size_t>(split)]);
+  }
+  return known->second;
 }
 
 /// With all that must be undone before it.
@@ -77,25 +104,26 @@ void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
 }
 
 /// Down the tree, as far as views meet what lies below.
-void Cut::look(const Hierarchy& hierarchy, std::span<const View> views) {
+void Cut::look(const Hierarchy& hierarchy, std::span<const Looked> views) {
   for (const std::int32_t s : all_undone_) {
     undone_[static_cast<std::size_t>(s)] = 0;
     becomes_[at(hierarchy, s).removed] = at(hierarchy, s).kept;
   }
   all_undone_.clear();
-  pending_ = roots_;
-  while (!pending_.empty()) {
-    const std::int32_t s = pending_.back();
-    pending_.pop_back();
+  to_judge_ = roots_;
+  for (std::size_t i = 0; i < to_judge_.size(); ++i) {
+    const std::int32_t s = to_judge_[i];
     const Split& split = at(hierarchy, s);
     const lod::Sphere sphere = sphere_around(split.box_m, hierarchy.mesh.origin_enu_m);
-    if (std::none_of(views.begin(), views.end(), [&](const View& view) {
-          return too_far(split, view.tolerance_m) && lod::meets(view.frustum, sphere);
+    if (std::none_of(views.begin(), views.end(), [&](const Looked& view) {
+          return too_far(split, view.tolerance_m) && view.frustum.meets(sphere);
         }))
       continue;
     undo(hierarchy, s);
     for (const std::int32_t child : split.child) {
-      if (child != kNone) pending_.push_back(child);
+      if (child == kNone) continue;
+      to_judge_.push_back(child);
+      __builtin_prefetch(&at(hierarchy, child));  // they lie anywhere: here, until their turn comes
     }
   }
 }
@@ -114,82 +142,118 @@ std::uint32_t Cut::shown(std::uint32_t vertex) {
   return end;
 }
 
+Triangle Cut::corners_of(const Hierarchy& hierarchy, std::uint32_t source) {
+  const auto& [a, b, c] = hierarchy.mesh.triangle[source];
+  return {shown(a), shown(b), shown(c)};
+}
+
+void Cut::add(const Hierarchy& hierarchy, std::span<const std::uint32_t> sources) {
+  for (const std::uint32_t source : sources) __builtin_prefetch(&hierarchy.mesh.triangle[source]);
+  for (const std::uint32_t source : sources) {
+    standing_.push_back({source, corners_of(hierarchy, source)});
+    if (standing_.back().corners != hierarchy.mesh.triangle[source])
+      to_settle_.push_back(static_cast<std::uint32_t>(standing_.size() - 1));
+  }
+}
+
+/// Vertices that have come back since the last round may have been passed by others. What these had become is forgotten
+/// and found anew for the triangles that have it.
+void Cut::forget_ways(const Hierarchy& hierarchy) {
+  std::vector<std::uint32_t> ends;
+  for (std::size_t i = gathered_; i < all_undone_.size(); ++i) {
+    const std::uint32_t end = shown_[at(hierarchy, all_undone_[i]).removed];
+    if (end == kUnknown || changes_[end] != 0) continue;
+    changes_[end] = 1;
+    ends.push_back(end);
+  }
+  std::erase_if(shown_known_, [&](std::uint32_t vertex) {
+    const bool changes = changes_[shown_[vertex]] != 0;
+    if (changes) shown_[vertex] = kUnknown;
+    return changes;
+  });
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    auto& [source, corners] = standing_[i];
+    if (std::ranges::none_of(corners, [&](std::uint32_t corner) { return changes_[corner] != 0; })) continue;
+    corners = corners_of(hierarchy, source);
+    if (corners != hierarchy.mesh.triangle[source]) to_settle_.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (const std::uint32_t end : ends) changes_[end] = 0;
+}
+
 /// The triangles of what is undone now. Those that were born stay; their corners may not.
 void Cut::gather(const Hierarchy& hierarchy) {
-  const auto known = static_cast<std::ptrdiff_t>(sources_.size());
+  forget_ways(hierarchy);
+  sources_.clear();
   for (; gathered_ < all_undone_.size(); ++gathered_) {
     const Split& split = at(hierarchy, all_undone_[gathered_]);
     const auto first = hierarchy.born.begin() + split.first_born;
     sources_.insert(sources_.end(), first, first + split.born);
   }
-  std::sort(sources_.begin() + known, sources_.end());
-  std::inplace_merge(sources_.begin(), sources_.begin() + known, sources_.end());
-  for (const std::uint32_t vertex : shown_known_) shown_[vertex] = kUnknown;
-  shown_known_.clear();
-  triangles_.clear();
-  for (const std::uint32_t source : sources_) {
-    const auto& [a, b, c] = hierarchy.mesh.triangle[source];
-    triangles_.push_back({shown(a), shown(b), shown(c)});
-  }
+  add(hierarchy, sources_);
 }
 
-/// Brings a vertex near enough to its place. False if it was.
-bool Cut::ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m) {
-  std::int32_t split = hierarchy.split_of[vertex];
-  while (split != kNone && !too_far(at(hierarchy, split), tolerance_m)) split = at(hierarchy, split).parent;
-  if (split == kNone || undone_[static_cast<std::size_t>(split)] != 0) return false;
-  undo(hierarchy, split);
-  return true;
-}
-
-/// Triangles that were moved, but for those that are as they were in the round before: they have been asked back, as
-/// far as they may be.
-void Cut::find_moved(const Hierarchy& hierarchy) {
-  moved_.clear();
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (triangles_[i] == hierarchy.mesh.triangle[sources_[i]]) continue;
-    while (before < settled_.size() && settled_sources_[before] < sources_[i]) ++before;
-    const bool known = before < settled_.size() && settled_sources_[before] == sources_[i];
-    if (!known || settled_[before] != triangles_[i]) moved_.push_back(i);
-  }
-}
-
-/// A triangle that was moved may stand in a view though nothing of what it stands for does. False if none does.
-bool Cut::settle(const Hierarchy& hierarchy, std::span<const View> views) {
-  find_moved(hierarchy);
-  stands_.assign(moved_.size() * views.size(), 0);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved_.size(), kPerTask), [&](const auto& range) {
+/// A triangle that was moved may stand in a view though nothing of what it stands for does: its corners are asked back.
+/// False if none was away.
+bool Cut::settle(const Hierarchy& hierarchy, std::span<const Looked> views) {
+  const std::size_t count = to_settle_.size();
+  stands_in_.assign(views.size() * count, 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPerTask), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       std::array<frames::Vec3, 3> corners;
       for (std::size_t c = 0; c < 3; ++c) {
-        const Eigen::Vector3f& place = hierarchy.mesh.vertex_m[triangles_[moved_[i]][c]];
+        const Eigen::Vector3f& place = hierarchy.mesh.vertex_m[standing_[to_settle_[i]].corners[c]];
         corners[c] = hierarchy.mesh.origin_enu_m + place.cast<double>();
       }
       for (std::size_t v = 0; v < views.size(); ++v)
-        stands_[i * views.size() + v] = stands_in(views[v].frustum, corners, kQuarters) ? 1 : 0;
+        stands_in_[v * count + i] = stands_in(views[v].frustum, corners, kQuarters) ? 1 : 0;
     }
   });
   bool changed = false;
-  for (std::size_t i = 0; i < stands_.size(); ++i) {
-    if (stands_[i] == 0) continue;
-    for (const std::uint32_t corner : hierarchy.mesh.triangle[sources_[moved_[i / views.size()]]])
-      changed = ask_back(hierarchy, corner, views[i % views.size()].tolerance_m) || changed;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (stands_in_[v * count + i] == 0) continue;
+      for (const std::uint32_t corner : hierarchy.mesh.triangle[standing_[to_settle_[i]].source]) {
+        const std::int32_t back = views[v].back[corner];
+        if (back == kNone || undone_[static_cast<std::size_t>(back)] != 0) continue;
+        undo(hierarchy, back);
+        changed = true;
+      }
+    }
   }
-  settled_sources_ = sources_;
-  settled_ = triangles_;
+  to_settle_.clear();
   return changed;
 }
 
-void Cut::choose(const Hierarchy& hierarchy, std::span<const View> views) {
-  settled_sources_.clear();
-  settled_.clear();
+/// Of the source.
+void Cut::put_in_order(const Hierarchy& hierarchy) {
+  sources_.clear();
+  triangles_.clear();
+  for (const Standing& one : standing_) there_[one.source / 64] |= std::uint64_t{1} << one.source % 64;
+  for (std::size_t word = 0; word < there_.size(); ++word) {
+    for (std::uint64_t& bits = there_[word]; bits != 0; bits &= bits - 1) {
+      sources_.push_back(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits)));
+      triangles_.push_back(corners_of(hierarchy, sources_.back()));
+    }
+  }
+}
+
+void Cut::choose(const Hierarchy& hierarchy, std::span<const View> wanted) {
+  std::erase_if(back_, [&](const auto& known) {
+    return std::ranges::none_of(wanted, [&](const View& view) { return view.tolerance_m == known.first; });
+  });
+  std::vector<Looked> views;
+  for (const View& view : wanted) {
+    views.push_back({lod::PreparedFrustum(view.frustum), view.tolerance_m, back_within(hierarchy, view.tolerance_m)});
+  }
   look(hierarchy, views);
-  sources_ = hierarchy.coarsest;
-  std::sort(sources_.begin(), sources_.end());
+  for (const std::uint32_t vertex : shown_known_) shown_[vertex] = kUnknown;
+  shown_known_.clear();
+  standing_.clear();
+  to_settle_.clear();
   gathered_ = 0;
-  gather(hierarchy);
-  while (settle(hierarchy, views)) gather(hierarchy);
+  add(hierarchy, hierarchy.coarsest);
+  for (bool changed = true; changed; changed = settle(hierarchy, views)) gather(hierarchy);
+  put_in_order(hierarchy);
 }
 
 }  // namespace ensonify::progressive

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -40,29 +41,40 @@ class Cut {
   std::span<const std::uint32_t> sources() const { return sources_; }
 
  private:
+  struct Looked;  // a view, prepared
+  /// A source triangle that is there, on what its corners have become.
+  struct Standing {
+    std::uint32_t source;
+    Triangle corners;
+  };
   void undo(const Hierarchy& hierarchy, std::int32_t split);
-  void look(const Hierarchy& hierarchy, std::span<const View> views);
+  void look(const Hierarchy& hierarchy, std::span<const Looked> views);
   void gather(const Hierarchy& hierarchy);
-  void find_moved(const Hierarchy& hierarchy);
-  bool settle(const Hierarchy& hierarchy, std::span<const View> views);
-  bool ask_back(const Hierarchy& hierarchy, std::uint32_t vertex, double tolerance_m);
+  void forget_ways(const Hierarchy& hierarchy);
+  Triangle corners_of(const Hierarchy& hierarchy, std::uint32_t source);
+  void add(const Hierarchy& hierarchy, std::span<const std::uint32_t> sources);
+  bool settle(const Hierarchy& hierarchy, std::span<const Looked> views);
+  std::span<const std::int32_t> back_within(const Hierarchy& hierarchy, double tolerance_m);
+  void put_in_order(const Hierarchy& hierarchy);
   std::uint32_t shown(std::uint32_t vertex);
 
   std::vector<std::int32_t> roots_;   // splits without a parent
   std::vector<std::uint8_t> undone_;  // by split
   std::vector<std::int32_t> all_undone_;
   std::vector<std::uint32_t> becomes_;  // by vertex: another one, or itself where that is undone
-  std::vector<std::int32_t> pending_;
-  std::size_t gathered_ = 0;                // of all_undone_: in sources_
+  std::vector<std::int32_t> to_judge_;
   std::vector<std::uint32_t> shown_;        // by vertex, as far as it is known
   std::vector<std::uint32_t> shown_known_;  // vertices of which it is
+  std::vector<std::uint8_t> changes_;       // by vertex: whether others may no longer become it
   std::vector<std::uint32_t> way_;
+  std::vector<Standing> standing_;
+  std::size_t gathered_ = 0;                          // of all_undone_: their triangles stand
+  std::vector<std::uint32_t> to_settle_;              // places in standing_: moved, and not yet looked at as they are
+  std::vector<std::uint8_t> stands_in_;               // a view: by view, then by these
+  std::map<double, std::vector<std::int32_t>> back_;  // by tolerance, of the views in use
+  std::vector<std::uint64_t> there_;                  // a bit for each source triangle
   std::vector<std::uint32_t> sources_;
   std::vector<Triangle> triangles_;
-  std::vector<std::size_t> moved_;              // places in triangles_
-  std::vector<std::uint8_t> stands_;            // by these and by view
-  std::vector<std::uint32_t> settled_sources_;  // in order: of triangles that need not be looked at again ...
-  std::vector<Triangle> settled_;               // ... as long as they are these
 };
 
 }  // namespace ensonify::progressive

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace ensonify::trace {
@@ -53,47 +52,42 @@ class Clusters {
   std::vector<Eigen::Vector3f> middles_;
 };
 
-RTCBounds bounds_of(std::span<const Eigen::Vector3f> places_m) {
+RTCBounds bounds_of(std::span<const Triangle> triangles, std::span<const Eigen::Vector3f> places_m) {
   Eigen::AlignedBox3f box;
-  for (const auto& place : places_m) box.extend(place);
+  for (const Triangle& corners : triangles) {
+    for (const std::uint32_t corner : corners) box.extend(places_m[corner]);
+  }
   const Eigen::Vector3f low = box.min().array() - kPartSlack_m, high = box.max().array() + kPartSlack_m;
   return {low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
 }
 
-/// Each vertex by itself: pieces that share one have its bits.
-TrianglePart::Piece piece_of(const TriangleMesh& mesh, const std::vector<Triangle>& triangles,
-                             const Vec2& origin_enu_m) {
-  TrianglePart::Piece piece{triangles, {}, {}};
-  for (const Triangle& corners : triangles) piece.vertices.insert(piece.vertices.end(), corners.begin(), corners.end());
-  std::ranges::sort(piece.vertices);
-  piece.vertices.erase(std::unique(piece.vertices.begin(), piece.vertices.end()), piece.vertices.end());
+/// As TrianglePart wants them.
+std::vector<Eigen::Vector3f> places_of(const TriangleMesh& mesh, const Vec2& origin_enu_m) {
+  std::vector<Eigen::Vector3f> places_m;
+  places_m.reserve(mesh.vertex_m.size() + 1);
   const Vec3 shift = mesh.origin_enu_m - Vec3(origin_enu_m.x(), origin_enu_m.y(), 0.0);
-  for (const std::uint32_t v : piece.vertices)
-    piece.places_m.push_back((shift + mesh.vertex_m[v].cast<double>()).cast<float>());
-  return piece;
+  for (const Eigen::Vector3f& vertex : mesh.vertex_m) places_m.push_back((shift + vertex.cast<double>()).cast<float>());
+  places_m.push_back(Eigen::Vector3f::Zero());
+  return places_m;
 }
 
 }  // namespace
 
-TrianglePart::TrianglePart(const Device& device, Piece piece, const Common& common)
-    : Part(device.get(), bounds_of(piece.places_m), common.number, common.facet_m),
-      piece_(std::move(piece)),
+TrianglePart::TrianglePart(const Device& device, std::vector<Triangle> triangles,
+                           std::span<const Eigen::Vector3f> places_m, const Common& common)
+    : Part(device.get(), bounds_of(triangles, places_m), common.number, common.facet_m),
+      triangles_(std::move(triangles)),
+      places_m_(places_m),
       sediment_(common.sediment) {}
 
 Part::Content TrianglePart::content() const {
   Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  static_assert(sizeof(piece_.places_m[0]) == 3 * sizeof(float));
-  void* vertices =
-      new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), piece_.places_m.size());
-  std::memcpy(vertices, piece_.places_m.data()->data(), piece_.places_m.size() * 3 * sizeof(float));
-  auto* corner = static_cast<std::uint32_t*>(
-      new_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, sizeof(Triangle), piece_.triangles.size()));
-  for (const Triangle& triangle : piece_.triangles) {
-    for (const std::uint32_t vertex : triangle)
-      *corner++ =
-          static_cast<std::uint32_t>(std::ranges::lower_bound(piece_.vertices, vertex) - piece_.vertices.begin());
-  }
-  return {std::move(geometry), piece_.triangles.size()};
+  static_assert(sizeof(places_m_[0]) == 3 * sizeof(float));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, places_m_.data(), 0,
+                             sizeof(places_m_[0]), places_m_.size() - 1);
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles_.data(), 0,
+                             sizeof(Triangle), triangles_.size());
+  return {std::move(geometry), triangles_.size()};
 }
 
 Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
@@ -131,12 +125,12 @@ void Irregular::want(std::span<const Triangle> triangles, std::span<const std::u
 }
 
 std::vector<const Part*> Irregular::show(const Device& device, const Vec2& origin_enu_m) {
+  if (places_m_.empty()) places_m_ = places_of(hierarchy_.mesh, origin_enu_m);
   tbb::parallel_for_each(clusters_, [&](Cluster& cluster) {
     if (cluster.wanted.empty()) {
       cluster.part.reset();
     } else if (!cluster.part || cluster.part->shown() != cluster.wanted) {
-      TrianglePart::Piece piece = piece_of(hierarchy_.mesh, cluster.wanted, origin_enu_m);
-      cluster.part = std::make_unique<TrianglePart>(device, std::move(piece), common_);
+      cluster.part = std::make_unique<TrianglePart>(device, cluster.wanted, places_m_, common_);
       cluster.part->scene();
     }
   });
@@ -149,6 +143,7 @@ std::vector<const Part*> Irregular::show(const Device& device, const Vec2& origi
 
 void Irregular::forget() {
   for (Cluster& cluster : clusters_) cluster.part.reset();
+  places_m_.clear();
 }
 
 std::size_t Irregular::triangles() const {

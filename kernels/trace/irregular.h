@@ -15,26 +15,25 @@ namespace ensonify::trace {
 /// Triangles of an irregular mesh that are neighbours.
 class TrianglePart final : public Part {
  public:
-  struct Piece {
-    std::vector<progressive::Triangle> triangles;  // of the mesh's vertices
-    std::vector<std::uint32_t> vertices;           // those in use, in order
-    std::vector<Eigen::Vector3f> places_m;         // of these, in Embree's frame
-  };
   /// What all parts of a mesh have.
   struct Common {
     std::uint32_t number = 0;  // as Hit has them
     float facet_m = 0.0F;
     std::uint8_t sediment = 0;
   };
-  TrianglePart(const Device& device, Piece piece, const Common& common);
+  /// `places_m`: of all the mesh's vertices in Embree's frame, and room for one more, which Embree may read. They must
+  /// outlive the part.
+  TrianglePart(const Device& device, std::vector<progressive::Triangle> triangles,
+               std::span<const Eigen::Vector3f> places_m, const Common& common);
 
   std::uint8_t sediment_at(const terrain::Vec2&) const override { return sediment_; }
-  const std::vector<progressive::Triangle>& shown() const { return piece_.triangles; }
+  const std::vector<progressive::Triangle>& shown() const { return triangles_; }
 
  private:
   Content content() const override;
 
-  Piece piece_;
+  std::vector<progressive::Triangle> triangles_;
+  std::span<const Eigen::Vector3f> places_m_;
   std::uint8_t sediment_;
 };
 
@@ -69,6 +68,7 @@ class Irregular {
   Eigen::AlignedBox3d box_enu_m_;
   double edge_m_ = 0.0;                    // mean
   std::vector<std::uint32_t> cluster_of_;  // by source triangle
+  std::vector<Eigen::Vector3f> places_m_;  // of vertices, in Embree's frame; empty while that is not known
   std::vector<Cluster> clusters_;
   progressive::Cut cut_;
 };
