@@ -66,8 +66,8 @@ void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s
                                      measured.force_mps2 - force_bias_};
   const frames::Quaternion before = state_.ned_from_body;
   state_ = inertial::advance(state_, corrected, dt_s, earth_);
-  rate_radps_ =
-      corrected.rate_radps - state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
+  rate_radps_ = corrected.rate_radps;
+  pending_turn_rad_ += dt_s * corrected.rate_radps;
   pending_velocity_ned_ += dt_s * (before.slerp(0.5, state_.ned_from_body) * corrected.force_mps2);
   pending_s_ += dt_s;
   fix_error_ *= std::exp(-dt_s / model_.fix_wander_s);
@@ -106,7 +106,7 @@ std::optional<NavigationState> NavigationFilter::recall(double age_s) const {
 }
 
 /// F of dx/dt = F x: [Groves2013, sec. 14.2.4] with the signs of truth less estimate.
-Covariance NavigationFilter::error_rates(const Vec3& force_ned) const {
+Covariance NavigationFilter::error_rates(const Vec3& force_ned, const Vec3& rate_body_radps) const {
   const double latitude = state_.latitude_rad;
   const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
   const double east_m = prime_vertical_radius_m(earth_, latitude) + state_.height_m;
@@ -125,7 +125,7 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned) const {
   f.block<3, 3>(kRotation, kRotation) = -cross(earth_rate + transport);
   f.block<3, 3>(kRotation, kGyroBias) = -ned_from_body;
   for (int row = 0; row < 3; ++row) {
-    f.block<3, 3>(kRotation, kGyroMatrix + 3 * row) = -ned_from_body.col(row) * rate_radps_.transpose();
+    f.block<3, 3>(kRotation, kGyroMatrix + 3 * row) = -ned_from_body.col(row) * rate_body_radps.transpose();
   }
   f(kRotation, kVelocity + 1) = -1.0 / east_m;
   f(kRotation + 1, kVelocity) = 1.0 / north_m;
@@ -146,7 +146,7 @@ void NavigationFilter::propagate_covariance() {
   // to second order in time is therefore [moves; 0, keeps], keeps diagonal.
   constexpr int kMoving = kGyroBias, kSensors = kErrorCount - kMoving;
   const double t = pending_s_;
-  const Covariance ft = t * error_rates(pending_velocity_ned_ / t);
+  const Covariance ft = t * error_rates(pending_velocity_ned_ / t, pending_turn_rad_ / t);
   const Eigen::Matrix<double, kSensors, 1> decays = ft.diagonal().tail<kSensors>();
   Eigen::Matrix<double, kMoving, kErrorCount> moves =
       0.5 * ft.topLeftCorner<kMoving, kMoving>() * ft.topRows<kMoving>();
@@ -179,6 +179,7 @@ void NavigationFilter::propagate_covariance() {
   covariance_.diagonal() += 0.5 * t * noise;
   pending_s_ = 0.0;
   pending_velocity_ned_.setZero();
+  pending_turn_rad_.setZero();
 }
 
 template <int N>

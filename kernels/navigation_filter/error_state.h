@@ -137,7 +137,7 @@ class NavigationFilter {
   /// The estimate as it was, interpolated; empty when it is forgotten.
   std::optional<NavigationState> recall(double age_s) const;
   void propagate_covariance();
-  Covariance error_rates(const Vec3& force_ned) const;
+  Covariance error_rates(const Vec3& force_ned, const Vec3& rate_body_radps) const;
 
   inertial::Earth earth_;
   FilterModel model_;
@@ -149,6 +149,7 @@ class NavigationFilter {
   Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero();
   Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, last
   Vec3 pending_velocity_ned_ = Vec3::Zero();  // of specific force, since the covariance was last propagated
+  Vec3 pending_turn_rad_ = Vec3::Zero();      // the angle turned since then, along body axes
   double pending_s_ = 0.0;
   struct Past {
     double t_s;

@@ -51,6 +51,39 @@ TEST_CASE("what the filter expects of each error alone is what it leads to, with
   }
 }
 
+TEST_CASE("crosstalk of the gyros tilts by what the vehicle has turned, however unevenly it turned") {
+  // A turn by psi about the vertical with crosstalk m from z into x and into y: the tilts' integrals over the turning
+  // axes are (sin psi, 1 - cos psi) m and (cos psi - 1, sin psi) m, so each level axis has the variance 2 (1 - cos psi)
+  // m^2. Steered in jerks, as by an autopilot, at 100 readings a second: half of each tenth of a second at twice the
+  // rate, in one part of it or the other.
+  constexpr double kCrosstalk = 5e-5, kRate_radps = 0.1;
+  FilterModel model;
+  model.imu.gyro.misalignment_rad = kCrosstalk;
+  for (const bool first_half : {true, false}) {
+    NavigationFilter filter({}, kNone, model, kResting);
+    double turned_rad = 0.0;
+    for (int i = 1; i <= 6000; ++i) {
+      const double rate_radps = (i % 10 < 5) == first_half ? 2 * kRate_radps : 0.0;
+      turned_rad += 0.01 * rate_radps;
+      filter.propagate({{0, 0, rate_radps}, kLevelAtRest.force_mps2}, 0.01);
+      if (i % 1500 != 0) continue;
+      CAPTURE(first_half, i);
+      const double expected_rad = kCrosstalk * std::sqrt(2 * (1 - std::cos(turned_rad)));
+      CHECK(sigma(filter, kRotation) == Approx(expected_rad).epsilon(0.01));  // steps of 0.01 rad
+      CHECK(sigma(filter, kRotation + 1) == Approx(expected_rad).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("what rests on the turning Earth does not turn") {
+  NavigationState resting{44 * kDegree, -63 * kDegree, 0.0};
+  const Earth earth;
+  NavigationFilter filter(resting, kNone, {}, earth);
+  const double gravity_mps2 = inertial::gravity_mps2(earth, resting.latitude_rad, 0.0);
+  filter.propagate({inertial::earth_rate_ned_radps(resting, earth), {0, 0, -gravity_mps2}}, 0.01);
+  CHECK(filter.turn_rate_radps().norm() < 1e-9);
+}
+
 TEST_CASE("observations point the right way: what is measured exactly is taken over") {
   // The vehicle points north-east and up, rolled, its sensors off its origin. The estimate starts wrong in one
   // respect, and is told the truth by the sensor that sees it.
