@@ -85,14 +85,14 @@ void Cover::add(const Leaf& leaf) {
   const std::int32_t north = std::min((south + 1) << size, rows_);
   for (std::int32_t row = south << size; row < north; ++row) {
     for (std::int32_t column = west << size; column < east; ++column) {
-      levels_[static_cast<std::size_t>(row * columns_ + column)] = static_cast<std::int8_t>(leaf.level);
+      levels_[place(column, row)] = static_cast<std::int8_t>(leaf.level);
     }
   }
 }
 
 std::int32_t Cover::level_over(std::int32_t column, std::int32_t row) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return kNone;
-  return levels_[static_cast<std::size_t>(row * columns_ + column)];
+  return levels_[place(column, row)];
 }
 
 Rim rim_of(const Leaf& leaf, const Cover& cover, const Neighbours& neighbours) {

@@ -43,6 +43,10 @@ class Cover {
   struct Looked;  // a view, prepared
   void cover(const Hierarchy& hierarchy, std::span<const Looked> views, std::size_t first, const Block& block);
   void add(const Leaf& leaf);
+  /// In levels_.
+  std::size_t place(std::int32_t column, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
 
   std::int32_t columns_ = 0, rows_ = 0;  // blocks of size 0
   std::vector<Leaf> leaves_;

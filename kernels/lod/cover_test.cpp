@@ -51,7 +51,7 @@ TEST_CASE("blocks cover a tile once, as finely as the views ask for") {
     levels.insert(leaf.level);
     small_and_coarse += leaf.block.size == 1 && leaf.level == 4 ? 1U : 0U;
     for (int y = under.south; y < under.north; ++y) {
-      for (int x = under.west; x < under.east; ++x) ++covered[std::size_t(y * 1024 + x)];
+      for (int x = under.west; x < under.east; ++x) ++covered[std::size_t(y) * 1024 + std::size_t(x)];
     }
     for (const View& view : views) {
       if (meets(view.frustum, hierarchy.sphere(leaf.block))) REQUIRE(leaf.level <= view.level);

@@ -28,7 +28,7 @@ std::vector<std::int32_t> steps(std::int32_t first, std::int32_t last, std::int3
 /// The posts of a side of a block: all, or the ends alone, of each block of size 0.
 std::vector<std::int32_t> rim_steps(std::int32_t first, std::int32_t last, std::uint32_t all_posts) {
   std::vector<std::int32_t> all;
-  all.reserve(static_cast<std::size_t>(last - first + 1));
+  all.reserve(static_cast<std::size_t>(last - first) + 1);
   for (std::int32_t from = first; from < last; from += kBlockCells, all_posts >>= 1) {
     const std::int32_t to = std::min(from + kBlockCells, last), step = all_posts & 1 ? 1 : kBlockCells;
     for (std::int32_t at = from; at < to; at += step) all.push_back(at);

@@ -123,7 +123,9 @@ TEST_CASE("whatever the levels, every edge of a triangle is another's too, save 
       }
     }
     std::size_t open = 0, beyond = 0;
-    for (const auto& [edge, passages] : edges) {
+    for (const auto& counted : edges) {
+      const auto& edge = counted.first;  // no structured binding: clang before 16 captures none
+      const auto passages = counted.second;
       if (passages == 0) continue;
       const auto at_end = [&](std::size_t axis) {
         const float end = 3 * kCells * 0.25F;

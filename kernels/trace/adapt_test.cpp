@@ -19,7 +19,6 @@ using frames::Vec3;
 namespace {
 
 constexpr float kRange = 90.0F;
-constexpr double kAltitude_m = 25.0;
 
 /// Nine tiles, 154 m to a side with posts every 0.1 m: dunes, and roughness from post to post.
 const terrain::TileGrid kGrid{.origin_enu_m = {-76.8, -76.8}, .spacing_m = 0.1, .cells = 512};

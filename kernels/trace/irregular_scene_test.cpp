@@ -319,7 +319,8 @@ TEST_CASE("far fewer triangles are held than a mesh has") {
   };
   // Nothing looks at the wall or the reef: what is left of both, and of the tile.
   CHECK(triangles({{0.0, 500.0, -3.0}, enu_from_body(frames::Attitude{})}) < 3'000);
-  CHECK(triangles(pose(4)) * 4 < full().triangles());
+  // Of the small tile below, blocks of 64 cells that the fan meets are there whole.
+  CHECK(triangles(pose(4)) * 3 < full().triangles());
 }
 
 TEST_CASE("a mesh with a fault is refused") {

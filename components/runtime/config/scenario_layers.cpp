@@ -66,10 +66,11 @@ layers::Mask read_mask(ConfigReader from, const Names& earlier) {
   from.optional("soft_m", mask.polygon_softness_m, 0, kFarAway_m);
   mask.sediments = read_classes(from, "sediment");
   if (auto section = from.optional_section("patches")) {
-    mask.patches.emplace();
-    section->required("length_m", mask.patches->length_m, 1e-2, kFarAway_m);
-    section->optional("share", mask.patches->share, 0.001, 0.999);
-    section->optional("soft", mask.patches->softness, 0, 10);
+    layers::Mask::Patches patches;
+    section->required("length_m", patches.length_m, 1e-2, kFarAway_m);
+    section->optional("share", patches.share, 0.001, 0.999);
+    section->optional("soft", patches.softness, 0, 10);
+    mask.patches = patches;
   }
   for (const ConfigReader& term : from.list("any")) mask.any.push_back(read_mask(term, earlier));
   from.optional("reverse", mask.reverse);
