@@ -99,7 +99,7 @@ WORLDS = [
 GROUND = "layers: { ground"  # meshes stand before it
 WALL = "sheet_pile_wall: { from_m: [50, 5], to_m: [90, 5] }"
 MESHES = [
-    ("a mesh of nothing", "{}", "world.yaml:.* seabed.meshes.quay: needs one of file, sheet_pile_wall"),
+    ("a mesh of nothing", "{}", "world.yaml:.* seabed.meshes.quay: needs one of file, bars, sheet_pile_wall"),
     ("a mesh that is not there", "{ file: no.obj }", "world.yaml:.* seabed.meshes.quay.file: .*no such file or folder"),
     ("a mesh of numbers that are none", "{ file: holed.obj }", "holed.obj:1:1: .*is no vertex; allowed: v and three numbers"),
     ("a mesh with a corner nowhere", "{ file: loose.obj }", 'loose.obj:4:1: .*"7" is no vertex; allowed'),
