@@ -7,6 +7,7 @@
 
 #include "components/runtime/config/data_paths.h"
 #include "components/runtime/config/launch_file.h"
+#include "components/runtime/terrain/meshed_relief.h"
 #include "components/runtime/version.h"
 #include "launch/check_ports.h"
 
@@ -27,6 +28,9 @@ int check(const LaunchOptions& options, bool as_json) {
     for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places)})
       checked.problems.insert(checked.problems.end(), found.begin(), found.end());
     warnings = resolution_warnings(checked);
+    if (launch.has_scenario) {
+      for (const auto& uneven : source::uneven_classes(launch.scenario.seabed)) warnings.push_back(text_of(uneven));
+    }
     for (const auto& name : checked.unknown) {
       warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");
     }

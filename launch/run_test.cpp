@@ -277,7 +277,7 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("the launch files of the project are sound, and posts too coarse for a head are told") {
+TEST_CASE("the launch files of the project are sound, and posts too coarse for a head and uneven classes are told") {
   const Workplace place;
   const std::string source = std::getenv("ENSONIFY_SOURCE");
   const auto check = [&](std::vector<std::string> words) {
@@ -290,6 +290,11 @@ TEST_CASE("the launch files of the project are sound, and posts too coarse for a
   CHECK(check({demo}) == "0 " + demo + ": 7 processes, sound");
   CHECK(check({demo, "--set", "seabed.post_spacing_m=1"})
             .find("warning: pager: posts are 1 m apart, but bow resolves 0.2") != std::string::npos);
+  const std::string sand = "seabed.sediments={0: medium sand}";
+  const std::string to_22_m =  // 57 m east of the middle of 480 m
+      "seabed.layers.relief={spectral: {as_sediment: medium sand, outer_scale_m: 40}, mask: {depth_m: {to: 22}}}";
+  CHECK(check({demo, "--set", sand}).find("warning") == std::string::npos);
+  CHECK(check({demo, "--set", sand, "--set", to_22_m}).find("warning: layer relief holds at 0.6") != std::string::npos);
   const std::string survey = source + "/launch/survey.yaml";
   CHECK(check({survey}).find("2 " + survey + ":5:3: args.raster: must be given; use --arg raster=VALUE") == 0);
   const std::string raster = std::string(std::getenv("ENSONIFY_SHARED")) + "/data/terrain/massbay_5m.tif";

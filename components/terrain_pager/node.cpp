@@ -100,6 +100,7 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
 }
 
 msg::Chart TerrainPagerNode::chart() {
+  uneven_ = source::uneven_classes(config_.terrain.seabed);
   if (cache_) {
     if (const auto kept = cache_->read_chart()) return *kept;
   }
@@ -113,6 +114,9 @@ msg::Chart TerrainPagerNode::chart() {
 void TerrainPagerNode::start() {
   chart_.send(made_chart_.get());
   if (!overview_fault_.empty()) log::event(ports_, "overview_unusable", "why=\"{}\"", overview_fault_);
+  for (const auto& uneven : uneven_)
+    log::event(ports_, "uneven_class", "class={} layer={} off_db={:.1f} why=\"{}\"", uneven.seabed_class, uneven.layer,
+               uneven.off_db, text_of(uneven));
   for (const std::string& name : meshes_.unprepared())
     log::event(ports_, "mesh_unprepared", "mesh={} prepare_with=\"ensonify terrain lod\"", name);
 }

@@ -56,21 +56,28 @@ std::vector<Slope> slopes_of(double mean_square) {
   return slopes;
 }
 
+/// Calls visit(grazing angle from a facet, its area per unit of the plane's) for every facet that faces the sound.
+template <class Visit>
+void for_facets(const std::vector<Slope>& slopes, double grazing_rad, const Visit& visit) {
+  const double sine = std::sin(grazing_rad), cosine = std::sqrt(1.0 - sine * sine);
+  for (const Slope& slope : slopes) {
+    const double area = std::sqrt(1.0 + slope.towards * slope.towards + slope.across * slope.across);
+    const double sin_on_facet = (sine + slope.towards * cosine) / area;
+    if (sin_on_facet > 0.0) visit(std::asin(std::min(sin_on_facet, 1.0)), area);
+  }
+}
+
 /// What facets return from a unit of the plane's area is a sum of their law's values: the weights of these, by the
 /// grazing angle from the plane.
 std::vector<Curve> weights_of(double mean_square_slope) {
   const auto slopes = slopes_of(mean_square_slope);
   std::vector<Curve> weights(kSteps + 1, Curve{});
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double sine = std::sin(kStep_rad * static_cast<double>(i)), cosine = std::sqrt(1.0 - sine * sine);
-    for (const Slope& slope : slopes) {
-      const double area = std::sqrt(1.0 + slope.towards * slope.towards + slope.across * slope.across);
-      const double sin_on_facet = (sine + slope.towards * cosine) / area;
-      if (sin_on_facet <= 0.0) continue;
-      const auto [below, part] = place_of(std::asin(std::min(sin_on_facet, 1.0)));
+    for_facets(slopes, kStep_rad * static_cast<double>(i), [&](double on_facet_rad, double area) {
+      const auto [below, part] = place_of(on_facet_rad);
       weights[i][below] += area * (1.0 - part) / static_cast<double>(slopes.size());
       weights[i][below + 1] += area * part / static_cast<double>(slopes.size());
-    }
+    });
   }
   return weights;
 }
@@ -98,6 +105,13 @@ Law law_of_facets(const Law& whole, double mean_square_slope) {
     for (std::size_t i = 0; i < plane.size(); ++i) facets[i] = plane[i] * std::exp(change[i]);
   }
   return [whole, change](double grazing_rad) { return whole(grazing_rad) * std::exp(at(change, grazing_rad)); };
+}
+
+double mean_over_facets(const Law& facets, double mean_square_slope, double grazing_rad) {
+  const auto slopes = slopes_of(mean_square_slope);
+  double sum = 0.0;
+  for_facets(slopes, grazing_rad, [&](double on_facet_rad, double area) { sum += area * facets(on_facet_rad); });
+  return sum / static_cast<double>(slopes.size());
 }
 
 }  // namespace ensonify::seabed

@@ -166,6 +166,27 @@ class Terrain(SystemTest):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("is no seabed of layers; only those have marks", refused.stderr)
 
+    def test_facets_of_a_scenario_are_told_with_the_classes_that_are_uneven(self):
+        def facets_of(layer):
+            path = self.folder / "scenario.yaml"
+            text = re.sub(r"^    relief: .*$", f"    relief: {{ spectral: {{ as_sediment: medium sand, outer_scale_m: 40 }}{layer} }}",
+                          SCENARIO.read_text(encoding="utf-8"), flags=re.M)
+            text = re.sub(r"^  sediments: .*$", "  sediments: { 0: medium sand }", text, flags=re.M)
+            path.write_text(text, encoding="utf-8")
+            told = terrain("facets", path)
+            self.assertEqual(told.returncode, 0, told.stderr)
+            return told.stdout
+
+        even = facets_of("")
+        self.assertRegex(even, r"(?m)^class 0: .* facet_slope_deg: \d\.\d{4} ")
+        self.assertNotIn("warning", even)
+        # The slope of 2 degrees is 22 m deep 57 m east of its middle; it is 480 m wide.
+        uneven = facets_of(", mask: { depth_m: { to: 22 }, of: slope }")
+        self.assertEqual(re.search("class 0: .*", uneven)[0], re.search("class 0: .*", even)[0])
+        self.assertRegex(uneven, r"(?m)^warning: layer relief holds at 0\.6\d of class 0,")
+        refused = terrain("facets", SOURCE / "scenarios" / "raster" / "scenario.yaml")
+        self.assertEqual(refused.returncode, 2)
+
     def test_info_and_verify(self):
         folder = self.build()
         facts = json.loads(terrain("info", folder, "--json").stdout)

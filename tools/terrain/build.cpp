@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "components/runtime/config/config_node.h"
-#include "components/runtime/config/meshed_relief.h"
 #include "components/runtime/config/scenario.h"
 #include "components/runtime/exit_error.h"
 #include "components/runtime/terrain/source_of.h"
 #include "tools/terrain/bake.h"
+#include "tools/terrain/facets.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
@@ -36,17 +36,6 @@ std::string source_text(const Options& options) {
          "scenario:\n" + to_canonical_yaml(document.root);
 }
 
-/// A scenario on the tiles knows no layers: what of the sediments' relief the heights have must be said there.
-void tell_facets(const Scenario& scenario) {
-  if (scenario.seabed.kind != Seabed::Kind::kLayers) return;
-  for (const auto& [number, scatterer] : scenario.seabed.sediments) {
-    const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
-    if (meshed == nullptr || meshed->mean_square_slope == 0.0) continue;
-    fmt::print("class {}: a scenario on these tiles says facet_slope_deg: {:.4f} of its sediment\n", number,
-               facet_slope_deg(*meshed));
-  }
-}
-
 int build(const Options& options) {
   const Scenario scenario = read_scenario(options.scenario);
   const source::TerrainOptions terrain{scenario.site, scenario.seabed, options.raster_crs, options.raster_band,
@@ -63,7 +52,7 @@ int build(const Options& options) {
   if (!bake(*source, options.scenario, options.bake.threads, set)) return kExitInterrupted;
   fmt::print("{}: {} tiles of {} x {} posts {} m apart\n", set.folder, set.tiles.size(), set.grid.cells + 1,
              set.grid.cells + 1, set.grid.spacing_m);
-  tell_facets(scenario);
+  print_facets(scenario);  // a scenario on the tiles knows no layers
   return kExitOk;
 }
 

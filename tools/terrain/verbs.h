@@ -17,6 +17,7 @@ struct Verb {
 };
 
 Verb add_build(CLI::App& parent);
+Verb add_facets(CLI::App& parent);
 Verb add_grid(CLI::App& parent);
 Verb add_import(CLI::App& parent);
 Verb add_info(CLI::App& parent);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "components/runtime/config/meshed_relief.h"
+#include "components/runtime/config/facet_slope.h"
 #include "components/runtime/config/scalars.h"
 #include "components/runtime/config/scenario_sections.h"
 
@@ -158,7 +158,6 @@ Seabed read_seabed(ConfigReader from) {
     case Seabed::Kind::kRaster: seabed.raster = read_raster(from.section("raster")); break;
     case Seabed::Kind::kTiles: from.section("tiles").required_path("folder", seabed.tiles_folder); break;
   }
-  if (from.good()) count_meshed_relief(seabed);
   return seabed;
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "components/runtime/config/cast_file.h"
-#include "components/runtime/config/meshed_relief.h"
 
 namespace ensonify {
 namespace {
@@ -170,90 +169,16 @@ TEST_CASE("sediments are named, or given by grain size, parameters, Lambert's la
   CHECK(std::get<seabed::SedimentParameters>(bare.seabed.sediments.at(0)) == *seabed::sediment_of("medium sand"));
 }
 
-TEST_CASE("what a layered seabed's heights have of a sediment's relief is told to its law, by class") {
-  const auto slope_of = [](const seabed::Scatterer& scatterer) {
-    const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
-    return meshed == nullptr ? 0.0 : meshed->mean_square_slope;
-  };
-  const Section section = section_of(R"(seabed:
-  kind: layers
-  post_spacing_m: 0.1
-  sediments: {0: medium silt, 1: rock, 2: coarse sand, 3: {name: clay, facet_slope_deg: 0}, 4: {name: rock, capped: true, facet_slope_deg: 10}, 5: {lambert_mu_db: -20}}
-  layers:
-    ground: {plane: {}}
-    mud: {spectral: {as_sediment: medium silt, outer_scale_m: 1000}}
-    rock: {spectral: {as_sediment: rock, outer_scale_m: 1000, intermittency: 0.02}, sediment: 1}
-    sand: {spectral: {as_sediment: coarse sand, outer_scale_m: 1000}, join: cover, above: ground, sediment: 2}
-    patches: {spectral: {rms_m: 9, outer_scale_m: 30}, mask: {patches: {length_m: 20, share: 0.3}}}
-    not_there: {use: false, spectral: {rms_m: 9, outer_scale_m: 30}}
-)");
+TEST_CASE("a sediment says itself how steep its facets are") {
+  const Section section = section_of(
+      "seabed: {kind: tiles, tiles: {folder: .}, sediments: {0: {name: clay, facet_slope_deg: 0}, "
+      "1: {name: rock, capped: true, facet_slope_deg: 10}}}");
   REQUIRE(section.problems.empty());
-  const auto& sediments = section.seabed.sediments;
-  // 2 C^2 d^-0.75, C^2 = 11.17 w2 and d = 10 in cm (w2 = 0.000518 and 0.006957 cm^4) [APL1994]; within the outer
-  // scale's part, 0.4 %. Coarse sand has the mud's slopes under its own, but no more than its own count.
-  const double of_strength = 2 * 11.17 * std::pow(10.0, -0.75);
-  CHECK(slope_of(sediments.at(0)) == Approx(of_strength * 0.000518).epsilon(0.005));
-  // The mud's and rock's own, w2 = 0.01862 cm^4. Its cascade has nine octaves (from 128 m to posts 0.4 m apart), each
-  // of variance 0.02 ln 2 of ln amplitude, within 2 %: half of all places have less than exp(-2 x 9 x 0.02 ln 2) of the
-  // mean square.
-  CHECK(slope_of(sediments.at(1)) ==
-        Approx(of_strength * (0.000518 + 0.01862 * std::exp(-0.36 * std::log(2.0)))).epsilon(0.02));
-  CHECK(slope_of(sediments.at(2)) == Approx(of_strength * 0.006957).epsilon(0.005));
-  CHECK(slope_of(sediments.at(3)) == 0.0);
-  CHECK(slope_of(sediments.at(4)) == Approx(std::pow(std::tan(10 * kPi / 180), 2)));
-  CHECK(std::holds_alternative<seabed::CappedSediment>(std::get<seabed::MeshedSediment>(sediments.at(4)).whole));
-  CHECK(std::holds_alternative<seabed::Lambert>(sediments.at(5)));
-
-  // A tile set's heights have what its own file says, to the last bit: the layers' slope is rounded for that.
-  const double told_deg = facet_slope_deg(section.seabed, 0, *seabed::sediment_of("medium silt"));
-  const Section on_tiles = section_of(
-      "seabed: {kind: tiles, tiles: {folder: .}, sediments: {0: {name: medium silt, "
-      "facet_slope_deg: " +
-      std::to_string(told_deg) + "}}}");
-  CHECK(slope_of(on_tiles.seabed.sediments.at(0)) == slope_of(sediments.at(0)));
-}
-
-TEST_CASE("of uneven and masked layers the slope of a typical place counts") {
-  const auto share_of_even = [](const std::string& layer) {
-    const Section section = section_of(R"(seabed:
-  kind: layers
-  post_spacing_m: 0.1
-  size_m: [400, 200]
-  sediments: {0: coarse sand}
-  layers:
-    ground: {plane: {}}
-    paint: {mask: {patches: {length_m: 10, share: 0.1}}, sediment: 1}
-    silt: {)" + layer + "}\n");
-    CHECK(section.problems.empty());
-    const auto* meshed = std::get_if<seabed::MeshedSediment>(&section.seabed.sediments.at(0));
-    const double even = 2 * 11.17 * std::pow(10.0, -0.75) * 0.000518;  // of medium silt, as above
-    return meshed == nullptr ? 0.0 : meshed->mean_square_slope / even;
-  };
-  const std::string silt = "as_sediment: medium silt, outer_scale_m: 1000";
-  const auto masked = [&](const std::string& mask) {
-    return share_of_even("spectral: {" + silt + "}, mask: {" + mask + "}");
-  };
-  const auto one = Approx(1.0).epsilon(0.005);
-  CHECK(masked("patches: {length_m: 10, share: 0.6}") == one);
-  CHECK(masked("patches: {length_m: 10, share: 0.4}") == 0.0);
-  CHECK(masked("patches: {length_m: 10, share: 0.4}, reverse: true") == one);
-  CHECK(masked("sediment: [0]") == one);
-  CHECK(masked("sediment: [1]") == 0.0);
-  const std::string three_quarters = "polygon_m: [[-100, -300], [300, -300], [300, 300], [-100, 300]]";
-  CHECK(masked(three_quarters) == one);
-  CHECK(masked(three_quarters + ", patches: {length_m: 10, share: 0.6}") == 0.0);                               // 0.45
-  CHECK(masked("any: [{patches: {length_m: 10, share: 0.3}}, {patches: {length_m: 10, share: 0.3}}]") == one);  // 0.51
-  CHECK(masked("any: [{patches: {length_m: 10, share: 0.3}}, {patches: {length_m: 10, share: 0.25}}]") == 0.0);
-  CHECK(masked("depth_m: {to: 30}") == 0.0);  // nobody knows without the seabed
-
-  const auto spectral = [&](const std::string& more) {
-    return share_of_even("spectral: {" + silt + ", " + more + "}");
-  };
-  CHECK(spectral("rough: {patches: {length_m: 10, share: 0.6}}, smooth_amplitude: 0.5") == one);
-  CHECK(spectral("rough: {patches: {length_m: 10, share: 0.4}}, smooth_amplitude: 0.5") == Approx(0.25).epsilon(0.005));
-  CHECK(spectral("intermittency: 0.05") == Approx(std::exp(-2 * 9 * 0.05 * std::log(2.0))).epsilon(0.03));  // 9 octaves
-  CHECK(spectral("height_gain: 0.3") ==
-        Approx(std::exp(-2 * 0.09)).epsilon(0.01));  // nearly all of the height's variance
+  const auto& clay = std::get<seabed::MeshedSediment>(section.seabed.sediments.at(0));
+  CHECK(clay.mean_square_slope == 0.0);
+  const auto& rock = std::get<seabed::MeshedSediment>(section.seabed.sediments.at(1));
+  CHECK(rock.mean_square_slope == Approx(std::pow(std::tan(10 * kPi / 180), 2)));
+  CHECK(std::holds_alternative<seabed::CappedSediment>(rock.whole));
 }
 
 TEST_CASE("mistakes in sediments have a place") {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/runtime/config/config_reader.h"
+#include "components/runtime/head/head_config.h"
 #include "kernels/relief/spectral_surface.h"
 #include "kernels/water/noise.h"
 
@@ -24,7 +25,7 @@ Scenario world(const std::string& water, const std::string& sediments = "{}",
   auto from = ConfigReader::from_text(
       "ensonify: scenario/1\nsite: {latitude_deg: 45, longitude_deg: 0}\nwater: " + water +
           "\nseabed: {kind: layers, post_spacing_m: 0.1, sediments: " + sediments + ", layers: " + layers +
-          "}\nvehicles: {auv: {}}\n"
+          "}\nvehicles: {auv: {mountings: {bow: {actual: {}}}}}\n"
           "mission: {depth_m: 10, runlines: [{from_m: [0, 0], to_m: [100, 0]}]}\n",
       "world.yaml");
   const Scenario scenario = read_scenario(from, "world.yaml");
@@ -131,7 +132,10 @@ TEST_CASE("each class scatters by its sediment; classes without one as class 0")
 TEST_CASE("mud whose relief is in the heights answers on average as it does on a plane: nothing counts twice") {
   const Scenario mud = world("{sound_speed_mps: 1500}", "{0: medium silt}",
                              "{ground: {plane: {}}, mud: {spectral: {as_sediment: medium silt, outer_scale_m: 20}}}");
-  const Environment heard(mud, 300e3);
+  HeadConfig head;
+  auto from = ConfigReader::from_text("{}", "head.yaml");
+  read_head(from, mud, "bow", 50.0, head);
+  const Environment heard(head.world, 300e3);
   const auto whole = seabed::law_of(*seabed::sediment_of("medium silt"), 300e3, 1500.0);
 
   // The heights that the pager would make, each cell two triangles as the tracer has them.

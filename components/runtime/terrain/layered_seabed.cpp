@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "components/runtime/config/config_error.h"
-#include "components/runtime/terrain/raster_source.h"
-#include "components/runtime/terrain/tile_set_source.h"
 #include "kernels/relief/combine.h"
 #include "kernels/relief/guide.h"
 #include "kernels/relief/intermittency.h"
@@ -52,10 +50,10 @@ double exceeded_by(double share) {
 /// Makes the layers one after another; each may ask for what lies below it.
 class Maker {
  public:
-  Maker(const LayeredSeabed& seabed, double post_spacing_m, const frames::Geodetic& origin)
-      : description_(seabed), spacing_m_(post_spacing_m), origin_(origin) {}
+  Maker(const LayeredSeabed& seabed, double post_spacing_m, const GuideReader& read_guide)
+      : description_(seabed), spacing_m_(post_spacing_m), read_guide_(read_guide) {}
 
-  relief::Seabed make() {
+  LayeredFields make() {
     for (const layers::Layer& layer : description_.layers) {
       try {
         if (layer.used) layers_.push_back(layer_of(layer));
@@ -64,7 +62,7 @@ class Maker {
       }
       count_by_name_[layer.name] = layers_.size();
     }
-    return up_to(layers_.size());
+    return {up_to(layers_.size()), std::move(masks_), std::move(rough_)};
   }
 
  private:
@@ -79,12 +77,12 @@ class Maker {
     return std::max(0, static_cast<int>(std::lround(std::log2(scale_m / spacing_m_))));
   }
 
-  relief::Layer layer_of(const layers::Layer& layer) const {
+  relief::Layer layer_of(const layers::Layer& layer) {
     relief::Layer made;
     made.height_m = std::visit([&](const auto& form) { return height_of(form, layer.name); }, layer.form);
     made.join = layer.join;
     if (!layer.above.empty()) made.above = count_of(layer.above);
-    if (layer.mask) made.mask = mask_of(*layer.mask, layer.name);
+    if (layer.mask) made.mask = masks_[layer.name] = mask_of(*layer.mask, layer.name);
     made.sediment = layer.sediment;
     made.shows_above_m = std::holds_alternative<layers::Paint>(layer.form) ? -1.0 : layer.shows_above_m;
     return made;
@@ -156,7 +154,7 @@ class Maker {
   Field height_of(const relief::Sphere& shape, const std::string&) const { return sphere(shape, spacing_m_); }
   Field height_of(const relief::Ridge& shape, const std::string&) const { return ridge(shape, spacing_m_); }
 
-  Field height_of(const layers::Spectral& form, const std::string& layer) const {
+  Field height_of(const layers::Spectral& form, const std::string& layer) {
     const std::string name = "seabed/" + layer;
     std::vector<Field> amplitude;
     if (form.intermittency > 0.0) {
@@ -169,8 +167,8 @@ class Maker {
           relief::SpectralSurface(form.spectrum, spacing_m_, description_.seed, name), form.height_gain)));
     }
     if (form.rough) {
-      amplitude.push_back(
-          relief::blend(mask_of(*form.rough, layer + "/rough"), static_cast<float>(form.smooth_amplitude), 1.0F));
+      const Field rough = rough_[layer] = mask_of(*form.rough, layer + "/rough");
+      amplitude.push_back(relief::blend(rough, static_cast<float>(form.smooth_amplitude), 1.0F));
     }
     const Field shape =
         spectral_field(form.spectrum, name, amplitude.empty() ? Field() : relief::product(std::move(amplitude)));
@@ -193,7 +191,7 @@ class Maker {
   // --- guides ---
 
   Field height_of(const layers::Guide& form, const std::string&) const {
-    return relief::smooth_surface(raster_of(form), spacing_m_);
+    return relief::smooth_surface(read_guide_(form), spacing_m_);
   }
 
   Field height_of(const layers::Restored& form, const std::string& layer) const {
@@ -201,7 +199,7 @@ class Maker {
                                     [&](const layers::Layer& other) { return other.name == form.guide; });
     const auto* what = guide == description_.layers.end() ? nullptr : std::get_if<layers::Guide>(&guide->form);
     if (what == nullptr) throw std::invalid_argument("guide: " + form.guide + " is not a layer that is a guide");
-    relief::Raster raster = raster_of(*what);
+    relief::Raster raster = read_guide_(*what);
     const relief_statistics::Surface surface{raster.columns, raster.rows, raster.cell_m, std::move(raster.value)};
     const relief::Detail detail = relief::detail_below(surface, form.hurst, form.band_start_cells);
     if (detail.spectrum.rms_m == 0.0)
@@ -209,54 +207,18 @@ class Maker {
     return spectral_field(detail.spectrum, "seabed/" + layer);
   }
 
-  /// The file's heights on cells of the size asked for, over the seabed's rectangle and a little more.
-  relief::Raster raster_of(const layers::Guide& guide) const {
-    std::unique_ptr<TerrainSource> file;
-    if (!guide.tiles_folder.empty()) {
-      auto tiles = std::make_unique<TileSetSource>(guide.tiles_folder);
-      if (const std::string fault = fault_of_origin(tiles->origin(), origin_); !fault.empty())
-        throw std::invalid_argument("the guide's tiles: their origin " + fault + "; allowed: the same");
-      file = std::move(tiles);
-    } else {
-      RasterOptions options;
-      options.path = guide.raster;
-      options.values_are_depths = guide.values_are_depths;
-      file = std::make_unique<RasterSource>(options, origin_);
-    }
-    const frames::Vec2 corner = description_.centre_enu_m - 0.5 * description_.size_m;
-    PostBlock block;
-    block.spacing_m = guide.cell_m;
-    block.first_east = static_cast<std::int64_t>(std::floor(corner.x() / guide.cell_m));
-    block.first_north = static_cast<std::int64_t>(std::floor(corner.y() / guide.cell_m));
-    block.columns = static_cast<int>(std::ceil(description_.size_m.x() / guide.cell_m)) + 2;
-    block.rows = static_cast<int>(std::ceil(description_.size_m.y() / guide.cell_m)) + 2;
-    if (block.size() > kMostCells)
-      throw std::invalid_argument("the guide would have " + std::to_string(block.size()) +
-                                  " cells, allowed: " + std::to_string(kMostCells) + "; widen cell_m");
-    relief::Raster raster{block.columns, block.rows, guide.cell_m, {block.east_m(0), block.north_m(0)}, {}};
-    raster.value.resize(block.size());
-    std::vector<std::uint8_t> sediment(block.size());
-    file->sample(block, raster.value, sediment);
-    const auto holes = std::count_if(raster.value.begin(), raster.value.end(), [](float z) { return std::isnan(z); });
-    if (holes > 0)
-      throw std::invalid_argument("the guide has no height at " + std::to_string(holes) + " of " +
-                                  std::to_string(block.size()) + " cells of the seabed; fill it, or narrow size_m");
-    return raster;
-  }
-
-  static constexpr std::size_t kMostCells = 64'000'000;  // 256 MB
-
   const LayeredSeabed& description_;
   double spacing_m_;
-  frames::Geodetic origin_;
+  const GuideReader& read_guide_;
   std::vector<relief::Layer> layers_;
   std::map<std::string, std::size_t> count_by_name_;
+  std::map<std::string, Field> masks_, rough_;  // by layer
 };
 
 }  // namespace
 
-relief::Seabed seabed_of(const LayeredSeabed& seabed, double post_spacing_m, const frames::Geodetic& origin) {
-  return Maker(seabed, post_spacing_m, origin).make();
+LayeredFields fields_of(const LayeredSeabed& seabed, double post_spacing_m, const GuideReader& read_guide) {
+  return Maker(seabed, post_spacing_m, read_guide).make();
 }
 
 std::vector<NamedMark> marks_of(const LayeredSeabed& seabed, double post_spacing_m) {

@@ -1,19 +1,30 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "components/runtime/config/scenario_seabed.h"
-#include "kernels/frames/local_projection.h"
+#include "kernels/relief/guide.h"
 #include "kernels/relief/marks.h"
 #include "kernels/relief/seabed.h"
 
 namespace ensonify::source {
 
-/// The fields of kernels/relief that a scenario's layers ask for, joined. `origin` is the world's, for guides that are
-/// read from files. Throws ConfigError, naming the layer, for what only shows when it is made: a guide that cannot be
-/// read or has holes, numbers that do not go together.
-relief::Seabed seabed_of(const LayeredSeabed& seabed, double post_spacing_m, const frames::Geodetic& origin);
+/// Heights of a guide's file (guide_file.h). Throws std::invalid_argument with the cause when they cannot be had.
+using GuideReader = std::function<relief::Raster(const layers::Guide&)>;
+
+/// The fields of kernels/relief that a scenario's layers ask for.
+struct LayeredFields {
+  relief::Seabed seabed;                       // all layers, joined
+  std::map<std::string, relief::Field> masks;  // by layer, of those that have one
+  std::map<std::string, relief::Field> rough;  // the masks of rough places, by spectral layer
+};
+
+/// Throws ConfigError, naming the layer, for what only shows when it is made: a guide that cannot be read or has holes,
+/// numbers that do not go together.
+LayeredFields fields_of(const LayeredSeabed& seabed, double post_spacing_m, const GuideReader& read_guide);
 
 /// A furrow, and the layer of trawl scars or anchor drags that has it.
 struct NamedMark {

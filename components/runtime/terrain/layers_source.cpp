@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/terrain/guide_file.h"
 #include "components/runtime/terrain/layered_seabed.h"
 
 namespace ensonify::source {
@@ -32,7 +33,7 @@ Window window_around(int level, double spacing_m, const Vec2& low, const Vec2& h
 }  // namespace
 
 LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
-    : seabed_(seabed_of(seabed.layered, seabed.post_spacing_m, origin)),
+    : seabed_(fields_of(seabed.layered, seabed.post_spacing_m, guide_files(seabed.layered, origin)).seabed),
       extent_(extent_of(seabed.layered)),
       origin_(origin),
       post_spacing_m_(seabed.post_spacing_m),

@@ -13,7 +13,7 @@ namespace ensonify::source {
 /// at a wider one they are taken, bilinear, from the level of the lattice just finer, which lacks what it cannot show.
 class LayersSource : public TerrainSource {
  public:
-  /// Throws ConfigError as seabed_of does.
+  /// Throws ConfigError as fields_of does.
   LayersSource(const Seabed& seabed, const frames::Geodetic& origin);
 
   Extent extent() const override { return extent_; }

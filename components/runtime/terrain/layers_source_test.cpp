@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <numbers>
 #include <thread>
 
 #include "components/runtime/config/config_error.h"
@@ -157,44 +156,6 @@ TEST_CASE("every layer shows, and each can be left out without moving another") 
   CHECK(moved == 0);
   const Posts other = sampled(LayersSource(seabed_from(kMixed, 8), kOrigin), block);
   CHECK_FALSE(same(all.height_m, other.height_m));
-}
-
-TEST_CASE("facets of a seabed that is rough here and smooth there return on average what the plane's law says") {
-  // Medium silt at 300 kHz at right angles, where twice the slopes are 1 dB: all facets between posts of a square of
-  // 40 m, five outer scales and 40 patches of the cascade a side.
-  const auto returned_db = [](const std::string& more, bool counted) {
-    const Seabed seabed = seabed_from(
-        "seabed: {kind: layers, post_spacing_m: 0.1, size_m: [60, 60], sediments: {0: medium silt}, layers: "
-        "{ground: {plane: {depth_m: 20}}, sand: {" +
-        more + "}}}");
-    const LayersSource source(seabed, kOrigin);
-    const PostBlock block{-200, -200, 401, 401, 0.1};
-    const Posts posts = sampled(source, block);
-    const seabed::Scatterer plane = *seabed::sediment_of("medium silt");
-    const seabed::Law whole = seabed::law_of(plane, 300e3, 1500.0);
-    const seabed::Law facets = seabed::law_of(counted ? seabed.sediments.at(0) : plane, 300e3, 1500.0);
-    double sum = 0.0;
-    for (std::size_t row = 0; row < 400; ++row) {
-      for (std::size_t column = 0; column < 400; ++column) {
-        const float* z = &posts.height_m[row * 401 + column];
-        const auto add = [&](float east_m, float north_m) {
-          const double area = std::hypot(1.0, east_m / 0.1, north_m / 0.1);
-          sum += 0.5 * area * facets(std::asin(1.0 / area));
-        };
-        add(z[1] - z[0], z[401] - z[0]);
-        add(z[402] - z[401], z[402] - z[1]);
-      }
-    }
-    return 10.0 * std::log10(sum / 160'000.0 / whole(0.5 * std::numbers::pi));
-  };
-  for (const char* layer :
-       {"spectral: {as_sediment: medium silt, outer_scale_m: 8, intermittency: 0.1}",
-        "spectral: {as_sediment: medium silt, outer_scale_m: 8, height_gain: 0.4}",
-        "spectral: {as_sediment: medium silt, outer_scale_m: 8}, mask: {patches: {length_m: 4, share: 0.7}}"}) {
-    INFO(layer);
-    CHECK(returned_db(layer, true) == Approx(0.0).margin(0.3));
-    CHECK(returned_db(layer, false) < -0.6);
-  }
 }
 
 TEST_CASE("at wide spacings the seabed is that of a coarser level, cut off at the same rectangle") {

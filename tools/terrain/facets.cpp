@@ -1,0 +1,54 @@
+#include "tools/terrain/facets.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "components/runtime/config/facet_slope.h"
+#include "components/runtime/exit_error.h"
+#include "components/runtime/terrain/guide_file.h"
+#include "components/runtime/terrain/meshed_relief.h"
+#include "tools/terrain/verbs.h"
+
+namespace ensonify::terrain_tool {
+namespace {
+
+int facets(const std::string& file) {
+  const Scenario scenario = read_scenario(file);
+  if (scenario.seabed.kind != Seabed::Kind::kLayers)
+    throw UserError(file + ": is no seabed of layers; of others the scenario says facet_slope_deg itself");
+  print_facets(scenario);
+  return kExitOk;
+}
+
+}  // namespace
+
+void print_facets(const Scenario& scenario) {
+  const Seabed& seabed = scenario.seabed;
+  if (seabed.kind != Seabed::Kind::kLayers) return;
+  const auto read_guide = source::guide_files(seabed.layered, scenario.site.origin);
+  for (const auto& [number, scatterer] : source::sediments_on_mesh(seabed, read_guide)) {
+    const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
+    if (meshed == nullptr || meshed->mean_square_slope == 0.0) continue;
+    fmt::print("class {}: a scenario on tiles of this seabed says facet_slope_deg: {:.4f} of its sediment\n", number,
+               facet_slope_deg(*meshed));
+  }
+  for (const auto& uneven : source::uneven_classes(seabed, read_guide))
+    fmt::print("warning: {}\n", source::text_of(uneven));
+  for (const auto& uneven : source::uneven_classes(seabed)) {  // as heads have it
+    if (!uneven.share) fmt::print("warning: {}\n", source::text_of(uneven));
+  }
+}
+
+Verb add_facets(CLI::App& parent) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* app = parent.add_subcommand(
+      "facets",
+      "Says what of its sediments' roughness the facets of a seabed of layers have, and which class is uneven.");
+  app->add_option("scenario", *file, "scenario file (YAML)")->required()->check(CLI::ExistingFile);
+  return {app, [file] { return facets(*file); }};
+}
+
+}  // namespace ensonify::terrain_tool
