@@ -1,17 +1,20 @@
 #!/usr/bin/python3
 """Flies patch tests with acoustics and navigation's errors, each with a mounting and latencies of its own, and counts.
 
-    bench/patch_bench.py [--build build/release] [--seeds 1-20] [--json FILE]
+    bench/patch_bench.py [--build build/release] [--seeds 1-20] [--jobs 1] [--records FOLDER] [--json FILE]
 
 `ensonify patch` sees the records alone; what is true is drawn here: roll within 3.5 degrees of zero, pitch and yaw within 1.5,
-position latency to 200 ms, attitude latency to 20 ms. Counts come with their 95 % interval [ClopperPearson1934].
+position latency to 200 ms, attitude latency to 20 ms. The ping rate is drawn as well, 1.8 to 2.2 Hz: at one rate all surveys would
+have their pings in the same places. Counts come with their 95 % interval [ClopperPearson1934].
 """
 import argparse
+import concurrent.futures
 import json
 import math
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -34,16 +37,34 @@ def run(*command):
     return done.stdout
 
 
-def survey(build, seed):
-    """(error, half width of the stated interval) of each unknown, in units of its launch argument."""
+def drawn(seed):
+    """What is true in a survey, by launch argument, and how fast it pings."""
     draw = random.Random(seed)
     true = {argument: round(draw.uniform(least, most), 4) for _, argument, least, most, _, _ in UNKNOWNS}
+    return true, round(draw.uniform(1.8, 2.2), 3)
+
+
+def flown(build, seed, record):
+    """Leaves the record of a survey there; one that is there is not flown anew."""
+    true, ping_rate_hz = drawn(seed)
+    if record.exists():
+        return
     with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as out:
-        arguments = [word for name, value in {"seed": seed, **true}.items() for word in ("--arg", f"{name}={value}")]
+        arguments = [word for name, value in {"seed": seed, "ping_rate_hz": ping_rate_hz, **true}.items()
+                     for word in ("--arg", f"{name}={value}")]
         run(build / "bin/ensonify-run", ROOT / "bench/launch/patch.yaml", "--quiet", "--out", out, *arguments)
-        found = json.loads(run(build / "bin/ensonify-patch", pathlib.Path(out) / "patch.mcap", "--json"))
+        shutil.move(pathlib.Path(out) / "patch.mcap", record)
+
+
+def survey(build, seed, records):
+    """(error, half width of the stated interval) of each unknown, in units of its launch argument."""
+    with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as fresh:
+        record = pathlib.Path(records or fresh) / f"{seed}.mcap"
+        flown(build, seed, record)
+        found = json.loads(run(build / "bin/ensonify-patch", record, "--json"))
     if not found["converged"]:
         print(f"seed {seed}: not converged", file=sys.stderr)
+    true, _ = drawn(seed)
     return [(found[name]["value"] / unit - true[argument], found[name]["half_interval_95"] / unit)
             for name, argument, _, _, unit, _ in UNKNOWNS]
 
@@ -82,21 +103,32 @@ def summary(surveys):
     return rows
 
 
+def write(file, surveys):
+    content = {"surveys": dict(sorted(surveys.items())), "summary": summary(list(surveys.values()))}
+    pathlib.Path(file).write_text(json.dumps(content, indent=1))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build/release", help="build folder (default: build/release)")
     parser.add_argument("--seeds", default="1-20", help="first and last (default 1-20)")
+    parser.add_argument("--jobs", type=int, default=1, help="surveys at a time (default 1)")
+    parser.add_argument("--records", help="keep the records in this folder; those that are there are not flown anew")
     parser.add_argument("--json", help="write errors, intervals and counts to this file, after each survey")
     options = parser.parse_args()
     build = (ROOT / options.build).resolve()
     os.environ["PATH"] = f"{build / 'bin'}:{os.environ['PATH']}"
+    if options.records:
+        pathlib.Path(options.records).mkdir(parents=True, exist_ok=True)
     first, last = (int(word) for word in options.seeds.split("-"))
     surveys = {}
-    for seed in range(first, last + 1):
-        surveys[seed] = survey(build, seed)
-        print(seed, *(f"{error:+.4f}+-{half:.4f}" for error, half in surveys[seed]), flush=True)
-        if options.json:
-            pathlib.Path(options.json).write_text(json.dumps({"surveys": surveys, "summary": summary(list(surveys.values()))}, indent=1))
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        waiting = {pool.submit(survey, build, seed, options.records): seed for seed in range(first, last + 1)}
+        for done in concurrent.futures.as_completed(waiting):
+            surveys[waiting[done]] = done.result()
+            print(waiting[done], *(f"{error:+.4f}+-{half:.4f}" for error, half in done.result()), flush=True)
+            if options.json:
+                write(options.json, surveys)
     for r in summary(list(surveys.values())):
         inside, within = ("{} of {} ({:.0%} to {:.0%})".format(r[key], r["surveys"], *bounds(r[key], r["surveys"]))
                           for key in ("inside_interval", "within_limit"))

@@ -1,5 +1,7 @@
 #include "kernels/boresight/adjust.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -8,47 +10,36 @@
 #include "kernels/boresight/cells.h"
 #include "kernels/boresight/drift.h"
 #include "kernels/boresight/plane.h"
+#include "kernels/boresight/spread.h"
 
 namespace ensonify::boresight {
 
 namespace {
 
-constexpr double kLoose = 10.0;  // s, rad: a prior that decides nothing that can be observed
-constexpr int kChoosing =
-    8;  // rounds in which soundings may still change their cells; convergence is Newton's afterwards
+constexpr double kLoose = 10.0;         // s, rad: a prior that decides nothing that can be observed
 constexpr double kTypical = 20.0;       // soundings that the typical cell counts for in the variance of each
 constexpr double kLeastSigmaM = 0.003;  // of a plane fit: few soundings can lie on it by luck
 constexpr double kStatedRightTo = 0.1;  // relative uncertainty of the deviations that navigation states
 
-/// Variances of the unknowns, and by how many degrees of freedom each is known [Satterthwaite1946].
-struct Spread {
-  Unknowns variance, freedom;
-  Unknowns expected;  // variances if soundings erred on their own, all of a cell alike
+/// A laying of the squares over the soundings: where a corner of them lies, and the state to start from.
+struct Laying {
+  frames::Vec2 corner_m = frames::Vec2::Zero();
+  Vector state;      // empty: zero
+  int choosing = 8;  // rounds in which soundings may still change their cells; convergence is Newton's afterwards
 };
-
-constexpr double kMany = 1e9;  // degrees of freedom
-
-/// Quantile 0.975 of Student's t, by Cornish and Fisher's series in 1 / freedom (to 1 % from 3 on)
-/// [Abramowitz1964].
-double student_95(double freedom) {
-  constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  const double f = std::max(freedom, 3.0);
-  return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * f * f * f);
-}
 
 class Adjustment {
  public:
-  Adjustment(const std::vector<Line>& lines, const AdjustSettings& settings)
-      : lines_(lines), settings_(settings), drift_(lines, settings) {
-    state_ = Vector::Zero(static_cast<Eigen::Index>(drift_.size()));
+  Adjustment(const std::vector<Line>& lines, const AdjustSettings& settings, const Laying& laying)
+      : lines_(lines), settings_(settings), laying_(laying), drift_(lines, settings), state_(laying.state) {
+    if (state_.size() == 0) state_ = Vector::Zero(drift_.size());
     prior_ = priors();
   }
 
   Adjusted run() {
     Adjusted result;
     for (result.rounds = 1; result.rounds <= settings_.most_rounds; ++result.rounds) {
-      gather(result.rounds <= kChoosing);
+      gather(result.rounds <= laying_.choosing);
       if (result.rounds == 1) result.rms_before_m = rms();
       const Vector step = normal_.llt().solve(-gradient_ - prior_ * state_);
       state_ += step;
@@ -58,9 +49,14 @@ class Adjustment {
       }
     }
     gather(false);
-    finish(result);
+    result.rms_after_m = rms();
+    result.cells = chosen_.size();
+    result.soundings = used_;
     return result;
   }
+
+  const Vector& state() const { return state_; }
+  Found found() const { return {state_.head<kUnknowns>(), spread()}; }
 
  private:
   /// The inverse covariance of all unknowns before anything was heard. What is not solved for gets a very large one.
@@ -99,7 +95,7 @@ class Adjustment {
 
   /// What is compared at these places: soundings by cell, without those far from the cell's plane.
   void choose(const Places& places) {
-    const Cells cells(places, settings_.cell_m, settings_.least);
+    const Cells cells(places, settings_.cell_m, settings_.least, laying_.corner_m);
     chosen_.clear();
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const Members all(cells[n].members.begin(), cells[n].members.end());
@@ -243,7 +239,7 @@ class Adjustment {
     std::vector<std::vector<Stretch>> by_line(lines_.size());
     for (std::size_t n = 0; n < chosen_.size(); ++n) tell(n, inverse, by_line);
     std::vector<std::vector<Drift::Pulls>> pulls(lines_.size());
-    Spread spread{Unknowns::Zero(), Unknowns::Zero(), inverse.topRows<static_cast<int>(kUnknowns)>().diagonal()};
+    Spread spread;
     Unknowns fourth = Unknowns::Zero();
     for (std::size_t line = 0; line < by_line.size(); ++line) {
       for (const Stretch& stretch : by_line[line]) {
@@ -259,27 +255,16 @@ class Adjustment {
     const double stated = 0.5 / (kStatedRightTo * kStatedRightTo);  // [GUM2008, eq. G.3]
     const Unknowns unsure = fourth / 3.0 + wander.cwiseAbs2().rowwise().sum() / stated;
     spread.freedom = spread.variance.cwiseAbs2().cwiseQuotient(unsure);
+    // What is left of soundings that an unknown follows is too small: never less than what is expected if soundings
+    // erred on their own, all of a cell alike.
+    spread.variance = spread.variance.cwiseMax(inverse.topRows<static_cast<int>(kUnknowns)>().diagonal());
+    spread.variance[2] += settings_.angle_sd_rad * settings_.angle_sd_rad;
     return spread;
-  }
-
-  void finish(Adjusted& result) const {
-    const Spread found = spread();
-    result.offsets = offsets_of(state_.head<kUnknowns>());
-    for (std::size_t k = 0; k < kUnknowns; ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      if (!settings_.solve[k]) continue;
-      // What is left of soundings that an unknown follows is too small: never less than what is expected.
-      const double expected_sd = std::sqrt(found.expected[i]), seen_sd = std::sqrt(found.variance[i]);
-      result.sd[i] = std::max(expected_sd, seen_sd);
-      result.half_95[i] = std::max(student_95(kMany) * expected_sd, student_95(found.freedom[i]) * seen_sd);
-    }
-    result.rms_after_m = rms();
-    result.cells = chosen_.size();
-    result.soundings = used_;
   }
 
   const std::vector<Line>& lines_;
   const AdjustSettings& settings_;
+  const Laying& laying_;
   const Drift drift_;
   Vector state_, gradient_;
   Matrix prior_, normal_;
@@ -295,9 +280,10 @@ void check(const std::vector<Line>& lines, const AdjustSettings& settings) {
   if (lines.size() < 2) throw std::invalid_argument("a patch test compares at least two lines");
   if (!(settings.cell_m > 0.0) || !(settings.piece_s > 0.0) || !(settings.height_piece_s > 0.0) ||
       !(settings.wander_s > 0.0) || !(settings.turn_wander_s > 0.0) || !(settings.together_s > 0.0) ||
-      !(settings.gate_sds > 0.0) || settings.least < 3 || settings.most_rounds < 1) {
+      !(settings.gate_sds > 0.0) || !(settings.angle_sd_rad >= 0.0) || settings.layings < 1 || settings.least < 3 ||
+      settings.most_rounds < 1) {
     throw std::invalid_argument(
-        "cell, pieces, wanders, stretches and gate are positive, a cell takes at least 3 soundings of a line");
+        "cell, layings, pieces, wanders, stretches and gate are positive, a cell takes at least 3 soundings of a line");
   }
   for (const Line& line : lines) {
     for (const Sounding& s : line.soundings) {
@@ -318,7 +304,31 @@ Unknowns unknowns_of(const Offsets& o) {
 
 Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings) {
   check(lines, settings);
-  return Adjustment(lines, settings).run();
+  const int each_way = settings.layings;
+  const auto count = static_cast<std::size_t>(each_way * each_way);
+  const Laying first;
+  Adjustment adjustment(lines, settings, first);
+  Adjusted result = adjustment.run();
+  std::vector<Found> found(count, adjustment.found());
+  std::vector<char> converged(count, result.converged ? 1 : 0);
+  tbb::parallel_for(std::size_t{1}, count, [&](std::size_t n) {
+    const frames::Vec2 steps(static_cast<int>(n) % each_way, static_cast<int>(n) / each_way);
+    const Laying laying{.corner_m = settings.cell_m / each_way * steps, .state = adjustment.state(), .choosing = 2};
+    Adjustment shifted(lines, settings, laying);
+    converged[n] = shifted.run().converged ? 1 : 0;
+    found[n] = shifted.found();
+  });
+  const Found mean = mean_of(found);
+  result.offsets = offsets_of(mean.unknowns);
+  result.converged = std::count(converged.begin(), converged.end(), 0) == 0;
+  const Unknowns half = half_95(mean.spread);
+  for (std::size_t k = 0; k < kUnknowns; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!settings.solve[k]) continue;
+    result.sd[i] = std::sqrt(mean.spread.variance[i]);
+    result.half_95[i] = half[i];
+  }
+  return result;
 }
 
 }  // namespace ensonify::boresight

@@ -14,12 +14,14 @@ struct Filed {
   auto key() const { return std::tuple(row, column, ref.line, ref.index); }
 };
 
-std::vector<Filed> filed(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m) {
+std::vector<Filed> filed(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m,
+                         const frames::Vec2& corner_m) {
+  const auto square = [&](double along_m) { return std::llround(std::floor(along_m / side_m)); };
   std::vector<Filed> all;
   for (std::uint32_t line = 0; line < places_enu_m.size(); ++line) {
     for (std::uint32_t i = 0; i < places_enu_m[line].size(); ++i) {
       const frames::Vec3& p = places_enu_m[line][i];
-      all.push_back({std::llround(std::floor(p.y() / side_m)), std::llround(std::floor(p.x() / side_m)), {line, i}});
+      all.push_back({square(p.y() - corner_m.y()), square(p.x() - corner_m.x()), {line, i}});
     }
   }
   std::sort(all.begin(), all.end(), [](const Filed& a, const Filed& b) { return a.key() < b.key(); });
@@ -28,8 +30,9 @@ std::vector<Filed> filed(const std::vector<std::vector<frames::Vec3>>& places_en
 
 }  // namespace
 
-Cells::Cells(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m, std::size_t least) {
-  const std::vector<Filed> all = filed(places_enu_m, side_m);
+Cells::Cells(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m, std::size_t least,
+             const frames::Vec2& corner_m) {
+  const std::vector<Filed> all = filed(places_enu_m, side_m, corner_m);
   starts_.push_back(0);
   for (auto from = all.begin(); from != all.end();) {
     const auto to =

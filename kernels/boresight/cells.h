@@ -20,10 +20,12 @@ struct Cell {
 };
 
 /// The squares of `side_m` on the ground in which at least two lines have `least` soundings or more, from the
-/// south-west on, row by row; lines with fewer are left out of a cell. The order depends on the soundings alone.
+/// south-west on, row by row; lines with fewer are left out of a cell. A corner of the squares lies at `corner_m`
+/// (east, north). The order depends on the soundings alone.
 class Cells {
  public:
-  Cells(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m, std::size_t least);
+  Cells(const std::vector<std::vector<frames::Vec3>>& places_enu_m, double side_m, std::size_t least,
+        const frames::Vec2& corner_m);
 
   std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   Cell operator[](std::size_t n) const {

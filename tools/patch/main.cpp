@@ -25,6 +25,7 @@ struct Options {
   std::vector<std::string> solve;
   boresight::AdjustSettings settings;
   double position_sd_m = 0.05, height_sd_m = 0.05, level_sd_deg = 0.02, heading_sd_deg = 0.05;
+  double angle_sd_deg = 0.004;
   bool json = false;
 };
 
@@ -49,6 +50,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--height-sd", o.height_sd_m, "of heights, tide and heave, m, likewise")->capture_default_str();
   app.add_option("--level-sd", o.level_sd_deg, "of roll and pitch, degrees, likewise")->capture_default_str();
   app.add_option("--heading-sd", o.heading_sd_deg, "of headings, degrees, likewise")->capture_default_str();
+  app.add_option("--angle-sd", o.angle_sd_deg, "by which all angles across may be off together, degrees: as roll does")
+      ->capture_default_str();
+  app.add_option("--layings", o.settings.layings, "of the squares, each way; the answer is the mean of all")
+      ->capture_default_str();
   app.add_flag("--json", o.json, "print JSON, in s and rad");
 }
 
@@ -74,27 +79,28 @@ std::vector<bool> used_lines(const Options& o, std::size_t there) {
   return used;
 }
 
-/// What the estimate states of its own errors, or where it does not, the options.
-std::pair<Vec3, Vec3> deviations(const Options& o, const Heard& heard) {
-  const bool told = heard.position_sd_m.norm() > 0.0 && heard.rotation_sd_rad.norm() > 0.0;
-  if (told) return {heard.position_sd_m, heard.rotation_sd_rad};
-  return {Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m),
-          kDegree * Vec3(o.level_sd_deg, o.level_sd_deg, o.heading_sd_deg)};
+/// The line with what the estimate states of its own errors meanwhile, or where it does not, the options.
+boresight::Line with_deviations(const RunLine& run, const Heard& heard, const Options& o) {
+  boresight::Line line = run.line;
+  const Stated stated = mean_stated(heard.stated, run.from_s, run.to_s);
+  const bool told = !stated.position_variance_m2.isZero(0.0) && !stated.rotation_variance_rad2.isZero(0.0);
+  line.position_sd_m = told ? Vec3(stated.position_variance_m2.cwiseSqrt())
+                            : Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m);
+  line.rotation_sd_rad = told ? Vec3(stated.rotation_variance_rad2.cwiseSqrt())
+                              : Vec3(kDegree * Vec3(o.level_sd_deg, o.level_sd_deg, o.heading_sd_deg));
+  return line;
 }
 
 int patch(Options& o) {
   choose_unknowns(o);
+  o.settings.angle_sd_rad = o.angle_sd_deg * kDegree;
   Finding finding;
   finding.heard = read_soundings(o.record, o.reading);
   finding.lines = split_lines(finding.heard.soundings);
   finding.used = used_lines(o, finding.lines.size());
-  const auto [position_sd_m, rotation_sd_rad] = deviations(o, finding.heard);
   std::vector<boresight::Line> lines;
   for (std::size_t n = 0; n < finding.lines.size(); ++n) {
-    if (!finding.used[n]) continue;
-    lines.push_back(finding.lines[n].line);
-    lines.back().position_sd_m = position_sd_m;
-    lines.back().rotation_sd_rad = rotation_sd_rad;
+    if (finding.used[n]) lines.push_back(with_deviations(finding.lines[n], finding.heard, o));
   }
   try {
     finding.adjusted = boresight::adjust(lines, o.settings);

@@ -48,10 +48,6 @@ class Track {
   void add(const msg::Estimate& e) {
     times_s_.push_back(static_cast<double>(e.stamp_ns) * 1e-9);
     poses_.push_back({Vec3(e.position_enu_m.data()), frames::quaternion_of(e.enu_from_body)});
-    for (int k = 0; k < 3; ++k) {
-      position_variance_[k] += e.position_covariance_enu_m2[static_cast<std::size_t>(4 * k)];
-      rotation_variance_[k] += e.rotation_covariance_enu_rad2[static_cast<std::size_t>(4 * k)];
-    }
   }
 
   bool covers(double t_s) const { return times_s_.size() > 1 && t_s >= times_s_.front() && t_s <= times_s_.back(); }
@@ -64,20 +60,16 @@ class Track {
     return frames::interpolate(poses_[a], poses_[b], (t_s - times_s_[a]) / (times_s_[b] - times_s_[a]));
   }
 
-  Vec3 position_sd_m() const { return (position_variance_ / count()).cwiseSqrt(); }
-  /// Of roll, pitch and heading: the first two are level axes, whichever way the vehicle heads.
-  Vec3 rotation_sd_rad() const {
-    const double level = std::sqrt((rotation_variance_.x() + rotation_variance_.y()) / 2.0 / count());
-    return {level, level, std::sqrt(rotation_variance_.z() / count())};
-  }
-
  private:
-  double count() const { return std::max<double>(1.0, static_cast<double>(times_s_.size())); }
-
   std::vector<double> times_s_;
-  std::vector<frames::Pose> poses_;
-  Vec3 position_variance_ = Vec3::Zero(), rotation_variance_ = Vec3::Zero();
-};
+  std::vector<frames::Pose> poses_;};
+
+Stated stated_by(const msg::Estimate& e) {
+  const auto diagonal = [](const auto& covariance) { return Vec3(covariance[0], covariance[4], covariance[8]); };
+  const Vec3 position = diagonal(e.position_covariance_enu_m2), rotation = diagonal(e.rotation_covariance_enu_rad2);
+  const double level = (rotation.x() + rotation.y()) / 2.0;  // about east and north: both roll and pitch
+  return {static_cast<double>(e.stamp_ns) * 1e-9, position, Vec3(level, level, rotation.z())};
+}
 
 /// Accepted soundings of a ping. Attitude, velocity and turning come later, from the track.
 void add(const msg::Soundings& ping, std::vector<Sounding>& soundings) {
@@ -104,6 +96,18 @@ void add_motion(Sounding& s, const Track& track) {
 
 }  // namespace
 
+Stated mean_stated(const std::vector<Stated>& stated, double from_s, double to_s) {
+  Stated mean{.time_s = (from_s + to_s) / 2.0};
+  double count = 0.0;
+  for (const Stated& s : stated) {
+    if (s.time_s < from_s || s.time_s > to_s) continue;
+    ++count;
+    mean.position_variance_m2 += (s.position_variance_m2 - mean.position_variance_m2) / count;
+    mean.rotation_variance_rad2 += (s.rotation_variance_rad2 - mean.rotation_variance_rad2) / count;
+  }
+  return mean;
+}
+
 Heard read_soundings(const std::filesystem::path& file, const Reading& reading) {
   record::RecordReader record(file);
   Heard heard;
@@ -113,7 +117,11 @@ Heard read_soundings(const std::filesystem::path& file, const Reading& reading) 
   record::RecordedMessage message;
   while (record.next(message)) {
     if (message.channel->topic == heard.soundings_topic) add(decoded<msg::Soundings>(message), heard.soundings);
-    if (message.channel->topic == heard.estimate_topic) track.add(decoded<msg::Estimate>(message));
+    if (message.channel->topic == heard.estimate_topic) {
+      const auto estimate = decoded<msg::Estimate>(message);
+      track.add(estimate);
+      heard.stated.push_back(stated_by(estimate));
+    }
   }
   std::erase_if(heard.soundings,
                 [&](const Sounding& s) { return !track.covers(s.time_s) || !s.place_enu_m.allFinite(); });
@@ -122,8 +130,6 @@ Heard read_soundings(const std::filesystem::path& file, const Reading& reading) 
   for (std::size_t i = 0; i * step < heard.accepted; ++i) heard.soundings[i] = heard.soundings[i * step];
   heard.soundings.resize((heard.accepted + step - 1) / step);
   for (Sounding& s : heard.soundings) add_motion(s, track);
-  heard.position_sd_m = track.position_sd_m();
-  heard.rotation_sd_rad = track.rotation_sd_rad();
   return heard;
 }
 

@@ -14,13 +14,22 @@ struct Reading {
   std::size_t most = 1'000'000;  // soundings kept, thinned evenly
 };
 
+/// What the estimate says of its own errors. Zero: it does not tell.
+struct Stated {
+  double time_s = 0.0;
+  frames::Vec3 position_variance_m2 = frames::Vec3::Zero();    // east, north, up
+  frames::Vec3 rotation_variance_rad2 = frames::Vec3::Zero();  // roll, pitch, heading
+};
+
+/// The mean of what is stated between two times; zero where nothing is.
+Stated mean_stated(const std::vector<Stated>& stated, double from_s, double to_s);
+
 /// What a record holds for a patch test: nothing but what instruments said.
 struct Heard {
   std::string soundings_topic, estimate_topic;
-  std::vector<boresight::Sounding> soundings;           // accepted ones, in order of time
-  std::size_t accepted = 0;                             // before thinning
-  frames::Vec3 position_sd_m = frames::Vec3::Zero();    // that the estimate states, root mean square; zero: not told
-  frames::Vec3 rotation_sd_rad = frames::Vec3::Zero();  // roll, pitch, heading
+  std::vector<boresight::Sounding> soundings;  // accepted ones, in order of time
+  std::size_t accepted = 0;                    // before thinning
+  std::vector<Stated> stated;                  // by each estimate, in order of time
 };
 
 /// Throws UserError for a file that is no record, and for one without a single topic of soundings/1 or estimate/1 where
