@@ -43,9 +43,12 @@ void read_graded(ConfigReader& from, const std::string& kind, const std::functio
     from.optional_path("grade", path);
   } else if (!grade.empty()) {
     path = find_data(std::string(kGrades) + "/" + kind + "_" + grade + ".yaml", {});
-    if (path.empty())
-      from.problem("grade", "\"" + grade + "\" is no grade of this instrument; allowed: " + known_grades(kind) +
-                                ", or a file *.yaml");
+    if (path.empty()) {
+      const std::string known = known_grades(kind);
+      from.problem("grade", "\"" + grade + "\" is no grade of this instrument; allowed: " +
+                                (known.empty() ? "" : known + ", or ") + "a file *.yaml (looked for " + kGrades +
+                                " in " + data_roots_text() + ")");
+    }
   }
   if (!path.empty()) {
     try {

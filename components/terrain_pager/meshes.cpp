@@ -99,7 +99,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
   std::size_t bytes = 0;
   for (const SeabedMesh& mesh : config.terrain.seabed.meshes) {
     const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain);
-    if (!placed.cached) unprepared_.push_back(mesh.name);
+    if (placed.worth_preparing) unprepared_.push_back(mesh.name);
     if (placed.hierarchy.mesh.triangle.empty()) refuse(config, mesh.name, "has no triangles");
     const paging::Box box = box_of(placed.hierarchy.mesh);
     if (box.low.x() > known.east_m || box.low.y() > known.north_m || box.high.x() < known.west_m ||

@@ -30,7 +30,7 @@ class Meshes {
 
   /// Of the largest one, as a message.
   std::size_t max_bytes() const;
-  /// Names of those whose splits had to be made at the start.
+  /// Names of those whose splits had to be made at the start and are many.
   const std::vector<std::string>& unprepared() const { return unprepared_; }
 
  private:

@@ -1,9 +1,6 @@
 #include "components/terrain_pager/tile_cache.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -18,6 +16,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "components/runtime/tiles/crc32c.h"
 #include "components/runtime/tiles/file_bytes.h"
 #include "components/runtime/tiles/sha256.h"
 #include "messages/codec.h"
@@ -28,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using terrain::TileKey;
 
-constexpr const char* kFormat = "ensonify cached tile/1";
+constexpr const char* kFormat = "ensonify cached tile/2";
 constexpr std::size_t kDigits = 64;  // of a SHA-256
 
 std::string sha256_of(std::span<const std::byte> bytes) {
@@ -49,17 +48,17 @@ bool is_name_of_tile(const std::string& name) {
          name.find(".tile") != std::string::npos;
 }
 
-/// A file's bytes where the system has them: files of a cache are put in place and removed, never written again.
-msg::Buffer mapped(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
-  struct stat info {};
-  const std::size_t size = ::fstat(file, &info) == 0 ? static_cast<std::size_t>(info.st_size) : 0;
-  void* bytes = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0) : nullptr;
-  ::close(file);
-  if (bytes == MAP_FAILED) throw std::runtime_error("cannot be mapped");
-  std::shared_ptr<const void> owner(bytes, [size](void* mapping) { ::munmap(mapping, size); });
-  return {std::move(owner), static_cast<const std::byte*>(bytes), size};
+/// A file's bytes, read whole. They are not mapped: where a mapped file is cut off while its tile is in use, whoever
+/// looks at it next is ended by SIGBUS.
+msg::Buffer bytes_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
+  const auto size = static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg()));
+  const std::shared_ptr<std::byte[]> bytes(new std::byte[size]);  // a vector would write zeros first
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(bytes.get()), static_cast<std::streamsize>(size));
+  if (!stream) throw std::runtime_error("cannot be read to its end");
+  return {bytes, bytes.get(), size};
 }
 
 /// What goes behind the first line so that the heights stand where floats may: they need not be copied when they are
@@ -74,10 +73,7 @@ std::string padding(std::size_t line, const msg::Buffer& payload) {
 /// The first line of a file, but for blanks at its end. Its checksum is of the file's name and of all that follows the
 /// line.
 std::string line_of(const std::string& name, std::span<const std::byte> payload) {
-  tiles::Sha256 sum;
-  sum.add(std::as_bytes(std::span(name)));
-  sum.add(payload);
-  return fmt::format("{} {}", kFormat, sum.digest());
+  return fmt::format("{} {:08x}", kFormat, tiles::crc32c(payload, tiles::crc32c(std::as_bytes(std::span(name)))));
 }
 
 /// What follows the first line.
@@ -87,7 +83,7 @@ msg::Buffer checked(const std::string& name, const msg::Buffer& file) {
   const std::string line = line_of(name, payload.bytes());
   const std::string_view first = file.text().substr(0, head);
   if (!first.starts_with(line) || first.find_first_not_of(' ', line.size()) != head - 1 || first.back() != '\n')
-    throw std::runtime_error("is not what was written (SHA-256)");
+    throw std::runtime_error("is not what was written (CRC-32C)");
   return payload;
 }
 
@@ -120,7 +116,7 @@ std::shared_ptr<const Message> TileCache::read_named(const std::string& name) {
   if (!fs::exists(path, ignored)) return nullptr;
   try {
     auto message = std::make_shared<Message>();
-    msg::from_value(msg::decode_inline(checked(name, mapped(path))), *message, "");
+    msg::from_value(msg::decode_inline(checked(name, bytes_of(path))), *message, "");
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
     const std::scoped_lock lock(mutex_);
     used_.insert(name);

@@ -141,7 +141,7 @@ TEST_CASE("a damaged file is told, removed and made anew") {
   const fs::path file = files_in(folder.path).at(0);
   const auto size = static_cast<std::streamoff>(fs::file_size(file));
   SECTION("a bit of the format's name") { damage(file, 3); }
-  SECTION("a bit of the checksum") { damage(file, 60); }
+  SECTION("a bit of the checksum") { damage(file, 27); }
   SECTION("a bit of the first field") { damage(file, 90); }
   SECTION("a bit of a height") { damage(file, size / 2); }
   SECTION("a bit of the last class") { damage(file, size - 1); }
@@ -153,9 +153,33 @@ TEST_CASE("a damaged file is told, removed and made anew") {
   const auto notices = cache.take_notices();
   REQUIRE(notices.size() == 1);
   CHECK(notices[0].event == "tile_cache_damaged");
-  CHECK(notices[0].pairs == "file=" + file.string() + " why=\"is not what was written (SHA-256)\"");
+  CHECK(notices[0].pairs == "file=" + file.string() + " why=\"is not what was written (CRC-32C)\"");
   CHECK_FALSE(fs::exists(file));
   CHECK(cache.take_notices().empty());
+  cache.write(tile_at({1, 1}));
+  CHECK(cache.read({1, 1}));
+}
+
+TEST_CASE("a tile in use outlives its file's being cut off or removed, and is made anew by who asks next") {
+  const Folder folder;
+  TileCache cache(folder.path, "a seabed", kPlenty);
+  cache.write(tile_at({1, 1}));
+  const fs::path file = files_in(folder.path).at(0);
+  const auto kept = cache.read({1, 1});
+  REQUIRE(kept);
+  SECTION("cut off") {
+    fs::resize_file(file, 0);
+    CHECK(cache.read({1, 1}) == nullptr);
+    const auto notices = cache.take_notices();
+    REQUIRE(notices.size() == 1);
+    CHECK(notices[0].event == "tile_cache_damaged");
+  }
+  SECTION("removed") {
+    fs::remove(file);
+    CHECK(cache.read({1, 1}) == nullptr);
+    CHECK(cache.take_notices().empty());
+  }
+  check_same_bits(*kept, tile_at({1, 1}));
   cache.write(tile_at({1, 1}));
   CHECK(cache.read({1, 1}));
 }

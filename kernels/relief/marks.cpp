@@ -1,5 +1,6 @@
 #include "kernels/relief/marks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,6 +106,16 @@ std::vector<Vec2> line_of(const Mark& mark, int points) {
     line.push_back(mark.middle_enu_m + a * mark.ahead_enu + b * starboard);
   }
   return line;
+}
+
+bool meets(const Mark& mark, const Vec2& south_west_enu_m, const Vec2& north_east_enu_m) {
+  const Eigen::AlignedBox2d box(south_west_enu_m, north_east_enu_m);
+  if (box.contains(mark.middle_enu_m)) return true;
+  if (box.exteriorDistance(mark.middle_enu_m) > 0.5 * mark.length_m + mark.half_width_m) return false;
+  const int steps = std::max(1, static_cast<int>(std::ceil(mark.length_m / (0.1 * mark.half_width_m))));
+  const std::vector<Vec2> line = line_of(mark, steps + 1);
+  return std::any_of(line.begin(), line.end(),
+                     [&](const Vec2& place) { return box.exteriorDistance(place) <= mark.half_width_m; });
 }
 
 Marks::Marks(const MarkParameters& parameters, double post_spacing_m, std::uint64_t seed, std::string_view name)

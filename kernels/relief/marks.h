@@ -32,6 +32,10 @@ double height_at_m(const Mark& mark, const frames::Vec2& place_enu_m);
 /// Its middle line, `points` places from end to end: the ground truth for who looks for marks.
 std::vector<frames::Vec2> line_of(const Mark& mark, int points);
 
+/// Whether the furrow, without its berms, meets a rectangle: some place of it is at most half the furrow's width from
+/// the middle line, give or take a twentieth of that.
+bool meets(const Mark& mark, const frames::Vec2& south_west_enu_m, const frames::Vec2& north_east_enu_m);
+
 /// Trawl scars (furrows in pairs, one per door) and anchor drags (single ones), a Poisson process of tracks. Known
 /// of doors: 0.05-0.3 m deep, 1-4 m wide with berms, pairs 40-120 m apart, along contours.
 struct MarkParameters {

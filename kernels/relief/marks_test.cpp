@@ -57,6 +57,30 @@ TEST_CASE("trawl scars come in pairs, as many as asked for, and along their head
   CHECK(heading == Approx(1.0).margin(4 * 0.1 / std::sqrt(800.0)));
 }
 
+TEST_CASE("a furrow meets a rectangle where its middle line is within half its width of it") {
+  const auto meets_square = [](const Mark& mark) { return meets(mark, {0, 0}, {100, 100}); };
+  const auto northward = [](double east, double north) {
+    return Mark{{east, north}, Vec2(0, 1), 0.0, 40.0, 2.0, 0.2, 0.5};
+  };
+  CHECK(meets_square(northward(50, 50)));
+  CHECK(meets_square(northward(-1.9, 50)));  // beside it; its berm is 4 m wide
+  CHECK_FALSE(meets_square(northward(-2.1, 50)));
+  CHECK(meets_square(northward(50, -21.9)));  // its end
+  CHECK_FALSE(meets_square(northward(50, -22.1)));
+  // Past the south-western corner, on a line that falls by 45 degrees.
+  const auto past_corner = [](double away_m) {
+    const double aside = -away_m / std::sqrt(2.0);
+    return Mark{{aside, aside}, Vec2(1, -1).normalized(), 0.0, 40.0, 2.0, 0.2, 0.5};
+  };
+  CHECK(meets_square(past_corner(1.8)));
+  CHECK_FALSE(meets_square(past_corner(2.2)));
+  // Beside the eastern edge, arcs of radius 100 m that turn away from it: nearest is their middle, their ends are 12 m
+  // off.
+  const auto bulging = [](double east) { return Mark{{east, 50}, Vec2(0, 1), 0.01, 100.0, 2.0, 0.2, 0.5}; };
+  CHECK(meets_square(bulging(101.8)));
+  CHECK_FALSE(meets_square(bulging(102.2)));
+}
+
 TEST_CASE("marks are the same in every window, and cover what their closed form does") {
   const MarkParameters p{.tracks_per_km2 = 60.0, .length_m = 300.0, .heading_sd_rad = 1.0, .curvature_sd_1pm = 2e-3};
   const Marks marks(p, 0.5, 9, "trawl");

@@ -20,8 +20,6 @@ struct Loading {
 
 /// How much deeper than at rest and as first loaded, positive down, at a speed through the water and sim time t.
 double sinkage_m(const Loading& loading, double speed_mps, double t_s);
-/// How it changes with speed, m per m/s, and with time, m/s: for the velocity of what floats.
-double sinkage_per_speed_s(const Loading& loading, double speed_mps);
 
 /// Squat of a displacement vessel in open shallow water by Barrass, C_b v^2 / 100 with v in knots [Barrass2004]. For
 /// depth / draught of 1.1 to 1.4 and block coefficients of 0.5 to 0.9; deeper water gives less.

@@ -1,9 +1,12 @@
 """Launches without sonar: launch/navigation.yaml and underwater.yaml hold what they promise; a vehicle moved by forces rides the tide."""
+import os
+import shutil
+import subprocess
 import unittest
 
 import ensonify
 import numpy as np
-from support import SOURCE, SystemTest
+from support import BIN, SOURCE, SystemTest
 
 
 def column(record, topic, field):
@@ -39,6 +42,19 @@ class Navigation(SystemTest):
         for position in positions[::50]:  # GGA: height above the geoid, and the undulation
             self.assertAlmostEqual(position.height_above_geoid_m, position.position_enu_m[2] - 4.6, places=6)
             self.assertAlmostEqual(position.geoid_above_ellipsoid_m, 50.1, places=6)
+
+
+class Copied(SystemTest):
+    def test_a_program_far_from_its_grades_says_where_it_looked(self):
+        program = shutil.copy(BIN / "ensonify-navigation", self.folder)
+        words = [program, "--launch", SOURCE / "launch/navigation.yaml", "--name", "nav", "--check"]
+        here = {key: value for key, value in os.environ.items() if key != "ENSONIFY_SHARE"}
+        alone = subprocess.run(words, env=here, capture_output=True, text=True, timeout=60)
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn('"tactical" is no grade of this instrument; allowed: a file *.yaml (looked for components/navigation/grades in '
+                      f"no folder: ENSONIFY_SHARE is not set, and above {self.folder} stand neither sources nor share/ensonify)", alone.stderr)
+        told = subprocess.run(words, env={**here, "ENSONIFY_SHARE": SOURCE}, capture_output=True, text=True, timeout=60)
+        self.assertEqual(told.returncode, 0, told.stderr)
 
 
 class UnderWater(SystemTest):

@@ -135,6 +135,9 @@ class Terrain(SystemTest):
         deep, points = 0, []
         for line in map(np.array, marks.values()):
             self.assertEqual(len(line), 201)
+            # Furrows of 1500 m have a place every 7.5 m: the nearest is at most half of that farther off than the furrow.
+            outside = np.maximum(abs(line[:, :2]) - [1000, 500], 0)
+            self.assertLess(np.hypot(*outside.T).min(), line[0, 2] + 4)
             inner = line[40:160:12]  # a tenth of its length at each end it fades
             ahead = line[42:162:12, :2] - line[38:158:12, :2]
             across = np.column_stack([ahead[:, 1], -ahead[:, 0]]) / np.linalg.norm(ahead, axis=1)[:, None]

@@ -70,9 +70,9 @@ Verb add_marks(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "marks",
       "Prints the middle lines of a generated seabed's trawl scars and anchor drags, the ground truth for who looks "
-      "for "
-      "them, as CSV in m from the origin. Furrows of a pair follow each other. Listed is what may reach into the "
-      "seabed, whether or not a mask, later layers or its age hide it; depth_m is what is left of it.");
+      "for them, as CSV in m from the origin. Listed is what meets the seabed (furrows of a pair follow each other, "
+      "but one may lie outside), whether or not a mask, later layers or its age hide it; depth_m is what is left of "
+      "it.");
   app->add_option("seabed", options->seabed, "scenario file")->required();
   app->add_option("--points", options->points, "of each line, from end to end")->check(CLI::Range(2, 10'000));
   app->add_flag("--geojson", options->geojson, "line strings in longitude and latitude instead");

@@ -7,6 +7,7 @@
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/link.h"
 #include "components/runtime/bus/router.h"
+#include "components/runtime/bus/sockets.h"
 #include "components/runtime/exit_error.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
@@ -118,6 +119,82 @@ TEST_CASE("a full sync queue holds the publisher back instead of losing a messag
   const auto packets = pair.subscriber.take();
   REQUIRE(packets.size() == kMessages);
   for (std::uint64_t seq = 0; seq < kMessages; ++seq) REQUIRE(packets[seq].envelope.seq == seq);
+}
+
+TEST_CASE("no frame is made of what nobody hears; what somebody hears is held until the flush") {
+  Pair pair(false);
+  msg::Packet packet = packet_of(tile_of(33));  // an array of more than 4 KiB: frames share it
+  const auto& owner = packet.body.arrays[0].owner;
+  const long alone = owner.use_count();
+  packet.topic = "pager/til";
+  pair.publisher.publish(packet);
+  packet.topic = "pager/tiles";
+  pair.publisher.publish(packet);
+  CHECK(owner.use_count() == alone);
+  packet.topic = "pager/tile";
+  pair.publisher.publish(packet);
+  CHECK(owner.use_count() == alone + 1);
+  pair.publisher.flush();
+  pair.subscriber.wait_arrived({{3, 1}});
+  CHECK(pair.subscriber.take().size() == 1);
+}
+
+TEST_CASE("an audience hears what it has asked for until the last who asked has left") {
+  zmq::context_t context;
+  zmq::socket_t xpub(context, zmq::socket_type::xpub), first(context, zmq::socket_type::sub),
+      second(context, zmq::socket_type::sub);
+  xpub.bind("inproc://topics");
+  first.connect("inproc://topics");
+  second.connect("inproc://topics");
+  const std::string pose("boat/pose\0", 10);
+  bus::Audience audience;
+  CHECK(audience.empty());
+  first.set(zmq::sockopt::subscribe, pose);
+  second.set(zmq::sockopt::subscribe, pose);
+  CHECK(audience.read(xpub) == std::vector<std::string>{pose});
+  CHECK(audience.hears("boat/pose"));
+  CHECK_FALSE(audience.hears("boat/poses"));
+  CHECK_FALSE(audience.hears("boat"));
+  first.set(zmq::sockopt::unsubscribe, pose);
+  CHECK(audience.read(xpub).empty());
+  CHECK(audience.hears("boat/pose"));
+  second.set(zmq::sockopt::unsubscribe, pose);
+  second.set(zmq::sockopt::subscribe, "");  // a viewer of everything
+  CHECK(audience.read(xpub) == std::vector<std::string>{""});
+  CHECK(audience.hears("boat"));
+  second.set(zmq::sockopt::unsubscribe, "");
+  audience.read(xpub);
+  CHECK(audience.empty());
+}
+
+TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
+  Folder folder;
+  bus::Router clock({false, folder.path, ""});
+  Link publisher("pub", clock.endpoint(), {false, folder.path, ""}, 16);
+  zmq::context_t context;
+  zmq::socket_t subscriber(context, zmq::socket_type::sub);
+  subscriber.set(zmq::sockopt::rcvtimeo, 10'000);  // a fault fails the test instead of stopping it
+  subscriber.set(zmq::sockopt::linger, 0);
+  subscriber.connect(publisher.sync_endpoint());
+  subscriber.set(zmq::sockopt::subscribe, std::string("pager/tile\0", 11));
+  subscriber.set(zmq::sockopt::subscribe, "~e0");
+  REQUIRE(publisher.wait().tokens == std::vector<std::string>{"e0"});
+
+  const msg::Tile tile = tile_of(15);
+  const std::size_t bytes = packet_of(tile).body.size(), count = 200;
+  REQUIRE(bytes < 2000);
+  for (std::size_t seq = 0; seq < count; ++seq) publisher.publish(packet_of(tile, seq));
+  std::vector<zmq::message_t> frames;
+  std::size_t seq = 0;
+  for (; seq < count - 1 - (1 << 14) / bytes; ++seq) {
+    REQUIRE(bus::receive_frames(subscriber, frames));
+    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
+  }
+  publisher.flush();
+  for (; seq < count; ++seq) {
+    REQUIRE(bus::receive_frames(subscriber, frames));
+    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
+  }
 }
 
 TEST_CASE("wall-clock facts travel behind the arrays and stay out of the body") {

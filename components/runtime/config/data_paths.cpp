@@ -30,6 +30,15 @@ std::vector<std::string> data_roots() {
   return roots;
 }
 
+std::string data_roots_text() {
+  std::string text;
+  for (const std::string& root : data_roots()) text += (text.empty() ? "" : ", ") + root;
+  if (!text.empty()) return text;
+  const char* share = std::getenv("ENSONIFY_SHARE");
+  return std::string("no folder: ENSONIFY_SHARE ") + (share == nullptr ? "is not set" : "names none") + ", and above " +
+         program_folder() + " stand neither sources nor share/ensonify";
+}
+
 std::string tile_cache_folder() {
   const auto absolute = [](const char* name) {
     const char* value = std::getenv(name);

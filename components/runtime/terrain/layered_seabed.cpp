@@ -222,14 +222,14 @@ LayeredFields fields_of(const LayeredSeabed& seabed, double post_spacing_m, cons
 }
 
 std::vector<NamedMark> marks_of(const LayeredSeabed& seabed, double post_spacing_m) {
-  const frames::Vec2 half = 0.5 * seabed.size_m;
+  const frames::Vec2 south_west = seabed.centre_enu_m - 0.5 * seabed.size_m, north_east = south_west + seabed.size_m;
   std::vector<NamedMark> marks;
   for (const layers::Layer& layer : seabed.layers) {
     const auto* form = std::get_if<relief::MarkParameters>(&layer.form);
     if (form == nullptr || !layer.used) continue;
-    for (const relief::Mark& mark : marks_in(*form, layer.name, post_spacing_m, seabed.seed)
-                                        .within(seabed.centre_enu_m - half, seabed.centre_enu_m + half))
-      marks.push_back({layer.name, mark});
+    for (const relief::Mark& mark :
+         marks_in(*form, layer.name, post_spacing_m, seabed.seed).within(south_west, north_east))
+      if (relief::meets(mark, south_west, north_east)) marks.push_back({layer.name, mark});
   }
   return marks;
 }

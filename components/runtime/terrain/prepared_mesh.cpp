@@ -100,13 +100,16 @@ PreparedMesh prepared_mesh(const std::string& mesh_path, double unit_m, const st
 }
 
 PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed, const TerrainSource& ground) {
+  constexpr std::size_t kAtOnce = 2000;  // vertices whose splits are made in a tenth of a second
   const random::Stream stream{seed, "seabed/meshes/" + mesh.name};
   if (mesh.wall) return {hierarchy_of(progressive::mesh_of(*mesh.wall, stream))};
   PreparedMesh one;
   if (mesh.bars.empty()) one = prepared_mesh(mesh.file, mesh.unit_m, lod_path_of(mesh.file));
   else one = {{hierarchy_of(progressive::mesh_of(mesh.bars)), "", 1.0}, true};
-  if (mesh.strewn) return {strewn_over(ground, mesh, stream, one.lod.hierarchy), one.cached};
-  return {progressive::placed(std::move(one.lod.hierarchy), mesh.position_enu_m, mesh.heading_rad), one.cached};
+  progressive::Hierarchy& hierarchy = one.lod.hierarchy;
+  const bool worth_preparing = !one.cached && hierarchy.mesh.vertex_m.size() > kAtOnce;
+  if (mesh.strewn) return {strewn_over(ground, mesh, stream, hierarchy), worth_preparing};
+  return {progressive::placed(std::move(hierarchy), mesh.position_enu_m, mesh.heading_rad), worth_preparing};
 }
 
 }  // namespace ensonify::source

@@ -23,7 +23,7 @@ std::string lod_path_of(const std::string& mesh_path);
 
 struct PlacedMesh {
   progressive::Hierarchy hierarchy;
-  bool cached = true;  // false: a file's splits had to be made
+  bool worth_preparing = false;  // a file's splits had to be made, and that took more than about a tenth of a second
 };
 
 /// A scenario's mesh where it stands. What is random in it is a function of the scenario's seed and its name. Strewn

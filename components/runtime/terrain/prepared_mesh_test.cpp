@@ -20,19 +20,20 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-/// A ridge of 3 x 3 vertices as an OBJ that lives as long as the test.
+/// A ridge of 3 x 3 vertices, or of more rows, as an OBJ that lives as long as the test.
 struct Ridge {
   Ridge() {
     std::filesystem::create_directories(folder);
     write(0.5);
   }
   ~Ridge() { std::filesystem::remove_all(folder); }
-  void write(double height) const {
+  void write(double height, int rows = 3) const {
     std::ofstream file(path);
-    for (int j = 0; j < 3; ++j) {
+    for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < 3; ++i) file << "v " << 2 * i << " " << 2 * j << " " << (i == 1 ? height : 0.0) << "\n";
     }
-    for (const int v : {1, 2, 4, 5}) {
+    for (int v = 1; v < 3 * rows - 3; ++v) {
+      if (v % 3 == 0) continue;
       file << "f " << v << " " << v + 1 << " " << v + 4 << "\n";
       file << "f " << v << " " << v + 4 << " " << v + 3 << "\n";
     }
@@ -97,14 +98,23 @@ TEST_CASE("a mesh of a file stands where the scenario says, turned clockwise, ca
                         .position_enu_m = {100.0, 50.0, -9.0},
                         .heading_rad = 0.5 * 3.14159265358979};
   const PlacedMesh placed = placed_mesh(mesh, 1, *slope());
-  CHECK_FALSE(placed.cached);
   // 20 m along the file's x and 40 m along its y: 40 m to the east and 20 m to the south.
   CHECK((vertex(placed.hierarchy, 7) - frames::Vec3(140.0, 30.0, -4.0)).norm() < 1e-4);
   write_lod_file(lod_path_of(ridge.path), prepared_mesh(ridge.path, 10.0, "").lod);
   const PlacedMesh again = placed_mesh(mesh, 1, *slope());
-  CHECK(again.cached);
   CHECK(again.hierarchy.mesh.vertex_m == placed.hierarchy.mesh.vertex_m);
   CHECK(again.hierarchy.born == placed.hierarchy.born);
+}
+
+TEST_CASE("only a file of more than 2000 vertices is worth preparing") {
+  const Ridge ridge;
+  SeabedMesh mesh{.name = "ridge", .file = ridge.path};
+  const auto is_worth_it = [&] { return placed_mesh(mesh, 1, *slope()).worth_preparing; };
+  CHECK_FALSE(is_worth_it());
+  ridge.write(0.5, 700);
+  CHECK(is_worth_it());
+  write_lod_file(lod_path_of(ridge.path), prepared_mesh(ridge.path, 1.0, "").lod);
+  CHECK_FALSE(is_worth_it());
 }
 
 TEST_CASE("a generated wall depends on the seed and on its name") {
@@ -122,7 +132,7 @@ TEST_CASE("bars stand where the scenario says, turned clockwise") {
   SeabedMesh mesh{.name = "beam", .position_enu_m = {100, 50, -9}, .heading_rad = 0.5 * kPi};
   mesh.bars = {{.from_m = {0, 0, 0}, .to_m = {0, 30, 0}, .section_m = {1, 2}}};
   const auto placed = placed_mesh(mesh, 1, *slope());
-  CHECK(placed.cached);
+  CHECK_FALSE(placed.worth_preparing);
   Eigen::AlignedBox3d box;
   for (std::size_t v = 0; v < placed.hierarchy.mesh.vertex_m.size(); ++v) box.extend(vertex(placed.hierarchy, v));
   CHECK((box.min() - frames::Vec3(100, 49.5, -10)).norm() < 1e-4);
