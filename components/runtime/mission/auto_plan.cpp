@@ -1,10 +1,27 @@
 #include "components/runtime/mission/auto_plan.h"
 
+#include <filesystem>
+
 #include "components/runtime/assert.h"
 #include "components/runtime/config/config_error.h"
+#include "components/runtime/config/config_node.h"
 #include "kernels/navigation/survey_plan.h"
 
 namespace ensonify {
+namespace {
+
+/// Of `mission: { auto: }` in a scenario's file. What stands elsewhere, as a launch file may say it, has the file
+/// alone.
+ConfigPlace place_of_auto(const std::string& scenario_file) {
+  const ConfigPlace file{scenario_file, 0, 0};
+  if (!std::filesystem::is_regular_file(scenario_file)) return file;
+  const ConfigNode scenario = parse_config_file(scenario_file).root;
+  const ConfigNode* mission = scenario.find("mission");
+  const ConfigNode* wanted = mission != nullptr ? mission->find("auto") : nullptr;
+  return wanted != nullptr ? wanted->place : file;
+}
+
+}  // namespace
 
 MissionPlan MissionPlan::of(const Scenario& scenario, const Vehicle& vehicle) {
   return {scenario.file, scenario.mission, vehicle.limits};
@@ -37,7 +54,7 @@ std::vector<navigation::Runline> runlines(const MissionPlan& plan, const msg::Ch
     return navigation::plan_survey(ground, wish).lines;
   } catch (const navigation::NoRoom& no_room) {
     throw ConfigError(
-        {{{plan.scenario_file, 0, 0}, "mission.auto", std::string("no room for a survey: ") + no_room.what()}});
+        {{place_of_auto(plan.scenario_file), "mission.auto", std::string("no room for a survey: ") + no_room.what()}});
   }
 }
 
