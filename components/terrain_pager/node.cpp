@@ -58,9 +58,8 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
                  pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
   if (!config.mission.runlines.empty()) {
     const navigation::Runline& line = config.mission.runlines.front();
-    const Vec2 ahead = (line.end_enu_m - line.start_enu_m).normalized();
     const pager::Paging probably(grid_, box_, rules(feed_m));
-    store_->hold(probably.before_start({line.start_enu_m, config.mission.speed_mps * ahead, 0.0}));
+    store_->hold(probably.before_start(line.start_enu_m));
   }
   made_chart_ = std::async(std::launch::async, [this] { return chart(); });
   const double shallowest_m = pager::check_mission(*terrain_, config, pager::Beyond::kRefused);

@@ -33,8 +33,8 @@ Paging::Decision Paging::look(const paging::Motion& motion) {
   return decision;
 }
 
-std::vector<TileKey> Paging::before_start(const paging::Motion& motion) const {
-  return paging::to_hold(needed(motion, {}), {}, rules_.most);
+std::vector<TileKey> Paging::before_start(const paging::Vec2& place_enu_m) const {
+  return paging::to_hold(paging::tiles_near(grid_, terrain_, place_enu_m, rules_.margins.feed_m), {}, rules_.most);
 }
 
 /// `first`, then what the track ahead needs and heads do not hold. What is only near is not needed when heads have had

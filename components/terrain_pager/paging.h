@@ -36,8 +36,9 @@ class Paging {
   /// One look at where the vehicle is.
   Decision look(const paging::Motion& motion);
 
-  /// What to fetch before the first look when the vehicle will probably start like this.
-  std::vector<TileKey> before_start(const paging::Motion& motion) const;
+  /// What to fetch before the first look when the vehicle will probably start there: what heads get at once. The rest
+  /// may come while they ping.
+  std::vector<TileKey> before_start(const paging::Vec2& place_enu_m) const;
 
  private:
   std::vector<TileKey> needed(const paging::Motion& motion, std::vector<TileKey> first) const;

@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include "kernels/trace/room.h"
+
 namespace ensonify::echo {
 
 void amplitude_upa(const Image& image, std::vector<float>& amplitude) {
-  amplitude.resize(image.envelope_upa.size());
+  trace::make_elements(amplitude, image.envelope_upa.size());
   tbb::parallel_for(0, image.beams, [&](int beam) {
     float* out = amplitude.data() + static_cast<std::size_t>(beam) * static_cast<std::size_t>(image.samples);
     for (const auto& p : image.row(beam)) *out++ = std::sqrt(p.real() * p.real() + p.imag() * p.imag());

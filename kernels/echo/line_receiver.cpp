@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "kernels/random/gaussian.h"
+#include "kernels/trace/room.h"
 
 namespace ensonify::echo {
 namespace {
@@ -143,20 +144,24 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
     const int whole = std::min(static_cast<int>(place), cells_ - 1);
     steer_.push_back({whole, spreading_.taps(place - static_cast<float>(whole))});
   }
-  for (Image& image : images) image.resize(static_cast<int>(sin_beams.size()), input.sampling.count);
+  for (Image& image : images) {
+    trace::make_room(image.envelope_upa, sin_beams.size() * static_cast<std::size_t>(input.sampling.count));
+    image.resize(static_cast<int>(sin_beams.size()), input.sampling.count);
+  }
 
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   if (memory_.size() < threads) memory_.resize(threads);
   const auto row = static_cast<std::size_t>(stride_);
-  for (Memory& memory : memory_) {
+  tbb::parallel_for(std::size_t{0}, memory_.size(), [&](std::size_t thread) {
+    Memory& memory = memory_[thread];
     memory.grid.resize(kBlock * row);
     memory.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
     memory.spectrum.resize(row);
     memory.field.resize(row);
-    if (input.background.volume_upa2.empty()) continue;
+    if (input.background.volume_upa2.empty()) return;
     memory.sum.resize(row);
     memory.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
-  }
+  });
   const bool halved = is_sum(weights);
   tbb::parallel_for(0, index_.blocks(), [&](int block) {
     form_block(input, block, weights, halved,

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/trace/room.h"
+
 namespace ensonify::echo {
 
 /// Puts items into buckets in parallel; items of a bucket keep their order, so the result is the same for any number of
@@ -43,7 +45,7 @@ class Partition {
       }
     }
     start_[buckets] = next;
-    items_.resize(next);
+    trace::make_elements(items_, next);
     each_chunk([&](const Item& item, std::uint32_t& place) { items_[place++] = item; });
   }
 

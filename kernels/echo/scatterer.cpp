@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/trace/room.h"
+
 namespace ensonify::echo {
 namespace {
 
@@ -104,7 +106,7 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, const Lit& lit
 }
 
 std::span<const Scatterer> Scatterers::find(const Transmission& transmission) {
-  lit_.resize(transmission.hits.size());
+  trace::make_elements(lit_, transmission.hits.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, lit_.size(), kRaysPerTask),
       [&](const auto& range) {
@@ -128,7 +130,7 @@ std::span<const Scatterer> Scatterers::find(const Transmission& transmission) {
   });
   merged_start_[0] = 0;
   for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) merged_start_[bucket + 1] += merged_start_[bucket];
-  found_.resize(merged_start_.back());
+  trace::make_elements(found_, merged_start_.back());
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
     const auto lit = by_cell_.bucket(bucket);
     for (std::size_t i = merged_start_[bucket]; i < merged_start_[bucket + 1]; ++i) {

@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "kernels/trace/room.h"
+
 namespace ensonify::echo {
 
 void TimeIndex::set(std::span<const Arrival> arrivals, const SampledPulse& pulse, const Sampling& sampling) {
@@ -10,7 +12,7 @@ void TimeIndex::set(std::span<const Arrival> arrivals, const SampledPulse& pulse
   samples_ = sampling.count;
   blocks_ = (samples_ + kBlock - 1) / kBlock;
   reach_ = (pulse.support() + kBlock - 2) / kBlock;
-  heard_.resize(arrivals.size());
+  trace::make_elements(heard_, arrivals.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, arrivals.size(), kPerTask),
       [&](const auto& range) {

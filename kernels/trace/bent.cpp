@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/trace/packet.h"
+#include "kernels/trace/room.h"
 #include "kernels/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -126,7 +127,7 @@ void Scene::tabulate(const refraction::SoundSpeedProfile& profile, const frames:
 
 void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
                   const refraction::PathTable& paths) const {
-  hits.resize(rays.size());
+  make_elements(hits, rays.size());
   const auto heights = heights_near(head.position_enu_m.head<2>(), max_range_m);
   if (!heights) return void(std::ranges::fill(hits, Hit{}));
   const double source_depth = paths.source_depth_m(), z = head.position_enu_m.z();

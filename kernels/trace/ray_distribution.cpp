@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/trace/room.h"
+
 namespace ensonify::trace {
 namespace {
 
@@ -287,25 +289,28 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
   for (draw(); count > most || count < fewest; draw()) {
     share_ *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
-  gather(rays);
+  gather(rays, to_facets);
   facets_.append(rays);
 }
 
-/// All rays; those to places share the solid angle of their parts, as the lattices' edges leave a little more or less.
-void RayDistribution::gather(std::vector<Ray>& rays) const {
+/// All rays, and room for so many more; those to places share the solid angle of their parts, as the lattices' edges
+/// leave a little more or less.
+void RayDistribution::gather(std::vector<Ray>& rays, std::size_t more) {
   double places_sr = 0.0, parts_sr = 0.0;
   for (const Part& part : parts_) {
     places_sr += part.to_places_sr;
     if (part.to_places_sr > 0.0) parts_sr += part.solid_angle_sr();
   }
   const auto scale = static_cast<float>(parts_sr / places_sr);
-  rays.clear();
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (const Ray& ray : rays_[k]) {
-      rays.push_back(
-          {ray.direction_head, parts_[k].to_places_sr > 0.0 ? scale * ray.solid_angle_sr : ray.solid_angle_sr});
-    }
-  }
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < parts_.size(); count += rays_[k++].size()) parts_[k].first_ray = count;
+  make_room(rays, count + more);
+  rays.resize(count);
+  tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t k) {
+    const float share = parts_[k].to_places_sr > 0.0 ? scale : 1.0F;
+    for (std::size_t i = 0; i < rays_[k].size(); ++i)
+      rays[parts_[k].first_ray + i] = {rays_[k][i].direction_head, share * rays_[k][i].solid_angle_sr};
+  });
 }
 
 void RayDistribution::fill_part(std::size_t index, const Look& probes) {

@@ -117,6 +117,7 @@ class RayDistribution {
     Need need;
     std::uint32_t along_sine = 1, along_angle = 1;  // strata
     double to_places_sr = 0.0;                      // that rays carry to places; 0: none aims at any
+    std::size_t first_ray = 0;                      // of its rays among all
     double solid_angle_sr() const { return (high_sine - low_sine) * (high_rad - low_rad); }
   };
   struct Corners;
@@ -137,7 +138,7 @@ class RayDistribution {
   bool touches(const frames::Vec3& middle_head_m, double radius_m) const;
   std::size_t cut(double share);
   void fill_part(std::size_t index, const Look& probes);
-  void gather(std::vector<Ray>& rays) const;
+  void gather(std::vector<Ray>& rays, std::size_t more);
   /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
   /// is seen too flat.
   bool aim_at_places(Part& part, const Look& probes, std::vector<Ray>& rays) const;

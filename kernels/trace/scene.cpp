@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernels/trace/packet.h"
+#include "kernels/trace/room.h"
 #include "kernels/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -163,7 +164,7 @@ std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radiu
 void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
                   double sound_speed_mps) const {
   const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
-  hits.resize(rays.size());
+  make_elements(hits, rays.size());
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
   const Vec3 start(head.position_enu_m.x() - impl_->origin_enu_m.x(), head.position_enu_m.y() - impl_->origin_enu_m.y(),
                    head.position_enu_m.z());

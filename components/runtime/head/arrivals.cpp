@@ -8,6 +8,7 @@
 
 #include "components/runtime/head/head_motion.h"
 #include "kernels/echo/multipath.h"
+#include "kernels/trace/room.h"
 
 namespace ensonify {
 namespace {
@@ -58,7 +59,7 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
   const echo::Carrier carrier{frequency_hz_, absorption_dbpm_, sum()};
   const auto found = scatterers.find({pose, rays, hits, source_upa2m2_, backscatter_});
   arrivals_.clear();
-  arrivals_.reserve((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
+  trace::make_room(arrivals_, (effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
   echo::add_direct_echoes(carrier, pose.position_enu_m, found, receivers_, arrivals_);
   if (effects_.multipath) {
     const echo::MultipathHead head{

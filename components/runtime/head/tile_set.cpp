@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "components/runtime/mesh_message.h"
+#include "kernels/trace/room.h"
 
 namespace ensonify {
 namespace {
@@ -21,6 +22,7 @@ void TileSet::insert(const msg::Tile& message) {
   tile.rows = static_cast<std::int32_t>(message.height_m.rows());
   const auto height = message.height_m.flat();
   const auto sediment = message.sediment.flat();
+  trace::make_room(tile.height_m, height.size());
   tile.height_m.assign(height.begin(), height.end());
   tile.sediment.assign(sediment.begin(), sediment.end());
 
