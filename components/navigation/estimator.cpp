@@ -26,6 +26,14 @@ navigation_filter::FilterModel model_of(const Instruments& carried) {
     model.fix_wander_vertical_m = gnss.hdop * gnss.fix.wander_vertical_m;
     model.fix_wander_s = gnss.wander_s;
   }
+  if (const auto& heading = carried.heading) {
+    const sensors::ScalarErrors& errors = heading->errors.common;
+    const sensors::Deviation& left = heading->errors.deviation;
+    model.compass_wander_rad = errors.wander;
+    model.compass_wander_s = errors.wander_s;
+    model.compass_deviation_rad = {std::hypot(errors.bias_sigma, left.a_rad), left.b_rad, left.c_rad, left.d_rad,
+                                   left.e_rad};
+  }
   if (const auto& log = carried.velocity_log) {
     model.log_scale = log->errors.scale;
     model.current_mps = log->current_prior_mps;
@@ -108,11 +116,6 @@ void Estimator::correct(double stamped_s, std::function<void(Filter&)> correctio
 
 frames::Vec3 Estimator::along_unit(const frames::Vec3& vector_body) const {
   return config_.instrument.measured.body_from_head.conjugate() * vector_body;
-}
-
-double Estimator::unit_heading_rad() const {
-  const frames::Vec3 forward_body = config_.instrument.measured.body_from_head * frames::Vec3::UnitX();
-  return std::atan2(forward_body.y(), forward_body.x());
 }
 
 frames::Vec3 Estimator::lever_of(const frames::Vec3& point_body_m) const {

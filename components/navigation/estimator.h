@@ -37,8 +37,6 @@ class Estimator {
   /// A place of the body as seen from the unit, its axes; and turns from the body's axes to its.
   frames::Vec3 lever_of(const frames::Vec3& point_body_m) const;
   frames::Vec3 along_unit(const frames::Vec3& vector_body) const;
-  /// Heading of the unit's forward axis less the body's, when level.
-  double unit_heading_rad() const;
 
  private:
   void align(const inertial::NavigationState& truth);

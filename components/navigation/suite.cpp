@@ -129,15 +129,14 @@ void Suite::measure_heading(const Moment& moment) {
   outbox_.publish(*headings_out_, heading, instrument, moment);
   if (moment.estimator != nullptr) {
     const sensors::ScalarErrors& e = heading_->config.errors.common;
-    // The filter takes all that a compass errs by for white noise, slow parts too, so they are given more weight.
-    const sensors::Deviation& d = heading_->config.errors.deviation;
-    const double deviation = std::sqrt(
-        d.a_rad * d.a_rad + 0.5 * (d.b_rad * d.b_rad + d.c_rad * d.c_rad + d.d_rad * d.d_rad + d.e_rad * d.e_rad));
-    const double slow = std::hypot(e.bias_sigma, e.wander, deviation);
-    const double sigma_rad = std::max(1e-4, std::hypot(e.white, slow * std::sqrt(instrument.rate_hz * e.wander_s)));
-    const double unit_rad = reading + moment.estimator->unit_heading_rad();
-    moment.estimator->correct(moment.stamp_s(instrument), [unit_rad, sigma_rad](Estimator::Filter& filter) {
-      filter.correct_heading(unit_rad, sigma_rad);
+    const double rounding_rad = e.resolution / std::sqrt(12.0);
+    const double sigma_rad =
+        std::max(1e-4, std::hypot(e.white, rounding_rad));  // the filter's model has the slow errors
+    const frames::Vec3 forward_unit = moment.estimator->along_unit(frames::Vec3::UnitX());
+    const double lag_s = e.lag_s;
+    moment.estimator->correct(moment.stamp_s(instrument), [=](Estimator::Filter& filter) {
+      const double turn_radps = (filter.state().ned_from_body * filter.turn_rate_radps()).z();
+      filter.correct_heading(reading + lag_s * turn_radps, forward_unit, sigma_rad);
     });
   }
 }

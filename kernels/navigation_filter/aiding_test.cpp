@@ -152,6 +152,57 @@ TEST_CASE("however many its fixes, a ship is no better than her own place") {
   CHECK(sigma(filter, kPosition + 1) == Approx(expected(3.0)));
 }
 
+TEST_CASE("however often it is read, a compass is no better than what stays of its error") {
+  // Of n readings with a white error and one that stays, the mean has the variance white^2 / n + stays^2.
+  constexpr double kWhite = 0.005, kStays = 0.01, kPrior = 0.1;
+  constexpr int kReadings = 100;
+  const auto sigma_after = [&](const FilterModel& model, double heading_rad) {
+    NavigationState heading;
+    heading.ned_from_body = Eigen::AngleAxisd(heading_rad, Vec3::UnitZ());
+    NavigationFilter filter(heading, {0, 0, 0, 0, kPrior}, model, kResting);
+    for (int i = 0; i < kReadings; ++i) filter.correct_heading(heading_rad, Vec3::UnitX(), kWhite);
+    return sigma(filter, kRotation + 2);
+  };
+  const auto expected = [&](double stays) {
+    return 1.0 / std::sqrt(1.0 / (kPrior * kPrior) + 1.0 / (stays * stays + kWhite * kWhite / kReadings));
+  };
+  FilterModel wanders;
+  wanders.compass_wander_rad = kStays;
+  CHECK(sigma_after(wanders, 0.3) == Approx(expected(kStays)));
+  // Each coefficient counts by its share at a heading.
+  const double h = 0.3;
+  const std::array shares{1.0, std::sin(h), std::cos(h), std::sin(2 * h), std::cos(2 * h)};
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    FilterModel deviates;
+    deviates.compass_deviation_rad[i] = kStays;
+    CHECK(sigma_after(deviates, h) == Approx(expected(kStays * shares[i])));
+  }
+}
+
+TEST_CASE("turned once round, a compass is swung by the gyros") {
+  // Gyros without error hold the heading from one reading to the next, so eight headings tell B to E. A is not told
+  // from the heading at the start.
+  const std::array truth{0.01, 0.02, -0.015, 0.004, -0.003};
+  const auto reads_too_much = [&](double h) {
+    return truth[0] + truth[1] * std::sin(h) + truth[2] * std::cos(h) + truth[3] * std::sin(2 * h) +
+           truth[4] * std::cos(2 * h);
+  };
+  FilterModel model;
+  model.compass_deviation_rad.fill(0.02);
+  NavigationFilter filter({}, {0, 0, 0, 0, 0.02}, model, kResting);
+  for (int i = 0; i < 8; ++i) {
+    const double heading_rad = i * 45 * kDegree;
+    filter.correct_heading(heading_rad + reads_too_much(heading_rad), Vec3::UnitX(), 1e-5);
+    filter.propagate({{0, 0, 45 * kDegree}, kLevelAtRest.force_mps2}, 1.0);
+  }
+  const double mean_rad = 0.5 * (filter.compass_error_rad(0.0) + filter.compass_error_rad(180 * kDegree)) - truth[4];
+  for (const double h : {0.3, 1.7, 4.0}) {
+    CHECK(filter.compass_error_rad(h) - mean_rad == Approx(reads_too_much(h) - truth[0]).margin(5e-4));
+  }
+  CHECK(sigma(filter, kCompassDeviation + 1) < 1e-3);
+  CHECK(sigma(filter, kCompassDeviation) == Approx(0.02 / std::sqrt(2.0)).epsilon(0.01));  // shared with the heading
+}
+
 TEST_CASE("under water without the bottom the filter is as wrong as it says: mean NEES of 200 runs") {
   // A minute at the surface with fixes and both tracks, two with water alone, then with a ship's fixes, 2 s old. The
   // bands are those of chi-square with 9 x 200 and 2 x 200 degrees of freedom, 95 %. Reached: 60 and 58 of 60 epochs,

@@ -28,9 +28,21 @@ double first_bias_variance(const inertial::TriadErrors& errors) {
   return squared(errors.turn_on_bias) + squared(errors.bias_sigma);
 }
 
+/// Variances of scale and crosstalk of three sensors, row by row.
+Eigen::Matrix<double, 9, 1> matrix_variances(const inertial::TriadErrors& errors) {
+  Matrix3d of = Matrix3d::Constant(squared(errors.misalignment_rad));
+  of.diagonal().setConstant(squared(errors.scale_factor));
+  return of.reshaped();  // symmetric
+}
+
 /// Spectral density of what drives one axis's bias.
 double bias_drive(const inertial::TriadErrors& errors) {
   return 2.0 * squared(errors.bias_sigma) / errors.bias_time_s + squared(errors.rate_random_walk);
+}
+
+/// What a compass's error at a heading is made of: [Bowditch, ch. 6], A to E.
+Eigen::Matrix<double, 5, 1> deviation_shape(double heading_rad) {
+  return {1.0, std::sin(heading_rad), std::cos(heading_rad), std::sin(2.0 * heading_rad), std::cos(2.0 * heading_rad)};
 }
 
 }  // namespace
@@ -38,32 +50,29 @@ double bias_drive(const inertial::TriadErrors& errors) {
 NavigationFilter::NavigationFilter(const NavigationState& start, const StartErrors& errors, const FilterModel& model,
                                    const inertial::Earth& earth)
     : earth_(earth), model_(model), state_(start) {
-  const double gravity = inertial::gravity_mps2(earth, start.latitude_rad, start.height_m);
   Eigen::Matrix<double, kErrorCount, 1> variance;
   variance.segment<3>(kPosition) << squared(errors.position_m), squared(errors.position_m), squared(errors.height_m);
   variance.segment<3>(kVelocity).setConstant(squared(errors.velocity_mps));
   variance.segment<3>(kRotation) << squared(errors.tilt_rad), squared(errors.tilt_rad), squared(errors.heading_rad);
-  const inertial::TriadErrors &gyro = model.imu.gyro, &accelerometer = model.imu.accelerometer;
-  variance.segment<3>(kGyroBias).setConstant(first_bias_variance(gyro));
-  variance.segment<9>(kGyroMatrix).setConstant(squared(gyro.misalignment_rad));
-  for (const int axis : {0, 1, 2}) variance[kGyroMatrix + 4 * axis] = squared(gyro.scale_factor);
-  // What gravity leaks into each accelerometer: crosstalk into the level ones, scale of the upright one.
-  const Vec3 leak =
-      gravity * Vec3(accelerometer.misalignment_rad, accelerometer.misalignment_rad, accelerometer.scale_factor);
-  variance.segment<3>(kForceBias) = leak.cwiseAbs2().array() + first_bias_variance(accelerometer);
+  variance.segment<3>(kGyroBias).setConstant(first_bias_variance(model.imu.gyro));
+  variance.segment<9>(kGyroMatrix) = matrix_variances(model.imu.gyro);
+  variance.segment<3>(kForceBias).setConstant(first_bias_variance(model.imu.accelerometer));
+  variance.segment<9>(kForceMatrix) = matrix_variances(model.imu.accelerometer);
   const double wander = squared(model.fix_wander_horizontal_m);
   variance.segment<3>(kFixError) << wander, wander, squared(model.fix_wander_vertical_m);
   variance[kLogScale] = squared(model.log_scale);
   variance.segment<2>(kCurrent).setConstant(squared(model.current_mps));
   variance.segment<3>(kCarrier).setOnes();
   variance[kLevel] = squared(model.level_wander_m);
+  variance[kCompassWander] = squared(model.compass_wander_rad);
+  for (int i = 0; i < 5; ++i) variance[kCompassDeviation + i] = squared(model.compass_deviation_rad[i]);
   covariance_.diagonal() = variance;
   remember();
 }
 
 void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s) {
   const inertial::Inertial corrected{measured.rate_radps - gyro_bias_ - gyro_matrix_ * measured.rate_radps,
-                                     measured.force_mps2 - force_bias_};
+                                     measured.force_mps2 - force_bias_ - force_matrix_ * measured.force_mps2};
   const frames::Quaternion before = state_.ned_from_body;
   state_ = inertial::advance(state_, corrected, dt_s, earth_);
   rate_radps_ = corrected.rate_radps;
@@ -73,6 +82,7 @@ void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s
   fix_error_ *= std::exp(-dt_s / model_.fix_wander_s);
   carrier_error_ *= std::exp(-dt_s / model_.carrier_s);
   level_error_m_ *= std::exp(-dt_s / model_.level_wander_s);
+  compass_wander_rad_ *= std::exp(-dt_s / model_.compass_wander_s);
   t_s_ += dt_s;
   if (pending_s_ < kCovarianceStep_s - 1e-9) return;
   propagate_covariance();
@@ -111,6 +121,7 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned, const Vec3& rate
   const double north_m = meridian_radius_m(earth_, latitude) + state_.height_m;
   const double east_m = prime_vertical_radius_m(earth_, latitude) + state_.height_m;
   const Matrix3d ned_from_body = state_.ned_from_body.toRotationMatrix();
+  const Vec3 force_body = ned_from_body.transpose() * force_ned;
   const Vec3 earth_rate = inertial::earth_rate_ned_radps(state_, earth_);
   const Vec3 transport = inertial::transport_rate_ned_radps(state_, earth_);
 
@@ -126,6 +137,7 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned, const Vec3& rate
   f.block<3, 3>(kRotation, kGyroBias) = -ned_from_body;
   for (int row = 0; row < 3; ++row) {
     f.block<3, 3>(kRotation, kGyroMatrix + 3 * row) = -ned_from_body.col(row) * rate_body_radps.transpose();
+    f.block<3, 3>(kVelocity, kForceMatrix + 3 * row) = -ned_from_body.col(row) * force_body.transpose();
   }
   f(kRotation, kVelocity + 1) = -1.0 / east_m;
   f(kRotation + 1, kVelocity) = 1.0 / north_m;
@@ -137,6 +149,7 @@ Covariance NavigationFilter::error_rates(const Vec3& force_ned, const Vec3& rate
   f.block<3, 3>(kFixError, kFixError) = -Matrix3d::Identity() / model_.fix_wander_s;
   f.block<3, 3>(kCarrier, kCarrier) = -Matrix3d::Identity() / model_.carrier_s;
   f(kLevel, kLevel) = -1.0 / model_.level_wander_s;
+  f(kCompassWander, kCompassWander) = -1.0 / model_.compass_wander_s;
   return f;
 }
 
@@ -168,11 +181,13 @@ void NavigationFilter::propagate_covariance() {
                                              std::abs(state_.velocity_ned_mps.z()));
   noise.segment<3>(kCarrier).setConstant(2.0 / model_.carrier_s);
   noise[kLevel] = 2.0 / model_.level_wander_s * squared(model_.level_wander_m);
+  noise[kCompassWander] = 2.0 / model_.compass_wander_s * squared(model_.compass_wander_rad);
 
   // Noise of the step by the trapezoidal rule: half of it enters before the transition, half after.
   covariance_.diagonal() += 0.5 * t * noise;
   const Eigen::Matrix<double, kMoving, kErrorCount> moved = moves * covariance_;
-  covariance_.topLeftCorner<kMoving, kMoving>() = moved * moves.transpose();
+  const Eigen::Matrix<double, kMoving, kMoving> motion = moved * moves.transpose();
+  covariance_.topLeftCorner<kMoving, kMoving>() = 0.5 * (motion + motion.transpose());
   covariance_.topRightCorner<kMoving, kSensors>() = moved.rightCols<kSensors>() * keeps.asDiagonal();
   covariance_.bottomLeftCorner<kSensors, kMoving>() = covariance_.topRightCorner<kMoving, kSensors>().transpose();
   covariance_.bottomRightCorner<kSensors, kSensors>().array() *= (keeps * keeps.transpose()).array();
@@ -188,15 +203,17 @@ Innovation NavigationFilter::correct(const Eigen::Matrix<double, N, 1>& residual
   using Square = Eigen::Matrix<double, N, N>;
   const Square noise = sigma.cwiseAbs2().asDiagonal();
   const Eigen::Matrix<double, kErrorCount, N> cross_covariance = covariance_ * observation.transpose();
-  const Eigen::LDLT<Square> expected(observation * cross_covariance + noise);
+  const Square expected_covariance = observation * cross_covariance + noise;
+  const Eigen::LDLT<Square> expected(expected_covariance);
   Innovation innovation{residual.dot(expected.solve(residual))};
   innovation.accepted = innovation.normalised_squared <= gate * gate + N;
   if (!innovation.accepted) return innovation;
 
   const Eigen::Matrix<double, kErrorCount, N> gain = expected.solve(cross_covariance.transpose()).transpose();
-  const Covariance kept = Covariance::Identity() - gain * observation;
-  covariance_ = (kept * covariance_ * kept.transpose() + gain * noise * gain.transpose()).eval();  // Joseph's form
-  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  // Joseph's form (I - K H) P (I - K H)' + K R K', multiplied out: symmetric, and as safe where the gain is not exact.
+  const Eigen::Matrix<double, kErrorCount, N> half = 0.5 * gain * expected_covariance - cross_covariance;
+  const Covariance change = half * gain.transpose();
+  covariance_ += change + change.transpose();
   add(gain * residual);
   return innovation;
 }
@@ -226,8 +243,13 @@ void NavigationFilter::add(const Eigen::Matrix<double, kErrorCount, 1>& errors) 
   current_ned_.head<2>() += errors.segment<2>(kCurrent);
   carrier_error_ += errors.segment<3>(kCarrier);
   level_error_m_ += errors[kLevel];
+  compass_wander_rad_ += errors[kCompassWander];
+  compass_deviation_rad_ += errors.segment<5>(kCompassDeviation);
   log_scale_ += errors[kLogScale];
-  for (int row = 0; row < 3; ++row) gyro_matrix_.row(row) += errors.segment<3>(kGyroMatrix + 3 * row).transpose();
+  for (int row = 0; row < 3; ++row) {
+    gyro_matrix_.row(row) += errors.segment<3>(kGyroMatrix + 3 * row).transpose();
+    force_matrix_.row(row) += errors.segment<3>(kForceMatrix + 3 * row).transpose();
+  }
 }
 
 Vec3 NavigationFilter::turn_rate_radps() const {
@@ -294,15 +316,22 @@ Innovation NavigationFilter::correct_height(double height_m, const Vec3& lever_b
                     Eigen::Matrix<double, 1, 1>(sigma_m));
 }
 
-Innovation NavigationFilter::correct_heading(double heading_rad, double sigma_rad) {
+double NavigationFilter::compass_error_rad(double heading_rad) const {
+  return compass_wander_rad_ + compass_deviation_rad_.dot(deviation_shape(heading_rad));
+}
+
+Innovation NavigationFilter::correct_heading(double heading_rad, const Vec3& axis_body, double sigma_rad) {
   propagate_covariance();
-  const Vec3 forward = state_.ned_from_body * Vec3::UnitX();
-  const double level2 = squared(forward.x()) + squared(forward.y());
+  const Vec3 axis = state_.ned_from_body * axis_body;
+  const double level2 = squared(axis.x()) + squared(axis.y());
   if (level2 < 0.01) return {0.0, false};  // within 6 degrees of up or down
+  const double own_rad = std::atan2(axis.y(), axis.x());
   Observation<1> h = Observation<1>::Zero();
-  h.block<1, 3>(0, kRotation) << -forward.z() * forward.x() / level2, -forward.z() * forward.y() / level2, 1.0;
-  const double off = frames::wrap_pi(heading_rad - std::atan2(forward.y(), forward.x()));
-  return correct<1>(Eigen::Matrix<double, 1, 1>(off), h, Eigen::Matrix<double, 1, 1>(sigma_rad));
+  h.block<1, 3>(0, kRotation) << -axis.z() * axis.x() / level2, -axis.z() * axis.y() / level2, 1.0;
+  h(0, kCompassWander) = 1.0;
+  h.block<1, 5>(0, kCompassDeviation) = deviation_shape(own_rad).transpose();
+  const double off_rad = frames::wrap_pi(heading_rad - own_rad - compass_error_rad(own_rad));
+  return correct<1>(Eigen::Matrix<double, 1, 1>(off_rad), h, Eigen::Matrix<double, 1, 1>(sigma_rad));
 }
 
 }  // namespace ensonify::navigation_filter

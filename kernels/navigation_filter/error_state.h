@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <deque>
 #include <optional>
 
@@ -16,31 +17,38 @@ using inertial::NavigationState;
 /// Places of the errors in covariances. Each is truth less estimate; rotations are small angles about north, east,
 /// down.
 enum ErrorIndex : int {
-  kPosition = 0,     // m, north, east, down
-  kVelocity = 3,     // m/s, north, east, down
-  kRotation = 6,     // rad: true = exp(rotation) estimated attitude
-  kGyroBias = 9,     // rad/s, body
-  kForceBias = 12,   // m/s^2, body
-  kFixError = 15,    // m, north, east, down: the slowly changing error of position fixes
-  kLogScale = 18,    // 1, scale error of the velocity log
-  kGyroMatrix = 19,  // 1, scale (diagonal) and crosstalk of the gyros, row by row
-  kCurrent = 28,     // m/s, north, east, of the water that the velocity log tracks
-  kCarrier = 30,     // 1, north, east, down: slow errors of who finds the vehicle, over their standard deviations
-  kLevel = 33,       // m, up: the slowly changing error of heights by pressure
-  kErrorCount = 34,
+  kPosition = 0,           // m, north, east, down
+  kVelocity = 3,           // m/s, north, east, down
+  kRotation = 6,           // rad: true = exp(rotation) estimated attitude
+  kGyroBias = 9,           // rad/s, body
+  kForceBias = 12,         // m/s^2, body
+  kFixError = 15,          // m, north, east, down: the slowly changing error of position fixes
+  kLogScale = 18,          // 1, scale error of the velocity log
+  kGyroMatrix = 19,        // 1, scale (diagonal) and crosstalk of the gyros, row by row
+  kForceMatrix = 28,       // 1, the same of the accelerometers
+  kCurrent = 37,           // m/s, north, east, of the water that the velocity log tracks
+  kCarrier = 39,           // 1, north, east, down: slow errors of who finds the vehicle, over their standard deviations
+  kLevel = 42,             // m, up: the slowly changing error of heights by pressure
+  kCompassWander = 43,     // rad, the slowly changing error of headings
+  kCompassDeviation = 44,  // rad: A, B, C, D, E of what stays of it at every heading
+  kErrorCount = 49,
 };
 using Covariance = Eigen::Matrix<double, kErrorCount, kErrorCount>;
 
 /// What the filter believes of its sensors: standard deviations, as in the sensors' own error models.
 struct FilterModel {
-  inertial::ImuErrors imu;  // of accelerometers, scale and misalignment count as part of the bias: gravity is steady
+  inertial::ImuErrors imu;
   double fix_wander_horizontal_m = 0.0;  // Gauss-Markov errors of position fixes, each axis
   double fix_wander_vertical_m = 0.0;
   double fix_wander_s = 300.0;  // their correlation time, > 0
   double log_scale = 0.0;       // of the velocity log
   double level_wander_m =
       0.0;  // Gauss-Markov error of heights by pressure: the sensor's, and of the level it counts from
-  double level_wander_s = 3600.0;  // its correlation time, > 0
+  double level_wander_s = 3600.0;   // its correlation time, > 0
+  double compass_wander_rad = 0.0;  // Gauss-Markov error of headings
+  double compass_wander_s = 300.0;  // its correlation time, > 0
+  // What stays of it at heading h: A + B sin h + C cos h + D sin 2h + E cos 2h, the standard deviation of each.
+  std::array<double, 5> compass_deviation_rad{};
   // The current at the water that the log tracks, north and east each: how much of it there may be at the start, and
   // how fast it changes at random, with time and with each metre that the vehicle rises or sinks. The water does not
   // rise.
@@ -68,7 +76,7 @@ struct Innovation {
 };
 
 /// Error-state Kalman filter around a strapdown inertial system [Groves2013, chs 3, 14; Sola2017]. The state is the
-/// inertial system's own; the filter keeps the covariance of 34 errors of it, of the sensors and of the water, and adds
+/// inertial system's own; the filter keeps the covariance of 49 errors of it, of the sensors and of the water, and adds
 /// the estimated errors to the state at once, so that they are zero between corrections.
 ///
 /// Biases are believed to walk at random as fast as the sensors' Gauss-Markov biases start to, which is right for times
@@ -108,8 +116,8 @@ class NavigationFilter {
   /// Height of the point `lever` above the ellipsoid, of a pressure sensor once its level is known.
   Innovation correct_height(double height_m, const Vec3& lever_body_m, double sigma_m);
 
-  /// True heading of the body's forward axis; refused when it points nearly up or down.
-  Innovation correct_heading(double heading_rad, double sigma_rad);
+  /// True heading of an axis of the body, by a compass along it; refused when the axis points nearly up or down.
+  Innovation correct_heading(double heading_rad, const Vec3& axis_body, double sigma_rad);
 
   const NavigationState& state() const { return state_; }
   const Covariance& covariance() const { return covariance_; }
@@ -120,6 +128,8 @@ class NavigationFilter {
   Vec3 fix_error_ned_m() const { return fix_error_; }
   double log_scale() const { return log_scale_; }
   Vec3 current_ned_mps() const { return current_ned_; }  // of the tracked water; down is zero
+  /// What the compass reads too much at a heading.
+  double compass_error_rad(double heading_rad) const;
 
   double gate = 6.0;
 
@@ -145,8 +155,9 @@ class NavigationFilter {
   Covariance covariance_ = Covariance::Zero();
   Vec3 gyro_bias_ = Vec3::Zero(), force_bias_ = Vec3::Zero(), fix_error_ = Vec3::Zero();
   Vec3 current_ned_ = Vec3::Zero(), carrier_error_ = Vec3::Zero();
-  double log_scale_ = 0.0, level_error_m_ = 0.0;
-  Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero();
+  double log_scale_ = 0.0, level_error_m_ = 0.0, compass_wander_rad_ = 0.0;
+  Eigen::Matrix<double, 5, 1> compass_deviation_rad_ = Eigen::Matrix<double, 5, 1>::Zero();
+  Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero(), force_matrix_ = Eigen::Matrix3d::Zero();
   Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, last
   Vec3 pending_velocity_ned_ = Vec3::Zero();  // of specific force, since the covariance was last propagated
   Vec3 pending_turn_rad_ = Vec3::Zero();      // the angle turned since then, along body axes

@@ -75,6 +75,26 @@ TEST_CASE("crosstalk of the gyros tilts by what the vehicle has turned, however 
   }
 }
 
+TEST_CASE("crosstalk of accelerometers pulls with what the vehicle senses, not always alike") {
+  // Of the upright axis into the level ones it is a bias of m g. Gravity off, what pulls along one axis and back leaves
+  // the velocity as it was: m (v - v).
+  constexpr double kCrosstalk = 1e-3;
+  FilterModel model;
+  model.imu.accelerometer.misalignment_rad = kCrosstalk;
+  FilterModel biased;
+  biased.imu.accelerometer.turn_on_bias = kCrosstalk * kSphere.gravity_mps2;
+  CHECK(sigma_east_m(kNone, model, 60.0) == Approx(sigma_east_m(kNone, biased, 60.0)).epsilon(1e-6));
+
+  const Earth weightless = Earth::resting_sphere(kSphere.radius_m, 1e-12);
+  NavigationFilter filter({}, kNone, model, weightless);
+  for (const double force_mps2 : {0.5, -0.5}) {
+    for (int i = 0; i < 100; ++i) filter.propagate({Vec3::Zero(), {force_mps2, 0, 0}}, 0.1);
+    if (force_mps2 > 0.0) CHECK(sigma(filter, kVelocity + 1) == Approx(kCrosstalk * 5.0).epsilon(1e-3));
+  }
+  const double left = filter.covariance()(kVelocity + 1, kVelocity + 1);
+  CHECK(std::abs(left) < std::pow(1e-3 * kCrosstalk * 5.0, 2));
+}
+
 TEST_CASE("what rests on the turning Earth does not turn") {
   NavigationState resting{44 * kDegree, -63 * kDegree, 0.0};
   const Earth earth;
@@ -103,7 +123,7 @@ TEST_CASE("observations point the right way: what is measured exactly is taken o
     wrong.ned_from_body = Eigen::AngleAxisd(0.01, Vec3::UnitZ()) * truth.ned_from_body;
     NavigationFilter filter(wrong, {0, 0, 0, 0, 0.02}, {});
     const Vec3 forward = truth.ned_from_body * Vec3::UnitX();
-    filter.correct_heading(std::atan2(forward.y(), forward.x()), 1e-6);
+    filter.correct_heading(std::atan2(forward.y(), forward.x()), Vec3::UnitX(), 1e-6);
     CHECK(filter.state().ned_from_body.angularDistance(truth.ned_from_body) < 1e-6);
   }
   SECTION("a heading from a place far away") {
@@ -169,5 +189,6 @@ TEST_CASE("a heading is refused when the bow points up") {
   NavigationState steep;
   steep.ned_from_body = Eigen::AngleAxisd(89 * kDegree, Vec3::UnitY());
   NavigationFilter filter(steep, {}, {});
-  CHECK(!filter.correct_heading(0.0, 0.01).accepted);
+  CHECK(!filter.correct_heading(0.0, Vec3::UnitX(), 0.01).accepted);
+  CHECK(filter.correct_heading(90 * kDegree, Vec3::UnitY(), 0.01).accepted);  // of an axis that is level
 }

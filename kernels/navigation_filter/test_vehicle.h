@@ -20,12 +20,18 @@ constexpr double kUg = 9.80665e-6;  // m/s^2
 constexpr double kStep_s = 0.2;     // of the IMU; its noise is right at any rate
 inline const Earth kEarth;
 
+/// A compass that is read each second; 0: there is none.
+struct Compass {
+  double white_rad = 0.0;
+  double wander_rad = 0.0, wander_s = 60.0;
+  std::array<double, 5> deviation_rad{};  // standard deviations of A to E
+};
+
 /// The grades of components/navigation/grades.
 struct Grade {
   inertial::ImuErrors imu;
-  double heading_rad;          // at the start, from alignment or a compass
-  double compass_rad = 0.0;    // white noise of a compass that is read each second; 0: there is none
-  double deviation_rad = 0.0;  // standard deviation of what is left of its deviation, unknown to the filter
+  double heading_rad;  // at the start, from alignment
+  Compass compass{};
 };
 inline const Grade kRlg{{{5e-6, 2e-5, 0.003 * kDegreePerHour, 0.001 * kDegreePerHour, 3600, 0.001 * kDegree / 60},
                          {5e-5, 2e-5, 20 * kUg, 5 * kUg, 3600, 5 * kUg}},
@@ -36,11 +42,11 @@ inline const Grade kFog{{{3e-5, 5e-5, 0.02 * kDegreePerHour, 0.005 * kDegreePerH
 inline const Grade kTactical{{{3e-4, 3e-4, 1.0 * kDegreePerHour, 0.3 * kDegreePerHour, 1000, 0.1 * kDegree / 60},
                               {3e-4, 3e-4, 1000 * kUg, 100 * kUg, 1000, 50 * kUg}},
                              0.01};
-inline const Grade kMems{{{1e-3, 1e-3, 100 * kDegreePerHour, 8 * kDegreePerHour, 500, 0.3 * kDegree / 60},
-                          {1e-3, 1e-3, 5000 * kUg, 50 * kUg, 500, 100 * kUg}},
-                         0.03,
-                         0.02,
-                         0.5 * kDegree};
+inline const Grade kMems{
+    {{1e-3, 1e-3, 100 * kDegreePerHour, 8 * kDegreePerHour, 500, 0.3 * kDegree / 60},
+     {1e-3, 1e-3, 5000 * kUg, 50 * kUg, 500, 100 * kUg}},
+    0.03,
+    {0.3 * kDegree, 0.2 * kDegree, 60, {0.32 * kDegree, 0.4 * kDegree, 0.3 * kDegree, 0.2 * kDegree, 0.1 * kDegree}}};
 
 constexpr double kLogScale = 0.002, kLogSigma_mps = 0.01, kDepthSigma_m = 0.05;
 constexpr double kCurrent_mps = 0.3, kCurrentWalk_mps_per_sqrt_s = 0.004;
@@ -102,6 +108,9 @@ inline FilterModel model_of(const Grade& grade) {
   model.current_mps = kCurrent_mps;
   model.current_walk_mps_per_sqrt_s = kCurrentWalk_mps_per_sqrt_s;
   model.carrier_s = kCarrier_s;
+  model.compass_wander_rad = grade.compass.wander_rad;
+  model.compass_wander_s = grade.compass.wander_s;
+  model.compass_deviation_rad = grade.compass.deviation_rad;
   model.remembered_s = 5.0;
   return model;
 }
@@ -125,6 +134,7 @@ class Run {
         wander_stream_(seed, "wander"),
         current_stream_(seed, "current"),
         carrier_stream_(seed, "carrier"),
+        compass_stream_(seed, "compass"),
         imu_(grade.imu, {seed, "gyro"}, {seed, "accelerometer"}),
         filter_(start(m.truth[0], grade), errors(grade), model_of(grade)),
         grade_(grade),
@@ -134,6 +144,11 @@ class Run {
       wander_[axis] = random::GaussMarkov(axis < 2 ? model.fix_wander_horizontal_m : model.fix_wander_vertical_m,
                                           model.fix_wander_s, wander_stream_, axis);
       carrier_[axis] = random::GaussMarkov(kCarrier_m, kCarrier_s, carrier_stream_, axis);
+    }
+    const Compass& compass = grade.compass;
+    compass_wander_ = random::GaussMarkov(compass.wander_rad, compass.wander_s, compass_stream_, 0);
+    for (std::uint64_t i = 0; i < 5; ++i) {
+      deviation_rad_[i] = compass.deviation_rad[i] * compass_stream_.normal(0, 10 + i);
     }
     current_ned_mps_ = kCurrent_mps * Vec3(current_stream_.normal(0, 0), current_stream_.normal(0, 1), 0.0);
   }
@@ -160,11 +175,7 @@ class Run {
       filter_.correct_water_velocity((1.0 + scale_) * velocity + kLogSigma_mps * noise(n, 8), Vec3::Zero(), sigma_mps);
     }
     if (aids.usbl && n % 10 == 0) find(n);
-    if (grade_.compass_rad > 0.0) {
-      const Vec3 forward = truth.ned_from_body * Vec3::UnitX();
-      const double error = grade_.compass_rad * noise_.normal(n, 7) + grade_.deviation_rad * noise_.normal(0, 98);
-      filter_.correct_heading(std::atan2(forward.y(), forward.x()) + error, grade_.compass_rad);
-    }
+    if (grade_.compass.white_rad > 0.0) read_compass(n);
     filter_.correct_height(truth.height_m + kDepthSigma_m * noise_.normal(n, 6), Vec3::Zero(), kDepthSigma_m);
   }
 
@@ -220,13 +231,25 @@ class Run {
     filter_.correct_position(fix, kUsblAge * kStep_s);
   }
 
+  void read_compass(std::size_t n) {
+    const Vec3 forward = mission_.truth[n].ned_from_body * Vec3::UnitX();
+    const double h = std::atan2(forward.y(), forward.x()), white_rad = grade_.compass.white_rad;
+    compass_wander_.advance(1.0, compass_stream_, n, 0);
+    const auto& [a, b, c, d, e] = deviation_rad_;
+    const double deviation_rad = a + b * std::sin(h) + c * std::cos(h) + d * std::sin(2.0 * h) + e * std::cos(2.0 * h);
+    const double error_rad = deviation_rad + compass_wander_.value() + white_rad * noise_.normal(n, 7);
+    filter_.correct_heading(h + error_rad, Vec3::UnitX(), white_rad);
+  }
+
   const Mission& mission_;
-  random::Stream noise_, wander_stream_, current_stream_, carrier_stream_;
+  random::Stream noise_, wander_stream_, current_stream_, carrier_stream_, compass_stream_;
   inertial::Imu imu_;
   NavigationFilter filter_;
   const Grade& grade_;
   double scale_;
   std::array<random::GaussMarkov, 3> wander_, carrier_;
+  random::GaussMarkov compass_wander_;
+  std::array<double, 5> deviation_rad_{};
   Vec3 current_ned_mps_ = Vec3::Zero();
 };
 
