@@ -33,7 +33,7 @@ SimTime NavFeedNode::step(SimTime now) {
   if (!listener_) listener_.emplace(config_.port);
   if (!track_) return poses_due_.next();
   hear(now);
-  if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, seconds(now))));
+  if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, now)));
   if (track_->starves(now)) {
     ports_.count("poses_guessed");
     ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
@@ -59,15 +59,17 @@ void NavFeedNode::hear(SimTime now) {
 
 /// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by. One
 /// whose height the feed tells is where it is.
-frames::MovingPose NavFeedNode::at_its_height(frames::MovingPose moving, double t_s) const {
+frames::MovingPose NavFeedNode::at_its_height(frames::MovingPose moving, SimTime now) {
   if (config_.height == NavFeedConfig::Height::kGga) return moving;
-  vertical::Level level = config_.tide.at(t_s);
-  if (config_.floats) {
-    const frames::Vec2 through_water = moving.velocity_enu_mps.head<2>() - config_.current.velocity_enu_mps(0.0, t_s);
-    level.height_m -= vertical::sinkage_m(*config_.floats, through_water.norm(), t_s);
-  }
-  moving.pose.position_enu_m.z() += level.height_m;
-  moving.velocity_enu_mps.z() += level.rate_mps;
+  const double t_s = seconds(now);
+  const double speed_mps =
+      (moving.velocity_enu_mps.head<2>() - config_.current.velocity_enu_mps(0.0, t_s)).norm();  // through the water
+  if (!floating_) floating_.emplace(config_.tide, config_.floats, speed_mps, t_s);
+  floating_->advance(speed_mps, t_s);
+  const vertical::Afloat afloat = floating_->at_last();
+  moving.pose.position_enu_m.z() += afloat.height_m;
+  moving.velocity_enu_mps.z() += afloat.rate_mps;
+  moving.acceleration_enu_mps2.z() += afloat.acceleration_mps2;
   return moving;
 }
 

@@ -6,6 +6,7 @@
 #include "components/nav_feed/fed_track.h"
 #include "components/nav_feed/udp_listener.h"
 #include "components/runtime/ports.h"
+#include "kernels/vertical/floating.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -23,13 +24,14 @@ class NavFeedNode {
 
  private:
   void hear(SimTime now);
-  frames::MovingPose at_its_height(frames::MovingPose moving, double t_s) const;
+  frames::MovingPose at_its_height(frames::MovingPose moving, SimTime now);
 
   Config config_;
   Ports& ports_;
   Periodic poses_due_;
-  std::optional<UdpListener> listener_;  // from the first event on: a check of the launch file takes no port
-  std::optional<FedTrack> track_;        // from when the world's origin is known on
+  std::optional<UdpListener> listener_;         // from the first event on: a check of the launch file takes no port
+  std::optional<FedTrack> track_;               // from when the world's origin is known on
+  std::optional<vertical::Floating> floating_;  // from its first pose on
   Ports::Out<msg::Pose> poses_;
   Ports::Out<msg::Position> fixes_;
 };

@@ -183,6 +183,44 @@ TEST_CASE("what moves between two poses is the integral of what they say of it")
   CHECK((after.velocity_enu_mps - before.velocity_enu_mps - gain).norm() < 1e-6);
 }
 
+TEST_CASE("600 s of a launch's accelerations and turn rates, on a tide and in a stream, integrate to her pose") {
+  VehicleConfig config = config_of("survey_launch");
+  config.water.tide = vertical::Tide(vertical::HarmonicTide{2.0, {{1.405189e-4, 1.5, 0.0}}});
+  config.water.floats = vertical::Loading{{{0, 0.0}, {9, 0.3}}, 0.0, -1e-6};
+  config.water.current.profile = {{0.0, {0.3, 0.2}}};
+  config.water.current.streams = {{{0.5, 0.1}, 1.405189e-4, 0.4}};
+  HydrodynamicDynamics launch(config, {{0, 0, 0}, 0.5, 2.0}, 0_s);
+  const auto slope = [&](const Eigen::Vector4d& q, const Vec3& rate) {
+    return Eigen::Vector4d(0.5 *
+                           (frames::Quaternion(q) * frames::Quaternion(0.0, rate.x(), rate.y(), rate.z())).coeffs());
+  };
+  frames::MovingPose first = launch.moving();
+  Vec3 position = first.pose.position_enu_m, velocity = first.velocity_enu_mps;
+  Eigen::Vector4d q = first.pose.enu_from_body.coeffs();
+  constexpr double h = 0.01;  // a step of hers
+  for (SimTime t = 0_s; t < 600_s; t += 10_ms) {
+    if (t % 60_s == 0_s) launch.command(0.5 + seconds(t) / 100.0, t % 120_s == 0_s ? 4.0 : 2.0, std::nullopt);
+    launch.advance(t + 5_ms);
+    const frames::MovingPose middle = launch.moving();
+    launch.advance(t + 10_ms);
+    const frames::MovingPose last = launch.moving();
+    // Simpson's rule, and the parabola's own double integral.
+    const Vec3 &a = first.acceleration_enu_mps2, &b = middle.acceleration_enu_mps2, &c = last.acceleration_enu_mps2;
+    position += h * velocity + h * h / 6 * (a + 2 * b);
+    velocity += h / 6 * (a + 4 * b + c);
+    const Vec3 &u = first.angular_rate_body_radps, &v = middle.angular_rate_body_radps,
+               &w = last.angular_rate_body_radps;
+    const Eigen::Vector4d k1 = slope(q, u), k2 = slope(q + 0.5 * h * k1, v), k3 = slope(q + 0.5 * h * k2, v),
+                          k4 = slope(q + h * k3, w);
+    q = (q + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)).normalized();
+    first = last;
+  }
+  const Vec3 off = position - first.pose.position_enu_m;
+  CAPTURE(off.x(), off.y(), off.z());
+  CHECK(off.norm() < 1e-3);
+  CHECK(frames::Quaternion(q).angularDistance(first.pose.enu_from_body) < 1e-3 * kDegree);
+}
+
 TEST_CASE("mistakes in a vehicle's file are named with their places") {
   const std::string path = std::string(std::getenv("ENSONIFY_BUILD")) + "/wrong_dynamics.yaml";
   std::ofstream(path) << "ensonify: dynamics/1\nbody: {mass_kg: -3, inertia_kgm2: [1, 1, 1]}\npropellers: []\n";

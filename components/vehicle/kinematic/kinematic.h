@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/vehicle/dynamics.h"
-#include "kernels/vertical/settling.h"
+#include "kernels/vertical/floating.h"
 
 namespace ensonify {
 
@@ -17,12 +17,11 @@ class KinematicDynamics : public Dynamics {
 
  private:
   double depth_below_datum_m() const;
-  double settlement_m() const;
 
   motion::Limits limits_;
   VehicleWater water_;
-  vertical::Settling settling_;  // where it floats
-  motion::State state_;          // its height counts from the water level
+  motion::State state_;  // its height counts from the water level
+  vertical::Floating floating_;
   motion::Command command_;
   SimTime now_;
 };
