@@ -43,6 +43,32 @@ TEST_CASE("what the lines hardly tell comes with a wide interval") {
   CHECK(found.offsets.roll_rad == Approx(0.5 * kDegree).margin(3 * found.sd[2]));
 }
 
+TEST_CASE("four layings of the squares give the mean of what each gives, and an interval that holds how they differ") {
+  const std::vector<Line> lines = survey_all(kPatchTest, with_relief(0.0425, 1), kTruth, kFogRtk, 1);
+  AdjustSettings once = kCoarse, four = kCoarse;
+  four.layings = 2;
+  Unknowns sum = Unknowns::Zero(), squares = Unknowns::Zero();
+  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(3, 3, 0)}) {
+    std::vector<Line> moved = lines;  // the other way, which is the same
+    for (Line& line : moved) {
+      for (Sounding& s : line.soundings) {
+        s.place_enu_m -= corner;
+        s.head_enu_m -= corner;
+      }
+    }
+    const Unknowns found = unknowns_of(adjust(moved, once).offsets);
+    sum += found;
+    squares += found.cwiseAbs2();
+  }
+  const Unknowns mean = sum / 4.0, between = (squares - 4.0 * mean.cwiseAbs2()) / 3.0;
+  const Adjusted found = adjust(lines, four);
+  for (Eigen::Index k = 0; k < 5; ++k) {
+    // A laying that starts at the solution of the first chooses some soundings otherwise: a third of what they differ by.
+    CHECK(unknowns_of(found.offsets)[k] == Approx(mean[k]).margin(0.33 * std::sqrt(between[k])));
+    CHECK(found.sd[k] > std::sqrt(between[k]));
+  }
+}
+
 TEST_CASE("an unknown that is not asked for stays zero") {
   AdjustSettings settings = kCoarse;
   settings.solve = {false, false, true, false, false};
