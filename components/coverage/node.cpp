@@ -166,19 +166,26 @@ nlohmann::ordered_json CoverageNode::uncertainty_report() const {
 }
 
 /// Whether the survey holds what an order asks for, and each part of it: soundings certain enough, every cell covered,
-/// every cube found. A survey whose soundings tell no uncertainty does not.
+/// every cube found that the order asks for at its depth. A survey whose soundings tell no uncertainty does not.
 nlohmann::ordered_json CoverageNode::order_report(const survey::SurveyOrder& order, std::size_t certain,
                                                   double shallowest_m) const {
-  const double cube_m = survey::cube_m(order, std::max(0.0, shallowest_m));
+  const auto cube_m = [&](double across_m, double along_m) {
+    const auto cell = [this](double m, std::size_t cells) {
+      return std::min(static_cast<std::size_t>(m / config_.plan.cell_m), cells - 1);
+    };
+    const double height_m = covered_.height_m(cell(across_m, covered_.columns()), cell(along_m, covered_.rows()));
+    return survey::cube_m(order, std::isnan(height_m) ? 0.0 : std::max(0.0, -height_m));
+  };
   const bool uncertainty = !tvu_m_.empty() && static_cast<double>(certain) >= 0.95 * static_cast<double>(tvu_m_.size());
   const bool coverage = covered_.covered() >= 1.0;
-  const bool features = cubes_.found(cube_m, config_.plan.soundings) >= 1.0;
+  const double found = cubes_.found(cube_m, config_.plan.soundings);
   nlohmann::ordered_json report;
   report["uncertainty"] = uncertainty;
   report["coverage"] = coverage;
-  report["feature_search"] = features;
-  report["cube_m"] = cube_m;
-  report["holds"] = uncertainty && coverage && features;
+  report["feature_search"] = found >= 1.0;
+  report["cube_m"] = survey::cube_m(order, std::max(0.0, shallowest_m));
+  report["share_found"] = found;
+  report["holds"] = uncertainty && coverage && found >= 1.0;
   return report;
 }
 

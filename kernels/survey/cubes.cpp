@@ -45,23 +45,41 @@ CubeSearch::Sums CubeSearch::sums() const {
   return sums;
 }
 
+bool CubeSearch::holds(const Sums& sums, std::size_t column, std::size_t row, std::size_t side, int needed) const {
+  const std::uint32_t* near = &sums[column * (rows_ + 1)];
+  const std::uint32_t* far = &sums[(column + side) * (rows_ + 1)];
+  return far[row + side] - far[row] - near[row + side] + near[row] >= static_cast<std::uint32_t>(needed);
+}
+
 double CubeSearch::found(const Sums& sums, std::size_t side, int needed) const {
   if (side == 0 || side > columns_ || side > rows_) return 0.0;
   std::size_t found = 0;
   for (std::size_t column = 0; column + side <= columns_; ++column) {
-    const std::uint32_t* near = &sums[column * (rows_ + 1)];
-    const std::uint32_t* far = &sums[(column + side) * (rows_ + 1)];
-    for (std::size_t row = 0; row + side <= rows_; ++row) {
-      const std::uint32_t held = far[row + side] - far[row] - near[row + side] + near[row];
-      found += held >= static_cast<std::uint32_t>(needed);
-    }
+    for (std::size_t row = 0; row + side <= rows_; ++row) found += holds(sums, column, row, side, needed);
   }
   return static_cast<double>(found) / static_cast<double>((columns_ - side + 1) * (rows_ - side + 1));
 }
 
-double CubeSearch::found(double side_m, int needed) const {
-  const double whole = std::floor(side_m / step_m_ + 1e-9) - 1.0;  // whole cells that any place of the cube holds
-  return whole < 1.0 ? 0.0 : found(sums(), static_cast<std::size_t>(whole), needed);
+/// That any place of a cube holds.
+std::size_t CubeSearch::whole_cells(double side_m) const {
+  return static_cast<std::size_t>(std::max(0.0, std::floor(side_m / step_m_ + 1e-9) - 1.0));
+}
+
+double CubeSearch::found(double side_m, int needed) const { return found(sums(), whole_cells(side_m), needed); }
+
+double CubeSearch::found(const std::function<double(double across_m, double along_m)>& side_m, int needed) const {
+  const Sums all = sums();
+  std::size_t places = 0, found = 0;
+  for (std::size_t column = 0; column < columns_; ++column) {
+    for (std::size_t row = 0; row < rows_; ++row) {
+      const std::size_t side = whole_cells(
+          side_m((static_cast<double>(column) + 0.5) * step_m_, (static_cast<double>(row) + 0.5) * step_m_));
+      if (column + side > columns_ || row + side > rows_) continue;
+      ++places;
+      found += side > 0 && holds(all, column, row, side, needed);
+    }
+  }
+  return places > 0 ? static_cast<double>(found) / static_cast<double>(places) : 0.0;
 }
 
 double CubeSearch::smallest_side_m(int needed, double share) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kernels/survey/coverage.h"
@@ -22,6 +23,10 @@ class CubeSearch {
   /// taken off, so that it holds wherever the cube stands between cells. 0 for sides below two steps.
   double found(double side_m, int needed) const;
 
+  /// The same of cubes whose side depends on where they stand: `side_m` tells it by how far the corner nearest to the
+  /// rectangle's own port and back one lies from that, across and along, m.
+  double found(const std::function<double(double across_m, double along_m)>& side_m, int needed) const;
+
   /// The smallest side, a multiple of the step, at which at least a share of the places is found; infinite if the
   /// whole rectangle, or its shorter side, does not suffice.
   double smallest_side_m(int needed, double share) const;
@@ -31,6 +36,8 @@ class CubeSearch {
   /// Soundings of all cells before a corner, both ways.
   Sums sums() const;
   double found(const Sums& sums, std::size_t cells, int needed) const;
+  bool holds(const Sums& sums, std::size_t column, std::size_t row, std::size_t side, int needed) const;
+  std::size_t whole_cells(double side_m) const;
 
   double step_m_;
   Vec2 forward_, starboard_, corner_enu_m_;

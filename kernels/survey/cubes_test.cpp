@@ -43,6 +43,24 @@ TEST_CASE("the share of places found falls from all to none") {
   }
 }
 
+TEST_CASE("where cubes may be larger, fewer soundings find them") {
+  // Dense to port of the middle, sparse to starboard: cubes of 2 m are found there alone, those of 6 m everywhere.
+  CubeSearch search(kArea, 0.25);
+  for (double north = 0.25; north < 20.0; north += 0.5) {
+    for (double east = 0.25; east < 20.0; east += 0.5) search.add({east, north});
+  }
+  for (double north = 0.75; north < 20.0; north += 1.5) {
+    for (double east = 20.75; east < 40.0; east += 1.5) search.add({east, north});
+  }
+  const auto larger_beyond = [](double from_m) {
+    return [from_m](double across_m, double) { return across_m > from_m ? 6.0 : 2.0; };
+  };
+  CHECK(search.found(larger_beyond(18.0), 9) == 1.0);
+  CHECK(search.found(larger_beyond(25.0), 9) < 1.0);
+  CHECK(search.found(larger_beyond(50.0), 9) == search.found(2.0, 9));
+  CHECK(search.found([](double, double) { return 0.25; }, 1) == 0.0);
+}
+
 TEST_CASE("a gap decides what is found everywhere, and little of what is found in most places") {
   CubeSearch search(kArea, 0.25);
   for (double east = 0.125; east < 40.0; east += 0.25) {
