@@ -304,16 +304,17 @@ Unknowns unknowns_of(const Offsets& o) {
 
 Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings) {
   check(lines, settings);
-  const int each_way = settings.layings;
-  const auto count = static_cast<std::size_t>(each_way * each_way);
+  const auto each_way = static_cast<std::size_t>(settings.layings);
+  const std::size_t count = each_way * each_way;
   const Laying first;
   Adjustment adjustment(lines, settings, first);
   Adjusted result = adjustment.run();
   std::vector<Found> found(count, adjustment.found());
   std::vector<char> converged(count, result.converged ? 1 : 0);
   tbb::parallel_for(std::size_t{1}, count, [&](std::size_t n) {
-    const frames::Vec2 steps(static_cast<int>(n) % each_way, static_cast<int>(n) / each_way);
-    const Laying laying{.corner_m = settings.cell_m / each_way * steps, .state = adjustment.state(), .choosing = 2};
+    const frames::Vec2 steps(static_cast<double>(n % each_way), static_cast<double>(n / each_way));
+    const Laying laying{
+        .corner_m = settings.cell_m / settings.layings * steps, .state = adjustment.state(), .choosing = 2};
     Adjustment shifted(lines, settings, laying);
     converged[n] = shifted.run().converged ? 1 : 0;
     found[n] = shifted.found();

@@ -51,7 +51,7 @@ struct Adjusted {
   std::size_t cells = 0;      // of the first laying
   std::size_t soundings = 0;  // used in it
   int rounds = 0;             // of it
-  bool converged = false;  // all layings
+  bool converged = false;     // all layings
 };
 
 /// Least-squares adjustment of all unknowns at once [Bjorke2005], on planes through the soundings of each cell

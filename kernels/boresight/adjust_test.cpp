@@ -63,7 +63,8 @@ TEST_CASE("four layings of the squares give the mean of what each gives, and an 
   const Unknowns mean = sum / 4.0, between = (squares - 4.0 * mean.cwiseAbs2()) / 3.0;
   const Adjusted found = adjust(lines, four);
   for (Eigen::Index k = 0; k < 5; ++k) {
-    // A laying that starts at the solution of the first chooses some soundings otherwise: a third of what they differ by.
+    // A laying that starts at the solution of the first chooses some soundings otherwise: a third of what they differ
+    // by.
     CHECK(unknowns_of(found.offsets)[k] == Approx(mean[k]).margin(0.33 * std::sqrt(between[k])));
     CHECK(found.sd[k] > std::sqrt(between[k]));
   }

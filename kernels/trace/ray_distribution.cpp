@@ -276,17 +276,16 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
   const auto most = static_cast<double>(settings_.most_rays - to_facets);
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
   share_ = 1.0;
-  double count = 0.0;
   const auto draw = [&] {  // what falls within the cells varies by a per cent
-    for (count = static_cast<double>(cut(share_)); count > most; count = static_cast<double>(cut(share_))) {
-      share_ *= 0.999 * most / count;
-    }
+    auto count = static_cast<double>(cut(share_));
+    for (; count > most; count = static_cast<double>(cut(share_))) share_ *= 0.999 * most / count;
     for (; count < kSpare * fewest; count = static_cast<double>(cut(share_))) share_ *= 1.001 * kSpare * fewest / count;
     for_parts([&](std::size_t k) { fill_part(k, probes); });
     count = 0.0;
     for (std::size_t k = 0; k < parts_.size(); ++k) count += static_cast<double>(rays_[k].size());
+    return count;
   };
-  for (draw(); count > most || count < fewest; draw()) {
+  for (double count = draw(); count > most || count < fewest; count = draw()) {
     share_ *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
   gather(rays, to_facets);

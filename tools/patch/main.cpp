@@ -84,8 +84,8 @@ boresight::Line with_deviations(const RunLine& run, const Heard& heard, const Op
   boresight::Line line = run.line;
   const Stated stated = mean_stated(heard.stated, run.from_s, run.to_s);
   const bool told = !stated.position_variance_m2.isZero(0.0) && !stated.rotation_variance_rad2.isZero(0.0);
-  line.position_sd_m = told ? Vec3(stated.position_variance_m2.cwiseSqrt())
-                            : Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m);
+  line.position_sd_m =
+      told ? Vec3(stated.position_variance_m2.cwiseSqrt()) : Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m);
   line.rotation_sd_rad = told ? Vec3(stated.rotation_variance_rad2.cwiseSqrt())
                               : Vec3(kDegree * Vec3(o.level_sd_deg, o.level_sd_deg, o.heading_sd_deg));
   return line;

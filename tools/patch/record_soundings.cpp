@@ -62,7 +62,8 @@ class Track {
 
  private:
   std::vector<double> times_s_;
-  std::vector<frames::Pose> poses_;};
+  std::vector<frames::Pose> poses_;
+};
 
 Stated stated_by(const msg::Estimate& e) {
   const auto diagonal = [](const auto& covariance) { return Vec3(covariance[0], covariance[4], covariance[8]); };

@@ -184,17 +184,15 @@ TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
   const std::size_t bytes = packet_of(tile).body.size(), count = 200;
   REQUIRE(bytes < 2000);
   for (std::size_t seq = 0; seq < count; ++seq) publisher.publish(packet_of(tile, seq));
-  std::vector<zmq::message_t> frames;
+  const auto expect_next = [&](std::size_t seq) {
+    std::vector<zmq::message_t> frames;
+    REQUIRE(bus::receive_frames(subscriber, frames));
+    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
+  };
   std::size_t seq = 0;
-  for (; seq < count - 1 - (1 << 14) / bytes; ++seq) {
-    REQUIRE(bus::receive_frames(subscriber, frames));
-    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
-  }
+  for (; seq < count - 1 - (1 << 14) / bytes; ++seq) expect_next(seq);
   publisher.flush();
-  for (; seq < count; ++seq) {
-    REQUIRE(bus::receive_frames(subscriber, frames));
-    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
-  }
+  for (; seq < count; ++seq) expect_next(seq);
 }
 
 TEST_CASE("wall-clock facts travel behind the arrays and stay out of the body") {
