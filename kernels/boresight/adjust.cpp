@@ -38,11 +38,17 @@ class Adjustment {
 
   Adjusted run() {
     Adjusted result;
+    double share = 1.0;
+    Vector last = Vector::Zero(state_.size());
     for (result.rounds = 1; result.rounds <= settings_.most_rounds; ++result.rounds) {
-      gather(result.rounds <= laying_.choosing);
+      const bool choosing = result.rounds <= laying_.choosing;
+      gather(choosing);
       if (result.rounds == 1) result.rms_before_m = rms();
       const Vector step = normal_.llt().solve(-gradient_ - prior_ * state_);
-      state_ += step;
+      // With slopes that are reduced (Plane::across) a step may be twice too long, and goes to and fro for ever.
+      if (!choosing && step.dot(normal_ * last) < -0.5 * last.dot(normal_ * last)) share *= 0.5;
+      state_ += share * step;
+      last = step;
       if (step.head<kUnknowns>().cwiseAbs().maxCoeff() < 1e-6) {  // 1 us, 0.2 seconds of arc
         result.converged = true;
         break;
