@@ -32,20 +32,27 @@ void ReliefWatch::take(std::span<const Sounding> ping) {
   profile_.clear();
   for (const Sounding& sounding : ping) profile_.push_back(sounding.point);
   const std::vector<double> bends = uncertainty::squared_bends_m2(profile_);
+  most_weight_ *= kKept;
+  for (Mean& mean : by_place_) {
+    mean.bend_m2 *= kKept;
+    mean.weight *= kKept;
+  }
   for (std::size_t i = 0; i < ping.size(); ++i) {
     const auto place = static_cast<std::size_t>(ping[i].place);
     if (place >= by_place_.size()) by_place_.resize(place + 1);
     if (std::isnan(bends[i])) continue;
-    Mean& mean = by_place_[place];
-    mean.bend_m2 = kKept * mean.bend_m2 + bends[i] / growth(ping[i].point.footprint_m);
-    mean.weight = kKept * mean.weight + 1.0;
+    by_place_[place].bend_m2 += bends[i] / growth(ping[i].point.footprint_m);
+    by_place_[place].weight += 1.0;
+    most_weight_ = std::max(most_weight_, by_place_[place].weight);
   }
 }
 
 double ReliefWatch::sd_m(int place, double footprint_m, double aspect) const {
-  // Profiles end two footprints before the swath does: the places next to what is known tell of the rest.
+  // Profiles end two footprints before the swath does: the places next to what is known tell of the rest. Now and then
+  // a profile reaches farther, where its last sounding lies far out, and then it bends more than others: places that
+  // few pings know do not count.
   const int places = static_cast<int>(by_place_.size());
-  const auto known = [&](int at) { return by_place_[static_cast<std::size_t>(at)].weight > 0.0; };
+  const auto known = [&](int at) { return by_place_[static_cast<std::size_t>(at)].weight > 0.5 * most_weight_; };
   for (int reach = kNeighbours; reach < places; reach *= 2) {
     Mean sum;
     for (int at = std::max(0, place - reach); at <= std::min(places - 1, place + reach); ++at) {

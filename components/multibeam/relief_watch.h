@@ -28,6 +28,7 @@ class ReliefWatch {
     double bend_m2 = 0.0, weight = 0.0;  // bends as of a footprint of 1 m
   };
   std::vector<Mean> by_place_;
+  double most_weight_ = 0.0;  // of any place
   std::vector<uncertainty::ProfilePoint> profile_;
 };
 

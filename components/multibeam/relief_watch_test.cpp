@@ -41,6 +41,27 @@ TEST_CASE("what soundings miss is learned where the seabed is rough, up to the e
   CHECK(watch.sd_m(45, 1.0, 1.0) < 0.01 * expected);
 }
 
+TEST_CASE("one profile in twenty that reaches farther, and is broken there, does not speak for the edge") {
+  // Footprints of 4 m: the last 16 of 60 places know no bend of their own, but where the last sounding lies 8 m farther
+  // out, and 4 m up.
+  const random::Stream stream(2, "relief");
+  ReliefWatch watch;
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    std::vector<ReliefWatch::Sounding> soundings;
+    for (int place = 0; place < 60; ++place) {
+      const double rise_m = 0.1 * stream.normal(n, static_cast<std::uint64_t>(place));
+      soundings.push_back({place, {0.5 * place, -20.0 + rise_m, 4.0, 0.0}});
+    }
+    if (n % 20 == 0) {
+      soundings.back().point.across_m += 8.0;
+      soundings.back().point.height_m += 4.0;
+    }
+    watch.take(soundings);
+  }
+  const double expected = 0.1 * std::sqrt(70.0 * uncertainty::unresolved_share(0.625, 1.0));
+  for (const int place : {40, 50, 59}) CHECK(watch.sd_m(place, 4.0, 1.0) == Approx(expected).epsilon(0.3));
+}
+
 TEST_CASE("a single ping that is too short to bend tells nothing") {
   ReliefWatch watch;
   watch.take(std::vector<ReliefWatch::Sounding>{{3, {0.0, -20.0, 1.0, 0.0}}, {4, {0.5, -20.5, 1.0, 0.0}}});
