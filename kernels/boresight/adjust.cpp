@@ -318,7 +318,8 @@ Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings) 
   std::vector<Found> found(count, adjustment.found());
   std::vector<char> converged(count, result.converged ? 1 : 0);
   tbb::parallel_for(std::size_t{1}, count, [&](std::size_t n) {
-    const frames::Vec2 steps(static_cast<double>(n % each_way), static_cast<double>(n / each_way));
+    const std::size_t east = n % each_way, north = n / each_way;
+    const frames::Vec2 steps(static_cast<double>(east), static_cast<double>(north));
     const Laying laying{
         .corner_m = settings.cell_m / settings.layings * steps, .state = adjustment.state(), .choosing = 2};
     Adjustment shifted(lines, settings, laying);

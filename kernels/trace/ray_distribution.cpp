@@ -30,9 +30,7 @@ constexpr std::size_t kMostToFacets = 4;  // of all rays one in so many
 constexpr double kPlaneStep_m = 0.25,
                  kPlaneShift = 0.3819660113;  // a seabed at a round depth is not between two planes
 constexpr std::size_t kFewestToPlaces =
-    40;                               // strata of a part: fewer rays sample a peaked law better if they are strata
-constexpr double kLeastFall = 0.01;   // sine of the angle at which rays fall on the plane
-constexpr double kMostStretch = 2.0;  // farthest over nearest place of a cell
+    40;  // strata of a part: fewer rays sample a peaked law better if they are strata
 
 constexpr double kSpare = 1.01;  // of the fewest rays
 

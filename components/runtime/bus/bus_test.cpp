@@ -187,7 +187,8 @@ TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
   const auto expect_next = [&](std::size_t seq) {
     std::vector<zmq::message_t> frames;
     REQUIRE(bus::receive_frames(subscriber, frames));
-    CHECK(bus::to_packet(std::move(frames)).envelope.seq == seq);
+    const msg::Packet heard = bus::to_packet(std::move(frames));
+    CHECK(heard.envelope.seq == seq);
   };
   std::size_t seq = 0;
   for (; seq < count - 1 - (1 << 14) / bytes; ++seq) expect_next(seq);
