@@ -7,7 +7,7 @@
 
 #include "components/runtime/config/data_paths.h"
 #include "components/runtime/config/launch_file.h"
-#include "components/runtime/terrain/meshed_relief.h"
+#include "components/runtime/terrain/layers_source.h"
 #include "components/runtime/version.h"
 #include "launch/check_ports.h"
 
@@ -15,6 +15,13 @@ namespace {
 
 using namespace ensonify;
 using namespace ensonify::launcher;
+
+/// Guides are read for it: a scenario that the pager refuses has been told already.
+void append_uneven(const Launch& launch, std::vector<std::string>& warnings) {
+  if (!launch.has_scenario || launch.scenario.seabed.kind != Seabed::Kind::kLayers) return;
+  const source::LayersSource seabed(launch.scenario.seabed, launch.scenario.site.origin);
+  for (const auto& uneven : seabed.meshed_relief().uneven) warnings.push_back(text_of(uneven));
+}
 
 int check(const LaunchOptions& options, bool as_json) {
   CheckedPorts checked;
@@ -28,9 +35,7 @@ int check(const LaunchOptions& options, bool as_json) {
     for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places)})
       checked.problems.insert(checked.problems.end(), found.begin(), found.end());
     warnings = resolution_warnings(checked);
-    if (launch.has_scenario) {
-      for (const auto& uneven : source::uneven_classes(launch.scenario.seabed)) warnings.push_back(text_of(uneven));
-    }
+    if (checked.problems.empty()) append_uneven(launch, warnings);
     for (const auto& name : checked.unknown) {
       warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");
     }

@@ -18,6 +18,7 @@ struct Tile {
   double spacing_m = 1.0;
   Array<float> height_m;
   Array<std::uint8_t> sediment;
+  Array<double> facet_mean_square_slope;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -28,6 +29,11 @@ struct Tile {
     visit("spacing_m", "m", "distance between posts, both axes", self.spacing_m);
     visit("height_m", "m", "posts (north x east, south-west first), up from chart datum; NaN is a hole", self.height_m);
     visit("sediment", "1", "sediment class of each post, as height_m", self.sediment);
+    visit(
+        "facet_mean_square_slope", "1",
+        "by class, of all the seabed: mean square slope that facets have of relief which the sediment's law counts too "
+        "and must not count again; 0 or not listed: none that is known",
+        self.facet_mean_square_slope);
   }
 };
 

@@ -115,6 +115,25 @@ TEST_CASE("a mesh above the seabed is the bottom while the head holds it") {
   CHECK(loudest_m(1450_ms) == Approx(20.0).margin(margin_m));
 }
 
+TEST_CASE("what tiles tell of their facets is counted as if the scenario said it") {
+  const seabed::SedimentParameters silt = *seabed::sediment_of("medium silt");
+  const auto heard = [&](const seabed::Scatterer& sediment, const std::vector<double>& told) {
+    EchosounderConfig config = over_lambert();
+    config.world.seabed.sediments = {{0, sediment}};
+    msg::Tile tile = flat();
+    tile.facet_mean_square_slope = msg::Array<double>::of(told);
+    return Survey(config, tile).pings;
+  };
+  constexpr double kSquare = 0.002;
+  const auto told = heard(silt, {kSquare}), said = heard(seabed::MeshedSediment{silt, kSquare}, {}),
+             plane = heard(silt, {});
+  REQUIRE(told.size() == 4);
+  for (std::size_t i = 0; i < told.size(); ++i) {  // the first ping too
+    CHECK(told[i].amplitude_upa == said[i].amplitude_upa);
+    CHECK_FALSE(told[i].amplitude_upa == plane[i].amplitude_upa);
+  }
+}
+
 TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces, of a tapered tone too") {
   // Sum of p^2 dt = SL tau R^-4 sigma |b|^2 dA over the beam, on a flat seabed dA = H^2 dOmega / cos^3 of the angle
   // from the vertical. The rays' strata leave some 0.1 dB.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/runtime/config/config_error.h"
@@ -24,7 +25,7 @@ namespace {
 using frames::Vec2;
 using pager::TileKey;
 
-constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 4096;
+constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 256 * sizeof(double) + 4096;
 constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
 constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
 
@@ -99,7 +100,9 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
 }
 
 msg::Chart TerrainPagerNode::chart() {
-  uneven_ = source::uneven_classes(config_.terrain.seabed);
+  auto relief = terrain_->meshed_relief();
+  uneven_ = std::move(relief.uneven);
+  facet_mean_square_slope_ = msg::Array<double>::of(std::move(relief.mean_square_slope));
   if (cache_) {
     if (const auto kept = cache_->read_chart()) return *kept;
   }
@@ -172,7 +175,9 @@ void TerrainPagerNode::publish(const TileKey& key) {
   if (taken.late) {
     log::event(ports_, "late_tile", "col={} row={} late_tiles={}", key.east, key.north, store_->statistics().late);
   }
-  tiles_.send(*taken.tile);
+  msg::Tile tile = *taken.tile;  // shares its posts
+  tile.facet_mean_square_slope = facet_mean_square_slope_;
+  tiles_.send(tile);
   ports_.count("tiles_published");
 }
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "components/runtime/ports.h"
-#include "components/runtime/terrain/meshed_relief.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/meshes.h"
 #include "components/terrain_pager/paging.h"
@@ -65,9 +64,10 @@ class TerrainPagerNode {
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;
-  std::string overview_fault_;               // of what the chart is made of; set before made_chart_ is
-  std::vector<source::UnevenClass> uneven_;  // likewise
-  std::future<msg::Chart> made_chart_;       // while other processes start; until it is sent
+  std::string overview_fault_;                  // of what the chart is made of; set before made_chart_ is
+  std::vector<source::UnevenClass> uneven_;     // likewise
+  msg::Array<double> facet_mean_square_slope_;  // likewise: goes with every tile
+  std::future<msg::Chart> made_chart_;          // while other processes start; until it is sent
 };
 
 }  // namespace ensonify

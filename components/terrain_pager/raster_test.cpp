@@ -11,7 +11,9 @@
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/terrain/raster_source.h"
 #include "components/runtime/terrain/source_of.h"
+#include "components/runtime/testing.h"
 #include "components/terrain_pager/corridor.h"
+#include "components/terrain_pager/node.h"
 #include "components/terrain_pager/tile_messages.h"
 
 using namespace ensonify;
@@ -350,4 +352,49 @@ TEST_CASE("real rasters with real faults are refused") {
   options.path = data + "/formats/clip.xyz";
   options.crs = "EPSG:32619";
   CHECK(refusal(options).find("set the pager's `raster_nodata: -9999`") != std::string::npos);
+}
+
+TEST_CASE("tiles tell how steep their facets are, also where a mask looks at the shape of a guide's raster") {
+  // -20 m in the middle; within 250 m x 200 m of it the ground lies between 16.75 and 23.25 m.
+  const MadeRaster raster;
+  TerrainPagerConfig config;
+  config.feed_margin_m = 20.0;
+  config.terrain.site.origin = RasterSource(options_for(raster), std::nullopt).origin();
+  Seabed& seabed = config.terrain.seabed;
+  seabed.post_spacing_m = 0.25;
+  seabed.layered.size_m = {250.0, 200.0};
+  seabed.sediments = {{0, *seabed::sediment_of("medium silt")}, {2, *seabed::sediment_of("medium sand")}};
+  layers::Guide guide;
+  guide.raster = raster.write();
+  guide.cell_m = 5.0;
+  const relief::Spectrum relief{.rms_m = 0.01, .hurst = 0.625, .outer_scale_m = 20.0};
+  const auto told = [&](const std::optional<layers::Mask>& mask) {
+    seabed.layered.layers = {{.name = "ground", .form = guide},
+                             {.name = "silt", .form = layers::Spectral{.spectrum = relief}, .mask = mask}};
+    NodeUnderTest<TerrainPagerNode> pager(config);
+    pager.give("pose", msg::Pose{}, msg::Pose{.stamp_ns = 1'000'000'000});
+    const auto tiles = pager.step_until<msg::Tile>("tile", 1_s);
+    REQUIRE_FALSE(tiles.empty());
+    for (const msg::Tile& tile : tiles) CHECK(tile.facet_mean_square_slope == tiles[0].facet_mean_square_slope);
+    const auto slopes = tiles[0].facet_mean_square_slope.flat();
+    return std::vector<double>(slopes.begin(), slopes.end());
+  };
+  const auto in_depths = [](double from_m, double to_m) {
+    layers::Mask mask;
+    mask.depth_m = relief::Band{.low = from_m, .high = to_m};
+    mask.of = "ground";
+    return mask;
+  };
+  const auto everywhere = told(std::nullopt);
+  REQUIRE(everywhere.size() == 3);
+  // Rounded to 1e-4 degrees: of a slope of 0.9 degrees 1e-4, of its square twice that.
+  CHECK(everywhere[0] == Approx(relief::facet_mean_square_slope(relief, 0.25)).epsilon(2e-4));
+  CHECK(everywhere[1] == 0.0);
+  CHECK(everywhere[2] == everywhere[0]);
+  CHECK(told(in_depths(0.0, 21.0)) == everywhere);  // at three quarters of the places
+  CHECK(told(in_depths(0.0, 19.0)).empty());        // at a quarter
+
+  config.terrain.seabed.kind = Seabed::Kind::kRaster;  // nobody knows what its heights are made of
+  config.terrain.seabed.raster.path = guide.raster;
+  CHECK(told(std::nullopt).empty());
 }

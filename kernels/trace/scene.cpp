@@ -120,6 +120,12 @@ void Scene::adapt(std::span<const lod::View> views) {
 }
 
 std::span<const Object> Scene::objects() const { return impl_->objects; }
+
+void Scene::set_facet_mean_square_slope(std::span<const double> by_class) {
+  impl_->facet_mean_square_slope.assign(by_class.begin(), by_class.end());
+}
+std::span<const double> Scene::facet_mean_square_slope() const { return impl_->facet_mean_square_slope; }
+
 const LevelOfDetail& Scene::detail() const { return impl_->detail; }
 bool Scene::empty() const { return impl_->tiles.empty(); }
 std::size_t Scene::size() const { return impl_->tiles.size(); }

@@ -96,6 +96,11 @@ class Scene {
   /// Takes an irregular mesh away; false when there was none.
   bool remove(std::int64_t number);
 
+  /// Of facets' slopes, the mean square that a sediment's law counts too, by class (seabed::MeshedSediment): kept for
+  /// those who ask how strongly hits scatter, the scene itself makes nothing of it. Empty: none is known.
+  void set_facet_mean_square_slope(std::span<const double> by_class);
+  std::span<const double> facet_mean_square_slope() const;
+
   /// What a look at the seabed may miss: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order. Small tiles are always
   /// at full detail.

@@ -48,8 +48,9 @@ struct Scene::Impl {
   LevelOfDetail detail;
   std::map<terrain::TileKey, Entry> tiles;
   std::map<std::int64_t, Irregular> irregular;
-  std::uint32_t inserted = 0;   // tiles and irregular meshes, ever
-  std::vector<Object> objects;  // of all tiles
+  std::uint32_t inserted = 0;                   // tiles and irregular meshes, ever
+  std::vector<Object> objects;                  // of all tiles
+  std::vector<double> facet_mean_square_slope;  // by class
 
   std::vector<lod::View> views;  // of the mesh ...
   bool stale = true;             // ... unless tiles have come or gone since

@@ -52,7 +52,7 @@ int build(const Options& options) {
   if (!bake(*source, options.scenario, options.bake.threads, set)) return kExitInterrupted;
   fmt::print("{}: {} tiles of {} x {} posts {} m apart\n", set.folder, set.tiles.size(), set.grid.cells + 1,
              set.grid.cells + 1, set.grid.spacing_m);
-  print_facets(scenario);  // a scenario on the tiles knows no layers
+  print_facets(scenario.seabed, source->meshed_relief());  // a scenario on the tiles knows no layers
   return kExitOk;
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "components/runtime/config/facet_slope.h"
+#include "components/runtime/config/scenario.h"
 #include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/guide_file.h"
-#include "components/runtime/terrain/meshed_relief.h"
+#include "components/runtime/terrain/layers_source.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
@@ -19,27 +19,21 @@ int facets(const std::string& file) {
   const Scenario scenario = read_scenario(file);
   if (scenario.seabed.kind != Seabed::Kind::kLayers)
     throw UserError(file + ": is no seabed of layers; of others the scenario says facet_slope_deg itself");
-  print_facets(scenario);
+  print_facets(scenario.seabed, source::LayersSource(scenario.seabed, scenario.site.origin).meshed_relief());
   return kExitOk;
 }
 
 }  // namespace
 
-void print_facets(const Scenario& scenario) {
-  const Seabed& seabed = scenario.seabed;
+void print_facets(const Seabed& seabed, const source::MeshedRelief& relief) {
   if (seabed.kind != Seabed::Kind::kLayers) return;
-  const auto read_guide = source::guide_files(seabed.layered, scenario.site.origin);
-  for (const auto& [number, scatterer] : source::sediments_on_mesh(seabed, read_guide)) {
+  for (const auto& [number, scatterer] : on_mesh(seabed.sediments, relief.mean_square_slope)) {
     const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
     if (meshed == nullptr || meshed->mean_square_slope == 0.0) continue;
     fmt::print("class {}: a scenario on tiles of this seabed says facet_slope_deg: {:.4f} of its sediment\n", number,
                facet_slope_deg(*meshed));
   }
-  for (const auto& uneven : source::uneven_classes(seabed, read_guide))
-    fmt::print("warning: {}\n", source::text_of(uneven));
-  for (const auto& uneven : source::uneven_classes(seabed)) {  // as heads have it
-    if (!uneven.share) fmt::print("warning: {}\n", source::text_of(uneven));
-  }
+  for (const auto& uneven : relief.uneven) fmt::print("warning: {}\n", source::text_of(uneven));
 }
 
 Verb add_facets(CLI::App& parent) {

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "components/runtime/config/scenario.h"
+#include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/terrain/meshed_relief.h"
 
 namespace ensonify::terrain_tool {
 
-/// Prints what laws of the scenario's sediments must know of a layered seabed's facets, and where one law cannot do for
-/// all of a class; nothing for other seabeds.
-void print_facets(const Scenario& scenario);
+/// Prints what laws of a layered seabed's sediments must know of its facets, and where one law cannot do for all of a
+/// class; nothing for other seabeds.
+void print_facets(const Seabed& seabed, const source::MeshedRelief& relief);
 
 }  // namespace ensonify::terrain_tool

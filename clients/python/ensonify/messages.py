@@ -981,6 +981,7 @@ class Tile(Message):
     spacing_m [m]: distance between posts, both axes
     height_m [m]: posts (north x east, south-west first), up from chart datum; NaN is a hole
     sediment [1]: sediment class of each post, as height_m
+    facet_mean_square_slope [1]: by class, of all the seabed: mean square slope that facets have of relief which the sediment's law counts too and must not count again; 0 or not listed: none that is known
     """
 
     TYPE = "tile/1"
@@ -991,6 +992,7 @@ class Tile(Message):
     spacing_m: float = 1.0
     height_m: np.ndarray = array("f4")
     sediment: np.ndarray = array("u1")
+    facet_mean_square_slope: np.ndarray = array("f8")
 
 
 @dataclass(eq=False)

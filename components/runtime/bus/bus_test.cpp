@@ -203,7 +203,7 @@ TEST_CASE("wall-clock facts travel behind the arrays and stay out of the body") 
   packet.envelope.frame_count += 1;
   const msg::Packet back = bus::to_packet(bus::to_frames(packet));
   CHECK(back.wall_facts.text() == "{\"cost_s\":1}");
-  CHECK(back.body.arrays.size() == 2);
+  CHECK(back.body.arrays.size() == packet.body.arrays.size());
 }
 
 TEST_CASE("frames that are no message are refused, not crashed on") {

@@ -47,6 +47,7 @@ void Arrivals::look(trace::Scene& seabed, trace::RayDistribution& distribution, 
   distribution.fill(transmit_pose(), hits, seabed.objects(), static_cast<float>(range_m), rays, paths_.bent());
   paths_.trace(seabed, transmit_pose(), rays, range_m, hits);
   distribution.settle(rays, hits);
+  environment_.meet_facets(seabed.facet_mean_square_slope());
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.

@@ -1,5 +1,11 @@
 #include "components/runtime/head/environment.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "components/runtime/config/facet_slope.h"
 #include "kernels/surface/sea_surface.h"
 #include "kernels/water/noise.h"
 
@@ -39,12 +45,16 @@ double noise_level_db_of(const Water& water, double frequency_hz) {
   return water.noise_level_db.value_or(water::ambient_noise_level_db(frequency_hz, water.wind_speed_mps));
 }
 
-seabed::ClassTables tables_of(const Seabed& seabed, double frequency_hz, double sound_speed_mps) {
-  const seabed::Law base = seabed::law_of(seabed.sediments.at(0), frequency_hz, sound_speed_mps);
-  std::vector<seabed::Law> laws(seabed.sediments.rbegin()->first + 1U, base);
-  for (const auto& [number, scatterer] : seabed.sediments) {
-    laws[number] = seabed::law_of(scatterer, frequency_hz, sound_speed_mps);
-  }
+/// The first sound waits for facets' laws, so they are made side by side.
+seabed::ClassTables tables_of(const std::map<std::uint8_t, seabed::Scatterer>& sediments, double frequency_hz,
+                              double sound_speed_mps) {
+  const std::vector<std::pair<std::uint8_t, seabed::Scatterer>> listed(sediments.begin(), sediments.end());
+  std::vector<seabed::Law> of_listed(listed.size());
+  tbb::parallel_for(std::size_t{0}, listed.size(), [&](std::size_t i) {
+    of_listed[i] = seabed::law_of(listed[i].second, frequency_hz, sound_speed_mps);
+  });
+  std::vector<seabed::Law> laws(listed.back().first + 1U, of_listed.front());
+  for (std::size_t i = 0; i < listed.size(); ++i) laws[listed[i].first] = of_listed[i];
   return seabed::ClassTables(laws);
 }
 
@@ -83,12 +93,19 @@ Environment::Environment(const Scenario& scenario, double frequency_hz)
       absorption_law_(scenario.water.absorption_law),
       absorption_dbpm_(scenario.water.absorption_dbpm),
       noise_level_db_(noise_level_db_of(scenario.water, frequency_hz)),
-      backscatter_(tables_of(scenario.seabed, frequency_hz, profile_.knots().back().speed_mps)),
+      sediments_(scenario.seabed.sediments),
+      backscatter_(tables_of(sediments_, frequency_hz, profile_.knots().back().speed_mps)),
       wind_speed_mps_(scenario.water.wind_speed_mps),
       surface_backscatter_(surface_table_of(frequency_hz, wind_speed_mps_)),
       rms_wave_height_m_(surface::rms_wave_height_m(wind_speed_mps_)),
       scattering_layers_(scenario.water.scattering_layers),
       bubble_loss_db_(scenario.water.bubble_loss_db) {}
+
+void Environment::meet_facets(std::span<const double> mean_square_slope) {
+  if (std::ranges::equal(mean_square_slope, facet_mean_square_slope_)) return;
+  facet_mean_square_slope_.assign(mean_square_slope.begin(), mean_square_slope.end());
+  backscatter_ = tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);
+}
 
 double Environment::absorption_dbpm(double from_depth_m, double to_depth_m) const {
   if (absorption_dbpm_) return *absorption_dbpm_;

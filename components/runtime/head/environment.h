@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "components/runtime/config/scenario.h"
@@ -40,8 +43,12 @@ class Environment {
   double noise_level_db() const { return noise_level_db_; }
 
   /// Backscattering cross section of the seabed per unit area by class of the post and grazing angle. The sediments'
-  /// laws are made for the speed of sound at the profile's last sample.
+  /// laws are made for the speed of sound at the profile's last sample, and for the facets last met.
   const seabed::ClassTables& backscatter() const { return backscatter_; }
+
+  /// The mesh that sound meets from now on says how steep its facets are, by class (trace::Scene). Tables are made anew
+  /// where that is news.
+  void meet_facets(std::span<const double> mean_square_slope);
 
   /// The same of the sea surface, seen from below.
   const seabed::BackscatterTable& surface_backscatter() const { return surface_backscatter_; }
@@ -63,6 +70,8 @@ class Environment {
   water::AbsorptionLaw absorption_law_;
   std::optional<double> absorption_dbpm_;
   double noise_level_db_;
+  std::map<std::uint8_t, seabed::Scatterer> sediments_;  // on a plane, or as the scenario says
+  std::vector<double> facet_mean_square_slope_;          // by class
   seabed::ClassTables backscatter_;
   double wind_speed_mps_;
   seabed::BackscatterTable surface_backscatter_;

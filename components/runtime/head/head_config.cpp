@@ -2,7 +2,6 @@
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/head/head_motion.h"
-#include "components/runtime/terrain/meshed_relief.h"
 
 namespace ensonify {
 namespace {
@@ -37,7 +36,6 @@ void read_head(ConfigReader& from, const Scenario& scenario, const std::string& 
   config.interference = read_interference(from, scenario, process, config.processing_latency_s);
   read_effects(from, config.effects);
   config.world = scenario;
-  config.world.seabed.sediments = source::sediments_on_mesh(scenario.seabed);
   config.process = process;
   config.mounting = read_mounting(from, scenario, process);
 }

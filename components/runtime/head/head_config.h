@@ -34,7 +34,7 @@ struct HeadConfig {
   Effects effects;
 
   // From the scenario.
-  Scenario world;  // its sediments as they scatter on the seabed's mesh (source::sediments_on_mesh)
+  Scenario world;
   std::string process;
   HeadMounting mounting;
 

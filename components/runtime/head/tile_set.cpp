@@ -32,6 +32,7 @@ void TileSet::insert(const msg::Tile& message) {
                                                                          static_cast<double>(message.row));
   if (scene_.empty()) scene_.centre_near(tile.origin_enu_m);  // where the head will be: nothing is built twice
   scene_.insert(key_of(message.col, message.row), std::move(tile));
+  scene_.set_facet_mean_square_slope(message.facet_mean_square_slope.flat());
 }
 
 void TileSet::release(const msg::TileRelease& release) { scene_.remove(key_of(release.col, release.row)); }

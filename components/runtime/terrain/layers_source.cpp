@@ -6,7 +6,6 @@
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/terrain/guide_file.h"
-#include "components/runtime/terrain/layered_seabed.h"
 
 namespace ensonify::source {
 namespace {
@@ -33,11 +32,10 @@ Window window_around(int level, double spacing_m, const Vec2& low, const Vec2& h
 }  // namespace
 
 LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
-    : seabed_(fields_of(seabed.layered, seabed.post_spacing_m, guide_files(seabed.layered, origin)).seabed),
+    : description_(seabed),
+      fields_(fields_of(seabed.layered, seabed.post_spacing_m, guide_files(seabed.layered, origin))),
       extent_(extent_of(seabed.layered)),
-      origin_(origin),
-      post_spacing_m_(seabed.post_spacing_m),
-      lsb_m_(seabed.lsb_m) {
+      origin_(origin) {
   probe();
   if (lowest_m_ >= 0.0) {
     throw ConfigError(
@@ -50,9 +48,10 @@ LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
 void LayersSource::probe() {
   constexpr double kProbes = 256.0;  // per side: enough for the range of depths that a chart tells
   const double side_m = std::max(extent_.east_m - extent_.west_m, extent_.north_m - extent_.south_m);
-  const int level = std::max(0, static_cast<int>(std::ceil(std::log2(side_m / (kProbes * post_spacing_m_)))));
-  const terrain::Tile tile = tile_of(
-      window_around(level, post_spacing_m_, {extent_.west_m, extent_.south_m}, {extent_.east_m, extent_.north_m}));
+  const int level =
+      std::max(0, static_cast<int>(std::ceil(std::log2(side_m / (kProbes * description_.post_spacing_m)))));
+  const terrain::Tile tile = tile_of(window_around(
+      level, description_.post_spacing_m, {extent_.west_m, extent_.south_m}, {extent_.east_m, extent_.north_m}));
   lowest_m_ = std::numeric_limits<double>::max();
   highest_m_ = std::numeric_limits<double>::lowest();
   for (std::int32_t row = 0; row < tile.rows; ++row) {
@@ -66,24 +65,26 @@ void LayersSource::probe() {
 }
 
 terrain::Tile LayersSource::tile_of(const Window& window) const {
-  const double step_m = relief::node_spacing_m(post_spacing_m_, window.level);
+  const double step_m = relief::node_spacing_m(description_.post_spacing_m, window.level);
   terrain::Tile tile{{static_cast<double>(window.east) * step_m, static_cast<double>(window.north) * step_m},
                      step_m,
                      window.columns,
                      window.rows,
                      std::vector<float>(window.size()),
                      std::vector<std::uint8_t>(window.size())};
-  seabed_.fill(window, tile.height_m, tile.sediment);
+  fields_.seabed.fill(window, tile.height_m, tile.sediment);
   return tile;
 }
 
 void LayersSource::sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
-  if (posts.spacing_m == post_spacing_m_) {
-    seabed_.fill({0, posts.first_east, posts.first_north, posts.columns, posts.rows}, height_m, sediment);
+  if (posts.spacing_m == description_.post_spacing_m) {
+    fields_.seabed.fill({0, posts.first_east, posts.first_north, posts.columns, posts.rows}, height_m, sediment);
   } else {
-    const int level = std::max(0, static_cast<int>(std::floor(std::log2(posts.spacing_m / post_spacing_m_))));
-    const terrain::Tile tile = tile_of(window_around(level, post_spacing_m_, {posts.east_m(0), posts.north_m(0)},
-                                                     {posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)}));
+    const int level =
+        std::max(0, static_cast<int>(std::floor(std::log2(posts.spacing_m / description_.post_spacing_m))));
+    const terrain::Tile tile =
+        tile_of(window_around(level, description_.post_spacing_m, {posts.east_m(0), posts.north_m(0)},
+                              {posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)}));
     std::size_t k = 0;
     for (int row = 0; row < posts.rows; ++row) {
       for (int column = 0; column < posts.columns; ++column, ++k) {
@@ -115,10 +116,11 @@ double LayersSource::height_m(const Vec2& place) const {
     if (const auto height = terrain::height_m(*near_, place)) return *height;
   }
   const auto first = [&](double m) {
-    return static_cast<std::int64_t>(std::floor(m / (static_cast<double>(kSide) * post_spacing_m_))) * kSide;
+    return static_cast<std::int64_t>(std::floor(m / (static_cast<double>(kSide) * description_.post_spacing_m))) *
+           kSide;
   };
   terrain::Tile tile = tile_of({0, first(place.x()), first(place.y()), kSide + 1, kSide + 1});
-  for (float& height : tile.height_m) height = terrain::on_lattice(height, lsb_m_);
+  for (float& height : tile.height_m) height = terrain::on_lattice(height, description_.lsb_m);
   near_ = std::make_shared<const terrain::Tile>(std::move(tile));
   return terrain::height_m(*near_, place).value_or(kNone);
 }

@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "components/runtime/config/scenario_seabed.h"
+#include "components/runtime/terrain/layered_seabed.h"
 #include "components/runtime/terrain/terrain_source.h"
-#include "kernels/relief/seabed.h"
 
 namespace ensonify::source {
 
@@ -21,8 +21,9 @@ class LayersSource : public TerrainSource {
   double lowest_m() const override { return lowest_m_; }
   double highest_m() const override { return highest_m_; }
   frames::Geodetic origin() const override { return origin_; }
-  double native_spacing_m() const override { return post_spacing_m_; }
+  double native_spacing_m() const override { return description_.post_spacing_m; }
   void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const override;
+  MeshedRelief meshed_relief() const override { return source::meshed_relief(description_, fields_); }
   /// Bilinear between posts on the lattice of heights, as a tile of them is.
   double height_m(const Vec2& place) const override;
 
@@ -30,10 +31,10 @@ class LayersSource : public TerrainSource {
   terrain::Tile tile_of(const relief::Window& window) const;
   void probe();
 
-  relief::Seabed seabed_;
+  Seabed description_;
+  LayeredFields fields_;
   Extent extent_;
   frames::Geodetic origin_;
-  double post_spacing_m_, lsb_m_;
   double lowest_m_ = 0.0, highest_m_ = 0.0;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const terrain::Tile> near_;  // posts around the place last asked for

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 #include <variant>
 
 #include "components/runtime/config/facet_slope.h"
+#include "components/runtime/terrain/layered_seabed.h"
 #include "components/runtime/terrain/seabed_places.h"
 #include "kernels/relief/intermittency.h"
 #include "kernels/seabed/resolved.h"
@@ -68,13 +70,13 @@ std::vector<Relief> reliefs_of(const Seabed& seabed) {
 }
 
 /// One place stands for all of them where no mask tells them apart.
-SeabedPlaces places_for(const std::vector<Relief>& reliefs, const Seabed& seabed, const GuideReader& read_guide) {
+SeabedPlaces places_for(const std::vector<Relief>& reliefs, const Seabed& seabed, const LayeredFields& fields) {
   std::set<std::string> masked;
   for (const Relief& relief : reliefs) {
     if (relief.masked || relief.has_rough) masked.insert(relief.layer);
   }
   if (masked.empty()) return {.count = 1, .seabed_class = {}, .mask = {}, .rough = {}};
-  return places_of(seabed.layered, seabed.post_spacing_m, read_guide, masked);
+  return places_of(seabed.layered, seabed.post_spacing_m, fields, masked);
 }
 
 /// Of values at places, that which half of the places exceed.
@@ -107,19 +109,15 @@ class SlopesOfClass {
   /// Mean square at a typical place, by relief that the sediment's law counts too.
   double typical() const { return typical_of(where_); }
 
-  /// What `uneven_classes` tells of a layer, but for what it makes of echoes.
+  /// What UnevenClass tells of a layer, but for what it makes of echoes.
   struct Part {
     std::string layer;
-    std::optional<double> share;
+    double share = 0.0;
     double lesser = 0.0;  // mean square at the lesser part's typical place
   };
   std::vector<Part> parts() const {
     std::vector<Part> parts;
     for (const Relief& relief : reliefs_) {
-      if (!known(relief)) {
-        parts.push_back({relief.layer, {}, std::min(own_, typical() + relief.mean_square)});
-        continue;
-      }
       std::vector<std::size_t> with, without;
       for (const std::size_t place : where_) (holds(relief, place) ? with : without).push_back(place);
       const double share = static_cast<double>(with.size()) / static_cast<double>(where_.size());
@@ -130,21 +128,11 @@ class SlopesOfClass {
   }
 
  private:
-  bool known(const Relief& relief) const {
-    return (!relief.masked || places_.mask.contains(relief.layer)) &&
-           (!relief.has_rough || places_.rough.contains(relief.layer));
-  }
-  /// 0 where nobody knows.
-  static double value_at(const std::map<std::string, std::vector<float>>& masks, const std::string& layer,
-                         std::size_t place) {
-    const auto found = masks.find(layer);
-    return found == masks.end() ? 0.0 : static_cast<double>(found->second[place]);
-  }
   double mask_at(const Relief& relief, std::size_t place) const {
-    return relief.masked ? value_at(places_.mask, relief.layer, place) : 1.0;
+    return relief.masked ? static_cast<double>(places_.mask.at(relief.layer)[place]) : 1.0;
   }
   double rough_at(const Relief& relief, std::size_t place) const {
-    return relief.has_rough ? value_at(places_.rough, relief.layer, place) : 1.0;
+    return relief.has_rough ? static_cast<double>(places_.rough.at(relief.layer)[place]) : 1.0;
   }
   bool holds(const Relief& relief, std::size_t place) const {
     return mask_at(relief, place) * rough_at(relief, place) >= 0.5;
@@ -200,53 +188,34 @@ double off_db(const seabed::MeshedSediment& meshed, double mean_square) {
 
 }  // namespace
 
-std::map<std::uint8_t, seabed::Scatterer> sediments_on_mesh(const Seabed& seabed, const GuideReader& read_guide) {
-  if (seabed.kind != Seabed::Kind::kLayers) return seabed.sediments;
+MeshedRelief meshed_relief(const Seabed& seabed, const LayeredFields& fields) {
   const auto reliefs = reliefs_of(seabed);
-  const auto places = places_for(reliefs, seabed, read_guide);
-  auto sediments = seabed.sediments;
-  for (auto& [number, scatterer] : sediments) {
-    const auto whole = whole_of(scatterer);
-    if (!whole) continue;
-    const auto meshed =
-        on_facets_of(*whole, SlopesOfClass(seabed, reliefs, places, number, sediment_of(*whole)).typical());
-    if (meshed.mean_square_slope > 0.0) scatterer = meshed;
-  }
-  return sediments;
-}
-
-std::vector<UnevenClass> uneven_classes(const Seabed& seabed, const GuideReader& read_guide) {
-  if (seabed.kind != Seabed::Kind::kLayers) return {};
-  const auto reliefs = reliefs_of(seabed);
-  const auto places = places_for(reliefs, seabed, read_guide);
-  std::vector<UnevenClass> found;
+  const auto places = places_for(reliefs, seabed, fields);
+  MeshedRelief found;
   for (const auto& [number, scatterer] : seabed.sediments) {
     const auto whole = whole_of(scatterer);
     if (!whole) continue;
     const SlopesOfClass slopes(seabed, reliefs, places, number, sediment_of(*whole));
+    const auto meshed = on_facets_of(*whole, slopes.typical());
+    if (meshed.mean_square_slope > 0.0) {
+      found.mean_square_slope.resize(number + 1U);
+      found.mean_square_slope[number] = meshed.mean_square_slope;
+    }
     for (const auto& part : slopes.parts()) {
-      const double db = off_db(on_facets_of(*whole, slopes.typical()), part.lesser);
-      if (std::abs(db) >= kWorthSaying_db) found.push_back({part.layer, number, part.share, db});
+      const double db = off_db(meshed, part.lesser);
+      if (std::abs(db) >= kWorthSaying_db) found.uneven.push_back({part.layer, number, part.share, db});
     }
   }
   return found;
 }
 
 std::string text_of(const UnevenClass& uneven) {
-  if (!uneven.share) {
-    return fmt::format(
-        "layer {} is not counted in the strength of class {}: what its mask looks at is in a guide's file. Where it "
-        "holds, echoes at right angles are off by up to {:+.1f} dB; give the sediment the facet_slope_deg that "
-        "ensonify "
-        "terrain facets tells",
-        uneven.layer, uneven.seabed_class, uneven.off_db);
-  }
   return fmt::format(
       "layer {} holds at {:.2f} of class {}, which has one strength for both parts: where it {}, echoes at right "
       "angles "
       "are off by up to {:+.1f} dB; give {} part a sediment of its own",
-      uneven.layer, *uneven.share, uneven.seabed_class, *uneven.share < 0.5 ? "holds" : "does not", uneven.off_db,
-      *uneven.share < 0.5 ? "that" : "the other");
+      uneven.layer, uneven.share, uneven.seabed_class, uneven.share < 0.5 ? "holds" : "does not", uneven.off_db,
+      uneven.share < 0.5 ? "that" : "the other");
 }
 
 }  // namespace ensonify::source

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -23,6 +24,14 @@ Seabed seabed_from(const std::string& text) {
   from.finish();
   seabed.layered.seed = 7;
   return seabed;
+}
+
+MeshedRelief relief_of(const Seabed& seabed, const GuideReader& read_guide = {}) {
+  return meshed_relief(seabed, fields_of(seabed.layered, seabed.post_spacing_m, read_guide));
+}
+
+std::map<std::uint8_t, seabed::Scatterer> sediments_on_mesh(const Seabed& seabed, const GuideReader& read_guide = {}) {
+  return on_mesh(seabed.sediments, relief_of(seabed, read_guide).mean_square_slope);
 }
 
 double slope_of(const seabed::Scatterer& scatterer) {
@@ -52,8 +61,8 @@ Seabed seabed_with(const std::string& layer, const std::string& ground = "{plane
 std::string masked(const std::string& mask) { return "spectral: {" + kSilt + "}, mask: {" + mask + "}"; }
 
 /// Counted mean square slope over that of medium silt everywhere.
-double share_of_silt(const Seabed& seabed, std::uint8_t seabed_class = 0) {
-  return slope_of(sediments_on_mesh(seabed).at(seabed_class)) / (kOfStrength * 0.000518);
+double share_of_silt(const Seabed& seabed, std::uint8_t seabed_class = 0, const GuideReader& read_guide = {}) {
+  return slope_of(sediments_on_mesh(seabed, read_guide).at(seabed_class)) / (kOfStrength * 0.000518);
 }
 
 /// Medium silt, 60 m x 60 m, with posts of 0.1 m on a bottom of 1:191.
@@ -132,7 +141,7 @@ TEST_CASE("what a layered seabed's heights have of a sediment's relief is told t
   const Seabed on_tiles =
       seabed_from("seabed: {kind: tiles, tiles: {folder: .}, sediments: {0: {name: medium silt, facet_slope_deg: " +
                   std::to_string(told_deg) + "}}}");
-  CHECK(slope_of(sediments_on_mesh(on_tiles).at(0)) == slope_of(sediments.at(0)));
+  CHECK(slope_of(on_tiles.sediments.at(0)) == slope_of(sediments.at(0)));
 }
 
 TEST_CASE("of uneven layers the slope of a typical place counts") {
@@ -178,25 +187,34 @@ TEST_CASE("what a mask of the seabed's shape holds on is looked up on the seabed
   CHECK(of(waves, "curvature_1pm: {from: 0.006}") == 0.0);
 }
 
-TEST_CASE("what a mask holds on that looks at a guide is known to whoever can read the guide") {
-  Seabed seabed = seabed_with(masked("depth_m: {to: 21}"));
-  seabed.layered.layers[0].form = layers::Guide{};
-  const GuideReader read_guide = [](const layers::Guide&) {  // 2 degrees to the north, as above
-    relief::Raster raster{42, 22, 10.0, {-210.0, -110.0}, {}};
-    for (int row = 0; row < 22; ++row)
-      raster.value.insert(raster.value.end(), 42, -20.0F - 0.035F * (10.0F * static_cast<float>(row) - 110.0F));
+TEST_CASE("what a mask of a guide's shape holds on is looked up on the guide") {
+  const GuideReader read_guide = [](const layers::Guide&) {  // 2 degrees to the north, and waves to the east, as above
+    relief::Raster raster{82, 42, 5.0, {-205.0, -105.0}, {}};
+    for (int row = 0; row < 42; ++row) {
+      for (int column = 0; column < 82; ++column) {
+        const double east_m = 5.0 * column - 205.0, north_m = 5.0 * row - 105.0;
+        raster.value.push_back(
+            static_cast<float>(-20.0 - 0.035 * north_m + std::sin(2.0 * std::numbers::pi * east_m / 40.0)));
+      }
+    }
     return raster;
   };
-  CHECK(share_of_silt(seabed) == 0.0);
-  CHECK(slope_of(sediments_on_mesh(seabed, read_guide).at(0)) == Approx(kOfStrength * 0.000518).epsilon(0.005));
-  const auto blind = uneven_classes(seabed), seen = uneven_classes(seabed, read_guide);
-  REQUIRE(blind.size() == 2);  // classes 0 and 1
-  CHECK_FALSE(blind[0].share.has_value());
-  CHECK(blind[0].off_db < -0.1);
-  CHECK_THAT(text_of(blind[0]), Catch::Contains("layer silt is not counted in the strength of class 0"));
-  REQUIRE(seen.size() == 2);
-  CHECK(seen[0].share == Approx(0.64).margin(0.03));
-  CHECK_THAT(text_of(seen[0]), Catch::Contains("layer silt holds at 0.6"));
+  const auto of = [&](const std::string& mask) {
+    Seabed seabed = seabed_with(masked(mask));
+    seabed.layered.layers[0].form = layers::Guide{};
+    return seabed;
+  };
+  const auto share = [&](const std::string& mask) { return share_of_silt(of(mask), 0, read_guide); };
+  CHECK(share("depth_m: {to: 21}") == kAll);
+  CHECK(share("depth_m: {to: 19}") == 0.0);
+  CHECK(share("slope_deg: {from: 4}") == kAll);
+  CHECK(share("slope_deg: {from: 7}") == 0.0);
+  CHECK(share("curvature_1pm: {from: -0.006}") == kAll);
+  CHECK(share("curvature_1pm: {from: 0.006}") == 0.0);
+  const auto uneven = relief_of(of("depth_m: {to: 21}"), read_guide).uneven;
+  REQUIRE(uneven.size() == 2);  // classes 0 and 1
+  CHECK(uneven[0].share == Approx(0.62).margin(0.03));
+  CHECK_THAT(text_of(uneven[0]), Catch::Contains("layer silt holds at 0.6"));
 }
 
 TEST_CASE("facets of a seabed that is rough here and smooth there return on average what the plane's law says") {
@@ -223,7 +241,7 @@ TEST_CASE("of a class that is rough in part the author hears by how much the les
   const auto of = [&](const std::string& band) { return silt_with("silt: {" + silt + band + "}, of: ground}}"); };
   for (const bool rough_is_more : {true, false}) {
     const Seabed seabed = of(rough_is_more ? "to: 20.03" : "from: 20.03");
-    const auto uneven = uneven_classes(seabed);
+    const auto uneven = relief_of(seabed).uneven;
     REQUIRE(uneven.size() == 1);
     CHECK(uneven[0].layer == "silt");
     CHECK(uneven[0].seabed_class == 0);
@@ -237,6 +255,6 @@ TEST_CASE("of a class that is rough in part the author hears by how much the les
     CHECK(uneven[0].off_db == Approx(lesser_db - greater_db).margin(0.2));  // 100,000 facets and more on either part
     CHECK(uneven[0].off_db * (rough_is_more ? 1 : -1) > 2.0);
   }
-  CHECK(uneven_classes(of("to: 20.15")).empty());  // all but 0.02
-  CHECK(uneven_classes(seabed_with(masked("sediment: [0]"))).empty());
+  CHECK(relief_of(of("to: 20.15")).uneven.empty());  // all but 0.02
+  CHECK(relief_of(seabed_with(masked("sediment: [0]"))).uneven.empty());
 }

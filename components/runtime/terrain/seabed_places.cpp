@@ -27,19 +27,6 @@ void for_masks_of(const layers::Layer& layer, const What& what) {
   if (spectral != nullptr && spectral->rough) for_masks_in(*spectral->rough, what);
 }
 
-bool is_of_guide(const layers::Layer& layer) {
-  return layer.used &&
-         (std::holds_alternative<layers::Guide>(layer.form) || std::holds_alternative<layers::Restored>(layer.form));
-}
-
-bool looks_at_ground(const layers::Mask& mask) {
-  bool looks = false;
-  for_masks_in(mask, [&](const layers::Mask& one) {
-    looks = looks || one.depth_m || one.slope || one.curvature_1pm || !one.sediments.empty();
-  });
-  return looks;
-}
-
 /// The level of the lattice at which the finest of all masks looks.
 int level_of(const LayeredSeabed& seabed, double post_spacing_m) {
   double finest_m = std::numeric_limits<double>::infinity();
@@ -92,24 +79,17 @@ std::vector<std::uint8_t> classes_at(const relief::Seabed& seabed, const std::ve
 
 }  // namespace
 
-SeabedPlaces places_of(const LayeredSeabed& seabed, double post_spacing_m, const GuideReader& read_guide,
+SeabedPlaces places_of(const LayeredSeabed& seabed, double post_spacing_m, const LayeredFields& fields,
                        const std::set<std::string>& layers) {
-  const bool blind = !read_guide && std::ranges::any_of(seabed.layers, is_of_guide);
-  LayeredSeabed known = seabed;
-  for (layers::Layer& layer : known.layers) layer.used = layer.used && !(blind && is_of_guide(layer));
-  const LayeredFields fields = fields_of(known, post_spacing_m, read_guide);
   const auto blocks = blocks_of(seabed, post_spacing_m, level_of(seabed, post_spacing_m));
-
   SeabedPlaces places;
   places.count = blocks.size() * blocks.front().size();
-  if (!blind) places.seabed_class = classes_at(fields.seabed, blocks);
-  for (const layers::Layer& layer : known.layers) {
-    if (!layer.used || !layers.contains(layer.name)) continue;
-    if (layer.mask && !(blind && looks_at_ground(*layer.mask)))
-      places.mask[layer.name] = sampled(fields.masks.at(layer.name), blocks);
-    const auto* spectral = std::get_if<layers::Spectral>(&layer.form);
-    if (spectral != nullptr && spectral->rough && !(blind && looks_at_ground(*spectral->rough)))
-      places.rough[layer.name] = sampled(fields.rough.at(layer.name), blocks);
+  places.seabed_class = classes_at(fields.seabed, blocks);
+  for (const std::string& layer : layers) {
+    if (const auto mask = fields.masks.find(layer); mask != fields.masks.end())
+      places.mask[layer] = sampled(mask->second, blocks);
+    if (const auto rough = fields.rough.find(layer); rough != fields.rough.end())
+      places.rough[layer] = sampled(rough->second, blocks);
   }
   return places;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/terrain/meshed_relief.h"
 #include "kernels/frames/local_projection.h"
 #include "kernels/terrain/tile.h"
 
@@ -70,6 +71,8 @@ class TerrainSource {
   virtual void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const = 0;
   /// The same of overview_posts(extent()), the heights.
   virtual Overview overview() const;
+  /// What facets between its posts have of the sediments' relief, where it knows what its heights are made of.
+  virtual MeshedRelief meshed_relief() const { return {}; }
   /// Height at one place; NaN where nothing is known.
   virtual double height_m(const Vec2& place) const = 0;
 };
