@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/motion/climb.h"
+#include "kernels/motion/approach.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;
@@ -49,18 +49,18 @@ TEST_CASE("over a ridge of 1 in 5 a vehicle that climbs 0.5 m/s keeps its floor"
   // 2 m/s over a ridge of slope 0.2: the bottom rises 0.4 m/s. Looking 10 s ahead outweighs the filter's settling.
   const HeightRules rules{5.0, 2.0, 0.0, 1e4, 10.0};
   BottomTrack track;
-  motion::Climb at{-25.0, 0.0, 0.0};
+  motion::Moving at{-25.0, 0.0, 0.0};
   double least_altitude_m = 1e9;
   for (int i = 0; i < 3000; ++i) {
     const double x_m = 2.0 * 0.1 * i;
     const double bottom_m = 30.0 - 0.2 * std::max(0.0, 60.0 - std::abs(x_m - 200.0));
-    const double altitude_m = bottom_m + at.height_m;
+    const double altitude_m = bottom_m + at.value;
     least_altitude_m = std::min(least_altitude_m, altitude_m);
-    track = track_bottom(track, -at.height_m, altitude_m, 0.1, 2.0);
-    const HeightOrder order = follow_bottom(rules, track, -at.height_m, altitude_m);
+    track = track_bottom(track, -at.value, altitude_m, 0.1, 2.0);
+    const HeightOrder order = follow_bottom(rules, track, -at.value, altitude_m);
     CHECK_FALSE(order.too_low);
-    at = motion::climb(at, -order.depth_m, 0.1, 0.5, 0.2);
+    at = motion::approach(at, -order.depth_m, 0.1, 0.5, 0.2);
   }
   CHECK(least_altitude_m > 3.5);
-  CHECK(-at.height_m == Approx(25.0).margin(0.01));
+  CHECK(-at.value == Approx(25.0).margin(0.01));
 }

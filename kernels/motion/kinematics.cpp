@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "kernels/motion/climb.h"
+#include "kernels/motion/approach.h"
 
 namespace ensonify::motion {
 namespace {
@@ -95,6 +95,67 @@ State advance_level(const State& state, const Command& command, double dt_s, con
   return turn_at_rate(state, command, dt_s, limits);
 }
 
+/// The way that a turn with inertia takes, from 0 at the heading of now. At most as fast as the mean speed allows, so
+/// that who turns on the circle turns by distance over radius whatever the speed does.
+Moving turning(const State& state, const Command& command, double dt_s, double mean_mps, const Limits& limits) {
+  const double fastest_radps = turn_rate_radps(mean_mps, limits);
+  if (fastest_radps == 0.0) return {};
+  return approach({0.0, state.turn_radps}, turn_to_go_rad(state, command), dt_s, fastest_radps,
+                  limits.turn_acceleration_radps2);
+}
+
+/// Heading and speed of a turn with inertia after a short time; the place stays.
+State turned(const State& state, const Command& command, double dt_s, const Limits& limits) {
+  const Ramp ramp = speed_ramp(state.speed_mps, command.speed_mps, dt_s, limits);
+  const double mean_mps = ramp.distance_m / dt_s, fastest_radps = turn_rate_radps(ramp.speed_mps, limits);
+  const Moving turn = turning(state, command, dt_s, mean_mps, limits);
+  const bool on_circle = std::abs(turn.rate) >= std::min(fastest_radps, turn_rate_radps(mean_mps, limits));
+  State next = state;
+  next.speed_mps = ramp.speed_mps;
+  next.heading_rad = frames::wrap_two_pi(state.heading_rad + turn.value);
+  next.turn_radps = on_circle ? std::copysign(fastest_radps, turn.rate) : turn.rate;
+  return next;
+}
+
+/// East and north, heading and speed of a turn with inertia: Simpson's rule over pieces of at most 10 ms.
+State advance_with_inertia(const State& state, const Command& command, double dt_s, const Limits& limits) {
+  constexpr double kPiece_s = 0.01;
+  const double pieces = std::ceil(dt_s / kPiece_s - 1e-9), piece_s = dt_s / pieces;
+  State now = state;
+  for (double piece = 0.0; piece < pieces; ++piece) {
+    const State middle = turned(now, command, 0.5 * piece_s, limits);
+    State end = turned(now, command, piece_s, limits);
+    const auto weighed = [](double weight, const State& at) -> Vec3 {
+      return weight * at.speed_mps * forward(at.heading_rad);
+    };
+    const double sum_mps = now.speed_mps + 4.0 * middle.speed_mps + end.speed_mps;
+    const double distance_m = speed_ramp(now.speed_mps, command.speed_mps, piece_s, limits).distance_m;
+    if (sum_mps > 0.0) {
+      const Vec3 way_mps = weighed(1.0, now) + weighed(4.0, middle) + weighed(1.0, end);
+      end.position_enu_m += distance_m / sum_mps * way_mps;
+    }
+    now = end;
+  }
+  return now;
+}
+
+/// Rate of turn, and how it changes: by inertia, or with the speed where the radius limits it.
+Moving turn_now(const State& state, const Command& command, double speed_mps2, const Limits& limits) {
+  Moving turn;
+  if (std::isinf(limits.turn_acceleration_radps2)) {
+    const double to_go_rad = turn_to_go_rad(state, command);
+    if (to_go_rad != 0.0) turn.rate = std::copysign(turn_rate_radps(state.speed_mps, limits), to_go_rad);
+  } else {
+    turn = turning(state, command, 0.0, state.speed_mps, limits);
+    turn.rate = state.turn_radps;
+  }
+  const bool by_radius = state.speed_mps < limiting_speed_mps(limits);
+  if (turn.acceleration == 0.0 && turn.rate != 0.0 && by_radius) {
+    turn.acceleration = std::copysign(1.0, turn.rate) * speed_mps2 / limits.turning_radius_m;
+  }
+  return turn;
+}
+
 }  // namespace
 
 Ramp speed_ramp(double speed_mps, double target_mps, double dt_s, const Limits& limits) {
@@ -117,30 +178,28 @@ double turning_circle_m(double speed_mps, const Limits& limits) {
 }
 
 State advance(const State& state, const Command& command, double dt_s, const Limits& limits) {
-  State next = advance_level(state, command, dt_s, limits);
-  const Climb up = climb({state.position_enu_m.z(), state.climb_mps, 0.0}, command.height_m, dt_s,
-                         limits.vertical_speed_mps, limits.vertical_acceleration_mps2);
-  next.position_enu_m.z() = up.height_m;
-  next.climb_mps = up.speed_mps;
+  State next = std::isinf(limits.turn_acceleration_radps2) ? advance_level(state, command, dt_s, limits)
+                                                           : advance_with_inertia(state, command, dt_s, limits);
+  const Moving up = approach({state.position_enu_m.z(), state.climb_mps}, command.height_m, dt_s,
+                             limits.vertical_speed_mps, limits.vertical_acceleration_mps2);
+  next.position_enu_m.z() = up.value;
+  next.climb_mps = up.rate;
   return next;
 }
 
 frames::MovingPose moving_pose(const State& state, const Command& command, const Limits& limits) {
-  const double to_go_rad = turn_to_go_rad(state, command);
-  const double side = to_go_rad == 0.0 ? 0.0 : std::copysign(1.0, to_go_rad);
-  const double turn_rate = side * turn_rate_radps(state.speed_mps, limits);
   const double along =
       state.speed_mps == command.speed_mps ? 0.0 : speed_rate_mps2(state.speed_mps, command.speed_mps, limits);
-  const bool by_radius = state.speed_mps < limiting_speed_mps(limits);
+  const Moving turn = turn_now(state, command, along, limits);
 
   double climb_mps = state.climb_mps, climb_mps2 = 0.0;
   const double way_up_m = command.height_m - state.position_enu_m.z();
   if (std::isinf(limits.vertical_acceleration_mps2)) {
     climb_mps = way_up_m == 0.0 ? 0.0 : std::copysign(limits.vertical_speed_mps, way_up_m);
   } else {
-    climb_mps2 = climb({state.position_enu_m.z(), climb_mps, 0.0}, command.height_m, 0.0, limits.vertical_speed_mps,
-                       limits.vertical_acceleration_mps2)
-                     .acceleration_mps2;
+    climb_mps2 = approach({state.position_enu_m.z(), climb_mps}, command.height_m, 0.0, limits.vertical_speed_mps,
+                          limits.vertical_acceleration_mps2)
+                     .acceleration;
   }
 
   frames::MovingPose moving;
@@ -148,10 +207,10 @@ frames::MovingPose moving_pose(const State& state, const Command& command, const
   moving.pose.enu_from_body = frames::enu_from_body({state.heading_rad, 0.0, 0.0});
   moving.velocity_enu_mps = state.speed_mps * forward(state.heading_rad) + climb_mps * Vec3::UnitZ();
   moving.acceleration_enu_mps2 = along * forward(state.heading_rad) +
-                                 state.speed_mps * turn_rate * starboard(state.heading_rad) +
+                                 state.speed_mps * turn.rate * starboard(state.heading_rad) +
                                  climb_mps2 * Vec3::UnitZ();
-  moving.angular_rate_body_radps = turn_rate * Vec3::UnitZ();
-  if (by_radius) moving.angular_acceleration_body_radps2 = side * along / limits.turning_radius_m * Vec3::UnitZ();
+  moving.angular_rate_body_radps = turn.rate * Vec3::UnitZ();
+  moving.angular_acceleration_body_radps2 = turn.acceleration * Vec3::UnitZ();
   return moving;
 }
 

@@ -102,6 +102,9 @@ Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
   from.optional("deceleration_mps2", vehicle.limits.deceleration_mps2, 1e-3, 20);
   from.optional("turning_radius_m", vehicle.limits.turning_radius_m, 0.1, 1000);
   from.optional("turn_rate_dps", vehicle.limits.turn_rate_radps, 0.01, 360, kDegrees);
+  vehicle.limits.turn_acceleration_radps2 = 10.0 * kDegrees.si;  // assumed: a launch has its turn in a second or two
+  vehicle.limits.vertical_acceleration_mps2 = 0.2;               // assumed: an AUV has its climb in two or three
+  from.optional("turn_acceleration_dps2", vehicle.limits.turn_acceleration_radps2, 0.1, 10000, kDegrees);
   from.optional("vertical_speed_mps", vehicle.limits.vertical_speed_mps, 1e-3, 20);
   from.optional("vertical_acceleration_mps2", vehicle.limits.vertical_acceleration_mps2, 1e-3, 20);
   from.optional("fastest_mps", vehicle.fastest_mps, 0.01, 30);

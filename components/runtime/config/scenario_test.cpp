@@ -63,6 +63,8 @@ TEST_CASE("a scenario is read whole, in SI units") {
   CHECK(bay.seabed.layered.seed == 7);
   CHECK(bay.mission.speed_mps == Approx(4 * 0.514444).margin(1e-5));
   CHECK(bay.vehicle().limits.turning_radius_m == 12);
+  CHECK(bay.vehicle().limits.turn_acceleration_radps2 == Approx(10 * 3.14159265358979 / 180));
+  CHECK(bay.vehicle().limits.vertical_acceleration_mps2 == 0.2);
   CHECK(bay.vehicle("auv").waves.roll_rad.period_s == 7);
   CHECK_FALSE(bay.vehicle().start.has_value());
   CHECK_THROWS_AS(bay.vehicle("usv"), std::out_of_range);
