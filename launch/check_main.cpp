@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -16,9 +17,11 @@ namespace {
 using namespace ensonify;
 using namespace ensonify::launcher;
 
-/// Guides are read for it: a scenario that the pager refuses has been told already.
+/// Guides are read for it, so it is for launches whose pager reads them too: what it refuses has been told already.
 void append_uneven(const Launch& launch, std::vector<std::string>& warnings) {
-  if (!launch.has_scenario || launch.scenario.seabed.kind != Seabed::Kind::kLayers) return;
+  const bool paged = std::ranges::any_of(
+      launch.processes, [](const ProcessSpec& process) { return process.component == "terrain_pager"; });
+  if (!paged || !launch.has_scenario || launch.scenario.seabed.kind != Seabed::Kind::kLayers) return;
   const source::LayersSource seabed(launch.scenario.seabed, launch.scenario.site.origin);
   for (const auto& uneven : seabed.meshed_relief().uneven) warnings.push_back(text_of(uneven));
 }

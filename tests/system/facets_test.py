@@ -100,6 +100,14 @@ class Facets(SystemTest):
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertRegex(told.stderr, r"(?m)^warning: layer mud holds at 0\.[45]\d of class 0,")
 
+    def test_check_reads_no_guide_for_a_launch_without_a_pager(self):
+        self.written("unread", MASKED)
+        self.write("guide.asc", "no raster")
+        launch = self.write("unread.yaml", "ensonify: launch/1\nscenario: unread.scenario.yaml\nduration_s: 1\n"
+                                           "processes: { boat: { run: vehicle } }\n")
+        told = self.tool("check", launch)
+        self.assertEqual(told.returncode, 0, told.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
