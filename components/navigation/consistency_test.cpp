@@ -72,10 +72,14 @@ double mean_of(const std::vector<Nees>& epochs, double Nees::*of) {
 TEST_CASE("estimates are as wrong as they say, with instruments as graded") {
   const std::string gnss = "gnss: { grade: rtk, position_m: [-1, 0.5, -3] }\n";
   const auto magnetic = [&](std::uint64_t seed) {
-    return gnss + "imu: { grade: mems, rotation_deg: [0, 0, 90], measured_rotation_deg: [0, 0, 90] }\n" +
+    return gnss +
+           "imu: { grade: mems, position_m: [2, 0.5, 1], rotation_deg: [0, 0, 90], measured_rotation_deg: [0, 0, 90] "
+           "}\n" +
            "heading: { grade: magnetic, " + deviation(seed) + " }";
   };
-  const auto satellite = [&](std::uint64_t) { return gnss + "imu: { grade: fog }\nheading: { grade: satellite }"; };
+  const auto satellite = [&](std::uint64_t) {
+    return gnss + "imu: { grade: fog, position_m: [1, 0.5, 0.3] }\nheading: { grade: satellite }";
+  };
   // The mean of 200 with three degrees of freedom each has the deviation sqrt(6 / 200) = 0.17. A run's epochs share
   // what is drawn once, so their mean is hardly more certain: 3.3 deviations, one in a thousand.
   const auto check = [](const std::vector<Nees>& epochs) {

@@ -137,12 +137,12 @@ msg::Estimate Estimator::estimate(const frames::LocalProjection& world) const {
   estimate.enu_from_body = frames::wxyz_of(enu_from_unit * mounting.body_from_head.conjugate());
   estimate.velocity_enu_mps = plain(enu_from_ned * unit.velocity_ned_mps + enu_from_unit * swing);
   const Eigen::Matrix3d turn = enu_from_ned.toRotationMatrix();
-  const auto in_enu = [&](int first) {
-    return rows_of(turn * filter_->covariance().block<3, 3>(first, first) * turn.transpose());
-  };
-  estimate.position_covariance_enu_m2 = in_enu(navigation_filter::kPosition);
-  estimate.velocity_covariance_enu_m2ps2 = in_enu(navigation_filter::kVelocity);
-  estimate.rotation_covariance_enu_rad2 = in_enu(navigation_filter::kRotation);
+  const auto in_enu = [&](const Eigen::Matrix3d& ned) { return rows_of(turn * ned * turn.transpose()); };
+  const auto origin = filter_->covariance_at(origin_unit_m);
+  estimate.position_covariance_enu_m2 = in_enu(origin.position_m2);
+  estimate.velocity_covariance_enu_m2ps2 = in_enu(origin.velocity_m2ps2);
+  constexpr int kRotation = navigation_filter::kRotation;
+  estimate.rotation_covariance_enu_rad2 = in_enu(filter_->covariance().block<3, 3>(kRotation, kRotation));
   return estimate;
 }
 

@@ -75,7 +75,9 @@ void NavigationFilter::propagate(const inertial::Inertial& measured, double dt_s
                                      measured.force_mps2 - force_bias_ - force_matrix_ * measured.force_mps2};
   const frames::Quaternion before = state_.ned_from_body;
   state_ = inertial::advance(state_, corrected, dt_s, earth_);
+  if (interval_s_ > 0.0) rate_growth_radps_ = dt_s / (dt_s + interval_s_) * (corrected.rate_radps - rate_radps_);
   rate_radps_ = corrected.rate_radps;
+  interval_s_ = dt_s;
   pending_turn_rad_ += dt_s * corrected.rate_radps;
   pending_velocity_ned_ += dt_s * (before.slerp(0.5, state_.ned_from_body) * corrected.force_mps2);
   pending_s_ += dt_s;
@@ -253,7 +255,35 @@ void NavigationFilter::add(const Eigen::Matrix<double, kErrorCount, 1>& errors) 
 }
 
 Vec3 NavigationFilter::turn_rate_radps() const {
-  return rate_radps_ - state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
+  return rate_radps_ + rate_growth_radps_ -
+         state_.ned_from_body.conjugate() * inertial::earth_rate_ned_radps(state_, earth_);
+}
+
+NavigationFilter::PointCovariance NavigationFilter::covariance_at(const Vec3& lever_body_m) const {
+  // The errors that count, of the velocity's observation v + C (rate x lever): rate's error is that of the gyros.
+  constexpr int kMotion = kForceBias, kAll = kMotion + 9;
+  const Matrix3d ned_from_body = state_.ned_from_body.toRotationMatrix();
+  const Vec3 rate = turn_rate_radps();
+  const Matrix3d swings = ned_from_body * cross(lever_body_m);  // what an error of the gyros does to the velocity
+  Eigen::Matrix<double, 3, kAll> place = Eigen::Matrix<double, 3, kAll>::Zero(), velocity = place;
+  place.middleCols<3>(kPosition).setIdentity();
+  place.middleCols<3>(kRotation) = -cross(ned_from_body * lever_body_m);
+  velocity.middleCols<3>(kVelocity).setIdentity();
+  velocity.middleCols<3>(kRotation) = -cross(ned_from_body * rate.cross(lever_body_m));
+  velocity.middleCols<3>(kGyroBias) = swings;
+  for (int row = 0; row < 3; ++row) {
+    velocity.middleCols<3>(kMotion + 3 * row) = swings.col(row) * rate.transpose();
+  }
+  Eigen::Matrix<double, kAll, kAll> of;
+  of.topLeftCorner<kMotion, kMotion>() = covariance_.topLeftCorner<kMotion, kMotion>();
+  of.topRightCorner<kMotion, 9>() = covariance_.block<kMotion, 9>(0, kGyroMatrix);
+  of.bottomLeftCorner<9, kMotion>() = covariance_.block<9, kMotion>(kGyroMatrix, 0);
+  of.bottomRightCorner<9, 9>() = covariance_.block<9, 9>(kGyroMatrix, kGyroMatrix);
+  PointCovariance at{place * of * place.transpose(), velocity * of * velocity.transpose()};
+  if (interval_s_ > 0.0) {  // white noise of a rate that is 3/2 of a reading less 1/2 of the one before
+    at.velocity_m2ps2 += 2.5 * squared(model_.imu.gyro.random_walk) / interval_s_ * swings * swings.transpose();
+  }
+  return at;
 }
 
 Innovation NavigationFilter::correct_position(const Fix& fix, double age_s) {

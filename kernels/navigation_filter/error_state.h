@@ -123,8 +123,15 @@ class NavigationFilter {
   const Covariance& covariance() const { return covariance_; }
   Vec3 gyro_bias_radps() const { return gyro_bias_; }
   Vec3 force_bias_mps2() const { return force_bias_; }
-  /// Of the body against the turning Earth, along its axes, as last measured and corrected.
+  /// Of the body against the turning Earth, along its axes, now: readings are means of intervals, so it is the last
+  /// one, corrected, and half of what it grew by since the one before.
   Vec3 turn_rate_radps() const;
+  /// How wrong place and velocity of another point of the body are, north, east, down: its place hangs on the attitude,
+  /// its velocity on the turn rate as well.
+  struct PointCovariance {
+    Eigen::Matrix3d position_m2, velocity_m2ps2;
+  };
+  PointCovariance covariance_at(const Vec3& lever_body_m) const;
   Vec3 fix_error_ned_m() const { return fix_error_; }
   double log_scale() const { return log_scale_; }
   Vec3 current_ned_mps() const { return current_ned_; }  // of the tracked water; down is zero
@@ -158,7 +165,9 @@ class NavigationFilter {
   double log_scale_ = 0.0, level_error_m_ = 0.0, compass_wander_rad_ = 0.0;
   Eigen::Matrix<double, 5, 1> compass_deviation_rad_ = Eigen::Matrix<double, 5, 1>::Zero();
   Eigen::Matrix3d gyro_matrix_ = Eigen::Matrix3d::Zero(), force_matrix_ = Eigen::Matrix3d::Zero();
-  Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, last
+  Vec3 rate_radps_ = Vec3::Zero();            // of the body against inertial space, mean of the last interval
+  Vec3 rate_growth_radps_ = Vec3::Zero();     // of that rate, from the middle of the last interval to its end
+  double interval_s_ = 0.0;                   // the last one
   Vec3 pending_velocity_ned_ = Vec3::Zero();  // of specific force, since the covariance was last propagated
   Vec3 pending_turn_rad_ = Vec3::Zero();      // the angle turned since then, along body axes
   double pending_s_ = 0.0;

@@ -104,6 +104,63 @@ TEST_CASE("what rests on the turning Earth does not turn") {
   CHECK(filter.turn_rate_radps().norm() < 1e-9);
 }
 
+TEST_CASE("the turn rate is that of now, not the mean of the last reading's interval") {
+  // A rate that grows evenly, read over intervals of different lengths: exact.
+  const Vec3 at_start(0.02, -0.01, 0.05), growth(0.1, 0.17, -0.03);
+  NavigationFilter filter({}, kNone, {}, kResting);
+  double t_s = 0.0;
+  for (const double dt_s : {0.01, 0.01, 0.05, 0.02}) {
+    filter.propagate({at_start + (t_s + 0.5 * dt_s) * growth, kLevelAtRest.force_mps2}, dt_s);
+    const bool first = t_s == 0.0;  // of which nobody knows how it grows
+    t_s += dt_s;
+    CHECK((filter.turn_rate_radps() - at_start - t_s * growth).norm() == Approx(0).margin(first ? 1e-3 : 1e-12));
+  }
+}
+
+TEST_CASE("another point of the body is as wrong as the unit, the lever and the turn make it") {
+  // 3 m ahead of a unit that points north and turns, level, at 0.2 rad/s: the point goes east at 0.6 m/s. Each error
+  // alone.
+  const Vec3 lever(3, 0, 0);
+  const Inertial turning{{0, 0, 0.2}, kLevelAtRest.force_mps2};
+  constexpr double kStep_s = 1e-3;  // in which nothing else has time to grow
+  const auto at = [&](const StartErrors& errors, const FilterModel& model) {
+    NavigationFilter filter({}, errors, model, kResting);
+    filter.propagate(turning, kStep_s);
+    const auto of = filter.covariance_at(lever);
+    return std::pair<Vec3, Vec3>(of.position_m2.diagonal().cwiseSqrt(), of.velocity_m2ps2.diagonal().cwiseSqrt());
+  };
+  const auto is = [](const Vec3& found, const Vec3& expected) {
+    CAPTURE(found.transpose(), expected.transpose());
+    CHECK((found - expected).norm() < 1e-3 * expected.norm() + 1e-12);
+  };
+  const auto [still, slow] = at({2.0, 3.0, 0.1, 0, 0}, {});
+  is(still, {2, 2, 3});
+  is(slow, {0.1, 0.1, 0.1});
+  const auto [placed, moved] = at({0, 0, 0, 0.01, 0.02}, {});
+  is(placed, {0, 3 * 0.02, 3 * 0.01});     // swung by heading and by pitch
+  is(moved, {0.6 * 0.02, 0, 0.6 * 0.01});  // the 0.6 m/s east, turned by heading and by roll
+  FilterModel model;
+  model.imu.gyro.turn_on_bias = 1e-3;
+  is(at(kNone, model).second, {0, 3e-3, 3e-3});
+  model = {};
+  model.imu.gyro.scale_factor = 0.01;
+  is(at(kNone, model).second, {0, 0.6 * 0.01, 0});
+  model = {};
+  model.imu.gyro.misalignment_rad = 0.01;  // of the upright axis into pitch
+  is(at(kNone, model).second, {0, 0, 0.6 * 0.01});
+  model = {};
+  model.imu.gyro.random_walk = 1e-4;  // 3/2 of a reading less 1/2 of the one before
+  const double noise_mps = 3 * 1e-4 * std::sqrt(2.5 / kStep_s);
+  is(at(kNone, model).second, {0, noise_mps, noise_mps});
+
+  // The errors of both are one where the unit swings about a point that is known: a fix there leaves little doubt of
+  // it.
+  NavigationFilter filter({}, {10, 10, 0.1, 0.01, 0.05}, {}, kResting);
+  filter.correct_position({0, 0, 0, lever, Vec3::Constant(0.01)});
+  CHECK(std::sqrt(filter.covariance_at(lever).position_m2(1, 1)) == Approx(0.01).epsilon(1e-3));
+  CHECK(sigma(filter, kPosition + 1) == Approx(std::hypot(0.01, 3 * 0.05)).epsilon(1e-3));
+}
+
 TEST_CASE("observations point the right way: what is measured exactly is taken over") {
   // The vehicle points north-east and up, rolled, its sensors off its origin. The estimate starts wrong in one
   // respect, and is told the truth by the sensor that sees it.
