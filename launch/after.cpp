@@ -20,11 +20,7 @@ int run_to_end(const Command& command) {
       child.send(interrupted ? SIGKILL : SIGTERM);
       interrupted = true;
     }
-    while (const auto reaped = reap()) {
-      if (reaped->pid == child.pid()) {
-        child.ended(reaped->wait_status, reaped->max_rss_kib, reaped->cpu_s);
-      }
-    }
+    reap_into(child);
   }
   if (interrupted) {
     return kExitInterrupted;

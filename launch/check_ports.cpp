@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "components/runtime/launch_wiring.h"
@@ -41,29 +41,19 @@ struct ScratchFolder {
 };
 
 struct Answer {
-  Ending ending;
+  std::optional<Ending> ending;  // nothing: it was killed
   std::string out;
   std::string error;
+
+  bool ended_with(int code) const { return ending && ending->signal == 0 && ending->exit_code == code; }
 };
 
 Answer ask(Command command, const std::string& folder, Signals& signals) {
   command.log_file = folder + "/out";
   command.error_file = folder + "/error";
   Child child(command);
-  const auto until = std::chrono::steady_clock::now() + kPatience;
-  while (child.running()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    if (left.count() <= 0 || signals.take().interrupts > 0) {
-      child.send(SIGKILL);
-    }
-    signals.wait(std::max(left, std::chrono::milliseconds(10)));
-    while (const auto reaped = reap()) {
-      if (reaped->pid == child.pid()) {
-        child.ended(reaped->wait_status, reaped->max_rss_kib, reaped->cpu_s);
-      }
-    }
-  }
-  return {*child.ending(), tail(command.log_file, kAllLines), tail(command.error_file, kAllLines)};
+  const auto ending = end_within(child, signals, kPatience);
+  return {ending, tail(command.log_file, kAllLines), tail(command.error_file, kAllLines)};
 }
 
 /// Adds what one program said; false when it was no declaration.
@@ -101,11 +91,10 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
       command.argv.emplace_back("--check");
       const Answer answer = ask(std::move(command), folder.path, signals);
       const bool native = process.argv.empty();
-      if (answer.ending.signal == 0 && answer.ending.exit_code == kExitOk &&
-          add_declaration(answer.out, process.name, checked)) {
+      if (answer.ended_with(kExitOk) && add_declaration(answer.out, process.name, checked)) {
         continue;
       }
-      if (native || answer.ending.exit_code == kExitUserError) {
+      if (native || answer.ended_with(kExitUserError)) {
         const std::string said = answer.error.empty() ? answer.out : answer.error;
         checked.problems.push_back(said.empty() ? process.name + ": --check failed without a word" : said);
       } else {
@@ -131,7 +120,7 @@ std::vector<std::string> unpaged_mission_problems(const Launch& launch, const Ru
   const ScratchFolder folder;
   Signals signals;
   const Answer answer = ask(std::move(command), folder.path, signals);
-  if (answer.ending.signal != 0 || answer.ending.exit_code != kExitUserError) return {};
+  if (!answer.ended_with(kExitUserError)) return {};
   return {answer.error};
 }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include <fstream>
 
 #include "components/runtime/exit_error.h"
+#include "launch/signals.h"
 
 extern char** environ;
 
@@ -192,6 +194,33 @@ std::optional<Reaped> reap() {
   reaped.max_rss_kib = usage.ru_maxrss;
   reaped.cpu_s = in_s(usage.ru_utime) + in_s(usage.ru_stime);
   return reaped;
+}
+
+void reap_into(Child& child) {
+  while (const auto reaped = reap()) {
+    if (reaped->pid == child.pid()) {
+      child.ended(reaped->wait_status, reaped->max_rss_kib, reaped->cpu_s);
+    }
+  }
+}
+
+std::optional<Ending> end_within(Child& child, Signals& signals, std::chrono::milliseconds patience) {
+  using std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kEver{-1};
+  const auto until = steady_clock::now() + patience;
+  bool killed = false;
+  while (child.running()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
+    const bool heard = signals.wait(killed ? kEver : std::max(left, std::chrono::milliseconds(0)));
+    // Between the wait and the reaping, nowhere else: a child whose signal is taken is reaped now, not waited for.
+    const bool interrupted = signals.take().interrupts > 0;
+    reap_into(child);
+    if (!heard || interrupted) {
+      child.send(SIGKILL);
+      killed = true;
+    }
+  }
+  return killed ? std::nullopt : child.ending();
 }
 
 std::string tail(const std::string& file, int lines) {

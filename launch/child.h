@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,8 @@
 #include "launch/verdict.h"
 
 namespace ensonify::launcher {
+
+class Signals;
 
 /// What to start.
 struct Command {
@@ -57,6 +60,13 @@ struct Reaped {
   double cpu_s = 0.0;
 };
 std::optional<Reaped> reap();
+
+/// Reaps all that have ended, and tells `child` if it is among them.
+void reap_into(Child& child);
+
+/// Waits until `child` ends and says how. One of whose end nothing is heard within `patience`, or before an interrupt,
+/// is killed: nothing. `signals` has lived since before the child was started, and what it has heard already counts.
+std::optional<Ending> end_within(Child& child, Signals& signals, std::chrono::milliseconds patience);
 
 /// The last `lines` lines of a text file, without the line end of the last; "" when it cannot be read.
 std::string tail(const std::string& file, int lines);

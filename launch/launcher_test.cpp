@@ -167,6 +167,20 @@ TEST_CASE("what a child started goes with it") {
   ::close(pipe_fds[0]);
 }
 
+TEST_CASE("a child that has ended already is not waited for, one that runs on is killed") {
+  using std::chrono::milliseconds;
+  Signals signals;
+  Child quick = shell("exit 7");
+  REQUIRE(signals.wait(milliseconds(-1)));  // its signal is here, and not taken
+  const auto ending = end_within(quick, signals, milliseconds(0));
+  REQUIRE(ending.has_value());
+  CHECK(ending->exit_code == 7);
+
+  Child idle = shell("exec sleep 1000");
+  CHECK_FALSE(end_within(idle, signals, milliseconds(0)).has_value());
+  CHECK(idle.ending()->signal == SIGKILL);
+}
+
 TEST_CASE("a child that cannot start says why") {
   Command command;
   command.argv = {"/no/such/program"};
