@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "components/runtime/exit_error.h"
-#include "tools/plan/line_files.h"
+#include "tools/plan/readers.h"
 
 namespace ensonify::plan {
 namespace {
@@ -63,7 +63,7 @@ LineSet geodetic_from(const LineSet& projected, const std::string& crs, const st
   return set;
 }
 
-LineSet read_vector_file(const std::string& path) {
+LineSet read_geojson(const std::string& path) {
   GDALAllRegister();
   CPLPushErrorHandler(CPLQuietErrorHandler);
   const std::unique_ptr<GDALDataset> file(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
@@ -74,7 +74,6 @@ LineSet read_vector_file(const std::string& path) {
   set.geodetic = true;
   const OGRSpatialReference to = wgs84();
   for (OGRLayer* layer : file->GetLayers()) {
-    if (layer->GetName() == std::string("tracks")) continue;  // of a GPX: where somebody was, not where to go
     Transformation transformation;
     if (const OGRSpatialReference* own = layer->GetSpatialRef()) {
       OGRSpatialReference from(*own);
@@ -82,10 +81,8 @@ LineSet read_vector_file(const std::string& path) {
       transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
     }
     for (const auto& feature : *layer) {
-      const int name = feature->GetDefnRef()->GetFieldIndex("name");
-      const int other = name >= 0 ? name : feature->GetDefnRef()->GetFieldIndex("Name");
-      add(set, feature->GetGeometryRef(), other >= 0 ? feature->GetFieldAsString(other) : "", transformation.get(),
-          path);
+      const int name = feature->GetDefnRef()->GetFieldIndex("name");  // as GDAL compares: Name and NAME too
+      add(set, feature->GetGeometryRef(), name >= 0 ? feature->GetFieldAsString(name) : "", transformation.get(), path);
     }
   }
   return set;

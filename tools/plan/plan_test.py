@@ -1,4 +1,4 @@
-"""ensonify plan: closed forms through the command line, and a plan that a scenario reads again."""
+"""ensonify plan: closed forms through the command line, and a plan that is read again."""
 import json
 import math
 import os
@@ -55,13 +55,19 @@ class Plan(unittest.TestCase):
                                  (["lines", *AREA[:6], "--depth", "20"], "at least 3 corners"),
                                  (["lines", *AREA, "--depth", "20", "--head-depth", "30"], "allowed: above 0"),
                                  (["lines", *AREA, "--depth", "nan"], "--depth"),
+                                 (["lines", "--corner", "0", "0", "--corner", "200", "100", "--corner", "200", "0",
+                                   "--corner", "0", "300", "--depth", "20"],
+                                  "crosses itself: the side from corner 1 (0, 0) meets the one from corner 3 (200, 0)"),
+                                 (["lines", "--corner", "0", "0", "--corner", "40000", "0", "--corner", "40000", "100",
+                                   "--scenario", str(SOURCE / "scenarios/slope/scenario.yaml")],
+                                  "m lies outside the terrain; allowed: an area"),
                                  (["sidescan", "--range", "10", "--least", "20"], "must be below --range"),
                                  (["import", "none.lnw"], "cannot be read")):
             code, out, error = plan(*arguments)
             self.assertEqual((code, out), (2, ""), arguments)
             self.assertIn(cause, error)
 
-    def test_a_plan_is_a_mission_that_plan_and_scenario_read(self):
+    def test_a_plan_is_a_mission_whose_csv_gives_it_again(self):
         code, mission, _ = plan("lines", *AREA, "--depth", "20")
         self.assertEqual(code, 0)
         self.assertTrue(mission.startswith("ensonify: mission/1\n"))

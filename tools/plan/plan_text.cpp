@@ -4,12 +4,29 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/plan/csv.h"
+
 namespace ensonify::plan {
 namespace {
 
 std::string place_text(const std::array<double, 2>& place, bool geodetic, const char* between) {
   return geodetic ? fmt::format("{:.8f}{}{:.8f}", place[0], between, place[1])
                   : fmt::format("{:.3f}{}{:.3f}", place[0], between, place[1]);
+}
+
+constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // what is no UTF-8
+
+/// A name that ends no comment: as it is, or between quotes with escapes, which YAML and JSON share, where it holds
+/// what some reader takes for the end of a line (next line, line and paragraph separators too) or what cannot be
+/// printed.
+std::string in_comment(const std::string& name) {
+  bool breaks = false;
+  for (const char* separator : {"\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"}) {
+    breaks = breaks || name.find(separator) != std::string::npos;
+  }
+  const std::string quoted = nlohmann::json(name).dump(-1, ' ', breaks, kReplace);
+  const bool escaped = quoted != "\"" + name + "\"";
+  return escaped ? quoted : name;
 }
 
 std::string yaml(const LineSet& set, const Numbers& numbers, std::optional<double> speed_mps) {
@@ -23,7 +40,7 @@ std::string yaml(const LineSet& set, const Numbers& numbers, std::optional<doubl
     for (std::size_t i = 0; i < line.places.size(); ++i) {
       text += fmt::format("{}[{}]", i == 0 ? "" : ", ", place_text(line.places[i], set.geodetic, ", "));
     }
-    text += line.name.empty() ? "]\n" : fmt::format("]  # {}\n", line.name);
+    text += line.name.empty() ? "]\n" : fmt::format("]  # {}\n", in_comment(line.name));
   }
   return text;
 }
@@ -32,7 +49,7 @@ std::string csv(const LineSet& set) {
   std::string text = set.geodetic ? "line,name,latitude_deg,longitude_deg\n" : "line,name,east_m,north_m\n";
   for (std::size_t i = 0; i < set.lines.size(); ++i) {
     for (const auto& place : set.lines[i].places) {
-      text += fmt::format("{},{},{}\n", i + 1, set.lines[i].name, place_text(place, set.geodetic, ","));
+      text += fmt::format("{},{},{}\n", i + 1, csv_cell(set.lines[i].name), place_text(place, set.geodetic, ","));
     }
   }
   return text;
@@ -53,7 +70,7 @@ std::string plan_text(const LineSet& set, const Numbers& numbers, std::optional<
   json["positions"] = set.geodetic ? "geodetic" : "metres";
   json["lines"] = nlohmann::ordered_json::array();
   for (const auto& line : set.lines) json["lines"].push_back({{"name", line.name}, {"places", line.places}});
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, kReplace) + "\n";
 }
 
 std::string numbers_text(const Numbers& numbers, Format format) {
