@@ -21,8 +21,7 @@ struct Turned {
 };
 
 Turned turned(const Polygon& area, double heading_rad) {
-  if (area.size() < 3) throw std::invalid_argument("an area has at least 3 corners");
-  if (!(area_m2(area) > 0.0)) throw std::invalid_argument("the area is empty: its corners lie on one line");
+  check_simple(area);
   Turned t;
   t.forward = {std::sin(heading_rad), std::cos(heading_rad)};
   t.starboard = {t.forward.y(), -t.forward.x()};
@@ -74,12 +73,19 @@ class Bottom {
   Bottom(const Turned& area, const DepthAt& depth, const LayRules& rules) : area_(area), depth_(depth), rules_(rules) {}
 
   double depth_m(double ahead_m, double across_m) const {
-    const double depth_m = depth_(area_.enu_m(ahead_m, std::min(across_m, area_.right_m)));
+    const Vec2 at = area_.enu_m(ahead_m, std::min(across_m, area_.right_m));
+    const double depth_m = depth_(at);
     if (!(depth_m > 0.0)) {
-      const Vec2 at = area_.enu_m(ahead_m, across_m);
-      char text[120];
-      std::snprintf(text, sizeof text, "the depth below the head at (%.1f, %.1f) m is %g m; allowed: above 0", at.x(),
-                    at.y(), depth_m);
+      char text[160];
+      if (std::isnan(depth_m)) {
+        std::snprintf(
+            text, sizeof text,
+            "(%.1f, %.1f) m lies outside the terrain; allowed: an area whose rectangle along the lines lies on it",
+            at.x(), at.y());
+      } else {
+        std::snprintf(text, sizeof text, "the depth below the head at (%.1f, %.1f) m is %g m; allowed: above 0", at.x(),
+                      at.y(), depth_m);
+      }
       throw std::invalid_argument(text);
     }
     return depth_m;
@@ -119,15 +125,6 @@ void check_count(std::size_t count) {
 }
 
 }  // namespace
-
-double area_m2(const Polygon& polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
-    twice += a.x() * b.y() - b.x() * a.y();
-  }
-  return 0.5 * std::abs(twice);
-}
 
 std::vector<Runline> adapted_lines(const Polygon& polygon, const DepthAt& depth, const LayRules& rules) {
   const Turned area = turned(polygon, rules.heading_rad);

@@ -4,20 +4,15 @@
 #include <vector>
 
 #include "kernels/navigation/runline.h"
+#include "kernels/survey/polygon.h"
 #include "kernels/survey/spacing.h"
 
 namespace ensonify::survey {
 
 using navigation::Runline;
-using navigation::Vec2;
 
 /// Depth below the head at a place, m; NaN where it is not known.
 using DepthAt = std::function<double(const Vec2& place_enu_m)>;
-
-using Polygon = std::vector<Vec2>;  // corners in order, either sense; the last is joined to the first
-
-/// Of a simple polygon, >= 0.
-double area_m2(const Polygon& polygon);
 
 /// How lines are laid over an area.
 struct LayRules {
@@ -29,8 +24,9 @@ struct LayRules {
 
 /// Parallel lines over an area, run alternately up and down, each as far from the one before as the swath allows on the
 /// bottom there. Where the area is concave a line may come in pieces. `depth` decides everything that `rules` do not:
-/// a slope spreads the lines. Throws std::invalid_argument for fewer than 3 corners, an area of zero, depths that are
-/// not known or not above 0, and more than 10000 lines.
+/// a slope spreads the lines. It is asked over the rectangle along the lines that holds the area. Throws
+/// std::invalid_argument for fewer than 3 corners, corners on one line, sides that cross or touch one another, depths
+/// that are not known or not above 0, and more than 10000 lines.
 std::vector<Runline> adapted_lines(const Polygon& area, const DepthAt& depth, const LayRules& rules);
 
 /// The same with one distance between lines, the one that the shallowest place asks for.

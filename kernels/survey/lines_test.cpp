@@ -17,11 +17,6 @@ double x_of(const Runline& line) { return line.start_enu_m.x(); }
 
 }  // namespace
 
-TEST_CASE("the area of a polygon, either sense, concave too") {
-  CHECK(area_m2(kSquare) == Approx(80000.0));
-  CHECK(area_m2({{0, 0}, {0, 2}, {2, 2}, {2, 0}, {1, 1}}) == Approx(3.0));
-}
-
 TEST_CASE("on level ground lines are two reaches apart, the first one reach from the edge, run up and down") {
   const auto level = [](const Vec2&) { return 20.0; };
   const auto lines = adapted_lines(kSquare, level, {0.0, kSixty});
@@ -75,6 +70,10 @@ TEST_CASE("what makes no survey is refused with its cause") {
   CHECK_THROWS_WITH(adapted_lines({{0, 0}, {1, 1}}, level, {}), "an area has at least 3 corners");
   CHECK_THROWS_WITH(adapted_lines({{0, 0}, {1, 1}, {2, 2}}, level, {}),
                     "the area is empty: its corners lie on one line");
+  CHECK_THROWS_WITH(spaced_lines({{0, 0}, {200, 100}, {200, 0}, {0, 300}}, 10.0, {}),
+                    Catch::StartsWith("the area crosses itself"));
+  CHECK_THROWS_WITH(adapted_lines(kSquare, [](const Vec2&) { return NAN; }, {}),
+                    Catch::StartsWith("(0.0, 2.5) m lies outside the terrain; allowed: an area whose rectangle"));
   CHECK_THROWS_WITH(adapted_lines(kSquare, [](const Vec2&) { return -1.0; }, {}),
                     Catch::Contains("is -1 m; allowed: above 0"));
   CHECK_THROWS_WITH(spaced_lines(kSquare, 1e-3, {}), "the area would take more than 10000 lines");
