@@ -67,7 +67,7 @@ std::optional<double> CoverageNode::next_line() {
     }
     filling_ = true;
   }
-  const double least_m = covered_.depths(-config_.head_depth_m).shallowest_cell_m;
+  const double least_m = covered_.depths(-config_.head_depth_m).shallowest_m;
   const double across_m = covered_.take_holes(least_m * std::tan(swath_.half_angle_rad));
   if (std::isnan(across_m)) return std::nullopt;
   ++hole_lines_;
@@ -191,7 +191,7 @@ nlohmann::ordered_json CoverageNode::order_report(const survey::SurveyOrder& ord
 
 void CoverageNode::finish_run() const {
   const auto depths = covered_.depths(-config_.head_depth_m);
-  const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_cell_m * std::tan(swath_.half_angle_rad);
+  const double fixed_m = (2.0 - swath_.overlap) * depths.shallowest_m * std::tan(swath_.half_angle_rad);
   const auto fixed_lines = static_cast<std::size_t>(fixed_m > 0.0 ? std::ceil(area_.width_m / fixed_m) : 0.0);
   const double elapsed_s = first_ns_ ? seconds(SimTime{*last_ns_ - *first_ns_}) : 0.0;
   nlohmann::ordered_json report;
@@ -205,10 +205,10 @@ void CoverageNode::finish_run() const {
   report["cost"] = config_.cost_per_day * elapsed_s / 86400.0;
   report["uncertainty"] = uncertainty_report();
   report["cube_m"] = cube_report();
-  report["special_order"] = order_report(survey::kSpecialOrder, in_special_order_, depths.shallowest_cell_m);
-  report["order_1a"] = order_report(survey::kOrder1a, in_order_1a_, depths.shallowest_cell_m);
-  report["shallowest_m"] = depths.shallowest_cell_m;
-  report["columns_m"] = {depths.shallowest_column_m, depths.deepest_column_m};
+  report["special_order"] = order_report(survey::kSpecialOrder, in_special_order_, depths.shallowest_m);
+  report["order_1a"] = order_report(survey::kOrder1a, in_order_1a_, depths.shallowest_m);
+  report["shallowest_m"] = depths.shallowest_m;
+  report["deepest_m"] = depths.deepest_m;
   report["fixed_lines"] = fixed_lines;
   if (fixed_lines > 0) {
     const survey::RunCost fixed = survey::run_cost(lines_at(fixed_lines), config_.run);
@@ -216,7 +216,7 @@ void CoverageNode::finish_run() const {
     report["fixed_elapsed_s"] = fixed.total_s;
     report["fixed_cost"] = fixed.cost;
     report["share_of_fixed"] = static_cast<double>(lines_) / static_cast<double>(fixed_lines);
-    report["bound"] = survey::adaptive_share(depths.shallowest_column_m, depths.deepest_column_m);
+    report["bound"] = survey::adaptive_share(depths.shallowest_m, depths.deepest_m);
   }
   const auto file = ports_.out_dir() / "coverage.json";
   std::ofstream stream(file);

@@ -102,26 +102,16 @@ double Coverage::take_holes(double reach_m) {
 }
 
 Coverage::Depths Coverage::depths(double head_height_m) const {
-  Depths found;
-  bool any = false;
+  double least_m = std::numeric_limits<double>::infinity(), most_m = -least_m;
   for (std::size_t column = 0; column < columns_; ++column) {
-    double sum_m = 0.0, least_m = std::numeric_limits<double>::infinity();
-    std::size_t count = 0;
     for (std::size_t row = 0; row < rows_; ++row) {
       if (!is_covered(column, row)) continue;
       const double depth_m = head_height_m - height_m(column, row);
-      sum_m += depth_m;
       least_m = std::min(least_m, depth_m);
-      ++count;
+      most_m = std::max(most_m, depth_m);
     }
-    if (count == 0) continue;
-    const double mean_m = sum_m / static_cast<double>(count);
-    found.shallowest_cell_m = any ? std::min(found.shallowest_cell_m, least_m) : least_m;
-    found.shallowest_column_m = any ? std::min(found.shallowest_column_m, mean_m) : mean_m;
-    found.deepest_column_m = any ? std::max(found.deepest_column_m, mean_m) : mean_m;
-    any = true;
   }
-  return found;
+  return least_m <= most_m ? Depths{least_m, most_m} : Depths{};
 }
 
 double Coverage::covered() const { return 1.0 - static_cast<double>(holes()) / static_cast<double>(cells_.size()); }

@@ -46,8 +46,7 @@ class Coverage {
 
   /// Depths below `head_height_m` (ENU z) of what is covered; all 0 when nothing is.
   struct Depths {
-    double shallowest_cell_m = 0.0;
-    double shallowest_column_m = 0.0, deepest_column_m = 0.0;  // mean of a column's cells
+    double shallowest_m = 0.0, deepest_m = 0.0;  // mean of a cell's soundings
   };
   Depths depths(double head_height_m) const;
 

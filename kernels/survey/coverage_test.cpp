@@ -43,8 +43,8 @@ TEST_CASE("a cell is covered from the sounding on that it needs") {
   CHECK(coverage.overlapped() == 0.0);
   coverage.end_line();
   CHECK(coverage.overlapped() == 1.0);
-  CHECK(coverage.depths(-1.0).shallowest_cell_m == Approx(20.0));
-  CHECK(coverage.depths(-1.0).deepest_column_m == Approx(20.0));
+  CHECK(coverage.depths(-1.0).shallowest_m == Approx(20.0));
+  CHECK(coverage.depths(-1.0).deepest_m == Approx(20.0));
 }
 
 TEST_CASE("the next line lies a reach beyond the row that is covered least far") {
@@ -58,6 +58,8 @@ TEST_CASE("the next line lies a reach beyond the row that is covered least far")
   CHECK(open[0].depth_m == 19.0);
   CHECK(open[1].across_m == 40.0);
   CHECK(open[1].depth_m == 24.0);
+  CHECK(coverage.depths(-1.0).shallowest_m == 19.0);
+  CHECK(coverage.depths(-1.0).deepest_m == 24.0);
 }
 
 TEST_CASE("lines over holes are flown once") {

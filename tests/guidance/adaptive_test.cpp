@@ -1,5 +1,8 @@
 // The adaptive survey of scenarios/slope_overlap: autopilot and coverage in closed loop with a kinematic boat, over the
-// scenario's own seabed. Soundings are geometry: 256 beams over 130 degrees that meet the seabed across the track.
+// scenario's own seabed, the mission that of launch/adaptive.yaml. Soundings are geometry: 512 over 122 degrees, evenly
+// spaced on level ground, that meet the seabed across the track.
+#include <yaml-cpp/yaml.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +11,9 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "components/autopilot/node.h"
 #include "components/coverage/node.h"
@@ -22,25 +27,57 @@ using navigation::Vec2;
 
 namespace {
 
-constexpr double kStep_m = 1.0;  // between the places across the track at which the seabed is looked at
+constexpr double kStep_m = 1.0;  // between the heights of the seabed that soundings are laid on
 constexpr int kReach = 160;      // such steps to either side
-constexpr std::size_t kBeams = 256;
+constexpr std::size_t kBeams = 512;
+const double kSwath_rad = 122.0 * std::numbers::pi / 180.0;
 
-msg::Soundings sound(const source::TerrainSource& terrain, const motion::State& boat, SimTime now) {
+/// The seabed of slope_overlap, and the adaptive survey of launch/adaptive.yaml over it.
+struct Slope {
+  static std::string file(const std::string& name) { return std::string(std::getenv("ENSONIFY_SOURCE")) + "/" + name; }
+  static ConfigNode mission() {
+    YAML::Node node = YAML::LoadFile(file("launch/adaptive.yaml"))["set"]["mission"];
+    node["adaptive"]["width_m"] = 2900;  // there an argument
+    node.SetStyle(YAML::EmitterStyle::Flow);
+    node["adaptive"].SetStyle(YAML::EmitterStyle::Flow);
+    return parse_config_value(YAML::Dump(node), {"adaptive_test", 0, 0});
+  }
+
+  Scenario scenario = read_scenario(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
+  std::vector<float> depths_m;  // west to east, and so northward
+
+  Slope() {
+    const auto terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+    for (int north = -kHalfNorth; north <= kHalfNorth; ++north) {
+      for (int east = -kHalfEast; east <= kHalfEast; ++east) {
+        depths_m.push_back(static_cast<float>(-terrain->height_m(kStep_m * Vec2(east, north))));
+      }
+    }
+  }
+  static constexpr int kHalfEast = 1490, kHalfNorth = 80;
+  /// The nearest post's; NaN beyond.
+  double depth_m(const Vec2& place) const {
+    const auto east = std::lround(place.x() / kStep_m), north = std::lround(place.y() / kStep_m);
+    if (std::abs(east) > kHalfEast || std::abs(north) > kHalfNorth) return std::nan("");
+    return depths_m[static_cast<std::size_t>((north + kHalfNorth) * (2 * kHalfEast + 1) + east + kHalfEast)];
+  }
+};
+
+msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now) {
   const Vec2 place = boat.position_enu_m.head<2>();
   const Vec2 starboard(std::cos(boat.heading_rad), -std::sin(boat.heading_rad));
   std::array<double, 2 * kReach + 1> depth_m;
   for (int i = -kReach; i <= kReach; ++i) {
-    depth_m[static_cast<std::size_t>(i + kReach)] = -terrain.height_m(place + i * kStep_m * starboard);
+    depth_m[static_cast<std::size_t>(i + kReach)] = slope.depth_m(place + i * kStep_m * starboard);
   }
   msg::Soundings soundings;
   soundings.stamp_ns = now.count();
   soundings.valid = msg::Array<std::uint8_t>({kBeams});
   soundings.position_enu_m = msg::Array<double>({kBeams, 3});
   for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    const double angle_rad = (static_cast<double>(beam) + 0.5 - 0.5 * kBeams) / kBeams * 130.0 * 3.14159265 / 180.0;
-    const double cotangent = 1.0 / std::tan(std::abs(angle_rad));
-    const int side = angle_rad < 0.0 ? -1 : 1;
+    const double tangent = ((static_cast<double>(beam) + 0.5) / kBeams * 2.0 - 1.0) * std::tan(0.5 * kSwath_rad);
+    const double cotangent = 1.0 / std::abs(tangent);
+    const int side = tangent < 0.0 ? -1 : 1;
     for (int i = 0; i < kReach; ++i) {  // the first step in which the beam is at the seabed
       const double near_m = depth_m[static_cast<std::size_t>(kReach + side * i)];
       const double far_m = depth_m[static_cast<std::size_t>(kReach + side * (i + 1))];
@@ -60,16 +97,6 @@ msg::Soundings sound(const source::TerrainSource& terrain, const motion::State& 
   return soundings;
 }
 
-/// The seabed of slope_overlap, and the adaptive survey of launch/adaptive.yaml over it.
-struct Slope {
-  Scenario scenario = read_scenario(
-      std::string(std::getenv("ENSONIFY_SOURCE")) + "/scenarios/slope_overlap/scenario.yaml",
-      {{"mission", parse_config_value("{speed_mps: 4, run_in_m: 30, adaptive: {centre_m: [0, 0], heading_deg: 180, "
-                                      "length_m: 60, width_m: 2900, first_line_m: 12, overlap: 0.02, cell_m: 6}}",
-                                      {"adaptive_test", 0, 0})}});
-  std::unique_ptr<source::TerrainSource> terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
-};
-
 /// Flies a mission over the slope while coverage looks on, and, where the mission is adaptive, lays the lines. Returns
 /// coverage's report.
 nlohmann::json fly(const Slope& slope, const Scenario& flown) {
@@ -83,7 +110,7 @@ nlohmann::json fly(const Slope& slope, const Scenario& flown) {
   NodeUnderTest<CoverageNode> coverage(coverage_config, "test", folder);
   motion::State boat = start_of(pilot_config.plan, flown.mission.runlines);
   motion::Command command{boat.heading_rad, boat.speed_mps, 0.0};
-  for (SimTime now{0}; now < 7200_s && !pilot.finished(); now += 100_ms) {
+  for (SimTime now{0}; now < 14400_s && !pilot.finished(); now += 100_ms) {
     msg::Estimate estimate;
     estimate.stamp_ns = now.count();
     estimate.position_enu_m = {boat.position_enu_m.x(), boat.position_enu_m.y(), 0.0};
@@ -98,8 +125,8 @@ nlohmann::json fly(const Slope& slope, const Scenario& flown) {
     const auto orders = pilot.step_until<msg::Guidance>("command", now);
     for (const auto& mission : pilot.step_until<msg::MissionState>("mission", now)) {
       coverage.give_at("mission", now, mission);
-      const bool pings = now.count() % 500'000'000 == 0 && mission.state != "turn";  // 2 Hz
-      if (pings) coverage.give_at("soundings", now, sound(*slope.terrain, boat, now));
+      const bool pings = now.count() % 200'000'000 == 0 && mission.state != "turn";  // 5 Hz
+      if (pings) coverage.give_at("soundings", now, sound(slope, boat, now));
     }
     boat = motion::advance(boat, command, 0.1, pilot_config.plan.limits);
     if (!orders.empty()) command = {orders[0].heading_grid_rad, orders[0].speed_mps, 0.0};
@@ -137,7 +164,10 @@ TEST_CASE(
   CHECK(report["holes"] == 0);
   CHECK(report["covered"] == 1.0);
   CHECK(report["share_of_fixed"] <= 0.55);
+  // All lines, those over holes too; fixed spacing and bound by one depth, the shallowest cell's.
+  CHECK(report["bound"] == Approx(survey::adaptive_share(report["shallowest_m"], report["deepest_m"])));
   CHECK(report["share_of_fixed"] <= 1.15 * report["bound"].get<double>());
+  CHECK(report["share_of_fixed"] > report["bound"]);
 
   // Lines at one distance are flown too: as many as adaptive ones over 0.55 leave gaps, so what covers as
   // much takes more.
