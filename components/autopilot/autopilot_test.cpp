@@ -46,10 +46,14 @@ class Loop {
       estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{state_.heading_rad, 0, 0}));
       estimate.velocity_enu_mps = {state_.speed_mps * std::sin(state_.heading_rad) + current_enu_mps_.x(),
                                    state_.speed_mps * std::cos(state_.heading_rad) + current_enu_mps_.y(), 0.0};
+      if (uncertain_after) {
+        const double sd_m = now < *uncertain_after ? 0.5 : 3.0;
+        estimate.position_covariance_enu_m2 = {0.1, 0, 0, 0, sd_m * sd_m, 0, 0, 0, 0.1};
+      }
       autopilot.give("estimate", estimate);
       if (bottom) {
         const double range_m = bottom(state_.position_enu_m.y()) + state_.position_enu_m.z();
-        autopilot.give("altitude", msg::Altitude{now.count(), true, range_m});
+        autopilot.give("altitude", msg::Altitude{now.count(), !std::isnan(range_m), range_m});
       }
       const auto orders = autopilot.step_until<msg::Guidance>("command", now);
       for (const auto& mission : autopilot.step_until<msg::MissionState>("mission", now)) see(mission, state_);
@@ -63,7 +67,8 @@ class Loop {
   }
 
   NodeUnderTest<AutopilotNode> autopilot;
-  std::function<double(double north_m)> bottom;  // depth; given: an altimeter is carried
+  std::function<double(double north_m)> bottom;  // depth, NaN: not heard; given: an altimeter is carried
+  std::optional<SimTime> uncertain_after;        // the place to the north is known within 0.5 m, and then within 3 m
   SimTime now() const { return now_; }
 
  private:
@@ -331,6 +336,86 @@ TEST_CASE("a mission that takes too long is given up at the surface") {
   CHECK(loop.autopilot.finished());
   // 9 m up at 0.5 m/s: 18 s, and the command's delay.
   CHECK(seconds(loop.now()) == Approx(118.0).margin(2.0));
+}
+
+TEST_CASE("a mission whose place becomes too uncertain is given up then") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
+  config.plan.mission.abort.position_sd_m = 2.0;
+  Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
+  loop.uncertain_after = 50_s;
+  CHECK(states_of(loop, 600_s).back() == "abort");
+  CHECK(loop.autopilot.finished());
+  CHECK(seconds(loop.now()) == Approx(50.0).margin(0.3));  // it is at the surface already
+  const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
+  REQUIRE_FALSE(health.empty());
+  CHECK(health.back().message == "mission given up: the place is less certain than abort.position_sd_m");
+}
+
+TEST_CASE("a mission is given up when its vehicle is below the obstacle floor for too long, and not before") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
+  config.plan.mission.depth_m = 10.0;
+  config.plan.mission.least_altitude_m = 4.0;
+  const auto flown = [&](double too_low_s) {
+    config.plan.mission.abort.too_low_s = too_low_s;
+    Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
+    loop.bottom = [](double north_m) { return north_m < 100.0 ? 20.0 : 12.0; };  // a step of 8 m: 2 m are missing
+    return states_of(loop, 600_s).back();
+  };
+  // 2 m at 0.5 m/s are 4 s, and the climb takes some more to begin.
+  CHECK(flown(3.0) == "abort");
+  CHECK(flown(15.0) == "done");
+}
+
+TEST_CASE("a vehicle waits where its last step has left it") {
+  Loop loop(steps({FlyLine{{{0, 20}, {0, 80}}}, KeepPlace{.for_s = 20.0, .within_m = 3.0}}), kUnderWay);
+  double begun_s = 0.0, ended_s = 0.0, farthest_m = 0.0;
+  loop.run_until(300_s, [&](const msg::MissionState& mission, const motion::State& vehicle) {
+    if (mission.state != "keep") return;
+    if (begun_s == 0.0) begun_s = seconds(loop.now());
+    ended_s = seconds(loop.now());
+    farthest_m = std::max(farthest_m, (vehicle.position_enu_m.head<2>() - Vec2(0, 80)).norm());
+  });
+  CAPTURE(farthest_m);
+  CHECK(loop.autopilot.finished());
+  CHECK(ended_s - begun_s == Approx(20.0).margin(0.3));
+  CHECK(farthest_m <
+        7.0);  // 4 m to come to rest from 2 m/s, half a period and the command's delay, and no turning back
+}
+
+TEST_CASE("without a bottom to keep it from, an altitude or an obstacle floor is told as not kept") {
+  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 100}}}});
+  const auto healths = [&](double heard_until_m) {
+    Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
+    loop.bottom = [=](double north_m) { return north_m < heard_until_m ? 20.0 : std::nan(""); };
+    states_of(loop, 600_s);
+    std::vector<std::string> told;
+    for (const auto& health : loop.autopilot.step_until<msg::Health>("health", loop.now()))
+      told.push_back(health.state + " " + health.message);
+    return told;
+  };
+  const std::vector<std::string> deaf = {
+      "degraded no bottom heard for 10 s: neither altitude_m nor least_altitude_m is kept"};
+  config.plan.mission.depth_m = 5.0;
+  CHECK(healths(0.0).empty());  // neither is wanted
+  config.plan.mission.least_altitude_m = 3.0;
+  CHECK(healths(1000.0).empty());
+  CHECK(healths(0.0) == deaf);
+  CHECK(healths(40.0) == deaf);
+  config.plan.mission.least_altitude_m = 0.0;
+  config.plan.mission.altitude_m = 6.0;
+  CHECK(healths(0.0) == deaf);
+}
+
+TEST_CASE("an altimeter is needed by missions that follow the bottom or have an obstacle floor") {
+  Mission mission = steps({FlyLine{{{0, 20}, {0, 100}}}}).plan.mission;
+  mission.depth_m = 5.0;
+  mission.abort.after_s = 100.0;
+  CHECK_FALSE(needs_altimeter(mission));
+  mission.steps.push_back(GoAt{.altitude_m = 4.0});
+  CHECK(needs_altimeter(mission));
+  mission.steps.clear();
+  mission.least_altitude_m = 2.0;
+  CHECK(needs_altimeter(mission));
 }
 
 TEST_CASE("an adaptive survey waits for each next line and ends when told") {

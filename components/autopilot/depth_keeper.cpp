@@ -20,6 +20,14 @@ bool says_depth(const Mission& mission) {
 
 }  // namespace
 
+bool needs_altimeter(const Mission& mission) {
+  const auto follows = [](const MissionStep& step) {
+    const auto* go = std::get_if<GoAt>(&step);
+    return go != nullptr && go->altitude_m;
+  };
+  return mission.altitude_m || mission.least_altitude_m > 0.0 || std::ranges::any_of(mission.steps, follows);
+}
+
 DepthKeeper::DepthKeeper(const Mission& mission, double climb_mps)
     : steers_(says_depth(mission)),
       mission_depth_m_(mission.depth_m),
@@ -39,6 +47,10 @@ void DepthKeeper::go_at(const GoAt& order) {
 }
 
 bool DepthKeeper::heard_lately(SimTime now) const { return bottom_.known && now - heard_at_ <= kBelieved; }
+
+bool DepthKeeper::deaf(SimTime now) const {
+  return (above_m_ || rules_.least_altitude_m > 0.0) && now - heard_at_ > kBelieved;
+}
 
 void DepthKeeper::heard(SimTime at, double altitude_m, double depth_m) {
   if (bottom_.known && at <= heard_at_) return;

@@ -8,6 +8,9 @@
 
 namespace ensonify {
 
+/// Whether a mission is nowhere flown as it says without an altimeter: it follows the bottom, or has an obstacle floor.
+bool needs_altimeter(const Mission& mission);
+
 /// How deep to go: at a depth, or above the bottom that the altimeter hears, and never nearer to it than the mission's
 /// obstacle floor. An altimeter that hears nothing for 10 s is no longer believed: an altitude is given up for the
 /// mission's depth, or for the present depth where that is shallower.
@@ -18,6 +21,8 @@ class DepthKeeper {
   /// Whether depth is steered at all. A mission that says nothing of depths leaves a vehicle where it is.
   bool steers() const { return steers_; }
   void go_at(const GoAt& order);
+  /// An altitude or an obstacle floor is to be kept, and no bottom is heard to keep it from.
+  bool deaf(SimTime now) const;
 
   /// A reading of the altimeter, turned to the vertical, at an own depth.
   void heard(SimTime at, double altitude_m, double depth_m);

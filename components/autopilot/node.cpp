@@ -23,7 +23,7 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
   const Rate rate{config.command_rate_hz, 1};
   if (DepthKeeper(mission, config.plan.limits.vertical_speed_mps).steers()) {
     ports.in<msg::Altitude>("altitude", [this](const msg::Altitude& altitude) { altitude_ = altitude; },
-                            {.optional = true});
+                            {.optional = !needs_altimeter(mission)});
   }
   if (mission.adaptive) {
     ports.in<msg::NextLine>("next_line", [this](const msg::NextLine& line) { pilot_->offer(line); });
@@ -60,8 +60,12 @@ SimTime AutopilotNode::step(SimTime now) {
 
 void AutopilotNode::tell_health(SimTime now) {
   if (!pilot_->given_up().empty()) return ports_.health("failed", "mission given up: " + pilot_->given_up());
-  if (!pilot_->held_up(now)) return ports_.health("ok", "");
-  ports_.health("degraded", "no metre nearer to the goal in a tenth of patience_s: a current as fast as the vehicle?");
+  if (pilot_->held_up(now))
+    return ports_.health("degraded",
+                         "no metre nearer to the goal in a tenth of patience_s: a current as fast as the vehicle?");
+  if (pilot_->deaf(now))
+    return ports_.health("degraded", "no bottom heard for 10 s: neither altitude_m nor least_altitude_m is kept");
+  ports_.health("ok", "");
 }
 
 }  // namespace ensonify

@@ -90,7 +90,10 @@ void Pilot::begin(const PassPlace& pass, SimTime) {
 void Pilot::begin(const KeepPlace& keep, SimTime) {
   state_ = State::kKeep;
   keep_ = keep;
-  station_enu_m_ = keep.place_enu_m.value_or(here_.waypose.position_enu_m);
+  const double heading_rad = here_.waypose.heading_rad, rest_m = motion::stopping_distance_m(here_.speed_mps, limits_);
+  const navigation::Vec2 at_rest =
+      here_.waypose.position_enu_m + rest_m * navigation::Vec2(std::sin(heading_rad), std::cos(heading_rad));
+  station_enu_m_ = keep.place_enu_m.value_or(at_rest);  // where it is: without turning back
   kept_since_.reset();
 }
 

@@ -45,6 +45,8 @@ class Pilot {
   const std::string& given_up() const { return given_up_; }
   /// Whether the goal has not come nearer for a tenth of the patience.
   bool held_up(SimTime now) const { return abort_watch_.held_up(now); }
+  /// Whether no bottom has been heard of late that an altitude or the obstacle floor could be kept from.
+  bool deaf(SimTime now) const { return depth_.deaf(now); }
   msg::Guidance command(SimTime now) const;
   msg::MissionState mission_state(SimTime now) const;
 

@@ -171,7 +171,7 @@ class Wirer {
       problem(placed_name(rank, in) + ": several publishers offer " + port.type + " (" + names +
               "); name one under wiring:");
     } else if (!port.optional) {
-      problem(placed_name(rank, in) + ": no publisher offers " + port.type);
+      problem(placed_name(rank, in) + ": no publisher offers " + port.type + "; allowed: a launch with one");
     }
   }
 

@@ -70,7 +70,8 @@ TEST_CASE("a misspelt topic or input is named with the nearest one") {
 TEST_CASE("a wrong type, a missing publisher and a shortened delay are refused") {
   CHECK(only_problem(kLoop, {{"auv.command", "auv/pose", SimTime{-1}, "x.yaml:3:1"}}) ==
         "x.yaml:3:1: wiring.auv.command: auv/pose is pose/1, the input takes guidance/1");
-  CHECK(only_problem({process("head", {}, {in("pose", "pose/1")})}) == "head.pose: no publisher offers pose/1");
+  CHECK(only_problem({process("head", {}, {in("pose", "pose/1")})}) ==
+        "head.pose: no publisher offers pose/1; allowed: a launch with one");
   CHECK(
       only_problem(kLoop, {{"auv.command", "pilot/command", 50_ms, "x.yaml:3:1"}}) ==
       "x.yaml:3:1: wiring.auv.command: delay_ms 50 is shorter than the port's 100; a launch file may only lengthen it");
@@ -89,7 +90,7 @@ TEST_CASE("a publisher that is slower than an input needs is refused") {
 
 TEST_CASE("another major version of a type is another type") {
   CHECK(only_problem({process("auv", {out("pose", "pose/2")}, {}), process("head", {}, {in("pose", "pose/1")})}) ==
-        "head.pose: no publisher offers pose/1");
+        "head.pose: no publisher offers pose/1; allowed: a launch with one");
 }
 
 TEST_CASE("every cycle needs a delayed edge, and the one without is named") {

@@ -249,12 +249,14 @@ std::vector<navigation::Runline> straight_pieces(const std::vector<MissionStep>&
   return pieces;
 }
 
-/// An altitude below the obstacle floor is never flown.
+/// An altitude below the obstacle floor is never flown, and without a floor nothing is ever below it.
 void check_altitudes(const ConfigReader& from, const Mission& mission) {
   const auto fault = [&](double altitude_m) {
     return fmt::format("altitude_m {} is below least_altitude_m {}; allowed: that or more", altitude_m,
                        mission.least_altitude_m);
   };
+  if (mission.abort.too_low_s && mission.least_altitude_m <= 0.0)
+    from.problem("abort", "too_low_s needs an obstacle floor; allowed: with a least_altitude_m above 0");
   if (mission.altitude_m && *mission.altitude_m < mission.least_altitude_m)
     from.problem("", fault(*mission.altitude_m));
   for (std::size_t i = 0; i < mission.steps.size(); ++i) {
@@ -326,35 +328,75 @@ Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& o
   return mission;
 }
 
-void check_mission(const ConfigReader& from, const Mission& mission, const std::string& vehicle, double fastest_mps,
-                   const motion::Limits& limits, bool floats) {
-  const auto too_fast = [&](double speed_mps) { return speed_mps > fastest_mps; };
-  if (too_fast(mission.speed_mps))
-    from.problem("mission", "speed_mps is above what " + vehicle + " can do (fastest_mps)");
-  if (const double circle_m = motion::turning_circle_m(mission.speed_mps, limits); circle_m > kWidestTurn_m) {
-    from.problem("vehicles", fmt::format("{}: turn_rate_dps makes it turn on a radius of {:.0f} m at {} m/s; allowed: "
-                                         "{:.0f} m or less",
-                                         vehicle, circle_m, mission.speed_mps, kWidestTurn_m));
-  }
-  bool dives = mission.altitude_m.has_value();
-  double speed_mps = mission.speed_mps;
-  for (std::size_t i = 0; i < mission.steps.size(); ++i) {
-    const auto problem = [&](const std::string& what) {
-      from.problem("mission", fmt::format("step {}: {}", i + 1, what));
-    };
-    if (const auto* go = std::get_if<GoAt>(&mission.steps[i])) {
-      speed_mps = go->speed_mps.value_or(speed_mps);
-      if (too_fast(speed_mps)) problem("speed_mps is above what " + vehicle + " can do (fastest_mps)");
-      dives = dives || go->depth_m || go->altitude_m;
+namespace {
+
+/// What of a mission a vehicle is too fast, too slow to turn or too light for.
+class VehicleCheck {
+ public:
+  VehicleCheck(const ConfigReader& from, const std::string& vehicle, double fastest_mps, const motion::Limits& limits)
+      : from_(from), vehicle_(vehicle), fastest_mps_(fastest_mps), limits_(limits) {}
+
+  void check(const Mission& mission) const {
+    if (mission.speed_mps > fastest_mps_)
+      from_.problem("mission", "speed_mps is above what " + vehicle_ + " can do (fastest_mps)");
+    if (const double circle_m = circle(mission.speed_mps); circle_m > kWidestTurn_m) {
+      from_.problem("vehicles", fmt::format("{}: turn_rate_dps makes it turn on a radius of {:.0f} m at {} m/s; "
+                                            "allowed: {:.0f} m or less",
+                                            vehicle_, circle_m, mission.speed_mps, kWidestTurn_m));
     }
-    if (const auto* orbit = std::get_if<FlyOrbit>(&mission.steps[i])) {
-      const double least_m = motion::turning_circle_m(speed_mps, limits);
-      if (orbit->radius_m < least_m) {
-        problem(fmt::format("radius_m {} is less than {} can turn at {} m/s; allowed: {} m or more", orbit->radius_m,
-                            vehicle, speed_mps, least_m));
+    double speed_mps = mission.speed_mps;
+    for (std::size_t i = 0; i < mission.steps.size(); ++i) {
+      if (const auto* go = std::get_if<GoAt>(&mission.steps[i]); go != nullptr && go->speed_mps) {
+        speed_mps = *go->speed_mps;
+        check_speed(i, speed_mps);
       }
     }
+    check_orbits(mission, mission.speed_mps);
+    if (mission.repeat > 1 && speed_mps != mission.speed_mps) check_orbits(mission, speed_mps);
   }
+
+ private:
+  double circle(double speed_mps) const { return motion::turning_circle_m(speed_mps, limits_); }
+  void problem(std::size_t step, const std::string& what) const {
+    from_.problem("mission", fmt::format("step {}: {}", step + 1, what));
+  }
+
+  void check_speed(std::size_t step, double speed_mps) const {
+    if (speed_mps > fastest_mps_) problem(step, "speed_mps is above what " + vehicle_ + " can do (fastest_mps)");
+    if (circle(speed_mps) > kWidestTurn_m) {
+      problem(step,
+              fmt::format("at speed_mps {} turn_rate_dps makes {} turn on a radius of {:.0f} m; allowed: {:.0f} m "
+                          "or less",
+                          speed_mps, vehicle_, circle(speed_mps), kWidestTurn_m));
+    }
+  }
+
+  /// Of a round that begins at a speed.
+  void check_orbits(const Mission& mission, double speed_mps) const {
+    for (std::size_t i = 0; i < mission.steps.size(); ++i) {
+      if (const auto* go = std::get_if<GoAt>(&mission.steps[i])) speed_mps = go->speed_mps.value_or(speed_mps);
+      const auto* orbit = std::get_if<FlyOrbit>(&mission.steps[i]);
+      if (orbit == nullptr || orbit->radius_m >= circle(speed_mps)) continue;
+      problem(i, fmt::format("radius_m {} is less than {} can turn at {} m/s; allowed: {} m or more", orbit->radius_m,
+                             vehicle_, speed_mps, circle(speed_mps)));
+    }
+  }
+
+  const ConfigReader& from_;
+  const std::string& vehicle_;
+  double fastest_mps_;
+  const motion::Limits& limits_;
+};
+
+}  // namespace
+
+void check_mission(const ConfigReader& from, const Mission& mission, const std::string& vehicle, double fastest_mps,
+                   const motion::Limits& limits, bool floats) {
+  VehicleCheck(from, vehicle, fastest_mps, limits).check(mission);
+  const bool dives = mission.altitude_m || std::ranges::any_of(mission.steps, [](const MissionStep& step) {
+                       const auto* go = std::get_if<GoAt>(&step);
+                       return go != nullptr && (go->depth_m || go->altitude_m);
+                     });
   if (dives && floats)
     from.problem("mission", "altitude_m and depth_m of steps need a vehicle that dives; " + vehicle + " floats");
 }

@@ -105,6 +105,18 @@ TEST_CASE("what cannot be flown is told before time starts") {
             .find("step 1: radius_m 5 is less than auv can turn at 2 m/s; allowed: 10 m or more") != std::string::npos);
   CHECK(problems_of("  steps:\n    - {speed_mps: 12}\n    - line: [[0, 0], [0, 90]]\n")
             .find("step 1: speed_mps is above what auv can do (fastest_mps)") != std::string::npos);
+  CHECK(problems_of("  speed_mps: 0.5\n  steps:\n    - {speed_mps: 8}\n    - line: [[0, 0], [0, 90]]\n",
+                    "fastest_mps: 9, turn_rate_dps: 0.2")
+            .find("mission: step 1: at speed_mps 8 turn_rate_dps makes auv turn on a radius of 2292 m; allowed: 1000 m "
+                  "or less") != std::string::npos);
+  // The second round's orbit is flown at the speed that the first has ended with.
+  const std::string orbits = "  steps:\n    - {orbit: [0, 50], radius_m: 25}\n    - {speed_mps: 3}\n";
+  CHECK(problems_of(orbits, "turn_rate_dps: 6") == "");
+  CHECK(problems_of("  repeat: 2\n" + orbits, "turn_rate_dps: 6").find("step 1: radius_m 25 is less than") !=
+        std::string::npos);
+  CHECK(problems_of("  abort: {too_low_s: 3}\n  steps:\n    - line: [[0, 0], [0, 90]]\n")
+            .find("mission.abort: too_low_s needs an obstacle floor; allowed: with a least_altitude_m above 0") !=
+        std::string::npos);
   CHECK(problems_of("  altitude_m: 5\n  steps:\n    - line: [[0, 0], [0, 90]]\n", "floats: {}")
             .find("need a vehicle that dives; auv floats") != std::string::npos);
   CHECK(problems_of("  depth_m: 3\n  steps:\n    - line: [[0, 0], [0, 90]]\n", "floats: {}")

@@ -116,6 +116,20 @@ TEST_CASE("a gauge's file is read in UTC, and must cover the survey") {
   const std::string none = written("tide_none.csv", "2025-06-01T11:50:00Z,1.0\n2025-06-01T12:05:00Z,nan\n");
   CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + none + "}}"))
             .find("tide_none.csv:2:1: has no height in [-20, 20] m") != std::string::npos);
+  const std::string wrong = written("tide_wrong.csv", "2025-13-01T11:50:00Z,1.0\n2025-06-01T13:05:00Z,1.1\n");
+  CHECK(problems_of(scenario_text("", "vertical: {tide: {gauge: " + wrong + "}}"))
+            .find("tide_wrong.csv:1:1: does not begin with a UTC time") != std::string::npos);
+}
+
+TEST_CASE("a gauge's readings may lie apart before the run, and during it no more than 6 h") {
+  const auto problems = [](const std::string& name, const std::string& readings) {
+    return problems_of(scenario_text("", "vertical: {tide: {gauge: " + written(name, readings) + "}}"));
+  };
+  CHECK(problems("tide_apart.csv", "2025-06-01T11:50:00Z,1.0\n2025-06-01T18:00:00Z,1.4\n")
+            .find("tide_apart.csv:2:1: is 6.2 h after the reading before; allowed from the start of the run on: 6 h") !=
+        std::string::npos);
+  CHECK(problems("tide_early.csv", "2025-05-01T11:50:00Z,1.0\n2025-06-01T11:50:00Z,1.0\n2025-06-01T17:50:00Z,1.4\n") ==
+        "");
 }
 
 TEST_CASE("a grid of separations is an Esri file from north to south") {

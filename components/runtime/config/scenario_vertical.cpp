@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "components/runtime/config/config_reader.h"
 #include "components/runtime/config/scalars.h"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kHighest_m = 20.0;         // of a tide
 constexpr double kFarthestApart_m = 200.0;  // of two datums
+constexpr double kLongestGap_h = 6.0;       // of a gauge: readings farther apart miss high or low water
 
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& message) {
   throw ConfigError({{{path, line, line > 0 ? 1 : 0}, "", message}});
@@ -62,6 +64,8 @@ vertical::Tide read_tide(ConfigReader from, double start_unix_s) {
   }
 }
 
+bool has_digit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
+
 /// A number of metres, or the path of a grid.
 vertical::Separation read_separation_of(ConfigReader& from, const char* metres, const char* grid) {
   double constant_m = 0.0;
@@ -99,7 +103,7 @@ vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s)
     if (line.empty() || line.front() == '#') continue;
     const std::size_t comma = std::min(line.find_first_of(",;\t"), line.size());
     const auto time_ns = parse_utc_ns(line.substr(0, comma));
-    if (!time_ns && read.empty() && number == 1) continue;  // names of the columns
+    if (!time_ns && number == 1 && !has_digit(line.substr(0, comma))) continue;  // names of the columns
     if (!time_ns) refuse(path, number, "does not begin with a UTC time such as 2025-06-01T12:00:00Z");
     const auto height_m = parse_number(comma < line.size() ? line.substr(comma + 1) : "");
     if (!height_m || !(std::abs(*height_m) <= kHighest_m)) {  // nan is a number of YAML's
@@ -107,6 +111,14 @@ vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s)
     }
     const double time_s = static_cast<double>(*time_ns) * 1e-9 - start_unix_s;
     if (!read.empty() && time_s <= read.back().first) refuse(path, number, "is not later than the reading before");
+    if (const double gap_h = read.empty() ? 0.0 : (time_s - read.back().first) / 3600.0;
+        time_s > 0.0 && gap_h > kLongestGap_h) {
+      refuse(
+          path, number,
+          fmt::format("is {:.1f} h after the reading before; allowed from the start of the run on: {} h, for readings "
+                      "farther apart miss high or low water",
+                      gap_h, kLongestGap_h));
+    }
     read.emplace_back(time_s, *height_m);
   }
   if (read.empty()) refuse(path, 0, "holds no reading");
