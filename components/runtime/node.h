@@ -40,7 +40,7 @@ class NodeHolder : public AnyNode {
 };
 
 /// The factory of a node class: its Config reads the process's own parameters and, from the scenario, the world. A
-/// Config with a scenario_text is given the scenario as it is recorded.
+/// Config with a scenario_text is given the scenario as it is recorded, one with a duration the run's.
 template <class Node>
 NodeFactory factory_of() {
   return [](const Launch& launch, const ProcessSpec& process, Ports& ports) -> std::unique_ptr<AnyNode> {
@@ -48,6 +48,7 @@ NodeFactory factory_of() {
     auto config = Node::Config::read(from, launch.scenario, process.name);
     from.finish();
     if constexpr (requires { config.scenario_text; }) config.scenario_text = launch.scenario_text;
+    if constexpr (requires { config.duration; }) config.duration = launch.duration;
     return std::make_unique<NodeHolder<Node>>(config, ports);
   };
 }

@@ -29,6 +29,7 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   config.terrain.seabed = scenario.seabed;
   config.mission = scenario.mission;
   config.vehicles = scenario.vehicles;
+  config.tide = scenario.vertical.tide;
   if (!scenario.vehicles.empty()) config.fastest_mps = 0.0;
   for (const Vehicle& vehicle : scenario.vehicles)
     config.fastest_mps = std::max(config.fastest_mps, vehicle.fastest_mps);

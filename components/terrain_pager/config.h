@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/config/scenario.h"
+#include "components/runtime/sim_time.h"
 #include "components/runtime/terrain/source_of.h"
 
 namespace ensonify {
@@ -29,10 +31,12 @@ struct TerrainPagerConfig {
 
   // From the scenario.
   std::string scenario_file;
-  std::string scenario_text;  // canonical, as it is recorded; whoever has a launch puts it here
+  std::string scenario_text;        // canonical, as it is recorded; whoever has a launch puts it here
+  std::optional<SimTime> duration;  // of the run, where it has an end of its own; so with this
   source::TerrainOptions terrain;
   Mission mission;
   std::vector<Vehicle> vehicles;
+  vertical::Tide tide;
   double fastest_mps = 10.0;  // of all vehicles
 
   static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);

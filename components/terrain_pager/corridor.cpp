@@ -48,13 +48,13 @@ struct Looks {
   std::vector<double> height_m;  // as posts show it that are as far apart as the places; NaN in holes
 };
 
-Looks looks_along(const TerrainSource& terrain, const navigation::Runline& line) {
+Looks looks_along(const TerrainSource& terrain, const Leg& leg) {
   constexpr std::size_t kTogether = 64;  // places under one block of posts: each block costs some milliseconds at most
-  const double length_m = navigation::length_m(line);
-  const double spacing_m = std::max(terrain.native_spacing_m(), length_m / kMostLooks);
+  const double length_m = navigation::length_m(leg.line);
+  const double spacing_m = std::max({terrain.native_spacing_m(), leg.spacing_m, length_m / kMostLooks});
   const auto steps = static_cast<int>(std::ceil(length_m / spacing_m));
   Looks looks;
-  for (int i = 0; i <= steps; ++i) looks.place.push_back(navigation::point_on(line, length_m * i / steps));
+  for (int i = 0; i <= steps; ++i) looks.place.push_back(navigation::point_on(leg.line, length_m * i / steps));
   for (std::size_t first = 0; first < looks.place.size(); first += kTogether) {
     const auto some = std::span(looks.place).subspan(first, std::min(kTogether, looks.place.size() - first));
     const terrain::Tile posts = posts_around(terrain, some.front(), some.back(), spacing_m);
@@ -65,89 +65,111 @@ Looks looks_along(const TerrainSource& terrain, const navigation::Runline& line)
 }
 
 /// Why a vehicle cannot be at a place of that height; holes are nobody's business here.
-std::optional<std::string> fault_at(const Vec2& place, double height_m, std::optional<double> depth_m) {
-  char text[160];
-  if (height_m >= 0.0) {
-    std::snprintf(text, sizeof text, "%s is land, %.1f m above chart datum; allowed is water",
-                  place_text(place).c_str(), height_m);
+std::optional<std::string> fault_at(const Vec2& place, double height_m, double reach_m, double lowest_water_m) {
+  char text[200];
+  if (height_m >= lowest_water_m) {
+    std::snprintf(text, sizeof text,
+                  "%s is land, %.1f m above chart datum with the lowest water at %.1f m; allowed is water",
+                  place_text(place).c_str(), height_m, lowest_water_m);
     return text;
   }
-  if (depth_m && *depth_m > 0.0 && height_m >= -*depth_m) {
-    std::snprintf(text, sizeof text,
-                  "at %s the vehicle would be %.1f m deep and the seabed is at %.1f m; allowed is less",
-                  place_text(place).c_str(), *depth_m, -height_m);
+  if (height_m >= lowest_water_m - reach_m) {
+    std::snprintf(
+        text, sizeof text,
+        "at %s the vehicle would reach %.1f m deep and the seabed is %.1f m below the lowest water; allowed is "
+        "less",
+        place_text(place).c_str(), reach_m, lowest_water_m - height_m);
     return text;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> fault_of(const TerrainSource& terrain, const navigation::Runline& line, const Looks& looks,
-                                    const CorridorRules& rules, std::optional<double> depth_m) {
-  const Extent extent = terrain.extent();
-  for (const Vec2& end : {line.start_enu_m, line.end_enu_m}) {
-    if (rules.refuse_beyond && !extent.contains(end)) {
-      return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
-    }
-  }
+/// Why a vehicle could never dive along a surveyed leg.
+std::optional<std::string> too_shallow(const Leg& leg, const Looks& looks, const CorridorRules& rules) {
   double deepest_m = 0.0;
-  for (const double height_m : looks.height_m) deepest_m = std::max(deepest_m, std::isnan(height_m) ? 0.0 : -height_m);
-  if (deepest_m > 0.0 && rules.least_altitude_m >= deepest_m) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "least_altitude_m %.1f leaves no depth to dive to, the deepest place is at %.1f m; allowed is less",
-                  rules.least_altitude_m, deepest_m);
-    return text;
+  for (const double height_m : looks.height_m)
+    deepest_m = std::max(deepest_m, std::isnan(height_m) ? 0.0 : rules.lowest_water_m - height_m);
+  const double above_bottom_m = leg.altitude_m.value_or(rules.least_altitude_m);
+  if (deepest_m <= 0.0 || above_bottom_m < deepest_m) return std::nullopt;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%s %.1f leaves no depth to dive to, the deepest place is at %.1f m; allowed is less",
+                leg.altitude_m ? "altitude_m" : "least_altitude_m", above_bottom_m, deepest_m);
+  return text;
+}
+
+/// The first place of its corridor that has no height.
+std::optional<Vec2> hole_beside(const TerrainSource& terrain, const Vec2& place, const Vec2& starboard,
+                                double half_swath_rad) {
+  const double height = terrain.height_m(place);
+  const double reach = std::tan(half_swath_rad) * std::max(0.0, -height);
+  for (int k = -kAcross; k <= kAcross; ++k) {
+    const Vec2 probe = place + starboard * (std::isnan(height) ? 0.0 : reach * k / kAcross);
+    if (terrain.extent().contains(probe) && std::isnan(terrain.height_m(probe))) return probe;
   }
-  const Vec2 along = (line.end_enu_m - line.start_enu_m) / navigation::length_m(line);
+  return std::nullopt;
+}
+
+std::optional<std::string> fault_of(const TerrainSource& terrain, const Leg& leg, const Looks& looks,
+                                    const CorridorRules& rules) {
+  const Extent extent = terrain.extent();
+  for (const Vec2& end : {leg.line.start_enu_m, leg.line.end_enu_m}) {
+    if (rules.refuse_beyond && !extent.contains(end))
+      return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
+  }
+  if (leg.surveyed) {
+    if (const auto fault = too_shallow(leg, looks, rules)) return fault;
+  }
+  const Vec2 along = (leg.line.end_enu_m - leg.line.start_enu_m) / navigation::length_m(leg.line);
   const Vec2 starboard(along.y(), -along.x());
   for (std::size_t i = 0; i < looks.place.size(); ++i) {
-    const Vec2& place = looks.place[i];
-    if (const auto fault = fault_at(place, looks.height_m[i], depth_m)) return fault;
-    if (!rules.refuse_holes) continue;
-    const double height = terrain.height_m(place);
-    const double reach = std::tan(rules.half_swath_rad) * std::max(0.0, -height);
-    for (int k = -kAcross; k <= kAcross; ++k) {
-      const Vec2 probe = place + starboard * (std::isnan(height) ? 0.0 : reach * k / kAcross);
-      if (extent.contains(probe) && std::isnan(terrain.height_m(probe))) {
-        return "the terrain has a hole at " + place_text(probe) +
-               " inside the surveyed corridor; move the line, or set seabed.raster.holes to keep or fill";
-      }
+    if (const auto fault = fault_at(looks.place[i], looks.height_m[i], leg.reach_m, rules.lowest_water_m)) return fault;
+    if (!leg.surveyed || !rules.refuse_holes) continue;
+    if (const auto hole = hole_beside(terrain, looks.place[i], starboard, rules.half_swath_rad)) {
+      return "the terrain has a hole at " + place_text(*hole) +
+             " inside the surveyed corridor; move the line, or set seabed.raster.holes to keep or fill";
     }
   }
   return std::nullopt;
+}
+
+/// Adds a problem unless there is one of its key and place.
+void add(std::vector<ConfigProblem>& problems, const ConfigPlace& place, const std::string& key,
+         const std::string& fault) {
+  const bool known = std::any_of(problems.begin(), problems.end(), [&](const ConfigProblem& problem) {
+    return problem.key == key && problem.place.line == place.line && problem.place.column == place.column;
+  });
+  if (!known) problems.push_back({place, key, fault});
 }
 
 }  // namespace
 
-double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                       const CorridorRules& rules, const ConfigPlace& mission) {
+double check_corridors(const TerrainSource& terrain, const std::vector<Leg>& legs, const CorridorRules& rules) {
   std::vector<ConfigProblem> problems;
-  double highest_m = runlines.empty() ? terrain.highest_m() : terrain.lowest_m();
-  for (std::size_t i = 0; i < runlines.size(); ++i) {
-    const Looks looks = looks_along(terrain, runlines[i]);
+  const bool surveys = std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.surveyed; });
+  double highest_m = surveys ? terrain.lowest_m() : terrain.highest_m();
+  for (const Leg& leg : legs) {
+    const Looks looks = looks_along(terrain, leg);
     for (const double height_m : looks.height_m)
-      highest_m = std::isnan(height_m) ? highest_m : std::max(highest_m, height_m);
-    const std::optional<double> depth_m = i < rules.depth_m.size() ? rules.depth_m[i] : 0.0;
-    if (const auto fault = fault_of(terrain, runlines[i], looks, rules, depth_m)) {
-      const ConfigPlace& place = i < rules.place.size() ? rules.place[i] : mission;
-      problems.push_back({place, "mission runline " + std::to_string(i + 1), *fault});
-    }
+      if (leg.surveyed && !std::isnan(height_m)) highest_m = std::max(highest_m, height_m);
+    if (const auto fault = fault_of(terrain, leg, looks, rules)) add(problems, leg.place, leg.key, *fault);
   }
   if (!problems.empty()) throw ConfigError(problems);
   return std::max(0.0, -highest_m);
 }
 
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, bool refuse_beyond) {
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, const CorridorRules& rules) {
   std::vector<ConfigProblem> problems;
   const Extent extent = terrain.extent();
   for (const VisitedPlace& visited : places) {
+    const Vec2& place = visited.place_enu_m;
     std::optional<std::string> fault;
-    if (extent.contains(visited.place_enu_m)) {
-      fault = fault_at(visited.place_enu_m, terrain.height_m(visited.place_enu_m), visited.depth_m);
-    } else if (refuse_beyond) {
-      fault = place_text(visited.place_enu_m) + " is outside the terrain; allowed is " + extent_text(extent);
+    if (extent.contains(place)) {
+      fault = fault_at(place, terrain.height_m(place), visited.reach_m, rules.lowest_water_m);
+    } else if (rules.refuse_beyond) {
+      fault = place_text(place) + " is outside the terrain; allowed is " + extent_text(extent);
     }
-    if (fault) problems.push_back({visited.place, visited.key, *fault});
+    if (fault) add(problems, visited.place, visited.key, *fault);
   }
   if (!problems.empty()) throw ConfigError(problems);
 }

@@ -14,34 +14,42 @@ using frames::Vec2;
 using source::Extent;
 using source::TerrainSource;
 
-/// What must be known of the seabed along the runlines, and how deep the vehicle runs there.
-struct CorridorRules {
-  double half_swath_rad = 1.134;  // the corridor reaches tan(half_swath) times the depth to either side
-  bool refuse_holes = true;       // else only the lines' ends and the depth under them are asked for
-  /// Of each runline, below chart datum; nothing where it follows the bottom. Fewer than runlines: 0.
-  std::vector<std::optional<double>> depth_m = {};
-  std::vector<ConfigPlace> place = {};  // of each runline in its file; fewer than runlines: the mission's
-  double least_altitude_m = 0.0;        // obstacle floor of a vehicle that dives; 0: none
-  bool refuse_beyond = true;            // else a line may leave the terrain
+/// A straight piece of what a mission flies.
+struct Leg {
+  navigation::Runline line;
+  double reach_m = 0.0;              // of the vehicle's lowest part below the water level; at the surface where it
+  std::optional<double> altitude_m;  // follows the bottom, this far above it
+  ConfigPlace place;                 // in the file that says so
+  std::string key = "mission";       // there
+  bool surveyed = false;             // its corridor matters too
+  double spacing_m = 0.0;            // it is looked at no more finely than this
 };
 
-/// A place that a mission visits besides its runlines or where a vehicle starts, and how deep.
+/// A place that a mission visits besides its legs or where a vehicle starts.
 struct VisitedPlace {
   Vec2 place_enu_m;
-  std::optional<double> depth_m;
-  ConfigPlace place;            // in the file that says so
-  std::string key = "mission";  // there
+  double reach_m = 0.0;  // as a leg has it
+  ConfigPlace place;
+  std::string key = "mission";
 };
 
-/// Throws ConfigError, one problem per runline at most, if a line leaves the terrain, runs over land (above chart
-/// datum) or through the seabed, if all of it is too shallow for the obstacle floor, or, with refuse_holes, if a place
-/// of its corridor inside the terrain has no height. `mission` is the place that the message names where the rules name
-/// none. A line is looked at in steps of the posts, but at most 2000, and the seabed as posts that far apart show it.
-/// Returns the least depth that was looked at; without runlines, of the whole terrain. At least 0.
-double check_corridors(const TerrainSource& terrain, const std::vector<navigation::Runline>& runlines,
-                       const CorridorRules& rules, const ConfigPlace& mission);
+/// What is asked of the seabed.
+struct CorridorRules {
+  double half_swath_rad = 1.134;  // the corridor reaches tan(half_swath) times the depth to either side
+  bool refuse_holes = true;       // else holes do not matter
+  bool refuse_beyond = true;      // else a leg may leave the terrain
+  double least_altitude_m = 0.0;  // obstacle floor of a vehicle that dives; 0: none
+  double lowest_water_m = 0.0;    // above chart datum, while the mission may be there
+};
+
+/// Throws ConfigError, one problem per key and place at most, if a leg leaves the terrain, runs over land (above the
+/// lowest water) or through the seabed, if all of a surveyed one is too shallow for the obstacle floor or for the
+/// altitude to follow, or, with refuse_holes, if a place of its corridor inside the terrain has no height. A leg is
+/// looked at in steps of the posts, but at most 2000, and the seabed as posts that far apart show it. Returns the least
+/// depth below chart datum that was looked at along surveyed legs; without any, of the whole terrain. At least 0.
+double check_corridors(const TerrainSource& terrain, const std::vector<Leg>& legs, const CorridorRules& rules);
 
 /// The same for places, without corridors.
-void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, bool refuse_beyond = true);
+void check_places(const TerrainSource& terrain, const std::vector<VisitedPlace>& places, const CorridorRules& rules);
 
 }  // namespace ensonify::pager

@@ -40,10 +40,16 @@ class Counting : public TerrainSource {
 
 const CorridorRules kHolesAllowed{.refuse_holes = false};
 
-std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double depth_m) {
+Leg leg_along(const navigation::Runline& line) {
+  return {.line = line, .place = {"sea.yaml", 12, 7}, .key = "mission runline 1", .surveyed = true};
+}
+
+std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double reach_m,
+                  double lowest_water_m = 0.0) {
+  Leg leg = leg_along(line);
+  leg.reach_m = reach_m;
   try {
-    check_corridors(terrain, {line}, {.refuse_holes = false, .depth_m = {depth_m}, .place = {{"sea.yaml", 12, 7}}},
-                    {"sea.yaml", 9, 3});
+    check_corridors(terrain, {leg}, {.refuse_holes = false, .lowest_water_m = lowest_water_m});
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -55,7 +61,7 @@ std::string fault(const TerrainSource& terrain, const navigation::Runline& line,
 TEST_CASE("along a line of kilometres the least depth is found from few posts") {
   const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
   const navigation::Runline line{{-3000, -3000}, {3000, 3000}};
-  CHECK(check_corridors(slope, {line}, kHolesAllowed, {"sea.yaml", 0, 0}) ==
+  CHECK(check_corridors(slope, {leg_along(line)}, kHolesAllowed) ==
         Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
   // Looks stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
   CHECK(slope.posts_made < 2 * 32 * 50 * 50);
@@ -63,15 +69,17 @@ TEST_CASE("along a line of kilometres the least depth is found from few posts") 
 
 TEST_CASE("a short line is looked at post by post") {
   const Counting rock([](double x, double y) { return std::hypot(x - 20.0, y) < 0.5 ? -3.0 : -30.0; });
-  CHECK(check_corridors(rock, {{{-40, 0}, {40, 0}}}, kHolesAllowed, {"sea.yaml", 0, 0}) == Approx(3.0));
+  CHECK(check_corridors(rock, {leg_along({{-40, 0}, {40, 0}})}, kHolesAllowed) == Approx(3.0));
 }
 
 TEST_CASE("an obstacle floor above all of a line's water is refused, one above some of it is not") {
   const Counting slope([](double x, double) { return -30.0 + 5e-3 * x; });  // 10 to 50 m deep
   const navigation::Runline line{{-4000, 0}, {4000, 0}};
-  const auto with_floor = [&](double least_altitude_m) {
+  const auto with_floor = [&](double least_altitude_m, std::optional<double> altitude_m = std::nullopt) {
+    Leg leg = leg_along(line);
+    leg.altitude_m = altitude_m;
     try {
-      check_corridors(slope, {line}, {.refuse_holes = false, .least_altitude_m = least_altitude_m}, {"sea.yaml", 9, 3});
+      check_corridors(slope, {leg}, {.refuse_holes = false, .least_altitude_m = least_altitude_m});
     } catch (const ConfigError& error) {
       return std::string(error.what());
     }
@@ -79,8 +87,10 @@ TEST_CASE("an obstacle floor above all of a line's water is refused, one above s
   };
   CHECK(with_floor(49.0) == "accepted");
   CHECK(with_floor(51.0) ==
-        "sea.yaml:9:3: mission runline 1: least_altitude_m 51.0 leaves no depth to dive to, the deepest place is at "
+        "sea.yaml:12:7: mission runline 1: least_altitude_m 51.0 leaves no depth to dive to, the deepest place is at "
         "50.0 m; allowed is less");
+  CHECK(with_floor(0.0, 49.0) == "accepted");
+  CHECK(with_floor(0.0, 51.0).find("altitude_m 51.0 leaves no depth to dive to") != std::string::npos);
 }
 
 TEST_CASE("a line may not run over land nor through the seabed, and a hole is no fault of it") {
@@ -90,7 +100,31 @@ TEST_CASE("a line may not run over land nor through the seabed, and a hole is no
   CHECK(fault(ridge, line, 0.5) == "accepted");
   const std::string through = fault(ridge, line, 20.0);
   CHECK(through.find("sea.yaml:12:7: mission runline 1: at (-") == 0);
-  CHECK(through.find("the vehicle would be 20.0 m deep and the seabed is at") != std::string::npos);
+  CHECK(through.find("the vehicle would reach 20.0 m deep and the seabed is") != std::string::npos);
   const Counting island([](double x, double) { return -40.0 + 45.0 * std::exp(-x * x / 1e4); });
   CHECK(fault(island, line, 0.0).find("is land") != std::string::npos);
+}
+
+TEST_CASE("depths count from the lowest water: a low tide dries a bank, a high one floats a boat over it") {
+  const Counting bank([](double x, double) { return -8.0 + 9.0 * std::exp(-x * x / 1e4); });  // up to 1 m above datum
+  const navigation::Runline over{{-400, 0}, {400, 0}}, beside{{-400, 0}, {-300, 0}};
+  CHECK(fault(bank, over, 0.0, 0.0).find("is land, 0.0 m above chart datum with the lowest water at 0.0 m") !=
+        std::string::npos);
+  CHECK(fault(bank, over, 0.5, 1.6) == "accepted");
+  CHECK(fault(bank, over, 0.7, 1.6).find("reach 0.7 m deep and the seabed is 0.") != std::string::npos);
+  CHECK(fault(bank, beside, 6.0, -1.9) == "accepted");
+  CHECK(fault(bank, beside, 6.0, -2.1).find("reach 6.0 m deep and the seabed is 5.9 m below") != std::string::npos);
+  CHECK(fault(bank, beside, 0.0, -9.0).find("is land, -8.0 m above chart datum with the lowest water at -9.0 m") !=
+        std::string::npos);
+}
+
+TEST_CASE("a key and place have one problem, however many legs show it") {
+  const Counting land([](double, double) { return 1.0; });
+  const std::vector<Leg> sides = {leg_along({{0, 0}, {50, 0}}), leg_along({{50, 0}, {50, 50}})};
+  try {
+    check_corridors(land, sides, kHolesAllowed);
+    FAIL("accepted");
+  } catch (const ConfigError& error) {
+    CHECK(error.problems().size() == 1);
+  }
 }

@@ -24,6 +24,7 @@ int check_mission(int argc, char** argv) {
     auto defaults = ConfigReader::from_text("{}", options.file);
     auto config = TerrainPagerConfig::read(defaults, launch.scenario, "");
     config.scenario_text = launch.scenario_text;
+    config.duration = launch.duration;
     pager::check_mission_alone(config);
     return kExitOk;
   });

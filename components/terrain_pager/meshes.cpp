@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include "components/runtime/mesh_message.h"
 #include "components/runtime/terrain/prepared_mesh.h"
-#include "components/terrain_pager/mission_places.h"
+#include "components/terrain_pager/mission_flight.h"
 #include "kernels/navigation/runline.h"
 #include "kernels/progressive/crossing.h"
 
@@ -39,56 +36,18 @@ void refuse(const TerrainPagerConfig& config, const std::string& name, const std
   throw ConfigError({ConfigProblem{{config.scenario_file, 0, 0}, "seabed.meshes." + name, why}});
 }
 
-/// A straight piece of a mission, as its problems name it.
-struct Leg {
-  ConfigPlace place;
-  std::string key;
-  navigation::Runline line;
-  double depth_m;  // 0 where it follows the bottom
-};
-
-/// The pieces of lines, with what is run before and behind them, and of orbits.
-std::vector<Leg> legs_of(const Mission& mission, const MissionPlaces& where) {
-  constexpr int kSides = 32;  // of a polygon for an orbit: within 0.5 % of its radius
-  std::vector<Leg> legs;
-  std::optional<double> depth_m = mission.altitude_m ? std::nullopt : std::optional(mission.depth_m);
-  std::size_t runlines = 0;
-  for (std::size_t s = 0; s < mission.steps.size(); ++s) {
-    const MissionStep& step = mission.steps[s];
-    if (const auto* go = std::get_if<GoAt>(&step)) depth_m = depth_after(*go, depth_m);
-    if (const auto* line = std::get_if<FlyLine>(&step)) {
-      const auto& points = line->points_enu_m;
-      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const double run_in_m = i == 0 ? mission.run_in_m : 0.0;
-        const double run_out_m = i + 2 == points.size() ? mission.run_out_m : 0.0;
-        legs.push_back({where.step(s), fmt::format("mission runline {}", ++runlines),
-                        navigation::extended({points[i], points[i + 1]}, run_in_m, run_out_m), depth_m.value_or(0.0)});
-      }
-    }
-    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
-      const auto place = [&](int i) {
-        const double bearing = 2.0 * std::numbers::pi * i / kSides;
-        return frames::Vec2(orbit->centre_enu_m + orbit->radius_m * frames::Vec2(std::sin(bearing), std::cos(bearing)));
-      };
-      for (int i = 0; i < kSides; ++i)
-        legs.push_back({where.step(s), "mission orbit", {place(i), place(i + 1)}, depth_m.value_or(0.0)});
-    }
-  }
-  return legs;
-}
-
 /// A leg may lie beside a mesh, or above it where the vehicle dives; not through it, nor below. One problem a mesh.
-void check_legs(const TerrainPagerConfig& config, const std::string& name, const progressive::TriangleMesh& mesh) {
-  const MissionPlaces where = mission_places(config.scenario_file, config.scenario_text);
-  for (const Leg& leg : legs_of(config.mission, where)) {
-    const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, -leg.depth_m});
+void check_legs(const Flight& flight, const std::string& name, const progressive::TriangleMesh& mesh) {
+  for (const Leg& leg : flight.legs) {
+    const double lowest_z_m = flight.lowest_water_m - leg.reach_m;
+    const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, lowest_z_m});
     if (!along_m) continue;
     const frames::Vec2 place = navigation::point_on(leg.line, *along_m);
     throw ConfigError(
         {ConfigProblem{leg.place, leg.key,
                        fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a way "
                                    "beside it, or above",
-                                   place.x(), place.y(), leg.depth_m, name)}});
+                                   place.x(), place.y(), leg.reach_m, name)}});
   }
 }
 
@@ -96,6 +55,7 @@ void check_legs(const TerrainPagerConfig& config, const std::string& name, const
 
 Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain) {
   const source::Extent known = terrain.extent();
+  const Flight flight = flight_of(config);
   std::size_t bytes = 0;
   for (const SeabedMesh& mesh : config.terrain.seabed.meshes) {
     const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain);
@@ -110,7 +70,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
                       box.low.x(), box.high.x(), box.low.y(), box.high.y(), known.west_m, known.east_m, known.south_m,
                       known.north_m));
-    check_legs(config, mesh.name, placed.hierarchy.mesh);
+    check_legs(flight, mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());
     one.message.name = mesh.name;

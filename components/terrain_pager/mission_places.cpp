@@ -42,15 +42,6 @@ const ConfigPlace& MissionPlaces::start(const std::string& vehicle) const {
   return found == starts.end() ? mission : found->second;
 }
 
-std::vector<ConfigPlace> MissionPlaces::runlines(const Mission& of) const {
-  std::vector<ConfigPlace> places;
-  for (std::size_t i = 0; i < of.steps.size(); ++i) {
-    if (const auto* line = std::get_if<FlyLine>(&of.steps[i]))
-      places.insert(places.end(), line->points_enu_m.size() - 1, step(i));
-  }
-  return places;
-}
-
 MissionPlaces mission_places(const std::string& scenario_file, const std::string& scenario_text) {
   MissionPlaces places{{scenario_file, 0, 0}, {}, {}};
   if (scenario_text.empty() || !std::filesystem::is_regular_file(scenario_file)) return places;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "components/runtime/config/config_error.h"
-#include "components/runtime/config/scenario_mission.h"
 
 namespace ensonify::pager {
 
@@ -18,8 +17,6 @@ struct MissionPlaces {
 
   const ConfigPlace& step(std::size_t i) const;
   const ConfigPlace& start(const std::string& vehicle) const;
-  /// Of each of the mission's runlines.
-  std::vector<ConfigPlace> runlines(const Mission& mission) const;
 };
 
 /// Reads `scenario_file` again, if it is there and `scenario_text`, the scenario in force in its canonical form, is

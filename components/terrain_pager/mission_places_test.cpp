@@ -31,17 +31,13 @@ MissionPlaces places_of(const std::string& text, const std::string& in_force) {
 
 }  // namespace
 
-TEST_CASE("each runline stands where its step does, and a vehicle's start where it is given") {
+TEST_CASE("each step stands where the file has it, and a vehicle's start where it is given") {
   const MissionPlaces places = places_of(kWorld, kWorld);
   CHECK(places.mission.line == 5);
   CHECK(places.start("boat").line == 2);
-  Mission mission;
-  mission.steps = {SetMark{}, FlyLine{{{0, 0}, {0, 50}, {0, 90}}}, FlyLine{{{9, 0}, {9, 50}}}};
-  const auto runlines = places.runlines(mission);
-  REQUIRE(runlines.size() == 3);
-  CHECK(runlines[0].line == 8);
-  CHECK(runlines[1].line == 8);
-  CHECK(runlines[2].line == 9);
+  CHECK(places.step(0).line == 7);
+  CHECK(places.step(1).line == 8);
+  CHECK(places.step(2).line == 9);
 }
 
 TEST_CASE("lines laid out by a rule stand where the rule does") {

@@ -231,7 +231,8 @@ TEST_CASE("what is fetched is counted, and behind it is told how fast disk and t
 TEST_CASE("a runline outside the terrain is refused") {
   auto config = small_slope();
   config.scenario_file = "bay.yaml";
-  config.mission.runlines = {{{0, 0}, {100, 0}}, {{0, 0}, {500, 0}}};
+  config.mission.steps = steps_of({{{0, 0}, {100, 0}}, {{0, 0}, {500, 0}}});
+  config.mission.run_in_m = 0.0;
   CHECK_THROWS_WITH(
       NodeUnderTest<TerrainPagerNode>(config),
       "bay.yaml: mission runline 2: its end (500.0, 0.0) m is outside the terrain; allowed is east -400.0 "

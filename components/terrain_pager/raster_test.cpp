@@ -290,7 +290,9 @@ TEST_CASE("runlines must lie on the terrain, and their corridor must be known") 
   const RasterSource source(options_for(raster), std::nullopt);
   const auto problem = [&](const Vec2& from, const Vec2& to, bool refuse_holes = true) {
     try {
-      check_corridors(source, {{from, to}}, {1.134, refuse_holes}, {"bay.yaml", 0, 0});
+      check_corridors(source,
+                      {{.line = {from, to}, .place = {"bay.yaml", 0, 0}, .key = "mission runline 1", .surveyed = true}},
+                      {.refuse_holes = refuse_holes});
     } catch (const ConfigError& error) {
       return std::string(error.what());
     }

@@ -44,16 +44,25 @@ processes:
 MISSIONS = [
     ("a line through land", "runlines: [{ from_m: [-200, 0], to_m: [100, 0] }]", r"world.yaml:\d+:\d+: mission runline 1.*is land.*allowed is water"),
     ("a run-in over land", "run_in_m: 150, runlines: [{ from_m: [0, 0], to_m: [100, 0] }]", r"mission run-in: \(-150.0, 0.0\) m is land"),
-    ("a line below the seabed", f"depth_m: 15, {LINE}", "the vehicle would be 15.0 m deep and the seabed is at 10.0 m; allowed"),
+    ("a line below the seabed", f"depth_m: 15, {LINE}", "the vehicle would reach 15.5 m deep and the seabed is 10.0 m below the lowest water; allowed"),
     ("an obstacle floor above the water", f"least_altitude_m: 200, {LINE}",
      "least_altitude_m 200.0 leaves no depth to dive to, the deepest place is at 10.0 m; allowed is less"),
     ("a depth above the water", f"depth_m: -2, {LINE}", r"mission.depth_m: -2 is outside \[0, 11000\]"),
-    ("a step below the seabed", "steps: [{ depth_m: 30 }, { line: [[0, 0], [0, 50]] }]", "30.0 m deep.*allowed"),
+    ("a step below the seabed", "steps: [{ depth_m: 30 }, { line: [[0, 0], [0, 50]] }]", "30.5 m deep.*allowed"),
+    ("a wait below the seabed", "steps: [{ line: [[0, -5], [0, 5]] }, { depth_m: 30 }, { wait_s: 100 }]", "world.yaml:.* mission: at .*reach 30.5 m deep"),
+    ("a next round below the seabed", "repeat: 2, steps: [{ line: [[0, 0], [0, 50]] }, { depth_m: 30 }, { line: [[300, 0], [300, 50]] }]",
+     "mission runline 1: at .* reach 30.5 m deep"),
+    ("a run-in from beyond land and terrain", "run_in_m: 250, runlines: [{ from_m: [-90, 0], to_m: [0, 0] }]",
+     r"mission run-in: its end \(-340.0, 0.0\) m is outside the terrain; allowed is east"),
     ("a line that leaves the terrain", "runlines: [{ from_m: [0, 0], to_m: [0, 900] }]", "outside the terrain; allowed is east"),
     ("a station on land", "steps: [{ line: [[0, 0], [0, 50]] }, { keep: [-200, 0], for_s: 5 }]", "is land.*allowed is water"),
-    ("an orbit over land", "steps: [{ line: [[0, 0], [0, 50]] }, { orbit: [-90, 0], radius_m: 50 }]", "is land"),
+    ("an orbit over land", "steps: [{ line: [[0, 0], [0, 50]] }, { orbit: [-90, 0], radius_m: 50 }]", "mission orbit: at .* reach 0.5 m deep"),
     ("an adaptive survey beyond the terrain", "adaptive: { centre_m: [0, 0], length_m: 60, width_m: 3000, first_line_m: 10 }",
      "outside the terrain"),
+    ("an altitude above the water", f"altitude_m: 50, {LINE}", "altitude_m 50.0 leaves no depth to dive to, the deepest place is at 10.0 m"),
+    ("a time below no floor", f"abort: {{ too_low_s: 2 }}, {LINE}", "mission.abort: too_low_s needs an obstacle floor; allowed"),
+    ("an adaptive survey half on land", "adaptive: { centre_m: [0, 0], length_m: 60, width_m: 500, first_line_m: 490 }",
+     r"world.yaml:\d+:\d+: mission adaptive: .* is land"),
     ("a line of no length", "runlines: [{ from_m: [5, 5], to_m: [5, 5] }]", "to_m: is less than 1 m from from_m"),
     ("a step's line of no length", "steps: [{ line: [[5, 5], [5, 5]] }]", "line: place 2 is less than 1 m from the one before"),
     ("a lawnmower of no length", "lawnmower: { length_m: 0, spacing_m: 10, count: 2 }", r"length_m: 0 is outside \[1,"),
@@ -81,7 +90,8 @@ VEHICLES = [
     ("no sea", "disturbance: { heave: { oscillation_m: .nan } }", "oscillation_m: .nan"),
     ("no start", "start: { position_m: [0, .inf, 0] }", "position_m"),
     ("a start above the water", "start: { position_m: [0, 0, 5] }", "vehicles.boat.start.position_m: up 5 is above the water"),
-    ("a start in the seabed", "start: { position_m: [0, 0, -30] }", "vehicles.boat.start: .* 30.0 m deep and the seabed is at 10.0 m"),
+    ("a start in the seabed", "start: { position_m: [0, 0, -30] }", "vehicles.boat.start: .* reach 30.0 m deep and the seabed is 10.0 m below"),
+    ("a head in the seabed", "mountings: { sounder: { actual: { position_m: [0, 0, 50] } } }", "mission runline 1: .* reach 50.0 m deep and the seabed is 10.0 m below"),
     ("a start on land", "start: { position_m: [-200, 0, 0] }", "vehicles.boat.start: .* is land"),
     ("a start outside the terrain", "start: { position_m: [0, 4000, 0] }", "vehicles.boat.start: .* is outside the terrain"),
     ("no mounting", "mountings: { sounder: { actual: { position_m: [0, 0, .nan] } } }", "position_m"),
@@ -91,6 +101,8 @@ WORLDS = [
     ("no current", "speed_mps: 0.2, heading", "speed_mps: .nan, heading", "speed_mps: .nan"),
     ("no tide", "constant_m: 0", "constant_m: .nan", "constant_m: .nan"),
     ("a tide that ends before the survey", "constant_m: 0", "gauge: tide.csv", "the tide's last reading is 10 s after the start.*allowed: a file that covers"),
+    ("a tide of one reading a month", "constant_m: 0", "gauge: month.csv", r"month.csv:2:1: is 1200.0 h after the reading before; allowed .*: 6 h"),
+    ("a tide of the thirteenth month", "constant_m: 0", "gauge: thirteenth.csv", "thirteenth.csv:1:1: does not begin with a UTC time"),
     ("a tide of no number", "constant_m: 0", "gauge: nan.csv", r"nan.csv:1:1: has no height in \[-20, 20\] m"),
     ("no origin", "latitude_deg: 53", "latitude_deg: .nan", "latitude_deg: .nan"),
     ("no sound", "sound_speed_mps: 1500", "sound_speed_mps: .nan", "sound_speed_mps: .nan"),
@@ -98,6 +110,13 @@ WORLDS = [
 ]
 GROUND = "layers: { ground"  # meshes stand before it
 WALL = "sheet_pile_wall: { from_m: [50, 5], to_m: [90, 5] }"
+# The water's constant level, what is flown, and why not; a plain None is flown. At x = -90 m the ground is 2.1 m below chart datum.
+LEVELS = [
+    ("a depth that low water does not leave", -5, f"depth_m: 8, {LINE}", "reach 8.5 m deep and the seabed is 5.0 m below the lowest water"),
+    ("a bank that has dried", -6, "runlines: [{ from_m: [-90, 0], to_m: [-60, 0] }]", "is land, -2.1 m above chart datum with the lowest water at -6.0 m"),
+    ("a bank under high water", 6, "runlines: [{ from_m: [-130, 0], to_m: [-60, 0] }]", None),
+    ("a depth under high water", 6, f"depth_m: 12, {LINE}", None),
+]
 MESHES = [
     ("a mesh of nothing", "{}", "world.yaml:.* seabed.meshes.quay: needs one of file, bars, sheet_pile_wall"),
     ("a mesh that is not there", "{ file: no.obj }", "world.yaml:.* seabed.meshes.quay.file: .*no such file or folder"),
@@ -119,7 +138,7 @@ MESHES = [
     ("a wall of too many piles", "{ sheet_pile_wall: { from_m: [-9000, 5], to_m: [9000, 5], row_m: 0.1 } }",
      "world.yaml:.*row_m: makes 9060302 vertices; allowed: 500000"),
     ("a wall across a line", "{ sheet_pile_wall: { from_m: [-9, 20], to_m: [9, 20] } }",
-     r"world.yaml:\d+:\d+: mission runline 1: at \(0.0, (19.[789]|20.[0-3])\) m, 0.0 m deep, it runs into the mesh quay; allowed is a way beside it"),
+     r"world.yaml:\d+:\d+: mission runline 1: at \(0.0, (19.[789]|20.[0-3])\) m, 0.5 m deep, it runs into the mesh quay; allowed is a way beside it"),
 ]
 SENSORS = [
     ("a rate below nothing", "NAVIGATION", "gnss: { rate_hz: -5 }", r"gnss.rate_hz: -5 is outside \[0.01, 1000\]"),
@@ -147,13 +166,15 @@ class Refused(unittest.TestCase):
                                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                                              "end_header\n0 0 -9\n1 0")
         (self.folder / "nan.csv").write_text("2025-06-01T00:00:00Z,nan\n2025-06-02T00:00:00Z,1.1\n")
+        (self.folder / "month.csv").write_text("2025-05-01T00:00:00Z,1\n2025-06-20T00:00:00Z,5\n")
+        (self.folder / "thirteenth.csv").write_text("2025-13-01T00:00:00Z,1\n2026-06-20T00:00:00Z,5\n")
         (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
 
     def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):
         text = WORLD.replace("MISSION", mission).replace("VEHICLE", vehicle)
         self.assertIn(world[0], text)
         (self.folder / "world.yaml").write_text(text.replace(*world) if world[0] else text)
-        (self.folder / "launch.yaml").write_text(launch.replace("NAVIGATION", "").replace("HEAD", ""))
+        (self.folder / "launch.yaml").write_text(launch.replace("NAVIGATION", "altimeter: {}").replace("HEAD", ""))
         return self.folder / "launch.yaml"
 
     def check(self, launch):
@@ -175,15 +196,39 @@ class Refused(unittest.TestCase):
             with self.subTest(what):
                 self.expect(self.write(mission=mission), "world.yaml", cause)
 
+    def test_without_an_altimeter_nothing_is_flown_above_the_bottom(self):
+        launch = LAUNCH.replace("NAVIGATION", "")
+        for mission in (f"altitude_m: 4, {LINE}", f"depth_m: 5, least_altitude_m: 2, abort: {{ too_low_s: 2 }}, {LINE}",
+                        "steps: [{ altitude_m: 4 }, { line: [[0, 0], [0, 50]] }]"):
+            with self.subTest(mission):
+                self.expect(self.write(mission=mission, launch=launch), "launch.yaml:", "pilot.altitude: no publisher offers altitude/1; allowed")
+                self.assertEqual(self.check(self.write(mission=mission))[0], 0)
+        self.run_refused(self.write(mission=f"altitude_m: 4, {LINE}", launch=launch), "pilot.altitude: no publisher offers altitude/1")
+
     def test_vehicles(self):
         for what, vehicle, cause in VEHICLES:
             with self.subTest(what):
                 self.expect(self.write(vehicle=vehicle, mission=f"altitude_m: 4, {LINE}"), "world.yaml", cause)
 
+    def test_a_step_at_a_speed_at_which_the_vehicle_hardly_turns(self):
+        steps = "speed_mps: 0.5, steps: [{ speed_mps: 8 }, { line: [[0, -50], [0, 50]] }, { line: [[20, 50], [20, -50]] }]"
+        self.expect(self.write(mission=steps, vehicle="turn_rate_dps: 0.2, fastest_mps: 8, mountings: { sounder: { actual: {} } }"), "world.yaml",
+                    "step 1: at speed_mps 8 turn_rate_dps makes boat turn on a radius of 2292 m; allowed: 1000 m or less")
+
     def test_worlds(self):
         for what, good, wrong, cause in WORLDS:
             with self.subTest(what):
                 self.expect(self.write(world=(good, wrong)), "world.yaml" if "gauge" not in wrong else "", cause)
+
+    def test_missions_at_other_levels_of_the_water(self):
+        for what, level_m, mission, cause in LEVELS:
+            with self.subTest(what):
+                launch = self.write(mission=mission, world=("constant_m: 0", f"constant_m: {level_m}"))
+                if cause:
+                    self.expect(launch, "world.yaml", cause)
+                else:
+                    code, told = self.check(launch)
+                    self.assertEqual(code, 0, told)
 
     def test_meshes(self):
         for what, mesh, cause in MESHES:
@@ -208,7 +253,7 @@ class Refused(unittest.TestCase):
         self.run_refused(self.write(mission=MISSIONS[0][1]), MISSIONS[0][2])
 
     def test_a_mission_is_held_against_the_seabed_without_a_pager_too(self):
-        launch = "".join(line for line in LAUNCH.splitlines(True) if "terrain_pager" not in line and "echosounder" not in line)
+        launch = "".join(line for line in LAUNCH.replace("NAVIGATION", "").splitlines(True) if "terrain_pager" not in line and "echosounder" not in line)
         for what, mission, cause in MISSIONS[:3]:
             with self.subTest(what):
                 self.expect(self.write(mission=mission, launch=launch), "world.yaml", cause)
