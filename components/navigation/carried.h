@@ -42,11 +42,18 @@ class Outbox {
  public:
   void at(SimTime t, std::function<void()> send) { waiting_.emplace(t, std::move(send)); }
 
-  /// With the stamp of the instrument's clock, after its latency. `out` outlives this.
+  /// After the instrument's latency, with the stamp that its clock gives to the true time with which the message comes:
+  /// that of what it tells of. `out` outlives this.
+  template <class Message>
+  void publish(Ports::Out<Message>& out, Message message, const Instrument& instrument, SimTime now) {
+    const double t_s = seconds(SimTime{message.stamp_ns});
+    message.stamp_ns = from_seconds(instrument.clock.stamp_s(t_s, instrument.latency_s, instrument.stamping)).count();
+    at(now + from_seconds(instrument.latency_s), [&out, message] { out.send(message); });
+  }
   template <class Message>
   void publish(Ports::Out<Message>& out, Message message, const Instrument& instrument, const Moment& moment) {
-    message.stamp_ns = from_seconds(moment.stamp_s(instrument)).count();
-    at(moment.now + from_seconds(instrument.latency_s), [&out, message] { out.send(message); });
+    message.stamp_ns = from_seconds(moment.t_s).count();
+    publish(out, message, instrument, moment.now);
   }
 
   void send_due(SimTime now) {

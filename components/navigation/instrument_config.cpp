@@ -35,8 +35,14 @@ std::string known_grades(const std::string& kind) {
   return text;
 }
 
-/// Reads the errors of a section: first from the file of its grade, then from the section itself.
-void read_graded(ConfigReader& from, const std::string& kind, const std::function<void(ConfigReader&)>& read) {
+/// Reads when an instrument stamps, and its errors: first from the file of its grade, then from the section itself.
+void read_graded(ConfigReader& from, const std::string& kind, Instrument& instrument,
+                 const std::function<void(ConfigReader&)>& read_errors) {
+  const auto read = [&](ConfigReader& section) {
+    section.optional_choice("stamped_at", instrument.stamping,
+                            {{"measurement", sensors::Stamping::kMeasurement}, {"output", sensors::Stamping::kOutput}});
+    read_errors(section);
+  };
   std::string grade, path;
   from.optional("grade", grade);
   if (grade.ends_with(".yaml")) {
@@ -92,8 +98,6 @@ Instrument read_instrument(ConfigReader& from, const frames::Vec3& centre_body_m
   instrument.rate_hz = usual_rate_hz;
   from.optional("rate_hz", instrument.rate_hz, 0.01, 1000);
   from.optional("latency_s", instrument.latency_s, 0, 10);
-  from.optional_choice("stamped_at", instrument.stamping,
-                       {{"measurement", sensors::Stamping::kMeasurement}, {"output", sensors::Stamping::kOutput}});
   if (const auto clock = from.optional_section("clock")) read_clock(*clock, instrument.clock);
   instrument.outages = read_spans(from, "outages_s");
 
@@ -185,7 +189,7 @@ MotionSensorConfig read_motion_sensor(ConfigReader& from, const frames::Vec3& ce
   MotionSensorConfig sensor;
   sensor.instrument = read_instrument(from, centre, 100.0);
   sensor.heave.cutoff_s = 100.0;
-  read_graded(from, "motion_sensor", [&](ConfigReader& errors) {
+  read_graded(from, "motion_sensor", sensor.instrument, [&](ConfigReader& errors) {
     read_scalar(errors.optional_section("angle"), sensor.angle, "deg", 30, kDegrees);
     read_scalar(errors.optional_section("heave"), sensor.heave_error, "m", 5);
     errors.optional("heave_cutoff_s", sensor.heave.cutoff_s, 1, 1000);
@@ -203,7 +207,7 @@ MotionSensorConfig read_motion_sensor(ConfigReader& from, const frames::Vec3& ce
 HeadingConfig read_heading(ConfigReader& from, const frames::Vec3& centre) {
   HeadingConfig heading;
   heading.instrument = read_instrument(from, centre, 10.0);
-  read_graded(from, "heading", [&](ConfigReader& section) {
+  read_graded(from, "heading", heading.instrument, [&](ConfigReader& section) {
     sensors::HeadingErrors& errors = heading.errors;
     section.optional_choice("kind", errors.kind,
                             {{"gyro", sensors::HeadingKind::kGyro}, {"magnetic", sensors::HeadingKind::kMagnetic}});
@@ -233,7 +237,7 @@ DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centr
   from.optional("current_prior_mps", log.current_prior_mps, 0, 10);
   from.optional("current_walk_mps_per_sqrt_s", log.current_walk_mps_per_sqrt_s, 0, 1);
   from.optional("current_walk_mps_per_sqrt_m", log.current_walk_mps_per_sqrt_m, 0, 10);
-  read_graded(from, "velocity_log", [&](ConfigReader& errors) {
+  read_graded(from, "velocity_log", log.instrument, [&](ConfigReader& errors) {
     read_doppler(errors, log.geometry, log.errors);
     errors.optional("beam_white_percent", log.errors.beam_white_share, 0, 100, kPercent);
     errors.optional("dropout", log.errors.dropout, 0, 1);
@@ -245,7 +249,7 @@ DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centr
 CurrentProfilerConfig read_current_profiler(ConfigReader& from, const frames::Vec3& centre) {
   CurrentProfilerConfig profiler;
   profiler.instrument = read_instrument(from, centre, 1.0);
-  read_graded(from, "current_profiler", [&](ConfigReader& section) {
+  read_graded(from, "current_profiler", profiler.instrument, [&](ConfigReader& section) {
     read_doppler(section, profiler.geometry, profiler.errors);
     section.optional("blanking_m", profiler.layout.blanking_m, 0, 100);
     section.optional("bin_m", profiler.layout.thickness_m, 0.05, 100);
@@ -257,7 +261,7 @@ CurrentProfilerConfig read_current_profiler(ConfigReader& from, const frames::Ve
 CtdConfig read_ctd(ConfigReader& from, const frames::Vec3& centre) {
   CtdConfig ctd;
   ctd.instrument = read_instrument(from, centre, 4.0);
-  read_graded(from, "ctd", [&](ConfigReader& errors) {
+  read_graded(from, "ctd", ctd.instrument, [&](ConfigReader& errors) {
     read_scalar(errors.optional_section("depth"), ctd.depth, "m", 100);
     read_scalar(errors.optional_section("temperature"), ctd.temperature, "degc", 10);
     read_scalar(errors.optional_section("salinity"), ctd.salinity, "psu", 10);
@@ -268,7 +272,7 @@ CtdConfig read_ctd(ConfigReader& from, const frames::Vec3& centre) {
 UsblConfig read_usbl(ConfigReader& from, const frames::Vec3& centre) {
   UsblConfig usbl;
   usbl.instrument = read_instrument(from, centre, 0.5);
-  read_graded(from, "usbl", [&](ConfigReader& section) {
+  read_graded(from, "usbl", usbl.instrument, [&](ConfigReader& section) {
     sensors::UsblErrors& errors = usbl.errors;
     section.optional("range_white_m", errors.range_white_m, 0, 100);
     section.optional("sound_speed_percent", errors.sound_speed_scale, -10, 10, kPercent);
@@ -307,12 +311,19 @@ Instruments read_instruments(ConfigReader& from) {
   if (auto section = from.optional_section("gnss")) {
     carried.gnss.emplace();
     carried.gnss->instrument = read_instrument(*section, centre, 5.0);
-    read_graded(*section, "gnss", [&](ConfigReader& errors) { read_gnss(errors, carried.gnss->errors); });
+    read_graded(*section, "gnss", carried.gnss->instrument,
+                [&](ConfigReader& errors) { read_gnss(errors, carried.gnss->errors); });
   }
   if (auto section = from.optional_section("imu")) {
     carried.imu.emplace();
     carried.imu->instrument = read_instrument(*section, centre, 100.0);
-    read_graded(*section, "imu", [&](ConfigReader& errors) { read_imu(errors, *carried.imu); });
+    if (!carried.imu->instrument.outages.empty()) {
+      section->problem("outages_s",
+                       "without its readings there is no estimate, so an inertial unit may not fall out; "
+                       "what aids it may: gnss, velocity_log, depth, heading");
+    }
+    read_graded(*section, "imu", carried.imu->instrument,
+                [&](ConfigReader& errors) { read_imu(errors, *carried.imu); });
   }
   if (auto section = from.optional_section("motion_sensor"))
     carried.motion_sensor = read_motion_sensor(*section, centre);
@@ -321,7 +332,7 @@ Instruments read_instruments(ConfigReader& from) {
   if (auto section = from.optional_section("depth")) {
     carried.depth.emplace();
     carried.depth->instrument = read_instrument(*section, centre, 10.0);
-    read_graded(*section, "depth", [&](ConfigReader& errors) {
+    read_graded(*section, "depth", carried.depth->instrument, [&](ConfigReader& errors) {
       read_scalar(errors.optional_section("errors"), carried.depth->errors, "m", 100);
     });
   }
@@ -329,15 +340,17 @@ Instruments read_instruments(ConfigReader& from) {
     carried.altimeter.emplace();
     carried.altimeter->instrument = read_instrument(*section, centre, 5.0);
     sensors::RangeErrors& range = carried.altimeter->errors;
-    read_scalar(section->optional_section("errors"), range.range, "m", 10);
-    section->optional("shortest_m", range.shortest_m, 0, 100);
-    section->optional("longest_m", range.longest_m, 0.1, 2000);
-    section->optional("dropout", range.dropout, 0, 1);
+    read_graded(*section, "altimeter", carried.altimeter->instrument, [&](ConfigReader& errors) {
+      read_scalar(errors.optional_section("errors"), range.range, "m", 10);
+      errors.optional("shortest_m", range.shortest_m, 0, 100);
+      errors.optional("longest_m", range.longest_m, 0.1, 2000);
+      errors.optional("dropout", range.dropout, 0, 1);
+    });
   }
   if (auto section = from.optional_section("sound_speed")) {
     carried.sound_speed.emplace();
     carried.sound_speed->instrument = read_instrument(*section, centre, 1.0);
-    read_graded(*section, "sound_speed", [&](ConfigReader& errors) {
+    read_graded(*section, "sound_speed", carried.sound_speed->instrument, [&](ConfigReader& errors) {
       read_scalar(errors.optional_section("errors"), carried.sound_speed->errors, "mps", 50);
     });
   }

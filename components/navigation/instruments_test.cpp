@@ -42,6 +42,7 @@ TEST_CASE("every grade reads, and names its kind") {
     INFO(name);
     REQUIRE(!kind.empty());
     CHECK(faults_of(kind + ": { grade: " + name.substr(kind.size() + 1) + " }") == "");
+    CHECK(ConfigReader::from_file(entry.path().string()).has("stamped_at"));
     ++count;
   }
   CHECK(count == 19);

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/navigation/node.h"
+#include "components/navigation/test_sailing.h"
 #include "components/runtime/config/default_yaml.h"
 #include "components/runtime/testing.h"
 #include "messages/terrain.h"
@@ -53,10 +53,7 @@ struct Moments {
 TEST_CASE("navigation/default.yaml lists every parameter with its default") {
   Scenario scenario;
   scenario.vehicles.resize(1);
-  const std::vector<std::string> listed_when_carried{
-      "gnss",      "imu",         "motion_sensor", "heading",          "velocity_log", "depth",
-      "altimeter", "sound_speed", "ctd",           "current_profiler", "usbl",         "usbl_fixes"};
-  CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, listed_when_carried) == "");
+  CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, sailing::kSections) == "");
 }
 
 TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {

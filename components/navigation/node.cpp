@@ -93,7 +93,9 @@ SimTime NavigationNode::step(SimTime now) {
   const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
   const bool inertial = estimator_ && imu_due_.due(now);
   if (truth_ && world_ && inertial) {
-    if (const auto increments = estimator_->advance(*truth_, *world_)) increments_->send(*increments);
+    if (const auto increments = estimator_->advance(*truth_, *world_)) {
+      outbox_.publish(*increments_, *increments, carried_.imu->instrument, now);
+    }
   }
   if (usbl_fixes_ && world_) usbl_fixes_->correct(*estimator_, *world_);
   suite_.step(now, truth_, world_, believed_, estimator_);
@@ -148,7 +150,7 @@ void NavigationNode::take_fix(const msg::Position& position) {
 void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
   msg::Attitude attitude = sensors_.attitude(moved(), n);
   const frames::Vec2 place(truth_->position_enu_m[0], truth_->position_enu_m[1]);
-  if (const auto heading = suite_.heading_rad()) {
+  if (const auto heading = suite_.heading_rad(now)) {
     attitude.heading_grid_rad = frames::wrap_two_pi(*heading - world_->convergence_rad(place));
   }
   if (motion_sensor_) {
@@ -156,17 +158,16 @@ void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
     attitude.roll_rad = sensed.roll_rad;
     attitude.pitch_rad = sensed.pitch_rad;
     attitude.heave_m = sensed.heave_m;
-    if (const auto delayed = motion_sensor_->delayed_heave()) delayed_heaves_->send(*delayed);
   }
   believed_.enu_from_body = frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
   estimate(attitude);
   if (!motion_sensor_) return attitudes_.send(attitude);
 
   const Instrument& instrument = carried_.motion_sensor->instrument;
-  const double t_s = seconds(SimTime{attitude.stamp_ns});
-  if (instrument.out_at(t_s)) return;
-  attitude.stamp_ns = from_seconds(instrument.clock.stamp_s(t_s, instrument.latency_s, instrument.stamping)).count();
-  outbox_.at(now + from_seconds(instrument.latency_s), [this, attitude] { attitudes_.send(attitude); });
+  const auto delayed = motion_sensor_->delayed_heave();
+  if (instrument.out_at(seconds(SimTime{attitude.stamp_ns}))) return;
+  outbox_.publish(attitudes_, attitude, instrument, now);
+  if (delayed) outbox_.publish(*delayed_heaves_, *delayed, instrument, now);
 }
 
 /// After attitude has been measured: a degree of it is two metres at a hundred.

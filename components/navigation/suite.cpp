@@ -123,7 +123,7 @@ void Suite::measure_heading(const Moment& moment) {
   const double true_rad = std::atan2(forward.y(), forward.x());
   const double reading = heading_->sensor.measure(true_rad, compass.velocity_ned_mps.x(), compass.latitude_rad, dt_s);
   if (instrument.out_at(moment.t_s)) return;
-  heading_rad_ = reading;
+  headings_.emplace_back(moment.now + from_seconds(instrument.latency_s), reading);
   msg::Heading heading;
   heading.heading_true_rad = reading;
   outbox_.publish(*headings_out_, heading, instrument, moment);
@@ -139,6 +139,12 @@ void Suite::measure_heading(const Moment& moment) {
       filter.correct_heading(reading + lag_s * turn_radps, forward_unit, sigma_rad);
     });
   }
+}
+
+std::optional<double> Suite::heading_rad(SimTime now) {
+  while (headings_.size() > 1 && headings_[1].first <= now) headings_.pop_front();
+  if (headings_.empty() || headings_.front().first > now) return std::nullopt;
+  return headings_.front().second;
 }
 
 void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "components/navigation/carried.h"
 #include "components/navigation/config.h"
@@ -31,8 +33,8 @@ class Suite {
   void step(SimTime now, const std::optional<msg::Pose>& truth, const std::optional<frames::LocalProjection>& world,
             const Believed& believed, std::optional<Estimator>& estimator);
 
-  /// The newest heading, clockwise from true north.
-  std::optional<double> heading_rad() const { return heading_rad_; }
+  /// The newest heading that the compass has sent by now, clockwise from true north.
+  std::optional<double> heading_rad(SimTime now);
   void send_due(SimTime now) { outbox_.send_due(now); }
 
  private:
@@ -52,7 +54,7 @@ class Suite {
   SeabedBelow seabed_;
   Outbox outbox_;
   std::function<void(const msg::Position&)> positions_;
-  std::optional<double> heading_rad_;
+  std::deque<std::pair<SimTime, double>> headings_;  // and when each comes: the newest that has, and all after it
   std::optional<Carried<GnssConfig, sensors::Gnss>> gnss_;
   std::optional<Carried<HeadingConfig, sensors::HeadingSensor>> heading_;
   std::optional<Carried<DopplerLogConfig, sensors::DopplerLog>> log_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "components/navigation/node.h"
 #include "components/runtime/config/config_reader.h"
@@ -13,6 +14,11 @@ namespace ensonify::sailing {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
+
+/// What a configuration may list.
+inline const std::vector<std::string> kSections{"gnss",  "imu",       "motion_sensor", "heading", "velocity_log",
+                                                "depth", "altimeter", "sound_speed",   "ctd",     "current_profiler",
+                                                "usbl",  "usbl_fixes"};
 
 inline NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 1) {
   ConfigReader from = ConfigReader::from_text(yaml, "nav.yaml");

@@ -27,7 +27,7 @@ struct Compass {
   std::array<double, 5> deviation_rad{};  // standard deviations of A to E
 };
 
-/// The grades of components/navigation/grades.
+/// The grades of components/navigation/grades, without their quanta.
 struct Grade {
   inertial::ImuErrors imu;
   double heading_rad;  // at the start, from alignment
