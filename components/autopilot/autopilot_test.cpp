@@ -287,6 +287,30 @@ TEST_CASE("an inspection passes on a heading, stops and stays, orbits, sets the 
   CHECK(std::hypot(marks[0].position_enu_m[0] - 150, marks[0].position_enu_m[1] - 100) < 4.5);
 }
 
+TEST_CASE("in a current a place counts as kept from the way up the stream, a wait from where it begins") {
+  const auto run = [](const KeepPlace& keep) {
+    Loop loop(steps({FlyLine{{{0, 20}, {0, 200}}}, keep}), {{0, 0, 0}, 0.0, 2.0, 0.0}, {0.0, 0.5});  // from astern
+    int turns = 0;
+    double kept_s = 0.0, farthest_m = 0.0;
+    const Vec2 place(0, 300);
+    loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State& vehicle) {
+      if (mission.state != "keep") return;
+      turns += std::cos(vehicle.heading_rad) < -0.9;
+      kept_s += 0.1;
+      if (mission.distance_to_go_m < 4.5 && turns > 0) {
+        farthest_m = std::max(farthest_m, (vehicle.position_enu_m.head<2>() - place).norm());
+      }
+    });
+    CHECK(loop.autopilot.finished());
+    return std::tuple(turns > 0, kept_s, farthest_m);
+  };
+  const auto [turned, place_s, farthest_m] = run({Vec2(0, 300), 20.0, 3.0});
+  CHECK(turned);
+  CHECK(place_s > 60.0);
+  CHECK(farthest_m < 4.5);
+  CHECK(std::get<1>(run({std::nullopt, 20.0, 3.0})) == Approx(20.0).margin(0.3));
+}
+
 TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where it is too low") {
   AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 600}}}});
   config.plan.mission.depth_m = 10.0;

@@ -45,6 +45,7 @@ Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
       drift_settle_s_(config.drift_settle_s),
       period_s_(1.0 / config.command_rate_hz),
       steps_(std::move(steps)),
+      station_(limits_, kLag_s, drift_settle_s_, period_s_),
       speed_mps_(mission_.speed_mps),
       depth_(mission_, limits_.vertical_speed_mps),
       abort_watch_(mission_.abort, config.patience_s) {
@@ -89,12 +90,11 @@ void Pilot::begin(const PassPlace& pass, SimTime) {
 
 void Pilot::begin(const KeepPlace& keep, SimTime) {
   state_ = State::kKeep;
-  keep_ = keep;
   const double heading_rad = here_.waypose.heading_rad, rest_m = motion::stopping_distance_m(here_.speed_mps, limits_);
   const navigation::Vec2 at_rest =
       here_.waypose.position_enu_m + rest_m * navigation::Vec2(std::sin(heading_rad), std::cos(heading_rad));
-  station_enu_m_ = keep.place_enu_m.value_or(at_rest);  // where it is: without turning back
-  kept_since_.reset();
+  station_.begin(keep, at_rest);  // where it is: without turning back
+  approaching_ = false;
 }
 
 void Pilot::begin(const FlyOrbit& orbit, SimTime) {
@@ -150,7 +150,7 @@ guidance::LineGains Pilot::gains() const {
 
 /// The circle over ground of a vehicle that turns while it is carried along is wider than that in the water.
 double Pilot::planned_radius_m() const {
-  const double carried = 1.0 + std::min(0.9, drift_enu_mps_.norm() / std::max(turn_speed_mps(), 0.01));
+  const double carried = 1.0 + std::min(0.9, drift().norm() / std::max(turn_speed_mps(), 0.01));
   return motion::turning_circle_m(turn_speed_mps(), limits_) * turn_margin_ * carried * carried;
 }
 
@@ -222,6 +222,18 @@ void Pilot::follow_line(SimTime now) {
   if (state_ == State::kRunOut && at().along_m >= navigation::length_m(line()) + mission_.run_out_m) begin_step(now);
 }
 
+// --- stations -------------------------------------------------------------------------------------------------------
+
+void Pilot::keep_place(SimTime now) {
+  if (!approaching_ && station_.asks_for_approach(here_.waypose, speed_mps_)) {
+    const auto begin = station_.approach(here_.waypose, speed_mps_);
+    approaching_ = begin.has_value();
+    if (begin) head_for(*begin);
+  }
+  if (approaching_) approaching_ = !turn_flown();
+  if (station_.kept(now, here_.waypose.position_enu_m, approaching_)) begin_step(now);
+}
+
 // --- the whole ------------------------------------------------------------------------------------------------------
 
 bool Pilot::holds_line() const {
@@ -234,6 +246,9 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
   const navigation::Vec2 place(estimate.position_enu_m[0], estimate.position_enu_m[1]);
   if (state_ == State::kOrbit && std::abs(guidance::outside_m(circle_, place)) < kOnCircle * circle_.radius_m) {
     to_sweep_rad_ -= guidance::swept_rad(circle_, here_.waypose.position_enu_m, place);
+  }
+  if (begun_) {
+    station_.look(velocity, attitude.heading_rad, command(now).speed_mps, holds_line() || (keeps() && !approaching_));
   }
   position_enu_m_ = estimate.position_enu_m;
   cosine_of_tilt_ = std::cos(attitude.roll_rad) * std::cos(attitude.pitch_rad);
@@ -254,7 +269,9 @@ std::optional<double> Pilot::way_to_go_m() const {
     case State::kTurn: return turn_.length_m() - along_turn_m_;
     default: break;
   }
-  if (state_ == State::kKeep && kept_since_) return std::nullopt;
+  if (keeps() && approaching_)
+    return turn_.length_m() - along_turn_m_ + navigation::length_m(station_.way_up(speed_mps_));
+  if (keeps() && station_.arrived()) return std::nullopt;
   const msg::MissionState told = mission_state({});
   return told.distance_to_go_m + std::abs(told.cross_track_m);
 }
@@ -278,12 +295,7 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
     case State::kPass:
       if (turn_flown()) begin_step(now);
       break;
-    case State::kKeep:
-      if (!kept_since_ && (here_.waypose.position_enu_m - station_enu_m_).norm() <= 1.5 * keep_.within_m) {
-        kept_since_ = now;
-      }
-      if (kept_since_ && seconds(now - *kept_since_) >= keep_.for_s) begin_step(now);
-      break;
+    case State::kKeep: keep_place(now); break;
     case State::kOrbit:
       if (to_sweep_rad_ <= 0.0) begin_step(now);
       break;
@@ -299,7 +311,7 @@ bool Pilot::ended() const {
 }
 
 double Pilot::heading_for_rad(double course_rad, double speed_mps) const {
-  return guidance::heading_for_course_rad(course_rad, speed_mps, drift_enu_mps_);
+  return guidance::heading_for_course_rad(course_rad, speed_mps, drift());
 }
 
 /// Heading and speed of each state.
@@ -308,7 +320,7 @@ msg::Guidance Pilot::steer() const {
   msg::Guidance guidance;
   guidance.heading_grid_rad = frames::wrap_two_pi(here_.waypose.heading_rad);
   guidance.speed_mps = speed_mps_;
-  switch (state_) {
+  switch (keeps() && approaching_ ? State::kTurn : state_) {
     case State::kTurn:
     case State::kPass: {  // steer as the path will bend when the command takes effect
       const double course_rad = navigation::follow_heading_rad(turn_, place, along_turn_m_, gains().lookahead_m) +
@@ -335,9 +347,7 @@ msg::Guidance Pilot::steer() const {
       break;
     }
     case State::kKeep: {
-      const guidance::StationRules rules{keep_.within_m, 0.2, speed_mps_, limits_.deceleration_mps2, kLag_s};
-      const auto steering =
-          guidance::keep_station(rules, station_enu_m_, place, here_.waypose.heading_rad, drift_enu_mps_);
+      const auto steering = station_.steer(here_.waypose, speed_mps_);
       guidance.heading_grid_rad = steering.heading_rad;
       guidance.speed_mps = steering.speed_mps;
       break;
@@ -369,7 +379,7 @@ msg::MissionState Pilot::mission_state(SimTime now) const {
   mission.line = line_ - (state_ == State::kTurn ? 1 : 0);
   mission.line_count = line_count_;
   if (state_ == State::kKeep) {
-    mission.distance_to_go_m = (station_enu_m_ - place).norm();
+    mission.distance_to_go_m = (station_.place_enu_m() - place).norm();
   } else if (state_ == State::kOrbit) {
     mission.cross_track_m = (circle_.clockwise ? -1.0 : 1.0) * guidance::outside_m(circle_, place);
     mission.distance_to_go_m = to_sweep_rad_ * circle_.radius_m;

@@ -10,10 +10,10 @@
 #include "components/autopilot/abort_watch.h"
 #include "components/autopilot/config.h"
 #include "components/autopilot/depth_keeper.h"
+#include "components/autopilot/station_keeper.h"
 #include "components/runtime/sim_time.h"
 #include "kernels/guidance/circle.h"
 #include "kernels/guidance/line.h"
-#include "kernels/guidance/station.h"
 #include "kernels/navigation/turn.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
@@ -80,6 +80,7 @@ class Pilot {
   void head_for(const navigation::Waypose& goal);
   bool turn_flown();
   void follow_line(SimTime now);
+  void keep_place(SimTime now);
   double switch_before_end_m() const;
 
   // --- steering
@@ -87,6 +88,9 @@ class Pilot {
   std::optional<double> way_to_go_m() const;
   guidance::LineGains gains() const;
   bool holds_line() const;
+  bool keeps() const { return state_ == State::kKeep; }
+  /// How the water carries the vehicle, as far as the state has use for it.
+  const navigation::Vec2& drift() const { return keeps() ? station_.current_enu_mps() : drift_enu_mps_; }
   double planned_radius_m() const;
   double turn_speed_mps() const { return speed_mps_ * turn_speed_fraction_; }
   double heading_for_rad(double course_rad, double speed_mps) const;
@@ -110,9 +114,8 @@ class Pilot {
   navigation::Turn turn_;
   navigation::Waypose goal_;
   double along_turn_m_ = 0.0;
-  navigation::Vec2 station_enu_m_ = navigation::Vec2::Zero();
-  KeepPlace keep_;
-  std::optional<SimTime> kept_since_;
+  StationKeeper station_;
+  bool approaching_ = false;  // a station: the turn before the last way to it is flown
   guidance::Circle circle_;
   double to_sweep_rad_ = 0.0;
   std::optional<msg::NextLine> offered_;

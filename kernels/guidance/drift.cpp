@@ -26,6 +26,12 @@ Vec2 learn_drift(const Vec2& drift_enu_mps, const Vec2& velocity_enu_mps, double
   return drift_enu_mps + (1.0 - std::exp(-dt_s / settle_s)) * missing_mps * across;
 }
 
+Vec2 learn_current(const Vec2& current_enu_mps, const Vec2& velocity_enu_mps, double heading_rad, double speed_mps,
+                   double dt_s, double settle_s) {
+  const Vec2 left_mps = velocity_enu_mps - speed_mps * forward(heading_rad);
+  return current_enu_mps + (1.0 - std::exp(-dt_s / settle_s)) * (left_mps - current_enu_mps);
+}
+
 double heading_for_course_rad(double course_rad, double speed_mps, const Vec2& drift_enu_mps) {
   return frames::wrap_two_pi(course_rad - std::asin(sine_upstream(course_rad, speed_mps, drift_enu_mps)));
 }

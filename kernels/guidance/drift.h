@@ -13,6 +13,11 @@ using frames::Vec2;
 Vec2 learn_drift(const Vec2& drift_enu_mps, const Vec2& velocity_enu_mps, double heading_rad, double dt_s,
                  double settle_s);
 
+/// Learns the same from a vehicle that makes its speed through the water, both across the heading and along it: what is
+/// left of the velocity over ground. For straight ways at a steady speed.
+Vec2 learn_current(const Vec2& current_enu_mps, const Vec2& velocity_enu_mps, double heading_rad, double speed_mps,
+                   double dt_s, double settle_s);
+
 /// The heading that makes good a course at a speed through the water: it points upstream by asin(across / speed). A
 /// drift across the course of more than 0.9 times the speed is taken for that much: the vehicle is carried off.
 /// speed_mps >= 0; below 0.05 m/s the course itself.

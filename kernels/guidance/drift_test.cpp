@@ -25,6 +25,13 @@ TEST_CASE("drift across one heading is learned exponentially, and the rest on an
   CHECK((drift - current).norm() < 1e-4);
 }
 
+TEST_CASE("with the speed through the water all of a current is learned on one heading") {
+  const Vec2 current(0.4, -0.3);
+  Vec2 learned = Vec2::Zero();
+  for (int i = 0; i < 100; ++i) learned = learn_current(learned, Vec2(2.0, 0.0) + current, 0.5 * kPi, 2.0, 0.1, 10.0);
+  CHECK((learned - (1.0 - std::exp(-1.0)) * current).norm() < 1e-12);
+}
+
 TEST_CASE("the heading for a course points upstream so that the way made good is the course") {
   const Vec2 drift(0.5, 0.2);
   for (double course = 0.0; course < 2.0 * kPi; course += 0.3) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/frames/attitude.h"
+#include "kernels/navigation/runline.h"
 
 namespace ensonify::guidance {
 
@@ -29,5 +30,19 @@ struct Steering {
 /// degrees off the way it should go gets half the turning speed `fastest_mps / 2`: on the spot it could not turn.
 Steering keep_station(const StationRules& rules, const Vec2& place_enu_m, const Vec2& position_enu_m,
                       double heading_rad, const Vec2& drift_enu_mps);
+
+/// Slower water than this, m/s, is kept a place in from anywhere, faster water from downstream.
+inline constexpr double kStream_mps = 0.1;
+
+/// The last, straight way to a place in a stream: from so far downstream that a vehicle that comes off a turn lines up
+/// in `settle_m` and then stops from `fastest_mps`, to the place. drift of kStream_mps or more.
+navigation::Runline upstream_way(const StationRules& rules, double settle_m, const Vec2& place_enu_m,
+                                 const Vec2& drift_enu_mps);
+
+/// How a vehicle comes up that way and then stands in the stream: its heading leads back to the way within about
+/// `lookahead_m`, its speed to the place along it. Upstream of the place it falls back, with steerage. A heading that
+/// never leaves upstream by much needs little turning, which a boat that stands over ground can do but slowly.
+Steering stem(const StationRules& rules, double lookahead_m, const navigation::Runline& way, const Vec2& position_enu_m,
+              const Vec2& drift_enu_mps);
 
 }  // namespace ensonify::guidance

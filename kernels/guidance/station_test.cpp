@@ -58,6 +58,31 @@ TEST_CASE("in a current the place is kept with the bow upstream") {
   CHECK(order.speed_mps == Approx(0.5));
 }
 
+TEST_CASE("the way up to a place in a stream begins as far downstream as it takes to line up and to stop") {
+  const auto way = upstream_way({3.0, 0.2, 2.0, 0.2, 0.5}, 30.0, {10, 20}, {0.3, 0.0});
+  CHECK((way.start_enu_m - Vec2(10 + 11 + 30, 20)).norm() < 1e-9);  // v^2 / (2 a) + v lag = 11 m
+  CHECK(way.end_enu_m == Vec2(10, 20));
+}
+
+TEST_CASE(
+    "a vehicle comes up a stream to its place without going beyond it, and stands there, wherever it comes from") {
+  const StationRules rules{3.0, 0.2, 2.0, 0.2, 0.5};
+  const Vec2 current(0.0, -0.5);  // upstream is north
+  for (const double off_m : {0.0, 5.0, -20.0}) {
+    motion::State state{{off_m, -80, 0}, 0.3, 2.0, 0.0};
+    double overshoot_m = -INFINITY;
+    for (int i = 0; i < 6000; ++i) {
+      const Vec2 place = state.position_enu_m.head<2>();
+      const Steering order = stem(rules, 15.0, upstream_way(rules, 30.0, {0, 0}, current), place, current);
+      state = motion::advance(state, {order.heading_rad, order.speed_mps, 0.0}, 0.1, {});
+      state.position_enu_m.head<2>() += 0.1 * current;
+      overshoot_m = std::max(overshoot_m, state.position_enu_m.y());
+    }
+    CHECK(overshoot_m < 0.05);
+    CHECK(state.position_enu_m.head<2>().norm() < 0.05);
+  }
+}
+
 TEST_CASE("with nothing to do the heading stays, and a bow that points away turns at half speed at most") {
   const StationRules rules;
   CHECK(keep_station(rules, {0, 0}, {1, 0}, 4.0, {0, 0}).heading_rad == 4.0);
