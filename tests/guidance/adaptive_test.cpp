@@ -1,8 +1,6 @@
 // The adaptive survey of scenarios/slope_overlap: autopilot and coverage in closed loop with a kinematic boat, over the
 // scenario's own seabed, the mission that of launch/adaptive.yaml. Soundings are geometry: 512 over 122 degrees, evenly
 // spaced on level ground, that meet the seabed across the track.
-#include <yaml-cpp/yaml.h>
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -36,11 +34,10 @@ const double kSwath_rad = 122.0 * std::numbers::pi / 180.0;
 struct Slope {
   static std::string file(const std::string& name) { return std::string(std::getenv("ENSONIFY_SOURCE")) + "/" + name; }
   static ConfigNode mission() {
-    YAML::Node node = YAML::LoadFile(file("launch/adaptive.yaml"))["set"]["mission"];
-    node["adaptive"]["width_m"] = 2900;  // there an argument
-    node.SetStyle(YAML::EmitterStyle::Flow);
-    node["adaptive"].SetStyle(YAML::EmitterStyle::Flow);
-    return parse_config_value(YAML::Dump(node), {"adaptive_test", 0, 0});
+    ConfigDocument launch = parse_config_file(file("launch/adaptive.yaml"));
+    ConfigNode& mission = *launch.root.find("set")->find("mission");
+    set_config_value(mission, "adaptive.width_m", ConfigNode::text("2900"));  // there an argument
+    return mission;
   }
 
   Scenario scenario = read_scenario(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
