@@ -1,4 +1,5 @@
-"""How good the navigation was: error of the estimate against truth, Allan deviation of inertial sensors, spectra of motion."""
+"""Where a vehicle went and how well that was known: track, error of the estimate against truth, Allan deviation of inertial
+sensors, spectra of motion."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,21 +79,46 @@ def spectrum(values: np.ndarray, interval_s: float) -> tuple:
 
 
 def navigation_picture(record: ensonify.Record):
-    """Four panels; what was not recorded says so."""
+    """Five panels; what was not recorded says so."""
     truth, estimate = read_track(record, ensonify.Pose), read_track(record, ensonify.Estimate)
     increments = record.topics_of(ensonify.InertialIncrements)
-    if truth is None and not increments:
-        raise UserError(f"{record.file}: neither pose/1 nor inertial_increments/1 was recorded, so there is nothing to judge by")
-    figure = new_figure(12, 8.5)
-    place, heading, noise, motion = figure.subplots(2, 2).flat
-    _draw_errors(place, heading, estimate, truth)
-    _draw_allan(noise, [m.content for m in record.messages(increments[0])] if increments else [])
-    _draw_spectra(motion, truth)
+    if truth is None and estimate is None and not increments:
+        raise UserError(f"{record.file}: none of pose/1, estimate/1 and inertial_increments/1 was recorded, so there is nothing to draw")
+    figure = new_figure(16, 8.5)
+    panels = figure.subplot_mosaic([["track", "place", "heading"], ["track", "noise", "motion"]])
+    _draw_track(panels["track"], record, truth, estimate)
+    _draw_errors(panels["place"], panels["heading"], estimate, truth)
+    _draw_allan(panels["noise"], [m.content for m in record.messages(increments[0])] if increments else [])
+    _draw_spectra(panels["motion"], truth)
     return figure
 
 
 def _nothing(axes, why):
     axes.text(0.5, 0.5, why, ha="center", va="center", transform=axes.transAxes, color="0.4")
+
+
+def _draw_track(axes, record, truth, estimate):
+    """From above, one metre as long east as north: the first vehicle's truth and estimate, its fixes, lines that an adaptive survey laid."""
+    axes.set_title("Track")
+    lines = record.topics_of(ensonify.NextLine)
+    planned = [m.content for m in record.messages(lines[0])] if lines else []
+    for n, line in enumerate(line for line in planned if not line.done):
+        ends = np.array([line.start_enu_m, line.end_enu_m])
+        axes.plot(*ends.T, color="0.5", linewidth=0.9, linestyle="--", label="planned lines" if n == 0 else None)
+    if truth is not None:
+        axes.plot(*truth.position_enu_m[:, :2].T, color="0.75", linewidth=3, label="truth")
+    if positions := record.topics_of(ensonify.Position):
+        fixes = np.array([m.content.position_enu_m[:2] for m in record.messages(positions[0])]).reshape(-1, 2)
+        axes.plot(*fixes.T, ".", color="tab:orange", markersize=2, label="fixes")
+    if estimate is not None:
+        axes.plot(*estimate.position_enu_m[:, :2].T, color="tab:blue", linewidth=0.9, label="estimate")
+    axes.set(xlabel="east (m)", ylabel="north (m)")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.grid(alpha=0.3)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="best")
+    else:
+        _nothing(axes, "needs pose/1, estimate/1 or position/1")
 
 
 def _draw_errors(place, heading, estimate, truth):

@@ -45,7 +45,7 @@ def add_verbs(verbs) -> None:
     _add_water_column(verbs)
     _add_angular_response(verbs)
     _verb(verbs, "navigation", plot_navigation,
-          "How good the navigation was: error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
+          "Where the vehicle went and how well that was known: track (m), error of the estimate (m, degrees) against the recorded truth with the filter's 3 sigma, "
           "Allan deviation of the inertial sensors, spectra of the motion.")
     _add_coverage(verbs)
     add_seabed(verbs)

@@ -27,8 +27,8 @@ def pose_at(t_s):
     return np.array([0.0, 2.0 * t_s, 0.5 * np.sin(2 * np.pi * t_s / 8)])
 
 
-def write(file, with_truth=True):
-    """Sixty seconds of truth, an estimate beside it, and increments of white noise."""
+def write(file, with_truth=True, seconds=60):
+    """Truth, an estimate beside it, fixes to the other side of it, increments of white noise; two planned lines."""
     random = np.random.default_rng(1)
     north = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
     covariance = tuple((SIGMA_M**2 * np.eye(3)).ravel())
@@ -44,7 +44,7 @@ def write(file, with_truth=True):
             t_ns = message.stamp_ns
             writer.add_message(channels[topic], t_ns, wire.encode_inline(message.to_map()), t_ns, 0)
 
-        for n in range(600):
+        for n in range(round(seconds / STEP_S)):
             t_s = n * STEP_S
             stamp_ns = round(t_s * 1e9)
             if with_truth:
@@ -52,10 +52,15 @@ def write(file, with_truth=True):
             put("nav/estimate", ensonify.Estimate(stamp_ns=stamp_ns, position_enu_m=tuple(pose_at(t_s) + OFF_M),
                                                   enu_from_body=north, position_covariance_enu_m2=covariance,
                                                   rotation_covariance_enu_rad2=covariance))
+            if n % 2 == 0:
+                put("nav/position", ensonify.Position(stamp_ns=stamp_ns, position_enu_m=tuple(pose_at(t_s) - OFF_M)))
             if with_truth:
                 put("nav/imu", ensonify.InertialIncrements(stamp_ns=stamp_ns, interval_s=STEP_S,
                                                            angle_rad=tuple(1e-4 * random.standard_normal(3)),
                                                            velocity_mps=tuple(1e-3 * random.standard_normal(3))))
+        for number in range(3):  # the last says that nothing is left to fly
+            put("covered/next_line", ensonify.NextLine(stamp_ns=number, number=number, done=number == 2,
+                                                     start_enu_m=(10.0 * number, 0.0), end_enu_m=(10.0 * number, 120.0)))
         writer.finish()
 
 
@@ -98,14 +103,41 @@ class Picture(unittest.TestCase):
             with Image.open(os.path.join(folder, "navigation.png")) as picture:
                 self.assertGreater(picture.size[0], 1000)
 
-    def test_without_truth_there_is_nothing_to_judge_by(self):
+    def drawn(self, **how):
+        """The panels by their titles."""
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "nav.mcap")
-            write(file, with_truth=False)
+            write(file, **how)
+            return {axes.get_title(): axes for axes in navigation.navigation_picture(ensonify.Record(file)).axes}
+
+    def test_the_track_is_drawn_from_above_with_what_was_planned_believed_and_true(self):
+        axes = self.drawn()["Track"]
+        self.assertEqual(axes.get_aspect(), 1.0)  # a metre east is as long as a metre north
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("east (m)", "north (m)"))
+        drawn = {line.get_label(): line.get_xydata() for line in axes.get_lines()}
+        true = np.array([pose_at(n * STEP_S)[:2] for n in range(600)])
+        np.testing.assert_allclose(drawn["truth"], true, atol=1e-9)
+        np.testing.assert_allclose(drawn["estimate"], true + OFF_M[:2], atol=1e-9)
+        np.testing.assert_allclose(drawn["fixes"], true[::2] - OFF_M[:2], atol=1e-9)
+        np.testing.assert_allclose(drawn["planned lines"], [[0, 0], [0, 120]])
+        self.assertEqual(len(axes.get_lines()), 5)  # two planned lines, one name
+        self.assertEqual({text.get_text() for text in axes.get_legend().get_texts()}, {"truth", "estimate", "fixes", "planned lines"})
+
+    def test_without_truth_the_track_is_that_of_the_estimate(self):
+        panels = self.drawn(with_truth=False)
+        drawn = {line.get_label(): line.get_xydata() for line in panels["Track"].get_lines()}
+        self.assertNotIn("truth", drawn)
+        self.assertEqual(len(drawn["estimate"]), 600)
+        self.assertIn("needs estimate/1 and pose/1", [text.get_text() for text in panels["Estimate less truth: position"].texts])
+
+    def test_without_anything_of_navigation_there_is_nothing_to_draw(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "nav.mcap")
+            write(file, seconds=0)
             said = io.StringIO()
             with contextlib.redirect_stderr(said):
                 self.assertEqual(main(["navigation", file]), 2)
-            self.assertIn("neither pose/1 nor inertial_increments/1 was recorded", said.getvalue())
+            self.assertIn("none of pose/1, estimate/1 and inertial_increments/1 was recorded", said.getvalue())
 
 
 if __name__ == "__main__":
