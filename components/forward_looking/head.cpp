@@ -102,7 +102,7 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   prepare(settings);
   const RangedPulse& ranged = listening_->ranged;
   head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
-  arrivals_.move(poses_);
+  arrivals_.move(poses_, seconds(shot.transmit));
   look(seabed);
   point_beams(known_sound_speed_mps);
   arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);

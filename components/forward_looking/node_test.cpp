@@ -111,6 +111,16 @@ TEST_CASE("a head that can only see black says why") {
   CHECK(lost.step_until<msg::Ping>("ping", 200_ms).empty());
 }
 
+TEST_CASE("on a tide the water is where it stands, not at chart datum") {
+  auto config = small();
+  config.range_m = 60.0;
+  config.world.vertical.tide = vertical::Tide(3.0);
+  CHECK(health_at(config, 2.0) == "ok: ");
+  CHECK(health_at(config, 4.0) == "degraded: the head is 1.0 m above the water");
+  config.world.vertical.tide = vertical::Tide(-3.0);
+  CHECK(health_at(config, -2.0) == "degraded: the head is 1.0 m above the water");
+}
+
 TEST_CASE("a command changes range and rate from the next ping on; what cannot be is clamped") {
   Head head(small());
   give_motion(head, -10.0, 2_s);

@@ -133,16 +133,22 @@ TEST_CASE("in calm water the surface answers after 2 d / c; with multipath off, 
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = false;
   config.back_loss_db = 10.0;
-  const auto at_surface = [&] {
+  const auto at_surface = [&](double above_m = 2.0) {
     const Listened heard = listened(config);
     const auto row = heard.ping.amplitude_upa.row(16);
-    const auto k = static_cast<std::size_t>(2.0 * 2.0 / 1500.0 * config.sample_rate_hz) + 1;
+    const auto k = static_cast<std::size_t>(2.0 * above_m / 1500.0 * config.sample_rate_hz) + 1;
     return static_cast<double>(row[k]);
   };
   // SL - 20 log 4 m - 0.07 x 4 - 2 x 10 dB behind the face, and what a beam of 4 degrees loses 2 degrees beside its
   // axis: 3 dB.
   const double level_db = 20.0 * std::log10(at_surface());
   CHECK(level_db == Approx(215.0 - 12.04 - 0.28 - 20.0 - 3.0).margin(1.0));
+
+  config.world.vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
+  CHECK(at_surface(2.0) == 0.0);
+  CHECK(20.0 * std::log10(at_surface(5.0)) == Approx(215.0 - 20.0 - 0.7 - 20.0 - 3.0).margin(1.0));
+  config.world.vertical.tide = vertical::Tide();
+
   config.effects.multipath = false;
   CHECK(at_surface() == 0.0);
   config.effects.multipath = true;

@@ -12,6 +12,7 @@ namespace {
 HeadInputs::Start start_of(const MultibeamConfig& config) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
+  start.tide = config.world.vertical.tide;
   start.lod = config.lod;
   start.lod.looks = static_cast<std::int32_t>(config.all_sectors().size());
   start.longest_ping = from_seconds(config.longest_listening_s() + config.processing_latency_s);

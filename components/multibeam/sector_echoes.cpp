@@ -149,8 +149,9 @@ void SectorEchoes::prepare(const Shot& shot, const HeadSettings& settings, const
   }
   sampling_ = {-delay_s_, 1.0 / config_.sample_rate_hz, config_.samples(shot.range_m, settings.pulse_length_s)};
   const double listening_s = config_.listening_s(shot.range_m, settings.pulse_length_s) - delay_s_;
-  head_poses(truth, config_.mounting.actual, shot.transmit + from_seconds(delay_s_), from_seconds(listening_s), poses_);
-  arrivals_.move(poses_);
+  const SimTime sent = shot.transmit + from_seconds(delay_s_);
+  head_poses(truth, config_.mounting.actual, sent, from_seconds(listening_s), poses_);
+  arrivals_.move(poses_, seconds(sent));
 }
 
 /// A flat array's delays are made for the sound speed that the head believes in; the true one turns its beams.

@@ -199,7 +199,8 @@ void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::He
   if (!ping.estimate.empty()) {
     const frames::HeadPose head = believed_pose(ping.estimate, ping.shot.transmit);
     settings_.seabed_tilt_rad = seabed_tilt_rad(head);
-    settings_.second_echo.head_depth_m = std::max(-head.position_enu_m.z(), 0.0);
+    const double water_level_m = config_.world.vertical.tide.at(seconds(ping.shot.transmit)).height_m;
+    settings_.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
   }
   echoes_.clear();
   std::size_t first = 0;  // place of the sector's first sounding

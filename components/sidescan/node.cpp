@@ -10,6 +10,7 @@ namespace {
 HeadInputs::Start start_of(const SidescanConfig& config) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
+  start.tide = config.world.vertical.tide;
   start.lod = config.lod;
   start.lod.looks = static_cast<std::int32_t>(config.channels.size());
   start.sound_speed_mps = config.sound_speed_mps;

@@ -65,7 +65,7 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
 
 echo::Image& ApertureEchoes::listen(const Emission& emission, const echo::Pulse& pulse,
                                     std::span<const frames::HeadPose> poses, trace::Scene& seabed) {
-  arrivals_.move(poses);
+  arrivals_.move(poses, seconds(emission.shot.transmit));
   arrivals_.look(seabed, distribution_, emission.shot.range_m, rays_, hits_);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.listening_s / emission.sample_period_s))};

@@ -35,7 +35,8 @@ Arrivals::Arrivals(const Environment& environment, double frequency_hz, const Ef
       transmitted_(std::move(transmitted)),
       paths_(environment.profile(), effects.refraction) {}
 
-void Arrivals::move(std::span<const frames::HeadPose> poses) {
+void Arrivals::move(std::span<const frames::HeadPose> poses, double t_s) {
+  water_level_m_ = environment_.water_level_m(t_s);
   poses_.assign(poses.begin(), effects_.motion ? poses.end() : poses.begin() + 1);
   receivers_.set({0.0, seconds(kTrackPeriod), poses_});
 }
@@ -67,6 +68,7 @@ const std::vector<echo::Arrival>& Arrivals::listen(double source_level_db, echo:
         .source_level_db = sent_db(source_level_db),
         .transmit = [this](const Eigen::Vector3f& direction) { return transmitted_(direction, kFarAway_m); }};
     echo::SurfaceMirror surface;
+    surface.level_enu_m = water_level_m_;
     surface.sound_speed_mps = sound_speed_mps();
     surface.rms_height_m = environment_.rms_wave_height_m();
     echo::add_multipath(carrier, head, surface, {}, pose, found, receivers_, arrivals_);

@@ -29,8 +29,9 @@ class Arrivals {
 
   Arrivals(const Environment& environment, double frequency_hz, const Effects& effects, TransmittedPower transmitted);
 
-  /// Where the head truly is from transmission on; frames::HeadPose per kTrackPeriod. Comes before the others.
-  void move(std::span<const frames::HeadPose> poses);
+  /// Where the head truly is from transmission on, which is at sim time `t_s`; frames::HeadPose per kTrackPeriod. Comes
+  /// before the others.
+  void move(std::span<const frames::HeadPose> poses, double t_s);
   const frames::HeadPose& transmit_pose() const { return poses_.front(); }
   /// The true one, at the head.
   double sound_speed_mps() const { return paths_.sound_speed_mps(transmit_pose()); }
@@ -106,6 +107,7 @@ class Arrivals {
   echo::Receivers receivers_;
 
   // Of the last ping.
+  double water_level_m_ = 0.0;
   std::vector<frames::HeadPose> poses_;
   std::vector<float> source_upa2m2_, backscatter_;
   std::vector<echo::Arrival> arrivals_;

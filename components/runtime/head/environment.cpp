@@ -95,6 +95,7 @@ Environment::Environment(const Scenario& scenario, double frequency_hz)
       noise_level_db_(noise_level_db_of(scenario.water, frequency_hz)),
       sediments_(scenario.seabed.sediments),
       backscatter_(tables_of(sediments_, frequency_hz, profile_.knots().back().speed_mps)),
+      tide_(scenario.vertical.tide),
       wind_speed_mps_(scenario.water.wind_speed_mps),
       surface_backscatter_(surface_table_of(frequency_hz, wind_speed_mps_)),
       rms_wave_height_m_(surface::rms_wave_height_m(wind_speed_mps_)),

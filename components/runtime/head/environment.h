@@ -26,7 +26,7 @@ refraction::SoundSpeedProfile applied_profile(const Scenario& scenario);
 water::Column true_column(const Water& water);
 
 /// Water, surface and seabed as a head of one frequency meets them: what every head has from the scenario besides its
-/// mounting. Depths are positive down from chart datum.
+/// mounting. Depths are positive down from chart datum; water above that is as it is there, without scattering layers.
 class Environment {
  public:
   Environment(const Scenario& scenario, double frequency_hz);
@@ -53,6 +53,8 @@ class Environment {
   /// The same of the sea surface, seen from below.
   const seabed::BackscatterTable& surface_backscatter() const { return surface_backscatter_; }
 
+  /// The sea surface above chart datum, m, at sim time t.
+  double water_level_m(double t_s) const { return tide_.at(t_s).height_m; }
   double wind_speed_mps() const { return wind_speed_mps_; }
   /// Of a fully developed sea of that wind: what roughens the mirror of the surface (surface::coherent_reflection). The
   /// scenario's wind, 10 m above the sea, stands for that at 19.5 m, which makes waves 5 % too low.
@@ -73,6 +75,7 @@ class Environment {
   std::map<std::uint8_t, seabed::Scatterer> sediments_;  // on a plane, or as the scenario says
   std::vector<double> facet_mean_square_slope_;          // by class
   seabed::ClassTables backscatter_;
+  vertical::Tide tide_;
   double wind_speed_mps_;
   seabed::BackscatterTable surface_backscatter_;
   double rms_wave_height_m_;

@@ -45,6 +45,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
       truth_((2 * start.longest_ping + 1_s).count()),
       estimate_((2 * start.longest_ping + 1_s).count()),
       tiles_(start.lod),
+      tide_(start.tide),
       start_mps_(start.sound_speed_mps) {
   for (const Channel& channel : start.channels) {
     names_.push_back(channel.name);
@@ -90,7 +91,8 @@ std::string HeadInputs::obstacle(SimTime now) const {
   const auto body = truth_.at(now.count(), frames::PoseHistory::Outside::kNearest);
   if (!body) return "no pose of the vehicle has arrived";
   const frames::Vec3 place = frames::head_pose(*body, mounting_.actual).position_enu_m;
-  if (place.z() > 0.0) return fmt::format("the head is {:.1f} m above the water", place.z());
+  const double above_water_m = place.z() - tide_.at(seconds(now)).height_m;
+  if (above_water_m > 0.0) return fmt::format("the head is {:.1f} m above the water", above_water_m);
   if (!tiles_.covers(place.head<2>())) {
     return fmt::format("no seabed tile under the head at ({:.0f}, {:.0f}) m", place.x(), place.y());
   }

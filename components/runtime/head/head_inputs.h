@@ -10,6 +10,7 @@
 #include "components/runtime/ports.h"
 #include "kernels/frames/pose.h"
 #include "kernels/uncertainty/sounding.h"
+#include "kernels/vertical/tide.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -27,6 +28,7 @@ class HeadInputs {
   };
   struct Start {
     HeadMounting mounting;
+    vertical::Tide tide;              // of the water that the head is to be under
     SimTime longest_ping{0};          // from transmission to the end of its processing: poses are kept for two of them
     double sound_speed_mps = 1500.0;  // believed, until a probe tells
     bool probe = false;               // there is one
@@ -66,6 +68,7 @@ class HeadInputs {
   frames::PoseHistory truth_, estimate_;
   std::optional<uncertainty::Navigation> navigation_errors_;
   TileSet tiles_;
+  vertical::Tide tide_;
   double start_mps_;
   std::optional<double> probe_mps_;
   std::vector<std::string> names_;  // of channels

@@ -39,7 +39,7 @@ Look look(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) {
   const Environment environment(scenario, 300e3);
   Arrivals arrivals(environment, 300e3, {.motion = false}, [](const auto&, float) { return 1.0; });
   const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
-  arrivals.move(std::vector{pose, pose});
+  arrivals.move(std::vector{pose, pose}, 0.0);
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
   Look look;
   arrivals.look(tiles.scene(), distribution, 45.0, look.rays, look.hits);

@@ -7,6 +7,7 @@ HeadInputs::Start start_of(const HeadConfig& config, const HeadInputs::Channel& 
                            const SingleChannel::Plan& plan) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
+  start.tide = config.world.vertical.tide;
   start.lod = config.lod;
   start.longest_ping = from_seconds(plan.longest_listening_s + config.processing_latency_s);
   start.sound_speed_mps = config.sound_speed_mps;

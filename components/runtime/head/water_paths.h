@@ -12,7 +12,7 @@
 namespace ensonify {
 
 /// Rays through the water of a run: bent by its profile, or straight where the speed of sound is one everywhere or
-/// refraction is switched off. The surface is at z = 0.
+/// refraction is switched off. Depths of the profile count from z = 0.
 class WaterPaths {
  public:
   WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction)
