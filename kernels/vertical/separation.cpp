@@ -34,4 +34,11 @@ double Separation::at(const frames::Vec2& place_enu_m) const {
   return (1.0 - v) * ((1.0 - u) * south[0] + u * south[1]) + v * ((1.0 - u) * north[0] + u * north[1]);
 }
 
+bool Separation::covers(const frames::Vec2& place_enu_m) const {
+  if (values_m_.empty()) return true;
+  const frames::Vec2 cell = (place_enu_m - south_west_enu_m_) / spacing_m_;
+  return cell.minCoeff() >= -0.5 && cell.x() <= static_cast<double>(columns_) - 0.5 &&
+         cell.y() <= static_cast<double>(rows_) - 0.5;
+}
+
 }  // namespace ensonify::vertical

@@ -18,6 +18,10 @@ class Separation {
 
   double at(const frames::Vec2& place_enu_m) const;
 
+  /// Whether a place lies on a cell of the grid, whose cells reach half a spacing beyond their posts. A constant is
+  /// everywhere.
+  bool covers(const frames::Vec2& place_enu_m) const;
+
  private:
   double constant_m_ = 0.0;
   frames::Vec2 south_west_enu_m_ = frames::Vec2::Zero();

@@ -20,6 +20,15 @@ TEST_CASE("a grid gives its posts, a plane between them, and its edge outside") 
   CHECK(Separation(-31.2).at({1, 2}) == -31.2);
 }
 
+TEST_CASE("a grid covers its cells, which reach half a spacing beyond their posts") {
+  const Separation grid({-100, 50}, 10.0, 4, 3, std::vector<double>(12, 1.0));  // east -105 to -65, north 45 to 75
+  for (const Vec2& inside : {Vec2(-104, 46), Vec2(-66, 46), Vec2(-104, 74), Vec2(-66, 74)}) CHECK(grid.covers(inside));
+  for (const Vec2& outside : {Vec2(-106, 60), Vec2(-64, 60), Vec2(-80, 44), Vec2(-80, 76)}) {
+    CHECK_FALSE(grid.covers(outside));
+  }
+  CHECK(Separation(3.0).covers({1e5, -1e5}));
+}
+
 TEST_CASE("a grid with a hole or without posts is refused") {
   CHECK_THROWS_AS(Separation(Vec2(0, 0), 10, 2, 2, {1, 2, 3}), std::invalid_argument);
   CHECK_THROWS_AS(Separation(Vec2(0, 0), 10, 2, 2, {1, 2, 3, NAN}), std::invalid_argument);

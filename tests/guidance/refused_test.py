@@ -104,6 +104,12 @@ WORLDS = [
     ("a tide of one reading a month", "constant_m: 0", "gauge: month.csv", r"month.csv:2:1: is 1200.0 h after the reading before; allowed .*: 6 h"),
     ("a tide of the thirteenth month", "constant_m: 0", "gauge: thirteenth.csv", "thirteenth.csv:1:1: does not begin with a UTC time"),
     ("a tide of no number", "constant_m: 0", "gauge: nan.csv", r"nan.csv:1:1: has no height in \[-20, 20\] m"),
+    ("a geoid that is not there", "constant_m: 0 }", "constant_m: 0 }, geoid_above_ellipsoid_grid: no.asc",
+     r"world.yaml:6:\d+: vertical.geoid_above_ellipsoid_grid: .*no.asc.*no such file or folder"),
+    ("a geoid of another place", "constant_m: 0 }", "constant_m: 0 }, geoid_above_ellipsoid_grid: small.asc",
+     r"world.yaml:6:\d+: vertical.geoid_above_ellipsoid_grid: does not cover \(-300.0, 300.0\) m; allowed: a grid over the whole seabed"),
+    ("a datum with a hole", "constant_m: 0 }", "constant_m: 0 }, datum_above_geoid_grid: holed.asc",
+     r"holed.asc:8:1: lacks a value in \[-200, 200\] m"),
     ("no origin", "latitude_deg: 53", "latitude_deg: .nan", "latitude_deg: .nan"),
     ("no sound", "sound_speed_mps: 1500", "sound_speed_mps: .nan", "sound_speed_mps: .nan"),
     ("no ground", "depth_m: 10, slope", "depth_m: .nan, slope", "depth_m: .nan"),
@@ -168,6 +174,9 @@ class Refused(unittest.TestCase):
         (self.folder / "nan.csv").write_text("2025-06-01T00:00:00Z,nan\n2025-06-02T00:00:00Z,1.1\n")
         (self.folder / "month.csv").write_text("2025-05-01T00:00:00Z,1\n2025-06-20T00:00:00Z,5\n")
         (self.folder / "thirteenth.csv").write_text("2025-13-01T00:00:00Z,1\n2026-06-20T00:00:00Z,5\n")
+        head = "ncols 2\nnrows 2\nxllcorner -300\nyllcorner -300\ncellsize {}\nNODATA_value -9999\n"
+        (self.folder / "small.asc").write_text(head.format(250) + "46 46\n46 46\n")  # 500 of 600 m
+        (self.folder / "holed.asc").write_text(head.format(300) + "46 46\n46 -9999\n")
         (self.folder / "tide.csv").write_text("2025-06-01T00:00:00Z,1.0\n2025-06-01T00:00:10Z,1.1\n")  # 10 s of 25 and more
 
     def write(self, mission=LINE, vehicle=VEHICLE, world=("", ""), launch=LAUNCH):
@@ -218,7 +227,7 @@ class Refused(unittest.TestCase):
     def test_worlds(self):
         for what, good, wrong, cause in WORLDS:
             with self.subTest(what):
-                self.expect(self.write(world=(good, wrong)), "world.yaml" if "gauge" not in wrong else "", cause)
+                self.expect(self.write(world=(good, wrong)), "" if re.match(r"\w+.(csv|asc):", cause) else "world.yaml", cause)
 
     def test_missions_at_other_levels_of_the_water(self):
         for what, level_m, mission, cause in LEVELS:

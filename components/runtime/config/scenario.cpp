@@ -185,6 +185,40 @@ void check_tide(ConfigReader& from, const Scenario& scenario) {
   }
 }
 
+/// What grids must cover, as far as it is known: corners of a generated seabed, ends of runlines, vehicles at the
+/// start.
+std::vector<frames::Vec2> places_of_site(const Scenario& scenario) {
+  std::vector<frames::Vec2> places;
+  if (scenario.seabed.kind == Seabed::Kind::kLayers) {
+    const frames::Vec2 half_m = 0.5 * scenario.seabed.layered.size_m;
+    for (const double east : {-half_m.x(), half_m.x()}) {
+      for (const double north : {-half_m.y(), half_m.y()}) {
+        places.push_back(scenario.seabed.layered.centre_enu_m + frames::Vec2(east, north));
+      }
+    }
+  }
+  for (const auto& line : scenario.mission.runlines) places.insert(places.end(), {line.start_enu_m, line.end_enu_m});
+  for (const auto& vehicle : scenario.vehicles) {
+    if (vehicle.start) places.emplace_back(vehicle.start->position_enu_m.head<2>());
+  }
+  return places;
+}
+
+/// Grids of datums must cover the site: beyond its edge a grid knows nothing.
+void check_datums(const ConfigReader& section, const Scenario& scenario) {
+  const vertical::Datums& datums = scenario.vertical.datums;
+  const std::vector<frames::Vec2> places = places_of_site(scenario);
+  const auto check = [&](const char* key, const vertical::Separation& separation) {
+    const auto bare = std::ranges::find_if(places, [&](const auto& place) { return !separation.covers(place); });
+    if (bare == places.end()) return;
+    section.problem(key, fmt::format("does not cover ({:.1f}, {:.1f}) m; allowed: a grid over the whole seabed and "
+                                     "all lines, east and north in metres of the world",
+                                     bare->x(), bare->y()));
+  };
+  check("geoid_above_ellipsoid_grid", datums.geoid_above_ellipsoid);
+  check("datum_above_geoid_grid", datums.datum_above_geoid);
+}
+
 void check_whole(ConfigReader& from, const Scenario& scenario) {
   if (from.good()) check_tide(from, scenario);
   std::set<std::string> heads;
@@ -238,7 +272,8 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
     scenario.water = read_water(*water);
   }
   const double start_unix_s = static_cast<double>(scenario.start_unix_ns) * 1e-9;
-  if (const auto vertical = from.optional_section("vertical")) {
+  const auto vertical = from.optional_section("vertical");
+  if (vertical) {
     scenario.vertical = read_vertical(*vertical, start_unix_s);
   }
   if (const auto current = from.optional_section("current")) {
@@ -251,6 +286,7 @@ Scenario read_scenario(ConfigReader& from, const std::string& file) {
   scenario.seabed.layered.seed = scenario.seed;
   const bool placed = !scenario.site.origin_from_raster;
   scenario.mission = read_mission(from.section("mission"), placed ? std::optional(scenario.site.origin) : std::nullopt);
+  if (vertical && from.good()) check_datums(*vertical, scenario);
   check_whole(from, scenario);
   return scenario;
 }

@@ -77,7 +77,8 @@ TEST_CASE("a harmonic tide is high when its phase says, from its reference time"
       "reference_utc: \"2025-06-01T06:00:00Z\"}]}\n  geoid_above_ellipsoid_m: -28.5\n  datum_above_geoid_m: -1.6"));
   CHECK(s.vertical.tide.at(-6 * 3600.0).height_m == Approx(3.5));
   CHECK(s.vertical.tide.at(0.0).height_m == Approx(2 + 1.5 * std::cos(6 * 28.9841042 * kDegree)));
-  CHECK(vertical::ellipsoid_height_m(s.vertical.datums, {0, 0, 3}) == Approx(3 - 28.5 - 1.6));
+  CHECK(s.vertical.datums.geoid_above_ellipsoid.at({0, 0}) == -28.5);
+  CHECK(vertical::geoid_height_m(s.vertical.datums, {0, 0, 3}) == Approx(3 - 1.6));
   REQUIRE(s.vehicles[0].floats.has_value());
   CHECK(vertical::sinkage_m(*s.vehicles[0].floats, 2.0, 0.0) == Approx(0.07));
   CHECK(problems_of(scenario_text("", "vertical: {tide: {constituents: [{constituent: M7, amplitude_m: 1}]}}"))
@@ -142,6 +143,34 @@ TEST_CASE("a grid of separations is an Esri file from north to south") {
   CHECK_THROWS_WITH(
       read_separation(written("hole.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2\n3\n")),
       Catch::Contains("hole.asc:7:1: lacks a value in [-200, 200] m"));
+}
+
+TEST_CASE("a grid of separations as GDAL writes it, with a value that stands for none") {
+  const std::string head = "ncols 2\nnrows 2\nxllcorner -50\nyllcorner -50\ncellsize 50\nNODATA_value -88.88\n";
+  CHECK(read_separation(written("gdal.asc", head + " 47 48\n 45 46\n")).at({-25, 25}) == 47.0);
+  CHECK_THROWS_WITH(read_separation(written("none.asc", head + " 47 48\n 45 -88.88\n")),
+                    Catch::Contains("none.asc:8:1: lacks a value in [-200, 200] m"));
+  CHECK_THROWS_WITH(
+      read_separation(written("word.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\nnan 48\n45 46\n")),
+      Catch::Contains("word.asc:6:1: is neither NODATA_value with a number nor a row of values"));
+}
+
+TEST_CASE("grids of datums must cover the site") {
+  // A generated seabed of 600 x 600 m about the origin, a line to 990 m north; a grid of 1400 x 1400 m.
+  const auto problems = [](const std::string& key, double west_m, double south_m) {
+    const std::string path =
+        written("site.asc", "ncols 2\nnrows 2\nxllcorner " + std::to_string(west_m) + "\nyllcorner " +
+                                std::to_string(south_m) + "\ncellsize 700\n1 1\n1 1\n");
+    return problems_of(scenario_text("", "vertical: {" + key + ": " + path + "}"));
+  };
+  CHECK(problems("geoid_above_ellipsoid_grid", -301, -301) == "");
+  CHECK(problems("geoid_above_ellipsoid_grid", -299, -301) ==
+        "bay.yaml:5:40: vertical.geoid_above_ellipsoid_grid: does not cover (-300.0, -300.0) m; allowed: a grid over "
+        "the whole seabed and all lines, east and north in metres of the world");
+  CHECK(problems("datum_above_geoid_grid", -1101, -301).find("_geoid_grid: does not cover (300.0, -300.0) m") !=
+        std::string::npos);
+  CHECK(problems("datum_above_geoid_grid", -301, -411).find("_geoid_grid: does not cover (0.0, 990.0) m") !=
+        std::string::npos);
 }
 
 TEST_CASE("a current has a profile and streams, towards their headings") {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -82,6 +84,43 @@ vertical::Separation read_separation_of(ConfigReader& from, const char* metres, 
   }
 }
 
+/// What stands above the rows of an Esri ASCII grid.
+struct EsriHead {
+  std::size_t columns = 0, rows = 0;
+  frames::Vec2 corner_enu_m;  // the south-west one, of the cells
+  double cell_m = 0.0;
+  std::optional<double> no_data;  // what cells without a value hold
+  int lines = 5;
+};
+
+EsriHead read_esri_head(std::istream& in, const std::string& path) {
+  EsriHead head;
+  std::map<std::string, double> values{{"ncols", 0}, {"nrows", 0}, {"xllcorner", 0}, {"yllcorner", 0}, {"cellsize", 0}};
+  std::string key;
+  double value = 0.0;
+  for (int line = 1; line <= head.lines; ++line) {
+    if (!(in >> key >> value) || !values.contains(key)) {
+      refuse(path, line, "is not one of ncols, nrows, xllcorner, yllcorner, cellsize with a number");
+    }
+    values[key] = value;
+  }
+  if (std::isalpha((in >> std::ws).peek()) != 0) {
+    head.lines = 6;
+    if (!(in >> key >> value) || key != "NODATA_value") {
+      refuse(path, head.lines, "is neither NODATA_value with a number nor a row of values");
+    }
+    head.no_data = value;
+  }
+  if (!(values["ncols"] >= 2 && values["nrows"] >= 2 && values["ncols"] * values["nrows"] <= 1e7)) {
+    refuse(path, 1, "has fewer than 2 x 2 or more than ten million cells");
+  }
+  head.columns = static_cast<std::size_t>(values["ncols"]);
+  head.rows = static_cast<std::size_t>(values["nrows"]);
+  head.corner_enu_m = {values["xllcorner"], values["yllcorner"]};
+  head.cell_m = values["cellsize"];
+  return head;
+}
+
 }  // namespace
 
 Vertical read_vertical(ConfigReader from, double start_unix_s) {
@@ -127,31 +166,20 @@ vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s)
 
 vertical::Separation read_separation(const std::string& path) {
   std::ifstream in = opened(path);
-  std::map<std::string, double> head{{"ncols", 0}, {"nrows", 0}, {"xllcorner", 0}, {"yllcorner", 0}, {"cellsize", 0}};
-  for (int line = 1; line <= 5; ++line) {
-    std::string key;
-    double value = 0.0;
-    if (!(in >> key >> value) || !head.contains(key)) {
-      refuse(path, line, "is not one of ncols, nrows, xllcorner, yllcorner, cellsize with a number");
-    }
-    head[key] = value;
-  }
-  if (!(head["ncols"] >= 2 && head["nrows"] >= 2 && head["ncols"] * head["nrows"] <= 1e7)) {
-    refuse(path, 1, "has fewer than 2 x 2 or more than ten million cells");
-  }
-  const auto columns = static_cast<std::size_t>(head["ncols"]), rows = static_cast<std::size_t>(head["nrows"]);
-  std::vector<double> values(columns * rows);
-  for (std::size_t row = rows; row-- > 0;) {
-    for (std::size_t column = 0; column < columns; ++column) {
-      if (!(in >> values[row * columns + column]) || std::abs(values[row * columns + column]) > kFarthestApart_m) {
-        refuse(path, static_cast<int>(5 + rows - row),
+  const EsriHead head = read_esri_head(in, path);
+  std::vector<double> values(head.columns * head.rows);
+  for (std::size_t row = head.rows; row-- > 0;) {
+    for (std::size_t column = 0; column < head.columns; ++column) {
+      double& value = values[row * head.columns + column];
+      if (!(in >> value) || std::abs(value) > kFarthestApart_m || value == head.no_data) {
+        refuse(path, head.lines + static_cast<int>(head.rows - row),
                fmt::format("lacks a value in [{}, {}] m", -kFarthestApart_m, kFarthestApart_m));
       }
     }
   }
-  const double cell = head["cellsize"];
+  const frames::Vec2 half_cell(0.5 * head.cell_m, 0.5 * head.cell_m);
   try {
-    return {{head["xllcorner"] + 0.5 * cell, head["yllcorner"] + 0.5 * cell}, cell, columns, rows, std::move(values)};
+    return {head.corner_enu_m + half_cell, head.cell_m, head.columns, head.rows, std::move(values)};
   } catch (const std::invalid_argument& error) {
     refuse(path, 1, error.what());
   }

@@ -20,8 +20,9 @@ Vertical read_vertical(ConfigReader from, double start_unix_s);
 /// lines that start with # and a first line of column names are skipped. Throws ConfigError with places in that file.
 vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s);
 
-/// A grid of separations, an Esri ASCII file (ncols, nrows, xllcorner, yllcorner, cellsize, then rows from north to
-/// south, cell centres) in the world's own metres. Throws ConfigError with the place of what is wrong.
+/// A grid of separations, an Esri ASCII file (ncols, nrows, xllcorner, yllcorner, cellsize, NODATA_value if there is
+/// one, then rows from north to south, cell centres) in the world's own metres; cells without a value are refused.
+/// Throws ConfigError with the place of what is wrong.
 vertical::Separation read_separation(const std::string& path);
 
 }  // namespace ensonify

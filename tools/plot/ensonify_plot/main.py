@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 import ensonify
-from ensonify_plot import files, grid, pictures, uncertainty
+from ensonify_plot import files, grid, pictures, reduction, uncertainty
 from ensonify_plot.heard import choose_ping, heads_with_soundings, process_of, soundings_of
 from ensonify_plot.ping import ping_picture
 from ensonify_plot.results import Writer, folder_of, open_record
@@ -39,9 +39,23 @@ def parse(arguments) -> argparse.Namespace:
     survey.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
     survey.add_argument("--cell", type=float, metavar="M", help="cell size in m; default: the finest of 0.1, 0.2, 0.5, ... m at "
                         f"which {grid.WELL_FILLED:.0%} of the cells hold {grid.MIN_COUNT} soundings".replace("%", "%%"))
+    how = survey.add_mutually_exclusive_group()
+    how.add_argument("--gauge", metavar="FILE", help="heights by tide gauge: water levels in m above chart datum, lines \"2025-06-01T12:00:00Z,"
+                     "1.35\", less settlement, plus the measured heave; default: the estimate's heights")
+    how.add_argument("--separation", metavar="FILE", help="heights by satellite: those of position/1 above the ellipsoid less this grid that GDAL "
+                     "reads, chart datum above the ellipsoid in m, in metres of the world or with a coordinate system; default: the estimate's heights")
+    survey.add_argument("--settlement", type=_settlement, metavar="S:L,...", help="with --gauge: how much lower, L in m, the vehicle's reference "
+                        "point runs at a speed S in m/s over ground than the still water; default: 0:0")
     survey.add_argument("--json", action="store_true", help="print summary.json's content instead of text")
     add_verbs(verbs)
     return parser.parse_args(arguments)
+
+
+def _settlement(text: str) -> list:
+    try:
+        return reduction.settlement_of(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not speeds, rising, and metres, such as 0:0,4:0.06") from None
 
 
 def plot_survey(options) -> int:
@@ -49,12 +63,17 @@ def plot_survey(options) -> int:
     record = open_record(options.record)
     out = Writer(options.out or folder_of(record), options.json)
     survey = read_survey(record)
+    if options.settlement and not options.gauge:
+        raise UserError("--settlement: needs --gauge")
+    heights = "by the estimate"
+    if options.gauge or options.separation:
+        heights = reduction.reduce(survey, record, options.gauge, options.settlement, options.separation)
     if len(survey.soundings) == 0:
         raise UserError(f"{record.file}: none of the {survey.beam_count:,} beams of {survey.ping_count:,} pings has an accepted "
                         "sounding")
     summary = draw_survey(survey, chosen_cell(survey, options.cell), out)
     draw_a_ping(record, out)
-    summary = {"record": os.path.basename(record.file), "whole_record": record.whole, **summary, **run_facts(out.folder),
+    summary = {"record": os.path.basename(record.file), "whole_record": record.whole, "heights": heights, **summary, **run_facts(out.folder),
                "files": [*out.files, "summary.json"]}
     with open(out.path("summary.json"), "w", encoding="utf-8") as stream:
         json.dump(summary, stream, indent=2)
