@@ -311,6 +311,16 @@ TEST_CASE("in a current a place counts as kept from the way up the stream, a wai
   CHECK(std::get<1>(run({std::nullopt, 20.0, 3.0})) == Approx(20.0).margin(0.3));
 }
 
+TEST_CASE("a turn that leads past a place does not count as keeping it") {
+  StationKeeper keeper({}, 0.2, 10.0, 0.1);
+  keeper.begin({Vec2(0, 0), 20.0, 3.0}, {50, 50});
+  CHECK_FALSE(keeper.kept(0_s, {0, 1}, true));
+  CHECK_FALSE(keeper.arrived());
+  CHECK_FALSE(keeper.kept(1_s, {0, 1}, false));
+  CHECK(keeper.arrived());
+  CHECK(keeper.kept(21_s, {9, 9}, false));
+}
+
 TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where it is too low") {
   AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 600}}}});
   config.plan.mission.depth_m = 10.0;
