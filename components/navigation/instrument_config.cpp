@@ -1,5 +1,7 @@
 #include "components/navigation/instrument_config.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -65,6 +67,12 @@ void read_graded(ConfigReader& from, const std::string& kind, Instrument& instru
     }
   }
   read(from);
+}
+
+/// Of what hears the bottom between two distances.
+void check_ranges(const ConfigReader& from, double shortest_m, double longest_m) {
+  if (shortest_m >= longest_m)
+    from.problem("shortest_m", fmt::format("{} is not below longest_m {}; allowed: less", shortest_m, longest_m));
 }
 
 std::vector<sensors::Span> read_spans(ConfigReader& from, const char* key) {
@@ -242,6 +250,7 @@ DopplerLogConfig read_velocity_log(ConfigReader& from, const frames::Vec3& centr
     errors.optional("beam_white_percent", log.errors.beam_white_share, 0, 100, kPercent);
     errors.optional("dropout", log.errors.dropout, 0, 1);
     errors.optional("shortest_m", log.errors.shortest_m, 0, 100);
+    check_ranges(errors, log.errors.shortest_m, log.errors.longest_m);
   });
   return log;
 }
@@ -344,6 +353,7 @@ Instruments read_instruments(ConfigReader& from) {
       read_scalar(errors.optional_section("errors"), range.range, "m", 10);
       errors.optional("shortest_m", range.shortest_m, 0, 100);
       errors.optional("longest_m", range.longest_m, 0.1, 2000);
+      check_ranges(errors, range.shortest_m, range.longest_m);
       errors.optional("dropout", range.dropout, 0, 1);
     });
   }

@@ -154,6 +154,9 @@ SENSORS = [
     ("an outage that ends before it begins", "NAVIGATION", "gnss: { outages_s: [10, 5] }", "outages_s: is not"),
     ("an error of no number", "NAVIGATION", "depth: { errors: { white_m: .nan } }", "white_m: .nan"),
     ("an attitude rate of nothing", "NAVIGATION", "attitude_rate_hz: 0", "attitude_rate_hz: 0 is outside"),
+    ("an altimeter that hears nothing", "NAVIGATION", "altimeter: { shortest_m: 50, longest_m: 10 }", "altimeter.shortest_m: 50 is not below longest_m 10"),
+    ("a velocity log that hears nothing", "NAVIGATION", "imu: { grade: fog }, velocity_log: { grade: standard, shortest_m: 90, longest_m: 10 }",
+     "velocity_log.shortest_m: 90 is not below longest_m 10"),
     ("a head that pings backwards", "HEAD", "ping_rate_hz: -1", "ping_rate_hz: -1 is outside"),
     ("a head of no range", "HEAD", "range_m: .nan", "range_m: .nan"),
 ]
