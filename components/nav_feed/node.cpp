@@ -66,7 +66,7 @@ frames::MovingPose NavFeedNode::at_its_height(frames::MovingPose moving, SimTime
       (moving.velocity_enu_mps.head<2>() - config_.current.velocity_enu_mps(0.0, t_s)).norm();  // through the water
   if (!floating_) floating_.emplace(config_.tide, config_.floats, speed_mps, t_s);
   floating_->advance(speed_mps, t_s);
-  const vertical::Afloat afloat = floating_->at_last();
+  const vertical::Level afloat = floating_->at_last();
   moving.pose.position_enu_m.z() += afloat.height_m;
   moving.velocity_enu_mps.z() += afloat.rate_mps;
   moving.acceleration_enu_mps2.z() += afloat.acceleration_mps2;

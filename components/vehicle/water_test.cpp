@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "components/vehicle/integrated.h"
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
 #include "kernels/motion/disturbance_presets.h"
@@ -87,30 +88,19 @@ TEST_CASE("600 s of a vehicle's accelerations and turn rates, on a tide and in a
   config.disturbance = *motion::disturbance_preset("research_ship");
   VehicleModel boat(config, {{0, 0, 0}, 0.5, 2.0}, 0_s);
   const auto vec = [](const std::array<double, 3>& v) { return Vec3(v[0], v[1], v[2]); };
-  const auto slope = [&](const Eigen::Vector4d& q, const msg::Pose& pose) {
-    const frames::Quaternion spin(0.0, pose.rate_body_radps[0], pose.rate_body_radps[1], pose.rate_body_radps[2]);
-    return Eigen::Vector4d(0.5 * (frames::Quaternion(q) * spin).coeffs());
-  };
-  msg::Pose first = boat.pose();
-  Vec3 position = vec(first.position_enu_m), velocity = vec(first.velocity_enu_mps);
-  Eigen::Vector4d q = frames::quaternion_of(first.enu_from_body).coeffs();
-  constexpr double h = 0.04;
-  for (SimTime t{0}; t < 600_s; t += 40_ms) {
-    boat.advance(t + 20_ms);
-    const msg::Pose middle = boat.pose();
-    boat.advance(t + 40_ms);
-    const msg::Pose last = boat.pose();
-    // Simpson's rule, and the parabola's own double integral.
-    const Vec3 a = vec(first.acceleration_enu_mps2), b = vec(middle.acceleration_enu_mps2);
-    position += h * velocity + h * h / 6 * (a + 2 * b);
-    velocity += h / 6 * (a + 4 * b + vec(last.acceleration_enu_mps2));
-    const Eigen::Vector4d k1 = slope(q, first), k2 = slope(q + 0.5 * h * k1, middle),
-                          k3 = slope(q + 0.5 * h * k2, middle), k4 = slope(q + h * k3, last);
-    q = (q + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)).normalized();
-    first = last;
-  }
-  CHECK((position - vec(first.position_enu_m)).norm() < 1e-3);
-  CHECK(frames::Quaternion(q).angularDistance(frames::quaternion_of(first.enu_from_body)) < 1e-3 * kPi / 180);
+  const Off off = integrated(
+      600_s, 40_ms, [](SimTime) {},
+      [&](SimTime t) {
+        boat.advance(t);
+        const msg::Pose pose = boat.pose();
+        return frames::MovingPose{{vec(pose.position_enu_m), frames::quaternion_of(pose.enu_from_body)},
+                                  vec(pose.velocity_enu_mps),
+                                  vec(pose.rate_body_radps),
+                                  vec(pose.acceleration_enu_mps2),
+                                  vec(pose.angular_acceleration_body_radps2)};
+      });
+  CHECK(off.position_m.norm() < 1e-3);
+  CHECK(off.attitude_rad < 1e-3 * kPi / 180);
 }
 
 TEST_CASE("a ramp of speed makes no step in vertical velocity: acceleration integrates to the settlement") {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/motion/cubic.h"
+
 namespace ensonify::motion {
 
 bool SampledCurve::push(double t_s, double value) {
@@ -36,11 +38,7 @@ Moving SampledCurve::at(double t_s) const {
   }
   const auto i = static_cast<std::size_t>(next - samples_.begin()) - 1;
   const Sample &a = samples_[i], &b = samples_[i + 1];
-  const double h = b.t_s - a.t_s, u = t_s - a.t_s;
-  const double chord = (b.value - a.value) / h, from = slope(i), to = slope(i + 1);
-  const double square = (3.0 * chord - 2.0 * from - to) / h, cube = (from + to - 2.0 * chord) / (h * h);
-  return {a.value + u * (from + u * (square + u * cube)), from + u * (2.0 * square + 3.0 * u * cube),
-          2.0 * square + 6.0 * u * cube};
+  return cubic_between({a.value, slope(i)}, {b.value, slope(i + 1)}, b.t_s - a.t_s, t_s - a.t_s);
 }
 
 }  // namespace ensonify::motion

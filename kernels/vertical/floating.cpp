@@ -1,14 +1,6 @@
 #include "kernels/vertical/floating.h"
 
 namespace ensonify::vertical {
-namespace {
-
-/// How the tide's rate changes, over two seconds: of constituents to 1e-8 of it; the lines of a gauge bend within them.
-double tide_acceleration_mps2(const Tide& tide, double t_s) {
-  return 0.5 * (tide.at(t_s + 1.0).rate_mps - tide.at(t_s - 1.0).rate_mps);
-}
-
-}  // namespace
 
 Floating::Floating(const Tide& tide, const std::optional<Loading>& loading, double speed_mps, double t_s)
     : tide_(tide), loading_(loading), settling_(settlement_m(speed_mps)), t_s_(t_s) {}
@@ -22,12 +14,12 @@ void Floating::advance(double speed_mps, double t_s) {
   t_s_ = t_s;
 }
 
-Afloat Floating::at_last() const {
+Level Floating::at_last() const {
   const double change_m = loading_ ? loading_->change_m : 0.0, change_mps = loading_ ? loading_->rate_mps : 0.0;
   const Level level = tide_.at(t_s_);
   return {level.height_m - (settling_.lower_m() + change_m + change_mps * t_s_),
           level.rate_mps - (settling_.rate_mps() + change_mps),
-          tide_acceleration_mps2(tide_, t_s_) - settling_.acceleration_mps2()};
+          level.acceleration_mps2 - settling_.acceleration_mps2()};
 }
 
 }  // namespace ensonify::vertical

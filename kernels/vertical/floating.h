@@ -9,14 +9,7 @@
 namespace ensonify::vertical {
 
 /// Where a vessel floats: on the tide, less the settlement of her speed, as the hull comes to it, and what her load
-/// changes. Without a loading it is the tide's own level, which a submerged vehicle rides. m, up, chart datum; each of
-/// the three is the derivative of the one before.
-struct Afloat {
-  double height_m = 0.0;
-  double rate_mps = 0.0;
-  double acceleration_mps2 = 0.0;
-};
-
+/// changes. Without a loading it is the tide's own level, which a submerged vehicle rides.
 class Floating {
  public:
   /// Settled to its speed through the water at sim time `t_s`.
@@ -25,7 +18,7 @@ class Floating {
   /// On to `t_s` (not before the last), when the speed through the water has come to `speed_mps`.
   void advance(double speed_mps, double t_s);
 
-  Afloat at_last() const;
+  Level at_last() const;
 
  private:
   double settlement_m(double speed_mps) const;

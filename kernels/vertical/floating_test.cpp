@@ -30,19 +30,45 @@ TEST_CASE("what does not float rides the tide alone") {
   CHECK(diver.at_last().rate_mps == kTide.at(50.0).rate_mps);
 }
 
-TEST_CASE("600 s of a vessel's vertical acceleration, asked for at 50 Hz, integrate to where she floats") {
-  Floating hull(kTide, kLoading, speed_mps(0.0), 0.0);
+namespace {
+
+/// How far 600 s of vertical acceleration, asked for at 50 Hz from t = 0, are from where the hull floats then.
+Level miss_after_600_s(Floating hull, double (*speed_at)(double)) {
   constexpr double h = 0.02;
-  Afloat before = hull.at_last();
-  double height_m = before.height_m, rate_mps = before.rate_mps;
+  Level before = hull.at_last(), summed = before;
   for (int i = 1; i <= 30000; ++i) {
-    hull.advance(speed_mps(i * h), i * h);
-    const Afloat now = hull.at_last();
+    hull.advance(speed_at(i * h), i * h);
+    const Level now = hull.at_last();
     // The trapezoidal rule, and the double integral of a straight line. The jerk is 1e-3 m/s^3: 1e-8 m/s a step.
-    height_m += h * rate_mps + h * h / 6 * (2 * before.acceleration_mps2 + now.acceleration_mps2);
-    rate_mps += 0.5 * h * (before.acceleration_mps2 + now.acceleration_mps2);
+    summed.height_m += h * summed.rate_mps + h * h / 6 * (2 * before.acceleration_mps2 + now.acceleration_mps2);
+    summed.rate_mps += 0.5 * h * (before.acceleration_mps2 + now.acceleration_mps2);
     before = now;
   }
-  CHECK(height_m == Approx(before.height_m).margin(1e-4));
-  CHECK(rate_mps == Approx(before.rate_mps).margin(1e-6));
+  return {summed.height_m - before.height_m, summed.rate_mps - before.rate_mps};
+}
+
+}  // namespace
+
+TEST_CASE("600 s of a vessel's vertical acceleration, asked for at 50 Hz, integrate to where she floats") {
+  const Level miss = miss_after_600_s(Floating(kTide, kLoading, speed_mps(0.0), 0.0), speed_mps);
+  CHECK(std::abs(miss.height_m) < 1e-4);
+  CHECK(std::abs(miss.rate_mps) < 1e-6);
+}
+
+TEST_CASE("so they do on a gauge's tide, begun on a reading or not, read each six minutes or each minute") {
+  for (const double interval_s : {360.0, 60.0}) {
+    for (const double begun_s : {0.0, 0.01, 123.4}) {  // between two values that are asked for; anywhere
+      GaugeReadings readings;                          // to centimetres, which bends the level more than the tide does
+      for (double t = -begun_s - 10 * interval_s; t < 1200.0; t += interval_s) {
+        readings.time_s_and_height_m.emplace_back(t, 0.01 * std::round(100.0 * kTide.at(t + 9000.0).height_m));
+      }
+      const Tide gauge(readings);
+      const auto still = [](double) { return 0.0; };
+      for (const Level& miss : {miss_after_600_s(Floating(gauge, kLoading, speed_mps(0.0), 0.0), speed_mps),
+                                miss_after_600_s(Floating(gauge, std::nullopt, 0.0, 0.0), still)}) {
+        CAPTURE(interval_s, begun_s, miss.height_m, miss.rate_mps);
+        CHECK(std::abs(miss.height_m) < 1e-3);
+      }
+    }
+  }
 }

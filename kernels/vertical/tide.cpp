@@ -1,9 +1,10 @@
 #include "kernels/vertical/tide.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "kernels/motion/cubic.h"
 
 namespace ensonify::vertical {
 namespace {
@@ -25,24 +26,15 @@ constexpr Speed kSpeeds[] = {
 };
 
 Level harmonic(const HarmonicTide& tide, double t_s) {
-  Level level{tide.mean_m, 0.0};
+  Level level{tide.mean_m};
   for (const Constituent& c : tide.constituents) {
     const double phase_rad = c.speed_radps * t_s - c.phase_rad;
-    level.height_m += c.amplitude_m * std::cos(phase_rad);
+    const double off_m = c.amplitude_m * std::cos(phase_rad);
+    level.height_m += off_m;
     level.rate_mps -= c.amplitude_m * c.speed_radps * std::sin(phase_rad);
+    level.acceleration_mps2 -= c.speed_radps * c.speed_radps * off_m;
   }
   return level;
-}
-
-Level interpolated(const GaugeReadings& readings, double t_s) {
-  const auto& r = readings.time_s_and_height_m;
-  const auto after =
-      std::upper_bound(r.begin(), r.end(), t_s, [](double t, const auto& read) { return t < read.first; });
-  if (after == r.begin()) return {r.front().second, 0.0};
-  if (after == r.end()) return {r.back().second, 0.0};
-  const auto before = after - 1;
-  const double rate = (after->second - before->second) / (after->first - before->first);
-  return {before->second + rate * (t_s - before->first), rate};
 }
 
 }  // namespace
@@ -63,26 +55,36 @@ std::string_view constituent_names() {
 Tide::Tide(GaugeReadings readings) {
   const auto& r = readings.time_s_and_height_m;
   if (r.empty()) throw std::invalid_argument("tide: no readings");
-  for (std::size_t i = 1; i < r.size(); ++i) {
-    if (!(r[i].first > r[i - 1].first)) throw std::invalid_argument("tide: times of readings must rise");
+  Gauge gauge;
+  for (const auto& [t_s, height_m] : r) {
+    if (!gauge.level.push(t_s, height_m)) throw std::invalid_argument("tide: times of readings must rise");
   }
-  kind_ = std::move(readings);
+  if (r.size() > 1) gauge.to_rest_s = r.back().first - r[r.size() - 2].first;
+  kind_ = std::move(gauge);
 }
 
 Level Tide::at(double t_s) const {
-  if (const auto* constant = std::get_if<double>(&kind_)) return {*constant, 0.0};
+  if (const auto* constant = std::get_if<double>(&kind_)) return {*constant};
   if (const auto* constituents = std::get_if<HarmonicTide>(&kind_)) return harmonic(*constituents, t_s);
-  return interpolated(std::get<GaugeReadings>(kind_), t_s);
+  const auto& [curve, to_rest_s] = std::get<Gauge>(kind_);
+  if (t_s < curve.oldest_s()) return {curve.at(curve.oldest_s()).value};
+  motion::Moving level = curve.at(t_s);
+  if (const double behind_s = t_s - curve.newest_s(); behind_s > 0.0) {
+    const double last_m = curve.newest();
+    level = behind_s < to_rest_s ? motion::cubic_between({last_m, level.rate}, {last_m}, to_rest_s, behind_s)
+                                 : motion::Moving{last_m};
+  }
+  return {level.value, level.rate, level.acceleration};
 }
 
 double Tide::first_s() const {
-  const auto* readings = std::get_if<GaugeReadings>(&kind_);
-  return readings != nullptr ? readings->time_s_and_height_m.front().first : -std::numeric_limits<double>::infinity();
+  const auto* gauge = std::get_if<Gauge>(&kind_);
+  return gauge != nullptr ? gauge->level.oldest_s() : -std::numeric_limits<double>::infinity();
 }
 
 double Tide::last_s() const {
-  const auto* readings = std::get_if<GaugeReadings>(&kind_);
-  return readings != nullptr ? readings->time_s_and_height_m.back().first : std::numeric_limits<double>::infinity();
+  const auto* gauge = std::get_if<Gauge>(&kind_);
+  return gauge != nullptr ? gauge->level.newest_s() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace ensonify::vertical

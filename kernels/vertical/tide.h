@@ -6,13 +6,16 @@
 #include <variant>
 #include <vector>
 
+#include "kernels/motion/sampled_curve.h"
+
 /// Where heights are counted from, and how high the water stands. World zero is chart datum; all heights are up.
 namespace ensonify::vertical {
 
-/// A height that changes, with its rate.
+/// A height that changes, and its derivatives.
 struct Level {
   double height_m = 0.0;
   double rate_mps = 0.0;
+  double acceleration_mps2 = 0.0;
 };
 
 /// Speed of a tidal constituent in degrees per hour, by its usual name (M2, S2, N2, K1, ...), from the published list
@@ -35,7 +38,9 @@ struct HarmonicTide {
   std::vector<Constituent> constituents;
 };
 
-/// Levels that a gauge read, straight lines between; times rise. Outside them the nearest reading stands.
+/// Levels that a gauge read; times rise. In between a motion::SampledCurve, which meets the readings: level and rate
+/// are continuous, and the acceleration is that of the piece. Before the first reading that one stands; behind the last
+/// the level comes to rest on it in the time of the last interval, and stands.
 struct GaugeReadings {
   std::vector<std::pair<double, double>> time_s_and_height_m;
 };
@@ -49,7 +54,7 @@ class Tide {
   /// Throws std::invalid_argument without readings, or when their times do not rise.
   explicit Tide(GaugeReadings readings);
 
-  /// At sim time t. Exact, with its derivative.
+  /// At sim time t, exact, with its derivatives.
   Level at(double t_s) const;
 
   /// The time that the tide is known for: all of it but for readings.
@@ -57,7 +62,11 @@ class Tide {
   double last_s() const;
 
  private:
-  std::variant<double, HarmonicTide, GaugeReadings> kind_;
+  struct Gauge {
+    motion::SampledCurve level;
+    double to_rest_s = 0.0;  // behind the last reading
+  };
+  std::variant<double, HarmonicTide, Gauge> kind_;
 };
 
 }  // namespace ensonify::vertical

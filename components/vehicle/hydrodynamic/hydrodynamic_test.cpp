@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "components/runtime/config/config_error.h"
+#include "components/vehicle/integrated.h"
 
 using namespace ensonify;
 using frames::Vec3;
@@ -190,35 +191,38 @@ TEST_CASE("600 s of a launch's accelerations and turn rates, on a tide and in a 
   config.water.current.profile = {{0.0, {0.3, 0.2}}};
   config.water.current.streams = {{{0.5, 0.1}, 1.405189e-4, 0.4}};
   HydrodynamicDynamics launch(config, {{0, 0, 0}, 0.5, 2.0}, 0_s);
-  const auto slope = [&](const Eigen::Vector4d& q, const Vec3& rate) {
-    return Eigen::Vector4d(0.5 *
-                           (frames::Quaternion(q) * frames::Quaternion(0.0, rate.x(), rate.y(), rate.z())).coeffs());
-  };
-  frames::MovingPose first = launch.moving();
-  Vec3 position = first.pose.position_enu_m, velocity = first.velocity_enu_mps;
-  Eigen::Vector4d q = first.pose.enu_from_body.coeffs();
-  constexpr double h = 0.01;  // a step of hers
-  for (SimTime t = 0_s; t < 600_s; t += 10_ms) {
+  const Off off = integrated(launch, 600_s, 10_ms, [&](SimTime t) {
     if (t % 60_s == 0_s) launch.command(0.5 + seconds(t) / 100.0, t % 120_s == 0_s ? 4.0 : 2.0, std::nullopt);
-    launch.advance(t + 5_ms);
-    const frames::MovingPose middle = launch.moving();
-    launch.advance(t + 10_ms);
-    const frames::MovingPose last = launch.moving();
-    // Simpson's rule, and the parabola's own double integral.
-    const Vec3 &a = first.acceleration_enu_mps2, &b = middle.acceleration_enu_mps2, &c = last.acceleration_enu_mps2;
-    position += h * velocity + h * h / 6 * (a + 2 * b);
-    velocity += h / 6 * (a + 4 * b + c);
-    const Vec3 &u = first.angular_rate_body_radps, &v = middle.angular_rate_body_radps,
-               &w = last.angular_rate_body_radps;
-    const Eigen::Vector4d k1 = slope(q, u), k2 = slope(q + 0.5 * h * k1, v), k3 = slope(q + 0.5 * h * k2, v),
-                          k4 = slope(q + h * k3, w);
-    q = (q + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)).normalized();
-    first = last;
-  }
-  const Vec3 off = position - first.pose.position_enu_m;
-  CAPTURE(off.x(), off.y(), off.z());
-  CHECK(off.norm() < 1e-3);
-  CHECK(frames::Quaternion(q).angularDistance(first.pose.enu_from_body) < 1e-3 * kDegree);
+  });
+  CAPTURE(off.position_m.x(), off.position_m.y(), off.position_m.z());
+  CHECK(off.position_m.norm() < 1e-3);
+  CHECK(off.attitude_rad < 1e-3 * kDegree);
+}
+
+TEST_CASE("600 s of an AUV's dives and climbs through a sheared current, on a gauge's tide, integrate to its pose") {
+  VehicleConfig config = config_of("remus_100");
+  config.water.tide = vertical::Tide(vertical::GaugeReadings{{{0, 1.0}, {360, 1.074}, {720, 1.149}, {1080, 1.222}}});
+  config.water.current.profile = {{2.0, {0.1, 0.4}}, {12.0, {0.3, 0.4}}, {22.0, {0.5, -0.1}}};
+  HydrodynamicDynamics auv(config, {{0, 0, -2}, 0.5, 1.5}, 0_s);
+  const Off off = integrated(auv, 600_s, 10_ms, [&](SimTime t) {
+    if (t % 60_s == 0_s) auv.command(0.5 + seconds(t) / 100.0, 2.0, t % 120_s == 0_s ? 24.0 : 2.0);
+  });
+  CAPTURE(off.position_m.x(), off.position_m.y(), off.position_m.z());
+  CHECK(off.position_m.norm() < 1e-3);
+  CHECK(off.attitude_rad < 1e-3 * kDegree);
+}
+
+TEST_CASE("the REMUS class dives at a pitch of 15 degrees, as fast as its speed times the sine of it") {
+  HydrodynamicDynamics auv(config_of("remus_100"), {{0, 0, -2}, 0.5, 2.0}, 0_s);
+  auv.command(0.5, 2.0, 60.0);
+  auv.advance(60_s);
+  const frames::MovingPose dive = auv.moving();
+  const double pitch_rad = frames::attitude_of(dive.pose.enu_from_body).pitch_rad;
+  CHECK(pitch_rad / kDegree == Approx(-15).margin(0.5));
+  // It sinks by an angle of attack of 0.8 degrees less steeply than it points.
+  const double speed_mps = dive.velocity_enu_mps.norm();
+  CHECK(speed_mps == Approx(2.0).epsilon(0.01));
+  CHECK(dive.velocity_enu_mps.z() == Approx(speed_mps * std::sin(pitch_rad)).epsilon(0.06));
 }
 
 TEST_CASE("mistakes in a vehicle's file are named with their places") {
