@@ -1,0 +1,45 @@
+"""launch/patch_survey.yaml, its lines shortened, with fewer pings and rays: `ensonify patch` finds from the record how the head is turned and
+how late navigation is. bench/patch_bench.py counts many surveys."""
+import json
+import math
+import unittest
+
+from support import SOURCE, SystemTest
+
+ACTUAL_DEG = {"roll": 3.5, "pitch": -0.8, "yaw": 1.5}   # the launch's own
+ENTERED_DEG = {"roll": 0.4, "pitch": 0.3, "yaw": -0.2}
+#          what is missing, what a patch test is held to: issue 5
+UNKNOWNS = {"position_latency_s": (0.15, 0.02), "attitude_latency_s": (0.02, 0.002),
+            **{f"{axis}_rad": (math.radians(ACTUAL_DEG[axis] - ENTERED_DEG[axis]), math.radians(limit_deg))
+               for axis, limit_deg in (("roll", 0.02), ("pitch", 0.1), ("yaw", 0.1))}}
+
+# The scenario's lines, 300 m of 430: the rock lies at -220, the incline begins at 0.
+MISSION = """[{line: [[-250, 0], [50, 0]]}, {line: [[50, 0], [-250, 0]]},
+              {speed_mps: 2}, {line: [[-250, 0], [50, 0]]}, {speed_mps: 4},
+              {line: [[50, 30], [-250, 30]]}, {line: [[50, -30], [-250, -30]]}]"""
+
+
+class Patch(SystemTest):
+    def test_mounting_and_latencies_are_found_within_the_limits(self):
+        entered = [word for axis, degrees in ENTERED_DEG.items() for word in ("--arg", f"measured_{axis}_deg={degrees}")]
+        result = self.run_launch(SOURCE / "launch/patch_survey.yaml", "--free", "--in-process", *entered,
+                                 "--set", f"mission.steps={MISSION}", "--set", "bow.ping_rate_hz=3", "--set", "bow.quality=0.1", timeout=600)
+        self.assertEqual(result.code, 0, result.stderr)
+        told = self.tool("patch", result.out / "patch.mcap", "--json", timeout=120)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        found = json.loads(told.stdout)
+        self.assertTrue(found["converged"])
+        self.assertGreater(found["rms_before_m"], 10 * found["rms_after_m"])
+        for name, (true, limit) in UNKNOWNS.items():
+            with self.subTest(name):
+                value, half = found[name]["value"], found[name]["half_interval_95"]
+                self.assertLess(abs(value - true), limit)
+                # The interval of a survey that tells enough is inside the limit, and holds the truth but for one in 20; twice it, one in 10,000.
+                self.assertLess(half, 0.8 * limit)
+                self.assertLess(abs(value - true), 2 * half)
+                # Signs: actual less entered, positive if late. An answer of the other sign would miss the truth by ten limits and more.
+                self.assertGreater(abs(-value - true), 10 * limit)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
