@@ -28,16 +28,6 @@ Nees nees_of(const msg::Estimate& estimate) {
           normalised(turn.angle() * turn.axis(), estimate.rotation_covariance_enu_rad2)};
 }
 
-/// What is left of a magnetic compass's deviation, as the grade says how much: the filter is told that, not which.
-std::string deviation(std::uint64_t seed) {
-  const random::Stream drawn(seed, "deviation");
-  std::string text = "deviation_deg: [";
-  for (const auto& [i, sigma_deg] : {std::pair{0, 0.1}, {1, 0.4}, {2, 0.3}, {3, 0.2}, {4, 0.1}}) {
-    text += (i > 0 ? ", " : "") + std::to_string(sigma_deg * drawn.normal(static_cast<std::uint64_t>(i)));
-  }
-  return text + "]";
-}
-
 /// Mean of 200 seeds at epochs of 5 s, on 75 s of a circle. `carried` tells the instruments of a seed.
 template <class Carried>
 std::vector<Nees> mean_nees(const Carried& carried) {

@@ -27,26 +27,33 @@ struct Compass {
   std::array<double, 5> deviation_rad{};  // standard deviations of A to E
 };
 
-/// The grades of components/navigation/grades, without their quanta.
+/// The grades of components/navigation/grades, whose grades_test.cpp compares them, without their quanta.
 struct Grade {
   inertial::ImuErrors imu;
-  double heading_rad;  // at the start, from alignment
+  StartErrors alignment;  // of the state when the run starts
   Compass compass{};
 };
-inline const Grade kRlg{{{5e-6, 2e-5, 0.003 * kDegreePerHour, 0.001 * kDegreePerHour, 3600, 0.001 * kDegree / 60},
-                         {5e-5, 2e-5, 20 * kUg, 5 * kUg, 3600, 5 * kUg}},
-                        0.0003};
-inline const Grade kFog{{{3e-5, 5e-5, 0.02 * kDegreePerHour, 0.005 * kDegreePerHour, 3600, 0.005 * kDegree / 60},
-                         {1e-4, 5e-5, 50 * kUg, 10 * kUg, 3600, 10 * kUg}},
-                        0.002};
-inline const Grade kTactical{{{3e-4, 3e-4, 1.0 * kDegreePerHour, 0.3 * kDegreePerHour, 1000, 0.1 * kDegree / 60},
-                              {3e-4, 3e-4, 1000 * kUg, 100 * kUg, 1000, 50 * kUg}},
-                             0.01};
+inline const Grade kRlg{
+    {{5e-6, 0.001 * kDegree, 0.003 * kDegreePerHour, 0.001 * kDegreePerHour, 3600, 0.001 * kDegree / 60},
+     {5e-5, 0.001 * kDegree, 20 * kUg, 5 * kUg, 3600, 5 * kUg}},
+    {1.0, 1.0, 0.1, 0.005 * kDegree, 0.02 * kDegree}};
+inline const Grade kFog{
+    {{3e-5, 0.003 * kDegree, 0.02 * kDegreePerHour, 0.005 * kDegreePerHour, 3600, 0.005 * kDegree / 60},
+     {1e-4, 0.003 * kDegree, 50 * kUg, 10 * kUg, 3600, 10 * kUg}},
+    {1.0, 1.0, 0.1, 0.01 * kDegree, 0.1 * kDegree}};
+inline const Grade kFogWithSatellites{
+    kFog.imu, kFog.alignment, {0.03 * kDegree, 0.03 * kDegree, 300, {0.02 * kDegree}}};
+inline const Grade kTactical{{{3e-4, 0.017 * kDegree, kDegreePerHour, 0.3 * kDegreePerHour, 1000, 0.1 * kDegree / 60},
+                              {3e-4, 0.017 * kDegree, 1000 * kUg, 100 * kUg, 1000, 50 * kUg}},
+                             {2.0, 2.0, 0.1, 0.06 * kDegree, 0.6 * kDegree}};
 inline const Grade kMems{
-    {{1e-3, 1e-3, 100 * kDegreePerHour, 8 * kDegreePerHour, 500, 0.3 * kDegree / 60},
-     {1e-3, 1e-3, 5000 * kUg, 50 * kUg, 500, 100 * kUg}},
-    0.03,
-    {0.3 * kDegree, 0.2 * kDegree, 60, {0.32 * kDegree, 0.4 * kDegree, 0.3 * kDegree, 0.2 * kDegree, 0.1 * kDegree}}};
+    {{1e-3, 0.06 * kDegree, 100 * kDegreePerHour, 8 * kDegreePerHour, 500, 0.3 * kDegree / 60},
+     {1e-3, 0.06 * kDegree, 5000 * kUg, 50 * kUg, 500, 100 * kUg}},
+    {3.0, 3.0, 0.2, 0.3 * kDegree, 2.0 * kDegree},
+    {0.3 * kDegree,
+     0.2 * kDegree,
+     60,
+     {std::hypot(0.3, 0.1) * kDegree, 0.4 * kDegree, 0.3 * kDegree, 0.2 * kDegree, 0.1 * kDegree}}};
 
 constexpr double kLogScale = 0.002, kLogSigma_mps = 0.01, kDepthSigma_m = 0.05;
 constexpr double kCurrent_mps = 0.3, kCurrentWalk_mps_per_sqrt_s = 0.004;
@@ -115,8 +122,6 @@ inline FilterModel model_of(const Grade& grade) {
   return model;
 }
 
-inline const StartErrors kStart{1.0, 1.0, 0.1, 0.001, 0.0};
-
 /// What corrects the vehicle besides its depth, and a compass if its grade has one.
 struct Aids {
   bool fixes = false;  // each second
@@ -136,7 +141,7 @@ class Run {
         carrier_stream_(seed, "carrier"),
         compass_stream_(seed, "compass"),
         imu_(grade.imu, {seed, "gyro"}, {seed, "accelerometer"}),
-        filter_(start(m.truth[0], grade), errors(grade), model_of(grade)),
+        filter_(start(m.truth[0], grade.alignment), grade.alignment, model_of(grade)),
         grade_(grade),
         scale_(kLogScale * noise_.normal(0, 99)) {
     const FilterModel model = model_of(grade);
@@ -200,19 +205,14 @@ class Run {
   double off_m(std::size_t n) const { return apart_ned_m(mission_.truth[n], filter_.state()).head<2>().norm(); }
 
  private:
-  static StartErrors errors(const Grade& grade) {
-    StartErrors e = kStart;
-    e.heading_rad = grade.heading_rad;
-    return e;
-  }
   Vec3 noise(std::uint64_t n, std::uint64_t lane) const {
     return {noise_.normal(n, lane), noise_.normal(n, lane + 1), noise_.normal(n, lane + 2)};
   }
-  NavigationState start(const NavigationState& truth, const Grade& grade) const {
-    NavigationState state = moved(truth, -noise(0, 10) * kStart.position_m);
-    state.velocity_ned_mps -= kStart.velocity_mps * noise(0, 20);
-    const Vec3 z = noise(0, 30);
-    const Vec3 turn(kStart.tilt_rad * z.x(), kStart.tilt_rad * z.y(), grade.heading_rad * z.z());
+  NavigationState start(const NavigationState& truth, const StartErrors& sigma) const {
+    const Vec3 place(sigma.position_m, sigma.position_m, sigma.height_m);
+    NavigationState state = moved(truth, -place.cwiseProduct(noise(0, 10)));
+    state.velocity_ned_mps -= sigma.velocity_mps * noise(0, 20);
+    const Vec3 turn = Vec3(sigma.tilt_rad, sigma.tilt_rad, sigma.heading_rad).cwiseProduct(noise(0, 30));
     state.ned_from_body = Eigen::AngleAxisd(turn.norm(), -turn.normalized()) * truth.ned_from_body;
     return state;
   }

@@ -16,6 +16,7 @@ DEGREE, UG, GRAVITY, RADIUS_M, EARTH_RADPS = np.pi / 180, 9.80665e-6, 9.806, 6.3
 POSITION, VELOCITY, ROTATION, GYRO, FORCE, FIX, SCALE, MATRIX, ERRORS = 0, 3, 6, 9, 12, 15, 18, 19, 28
 STEP_S, END_S, FIXES_S = 0.2, 400, 150
 LATITUDE = 44 * DEGREE
+MISALIGNMENT = 0.003 * DEGREE
 FREEDOM, HUNDRED, LOW, HIGH = 9, 100, 8.19, 9.85  # 95 % of chi-square with 900 degrees of freedom, over 100
 
 
@@ -25,18 +26,18 @@ def cross(v):
 
 
 def start_variance():
-    """Of the errors at the start: components/navigation/grades/imu_fog.yaml and the test's own."""
+    """Of the errors at the start: components/navigation/grades/imu_fog.yaml."""
     per_hour = DEGREE / 3600
     variance = np.zeros(ERRORS)
     variance[POSITION:POSITION + 3] = 1
     variance[VELOCITY:VELOCITY + 3] = 0.1**2
-    variance[ROTATION:ROTATION + 3] = [0.001**2, 0.001**2, 0.002**2]
+    variance[ROTATION:ROTATION + 3] = [(0.01 * DEGREE)**2, (0.01 * DEGREE)**2, (0.1 * DEGREE)**2]
     variance[GYRO:GYRO + 3] = (0.02 * per_hour)**2 + (0.005 * per_hour)**2
-    leak = GRAVITY * np.array([5e-5, 5e-5, 1e-4])
+    leak = GRAVITY * np.array([MISALIGNMENT, MISALIGNMENT, 1e-4])
     variance[FORCE:FORCE + 3] = leak**2 + (50 * UG)**2 + (10 * UG)**2
     variance[FIX:FIX + 3] = [0.3**2, 0.3**2, 0.6**2]
     variance[SCALE] = 0.002**2
-    variance[MATRIX:] = np.where(np.eye(3).ravel() > 0, 3e-5, 5e-5)**2
+    variance[MATRIX:] = np.where(np.eye(3).ravel() > 0, 3e-5, MISALIGNMENT)**2
     return variance
 
 
