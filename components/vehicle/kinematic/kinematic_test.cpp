@@ -100,7 +100,8 @@ TEST_CASE("at each instant what is told of a steered vehicle is the derivative o
     const Eigen::AngleAxisd turned(before.pose.enu_from_body.conjugate() * after.pose.enu_from_body);
     const Vec3 spin = (after.angular_rate_body_radps - before.angular_rate_body_radps) / twice_s;
     // Rounding of a place 1 km away is 1e-13 m, over 0.2 ms 1e-9 m/s. Where the speed changes in a turn each step of h
-    // gains on the rate of its start at the highest turn acceleration: (a h / 2 R)^2 / 2 alpha of h, times the speed 1e-8.
+    // gains on the rate of its start at the highest turn acceleration: (a h / 2 R)^2 / 2 alpha of h, times the speed
+    // 1e-8.
     CAPTURE(s);
     CHECK((velocity - pose.velocity_enu_mps).norm() < 3e-8);
     CHECK((acceleration - pose.acceleration_enu_mps2).norm() < 3e-8);
