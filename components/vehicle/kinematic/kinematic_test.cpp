@@ -23,11 +23,12 @@ VehicleConfig steerable() {
   return config;
 }
 
-/// M2 of 1.5 m as a gauge reads it every six minutes, to millimetres, from an hour before to an hour behind.
+/// M2 of 1.5 m from high water on, where it bends most, as a gauge reads it every six minutes, to millimetres, from an
+/// hour before to an hour behind.
 vertical::Tide read_every_six_minutes(double first_s) {
   vertical::GaugeReadings readings;
   for (double t = first_s - 3600.0; t < first_s + 7200.0; t += 360.0) {
-    readings.time_s_and_height_m.emplace_back(t, 1e-3 * std::round(1500.0 * std::sin(kM2_radps * t)));
+    readings.time_s_and_height_m.emplace_back(t, 1e-3 * std::round(1500.0 * std::cos(kM2_radps * t)));
   }
   return vertical::Tide(readings);
 }
@@ -100,8 +101,7 @@ TEST_CASE("at each instant what is told of a steered vehicle is the derivative o
     const Eigen::AngleAxisd turned(before.pose.enu_from_body.conjugate() * after.pose.enu_from_body);
     const Vec3 spin = (after.angular_rate_body_radps - before.angular_rate_body_radps) / twice_s;
     // Rounding of a place 1 km away is 1e-13 m, over 0.2 ms 1e-9 m/s. Where the speed changes in a turn each step of h
-    // gains on the rate of its start at the highest turn acceleration: (a h / 2 R)^2 / 2 alpha of h, times the speed
-    // 1e-8.
+    // gains on the rate of its start at the highest turn acceleration: speed times (a h / 2 R)^2 / (2 alpha h), 1e-8.
     CAPTURE(s);
     CHECK((velocity - pose.velocity_enu_mps).norm() < 3e-8);
     CHECK((acceleration - pose.acceleration_enu_mps2).norm() < 3e-8);
