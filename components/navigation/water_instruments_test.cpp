@@ -22,6 +22,12 @@ NavigationConfig in_layers(const std::string& yaml) {
   return config;
 }
 
+/// The current of those layers: smooth at both knots, where shear begins and ends.
+frames::Vec3 current_in_layers(double depth_m) {
+  const double down = depth_m / 20.0, share = down * down * (3.0 - 2.0 * down);
+  return {0.6 - 0.4 * share, 0.2 - 0.4 * share, 0.0};
+}
+
 frames::Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
@@ -72,8 +78,7 @@ TEST_CASE("a current profiler finds the current of each depth, down to where sid
       const frames::Vec3 passing(profile.velocity_body_mps(bin, 0), profile.velocity_body_mps(bin, 1),
                                  profile.velocity_body_mps(bin, 2));
       const frames::Vec3 current_mps = enu_from_body * passing + own_mps;
-      const double down = -place.z() / 20.0, share = down * down * (3.0 - 2.0 * down);  // smooth at both knots
-      CHECK((current_mps - frames::Vec3(0.6 - 0.4 * share, 0.2 - 0.4 * share, 0)).norm() < 1e-9);
+      CHECK((current_mps - current_in_layers(-place.z())).norm() < 1e-9);
     }
   }
 }
@@ -94,8 +99,7 @@ TEST_CASE("a Doppler log tracks the water below it, where it has no bottom eithe
   for (const msg::VelocityLog& log : logs) {
     const msg::Pose truth = circling(SimTime{log.stamp_ns}, kLevel);
     const frames::Quaternion enu_from_body = frames::quaternion_of(truth.enu_from_body);
-    const double share = (1.0 - (enu_from_body * frames::Vec3(0, 0, 9)).z()) / 20.0;
-    const frames::Vec3 water_mps(0.6 - 0.4 * share, 0.2 - 0.4 * share, 0);
+    const frames::Vec3 water_mps = current_in_layers(1.0 - (enu_from_body * frames::Vec3(0, 0, 9)).z());
     CHECK(!log.bottom_lock);
     CHECK(log.water_lock);
     CHECK((enu_from_body * vec(log.water_velocity_body_mps) + water_mps - vec(truth.velocity_enu_mps)).norm() < 1e-9);
