@@ -25,8 +25,8 @@ using navigation::Vec2;
 
 namespace {
 
-constexpr double kStep_m = 1.0;  // between the heights of the seabed that soundings are laid on
-constexpr int kReach = 160;      // such steps to either side
+constexpr double kStep_m = 1.0;         // between the heights of the seabed that soundings are laid on
+constexpr std::ptrdiff_t kReach = 160;  // such steps to either side
 constexpr std::size_t kBeams = 512;
 const double kSwath_rad = 122.0 * std::numbers::pi / 180.0;
 
@@ -64,7 +64,7 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
   const Vec2 place = boat.position_enu_m.head<2>();
   const Vec2 starboard(std::cos(boat.heading_rad), -std::sin(boat.heading_rad));
   std::array<double, 2 * kReach + 1> depth_m;
-  for (int i = -kReach; i <= kReach; ++i) {
+  for (std::ptrdiff_t i = -kReach; i <= kReach; ++i) {
     depth_m[static_cast<std::size_t>(i + kReach)] = slope.depth_m(place + i * kStep_m * starboard);
   }
   msg::Soundings soundings;
@@ -75,7 +75,7 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
     const double tangent = ((static_cast<double>(beam) + 0.5) / kBeams * 2.0 - 1.0) * std::tan(0.5 * kSwath_rad);
     const double cotangent = 1.0 / std::abs(tangent);
     const int side = tangent < 0.0 ? -1 : 1;
-    for (int i = 0; i < kReach; ++i) {  // the first step in which the beam is at the seabed
+    for (std::ptrdiff_t i = 0; i < kReach; ++i) {  // the first step in which the beam is at the seabed
       const double near_m = depth_m[static_cast<std::size_t>(kReach + side * i)];
       const double far_m = depth_m[static_cast<std::size_t>(kReach + side * (i + 1))];
       const double above_near_m = near_m - i * kStep_m * cotangent;
