@@ -1,85 +1,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
-#include <optional>
 #include <set>
 
-#include "components/autopilot/node.h"
+#include "components/autopilot/test_loop.h"
 #include "components/runtime/config/config_error.h"
 #include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
-#include "kernels/motion/kinematics.h"
 
 using namespace ensonify;
-using navigation::Vec2;
-
-namespace {
-
-AutopilotConfig three_lines(double spacing_m) {
-  AutopilotConfig config;
-  config.plan.scenario_file = "bay.yaml";
-  config.plan.limits = {.acceleration_mps2 = 0.5, .deceleration_mps2 = 0.5, .turning_radius_m = 10};
-  config.plan.mission.speed_mps = 2.0;
-  config.plan.mission.run_in_m = 15.0;
-  config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.3, 150, spacing_m, 3);
-  config.plan.mission.steps = steps_of(config.plan.mission.runlines);
-  return config;
-}
-
-/// The vehicle and navigation of a test: kinematics on one side, a perfect estimate on the other, 0.1 s of delay.
-class Loop {
- public:
-  Loop(const AutopilotConfig& config, const motion::State& start, const Vec2& current_enu_mps = {0, 0})
-      : autopilot(config), limits_(config.plan.limits), state_(start), current_enu_mps_(current_enu_mps) {
-    command_ = {start.heading_rad, start.speed_mps, start.position_enu_m.z()};
-  }
-
-  /// Runs until the mission is done or `t`; `see(mission state, vehicle state)` at each command.
-  template <class See>
-  void run_until(SimTime t, See&& see) {
-    motion::Command next = command_;
-    for (SimTime now = now_; now <= t && !autopilot.finished(); now += 100_ms) {
-      msg::Estimate estimate;
-      estimate.stamp_ns = now.count();
-      estimate.position_enu_m = {state_.position_enu_m.x(), state_.position_enu_m.y(), state_.position_enu_m.z()};
-      estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{state_.heading_rad, 0, 0}));
-      estimate.velocity_enu_mps = {state_.speed_mps * std::sin(state_.heading_rad) + current_enu_mps_.x(),
-                                   state_.speed_mps * std::cos(state_.heading_rad) + current_enu_mps_.y(), 0.0};
-      if (uncertain_after) {
-        const double sd_m = now < *uncertain_after ? 0.5 : 3.0;
-        estimate.position_covariance_enu_m2 = {0.1, 0, 0, 0, sd_m * sd_m, 0, 0, 0, 0.1};
-      }
-      autopilot.give("estimate", estimate);
-      if (bottom) {
-        const double range_m = bottom(state_.position_enu_m.y()) + state_.position_enu_m.z();
-        autopilot.give("altitude", msg::Altitude{now.count(), !std::isnan(range_m), range_m});
-      }
-      const auto orders = autopilot.step_until<msg::Guidance>("command", now);
-      for (const auto& mission : autopilot.step_until<msg::MissionState>("mission", now)) see(mission, state_);
-      command_ = next;
-      if (!orders.empty()) next = {orders[0].heading_grid_rad, orders[0].speed_mps, next.height_m};
-      if (!orders.empty() && !std::isnan(orders[0].depth_m)) next.height_m = -orders[0].depth_m;
-      state_ = motion::advance(state_, command_, 0.1, limits_);
-      state_.position_enu_m.head<2>() += 0.1 * current_enu_mps_;
-      now_ = now + 100_ms;
-    }
-  }
-
-  NodeUnderTest<AutopilotNode> autopilot;
-  std::function<double(double north_m)> bottom;  // depth, NaN: not heard; given: an altimeter is carried
-  std::optional<SimTime> uncertain_after;        // the place to the north is known within 0.5 m, and then within 3 m
-  SimTime now() const { return now_; }
-
- private:
-  motion::Limits limits_;
-  motion::State state_;
-  motion::Command command_;
-  Vec2 current_enu_mps_;
-  SimTime now_{0};
-};
-
-}  // namespace
+using namespace ensonify::piloted;
 
 TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
   Scenario scenario;
@@ -185,28 +114,6 @@ TEST_CASE("lines over a chart are planned when it arrives, or refused with the r
       autopilot.run_until(1_s),
       Catch::Contains("bay.yaml") && Catch::Contains("mission.auto: no room for a survey: no part of the chart"));
 }
-
-namespace {
-
-AutopilotConfig steps(std::vector<MissionStep> steps) {
-  AutopilotConfig config = three_lines(40.0);
-  config.plan.mission.steps = std::move(steps);
-  config.plan.mission.runlines.clear();
-  return config;
-}
-
-const motion::State kUnderWay{{0, 0, 0}, 0.0, 2.0, 0.0};
-
-/// The states that a mission goes through, each once in a row.
-std::vector<std::string> states_of(Loop& loop, SimTime until) {
-  std::vector<std::string> states;
-  loop.run_until(until, [&](const msg::MissionState& mission, const motion::State&) {
-    if (states.empty() || states.back() != mission.state) states.push_back(mission.state);
-  });
-  return states;
-}
-
-}  // namespace
 
 TEST_CASE("in a current lines are held against it, and run-outs are flown") {
   AutopilotConfig config = three_lines(40.0);
@@ -321,85 +228,6 @@ TEST_CASE("a turn that leads past a place does not count as keeping it") {
   CHECK(keeper.kept(21_s, {9, 9}, false));
 }
 
-TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where it is too low") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 600}}}});
-  config.plan.mission.depth_m = 10.0;
-  config.plan.mission.altitude_m = 5.0;
-  config.plan.mission.least_altitude_m = 2.0;
-  Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
-  loop.bottom = [](double north_m) { return 20.0 + 3.0 * std::sin(north_m / 60.0); };  // slopes up to 1 in 20
-  double least_m = 99.0, worst_m = 0.0;
-  loop.run_until(400_s, [&](const msg::MissionState&, const motion::State& vehicle) {
-    const double altitude_m = loop.bottom(vehicle.position_enu_m.y()) + vehicle.position_enu_m.z();
-    if (vehicle.position_enu_m.y() < 100.0) return;
-    least_m = std::min(least_m, altitude_m);
-    worst_m = std::max(worst_m, std::abs(altitude_m - 5.0));
-  });
-  CHECK(loop.autopilot.finished());
-  CHECK(least_m > 4.0);
-  CHECK(worst_m < 1.5);  // 0.1 m/s of rise, looked ahead for 7 s, and awaited as long where it falls
-}
-
-TEST_CASE("a mission's depth is held from any start, and nothing that floats has one") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
-  config.plan.mission.depth_m = 6.0;
-  Loop loop(config, {{0, 0, -1}, 0.0, 2.0, 0.0});
-  double up_m = 0.0;
-  loop.run_until(60_s,
-                 [&](const msg::MissionState&, const motion::State& vehicle) { up_m = vehicle.position_enu_m.z(); });
-  CHECK(up_m == Approx(-6.0).margin(1e-6));
-
-  Scenario scenario;  // one vehicle dives, but it is the other that is flown
-  scenario.vehicles.resize(2);
-  scenario.vehicles[0].name = "auv";
-  scenario.vehicles[1].name = "boat";
-  scenario.vehicles[1].floats.emplace();
-  scenario.mission = config.plan.mission;
-  auto from = ConfigReader::from_text("vehicle: boat", "pilot.yaml");
-  AutopilotConfig::read(from, scenario, "pilot");
-  CHECK_THROWS_WITH(from.finish(), "pilot.yaml:1:1: the mission's depth_m needs a vehicle that dives; boat floats");
-}
-
-TEST_CASE("a mission that takes too long is given up at the surface") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
-  config.plan.mission.depth_m = 10.0;
-  config.plan.mission.abort.after_s = 100.0;
-  Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
-  const auto states = states_of(loop, 600_s);
-  CHECK(states.back() == "abort");
-  CHECK(loop.autopilot.finished());
-  // 9 m up at 0.5 m/s: 18 s, and the command's delay.
-  CHECK(seconds(loop.now()) == Approx(118.0).margin(2.0));
-}
-
-TEST_CASE("a mission whose place becomes too uncertain is given up then") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
-  config.plan.mission.abort.position_sd_m = 2.0;
-  Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
-  loop.uncertain_after = 50_s;
-  CHECK(states_of(loop, 600_s).back() == "abort");
-  CHECK(loop.autopilot.finished());
-  CHECK(seconds(loop.now()) == Approx(50.0).margin(0.3));  // it is at the surface already
-  const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
-  REQUIRE_FALSE(health.empty());
-  CHECK(health.back().message == "mission given up: the place is less certain than abort.position_sd_m");
-}
-
-TEST_CASE("a mission is given up when its vehicle is below the obstacle floor for too long, and not before") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
-  config.plan.mission.depth_m = 10.0;
-  config.plan.mission.least_altitude_m = 4.0;
-  const auto flown = [&](double too_low_s) {
-    config.plan.mission.abort.too_low_s = too_low_s;
-    Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
-    loop.bottom = [](double north_m) { return north_m < 100.0 ? 20.0 : 12.0; };  // a step of 8 m: 2 m are missing
-    return states_of(loop, 600_s).back();
-  };
-  // 2 m at 0.5 m/s are 4 s, and the climb takes some more to begin.
-  CHECK(flown(3.0) == "abort");
-  CHECK(flown(15.0) == "done");
-}
-
 TEST_CASE("a vehicle waits where its last step has left it") {
   Loop loop(steps({FlyLine{{{0, 20}, {0, 80}}}, KeepPlace{.for_s = 20.0, .within_m = 3.0}}), kUnderWay);
   double begun_s = 0.0, ended_s = 0.0, farthest_m = 0.0;
@@ -414,42 +242,6 @@ TEST_CASE("a vehicle waits where its last step has left it") {
   CHECK(ended_s - begun_s == Approx(20.0).margin(0.3));
   CHECK(farthest_m <
         7.0);  // 4 m to come to rest from 2 m/s, half a period and the command's delay, and no turning back
-}
-
-TEST_CASE("without a bottom to keep it from, an altitude or an obstacle floor is told as not kept") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 100}}}});
-  const auto healths = [&](double heard_until_m) {
-    Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
-    loop.bottom = [=](double north_m) { return north_m < heard_until_m ? 20.0 : std::nan(""); };
-    states_of(loop, 600_s);
-    std::vector<std::string> told;
-    for (const auto& health : loop.autopilot.step_until<msg::Health>("health", loop.now()))
-      told.push_back(health.state + " " + health.message);
-    return told;
-  };
-  const std::vector<std::string> deaf = {
-      "degraded no bottom heard for 10 s: neither altitude_m nor least_altitude_m is kept"};
-  config.plan.mission.depth_m = 5.0;
-  CHECK(healths(0.0).empty());  // neither is wanted
-  config.plan.mission.least_altitude_m = 3.0;
-  CHECK(healths(1000.0).empty());
-  CHECK(healths(0.0) == deaf);
-  CHECK(healths(40.0) == deaf);
-  config.plan.mission.least_altitude_m = 0.0;
-  config.plan.mission.altitude_m = 6.0;
-  CHECK(healths(0.0) == deaf);
-}
-
-TEST_CASE("an altimeter is needed by missions that follow the bottom or have an obstacle floor") {
-  Mission mission = steps({FlyLine{{{0, 20}, {0, 100}}}}).plan.mission;
-  mission.depth_m = 5.0;
-  mission.abort.after_s = 100.0;
-  CHECK_FALSE(needs_altimeter(mission));
-  mission.steps.push_back(GoAt{.altitude_m = 4.0});
-  CHECK(needs_altimeter(mission));
-  mission.steps.clear();
-  mission.least_altitude_m = 2.0;
-  CHECK(needs_altimeter(mission));
 }
 
 TEST_CASE("an adaptive survey waits for each next line and ends when told") {
@@ -473,38 +265,4 @@ TEST_CASE("an adaptive survey waits for each next line and ends when told") {
   CHECK(states ==
         std::vector<std::string>{"run_in", "on_line", "await_line", "turn", "run_in", "on_line", "await_line", "done"});
   CHECK(loop.autopilot.finished());
-}
-
-TEST_CASE("a current stronger than the vehicle is told, and the mission given up when nothing comes nearer") {
-  // Against the line it is carried back, across it off to the side while it still makes way along the line.
-  for (const Vec2& current : {Vec2(0.0, -2.5), Vec2(4.0, 0.0)}) {
-    AutopilotConfig config = three_lines(30.0);
-    config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.0, 2000, 30, 1);
-    config.plan.mission.steps = steps_of(config.plan.mission.runlines);
-    config.patience_s = 120.0;
-    Loop loop(config, start_of(config.plan, config.plan.mission.runlines), current);
-    std::string last;
-    loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
-    INFO("current " << current.transpose() << ", ended at " << seconds(loop.now()) << " s");
-    CHECK(loop.autopilot.finished());
-    CHECK(last == "abort");
-    CHECK(seconds(loop.now()) < 200.0);
-    const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
-    REQUIRE(health.size() == 2);  // held up, then lost
-    CHECK(health[0].state == "degraded");
-    CHECK(health[1].state == "failed");
-    CHECK(health.back().message ==
-          "mission given up: no metre nearer to the goal in patience_s: the current may be "
-          "stronger than the vehicle");
-  }
-}
-
-TEST_CASE("a vehicle that is slow against a current is waited for") {
-  AutopilotConfig config = three_lines(30.0);
-  config.patience_s = 60.0;
-  Loop loop(config, start_of(config.plan, config.plan.mission.runlines), {0.3, -1.8});
-  std::string last;
-  loop.run_until(4000_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
-  CHECK(loop.autopilot.finished());
-  CHECK(last == "done");
 }
