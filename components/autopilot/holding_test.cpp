@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/autopilot/test_loop.h"
+#include "components/runtime/config/config_reader.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
