@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "components/runtime/launch_wiring.h"
 #include "components/runtime/protocol.h"
 #include "launch/child.h"
+#include "launch/process/launch_wiring.h"
 #include "launch/signals.h"
 
 namespace ensonify::launcher {
@@ -112,7 +112,7 @@ std::vector<std::string> unpaged_mission_problems(const Launch& launch, const Ru
     return std::any_of(launch.processes.begin(), launch.processes.end(),
                        [&](const ProcessSpec& process) { return process.component == component; });
   };
-  if (!launch.has_scenario || !runs("autopilot") || runs("terrain_pager")) return {};
+  if (launch.scenario.path.empty() || !runs("autopilot") || runs("terrain_pager")) return {};
   Command command;
   command.argv = {places.program_folder + "/ensonify-terrain_pager", "--check-mission"};
   const auto arguments = to_arguments(launch.options);

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/launch_file.h"
 #include "components/runtime/wiring.h"
 #include "launch/commands.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::launcher {
 

@@ -15,7 +15,7 @@
 #include <deque>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "launch/signals.h"
 
 extern char** environ;

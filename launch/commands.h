@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "components/runtime/config/launch_file.h"
 #include "launch/child.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::launcher {
 

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/version.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::launcher {
 namespace {

@@ -326,17 +326,17 @@ TEST_CASE("progress tells time, rate and what is left") {
 
 TEST_CASE("a mission's length gives the time that a run will take") {
   Launch launch;
-  CHECK_FALSE(expected_duration_s(launch).has_value());
-  launch.has_scenario = true;
-  launch.scenario.mission.speed_mps = 2;
-  launch.scenario.mission.run_in_m = 0;
-  launch.scenario.vehicles.resize(1);
-  launch.scenario.vehicles[0].limits.turning_radius_m = 10;
+  World world;
+  CHECK_FALSE(expected_duration_s(launch, world).has_value());
+  world.mission.speed_mps = 2;
+  world.mission.run_in_m = 0;
+  world.vehicles.resize(1);
+  world.vehicles[0].limits.turning_radius_m = 10;
   // Two lines of 100 m, 20 m apart, joined by a half circle of radius 10 m.
-  launch.scenario.mission.runlines = {{{0, 0}, {0, 100}}, {{20, 100}, {20, 0}}};
-  CHECK(*expected_duration_s(launch) == Approx((200 + 3.14159265 * 10) / 2));
+  world.mission.runlines = {{{0, 0}, {0, 100}}, {{20, 100}, {20, 0}}};
+  CHECK(*expected_duration_s(launch, world) == Approx((200 + 3.14159265 * 10) / 2));
   launch.duration = SimTime{5'000'000'000};
-  CHECK(*expected_duration_s(launch) == 5.0);
+  CHECK(*expected_duration_s(launch, world) == 5.0);
 }
 
 }  // namespace ensonify::launcher

@@ -36,11 +36,11 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-Supervisor::Supervisor(const Launch& launch, const std::string& program_folder, bool quiet)
+Supervisor::Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet)
     : launch_(launch),
       guard_(run_dir_.path()),
       places_{program_folder, run_dir_.path(), launch.options.out},
-      progress_(quiet, expected_duration_s(launch)) {}
+      progress_(quiet, expected_duration_s(launch, world)) {}
 
 RunReport Supervisor::run() {
   began_ = steady_clock::now();

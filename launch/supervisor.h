@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "components/runtime/bus/router.h"
-#include "components/runtime/config/launch_file.h"
 #include "launch/child.h"
 #include "launch/commands.h"
+#include "launch/file/launch_file.h"
 #include "launch/guard.h"
 #include "launch/progress.h"
 #include "launch/report.h"
@@ -23,7 +23,7 @@ namespace ensonify::launcher {
 /// ended, Ctrl-C) and five times a second asks the clock how far it is.
 class Supervisor {
  public:
-  Supervisor(const Launch& launch, const std::string& program_folder, bool quiet);
+  Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet);
 
   /// Runs the launch to its end; nothing that it started is left. Throws UserError for what cannot be started.
   RunReport run();

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::launcher {
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "components/autopilot/headway.h"
-#include "components/runtime/config/scenario_mission.h"
 #include "components/runtime/sim_time.h"
 #include "messages/navigation.h"
+#include "scenarios/world/mission.h"
 
 namespace ensonify {
 

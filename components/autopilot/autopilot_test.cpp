@@ -4,17 +4,17 @@
 #include <set>
 
 #include "components/autopilot/test_loop.h"
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/default_yaml.h"
+#include "components/config/config_error.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
 
 TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles.resize(1);
-  scenario.mission.steps = steps_of({{{0, 0}, {0, 100}}});
-  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", scenario) == "");
+  World world;
+  world.vehicles.resize(1);
+  world.mission.steps = steps_of({{{0, 0}, {0, 100}}});
+  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", world) == "");
 }
 
 TEST_CASE("lines are flown in order, whole, within a hand of their track, and then the run ends") {

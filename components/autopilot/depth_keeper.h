@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "components/runtime/config/scenario_mission.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/guidance/height.h"
+#include "kernels/vehicle/guidance/height.h"
+#include "scenarios/world/mission.h"
 
 namespace ensonify {
 

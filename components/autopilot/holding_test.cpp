@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/autopilot/test_loop.h"
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
@@ -37,14 +37,14 @@ TEST_CASE("a mission's depth is held from any start, and nothing that floats has
                  [&](const msg::MissionState&, const motion::State& vehicle) { up_m = vehicle.position_enu_m.z(); });
   CHECK(up_m == Approx(-6.0).margin(1e-6));
 
-  Scenario scenario;  // one vehicle dives, but it is the other that is flown
-  scenario.vehicles.resize(2);
-  scenario.vehicles[0].name = "auv";
-  scenario.vehicles[1].name = "boat";
-  scenario.vehicles[1].floats.emplace();
-  scenario.mission = config.plan.mission;
+  World world;  // one vehicle dives, but it is the other that is flown
+  world.vehicles.resize(2);
+  world.vehicles[0].name = "auv";
+  world.vehicles[1].name = "boat";
+  world.vehicles[1].floats.emplace();
+  world.mission = config.plan.mission;
   auto from = ConfigReader::from_text("vehicle: boat", "pilot.yaml");
-  AutopilotConfig::read(from, scenario, "pilot");
+  AutopilotConfig::read(from, world, "pilot");
   CHECK_THROWS_WITH(from.finish(), "pilot.yaml:1:1: the mission's depth_m needs a vehicle that dives; boat floats");
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("a current stronger than the vehicle is told, and the mission given up
   // Against the line it is carried back, across it off to the side while it still makes way along the line.
   for (const Vec2& current : {Vec2(0.0, -2.5), Vec2(4.0, 0.0)}) {
     AutopilotConfig config = three_lines(30.0);
-    config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.0, 2000, 30, 1);
+    config.plan.mission.runlines = runlines::lawnmower({0, 0}, 0.0, 2000, 30, 1);
     config.plan.mission.steps = steps_of(config.plan.mission.runlines);
     config.patience_s = 120.0;
     Loop loop(config, start_of(config.plan, config.plan.mission.runlines), current);

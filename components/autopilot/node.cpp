@@ -39,7 +39,7 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
 
 SimTime AutopilotNode::step(SimTime now) {
   if (!commands_due_.due(now)) return commands_due_.next();
-  if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(runlines(config_.plan, *chart_)));
+  if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(planned_lines(config_.plan, *chart_)));
   if (pilot_ && estimate_) {
     if (altitude_) pilot_->hear(*altitude_);
     altitude_.reset();

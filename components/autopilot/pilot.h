@@ -12,9 +12,9 @@
 #include "components/autopilot/depth_keeper.h"
 #include "components/autopilot/station_keeper.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/guidance/circle.h"
-#include "kernels/guidance/line.h"
-#include "kernels/navigation/turn.h"
+#include "kernels/vehicle/guidance/circle.h"
+#include "kernels/vehicle/guidance/line.h"
+#include "kernels/vehicle/runlines/turn.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -56,7 +56,7 @@ class Pilot {
 
  private:
   struct Place {
-    navigation::Waypose waypose;
+    runlines::Waypose waypose;
     double speed_mps = 0.0;  // over ground
     double depth_m = 0.0;
   };
@@ -73,11 +73,11 @@ class Pilot {
   void await_line();
 
   // --- lines and turns
-  const navigation::Runline& line() const { return pieces_[piece_]; }
+  const runlines::Runline& line() const { return pieces_[piece_]; }
   double to_go_m(double along_m) const;
   bool lined_up() const;
   void head_for_line();
-  void head_for(const navigation::Waypose& goal);
+  void head_for(const runlines::Waypose& goal);
   bool turn_flown();
   void follow_line(SimTime now);
   void keep_place(SimTime now);
@@ -90,7 +90,7 @@ class Pilot {
   bool holds_line() const;
   bool keeps() const { return state_ == State::kKeep; }
   /// How the water carries the vehicle, as far as the state has use for it.
-  const navigation::Vec2& drift() const { return keeps() ? station_.current_enu_mps() : drift_enu_mps_; }
+  const runlines::Vec2& drift() const { return keeps() ? station_.current_enu_mps() : drift_enu_mps_; }
   double planned_radius_m() const;
   double turn_speed_mps() const { return speed_mps_ * turn_speed_fraction_; }
   double heading_for_rad(double course_rad, double speed_mps) const;
@@ -109,10 +109,10 @@ class Pilot {
   State state_ = State::kTurn;
   bool begun_ = false;
   std::int64_t line_ = -1;  // number of the line flown or headed for
-  std::vector<navigation::Runline> pieces_;
+  std::vector<runlines::Runline> pieces_;
   std::size_t piece_ = 0;
-  navigation::Turn turn_;
-  navigation::Waypose goal_;
+  runlines::Turn turn_;
+  runlines::Waypose goal_;
   double along_turn_m_ = 0.0;
   StationKeeper station_;
   bool approaching_ = false;  // a station: the turn before the last way to it is flown
@@ -124,7 +124,7 @@ class Pilot {
   Place here_;
   double speed_mps_;
   double integral_s_ = 0.0;
-  navigation::Vec2 drift_enu_mps_ = navigation::Vec2::Zero();
+  runlines::Vec2 drift_enu_mps_ = runlines::Vec2::Zero();
   double cosine_of_tilt_ = 1.0;
   DepthKeeper depth_;
   guidance::HeightOrder height_;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/launch_wiring.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
+#include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
 

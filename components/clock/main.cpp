@@ -4,10 +4,11 @@
 #include <fstream>
 
 #include "components/clock/clock.h"
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
-#include "components/runtime/run.h"
 #include "components/runtime/tool.h"
+#include "launch/process/run.h"
 
 namespace {
 

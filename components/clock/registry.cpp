@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "components/runtime/launch_wiring.h"
+#include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/launch_file.h"
 #include "components/runtime/protocol.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::clock {
 

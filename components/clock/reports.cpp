@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/clock/clock.h"
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify::clock {

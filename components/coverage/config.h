@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "components/runtime/config/scenario.h"
 #include "kernels/survey/cost.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -19,7 +19,7 @@ struct CoverageConfig {
   AdaptivePlan plan;
   survey::RunRules run;  // how lines at a fixed distance would be run, and what running costs
 
-  static CoverageConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static CoverageConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const CoverageConfig& other) const {
     return rate_hz == other.rate_hz && head_depth_m == other.head_depth_m && cost_per_day == other.cost_per_day &&

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "components/runtime/head/head_config.h"
+#include "components/sonar/head_config.h"
 
 namespace ensonify {
 
@@ -28,7 +28,7 @@ struct EchosounderConfig : HeadConfig {
     gain_spreading_db = 20.0;
     gain_absorption_dbpm = 0.05;
   }
-  static EchosounderConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static EchosounderConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const EchosounderConfig& other) const;
 

@@ -4,17 +4,17 @@
 #include <numbers>
 
 #include "components/echosounder/node.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
-#include "components/runtime/head/test_mesh.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
-#include "components/runtime/testing.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/test_config.h"
+#include "components/sonar/test_mesh.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "components/echosounder/config.h"
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/bottom_finder.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/bottom_finder.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

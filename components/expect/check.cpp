@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 
 namespace ensonify::expect {
 namespace {

@@ -8,14 +8,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "components/config/config_reader.h"
+#include "components/errors/exit_error.h"
 #include "components/expect/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/writer.h"
-#include "components/runtime/testing.h"
+#include "components/record/writer.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
+#include "scenarios/world/world.h"
 
 using namespace ensonify;
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ namespace {
 
 ExpectConfig config_of(const std::string& list) {
   auto from = ConfigReader::from_text("expect:\n" + list, "run.yaml");
-  const auto config = ExpectConfig::read(from, Scenario{}, "expect");
+  const auto config = ExpectConfig::read(from, World{}, "expect");
   from.finish();
   return config;
 }
@@ -268,7 +268,7 @@ TEST_CASE("mistakes in the list are told with their places") {
 
 TEST_CASE("expect/default.yaml shows every kind but the one that needs a file") {
   auto from = ConfigReader::from_file(std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/expect/default.yaml");
-  const auto config = ExpectConfig::read(from, Scenario{}, "expect");
+  const auto config = ExpectConfig::read(from, World{}, "expect");
   from.finish();
   CHECK(config.expectations.size() == 7);
   CHECK(config.expectations[0].name == "most pings have most of their beams");

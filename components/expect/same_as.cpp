@@ -5,7 +5,7 @@
 #include <map>
 
 #include "components/expect/check.h"
-#include "components/runtime/record/reader.h"
+#include "components/record/reader.h"
 
 namespace ensonify::expect {
 namespace {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "components/forward_looking/config.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/pattern_table.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 

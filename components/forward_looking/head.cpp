@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/patch.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/beam_layout.h"
-#include "kernels/array/line.h"
-#include "kernels/array/near_field.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/patch.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/beam_layout.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/near_field.h"
 
 namespace ensonify {
 namespace {

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "components/forward_looking/faces.h"
-#include "components/runtime/head/arrivals.h"
-#include "components/runtime/head/shot.h"
-#include "kernels/echo/line_receiver.h"
-#include "kernels/echo/scatterer.h"
-#include "kernels/echo/volume.h"
-#include "kernels/random/stream.h"
-#include "kernels/trace/ray_distribution.h"
+#include "components/sonar/arrivals.h"
+#include "components/sonar/shot.h"
+#include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/volume.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/base/random/stream.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

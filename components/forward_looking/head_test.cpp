@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 
 using namespace ensonify;

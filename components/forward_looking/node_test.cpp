@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

@@ -5,7 +5,7 @@
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/test_head.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/sonar/tile_set.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include "components/multibeam/config.h"
 #include "components/multibeam/steering.h"
-#include "kernels/array/line_array.h"
-#include "kernels/array/pattern_table.h"
+#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "components/multibeam/test_survey.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/refraction/eigenray.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/water/refraction/eigenray.h"
 
 // What the whole head finds of a seabed that is known: depths, strengths, and where it finds none.
 
@@ -14,8 +14,9 @@ TEST_CASE("on a flat bottom depths are unbiased from nadir to the edge of the sw
   const auto soundings = survey(shallow(), {}, 3_s);
   REQUIRE(soundings.size() == 29);
   for (const auto& s : soundings) CHECK(valid_count(s) == 256);
-  // Phase detection (kernels/detect): under 0.05 % of depth to 60 degrees, 0.15 % to 70. The head rests, so its pings
-  // share one speckle, and a mean is good to sd / sqrt(60 beams) only. Amplitude alone would scatter by 4 cm outside.
+  // Phase detection (kernels/acoustics/detect): under 0.05 % of depth to 60 degrees, 0.15 % to 70. The head rests, so
+  // its pings share one speckle, and a mean is good to sd / sqrt(60 beams) only. Amplitude alone would scatter by 4 cm
+  // outside.
   for (const auto& [from, to, bias_m, sd_m] :
        {std::array{0.0, 15.0, 0.01, 0.025}, {15.0, 45.0, 0.01, 0.015}, {45.0, 65.0, 0.015, 0.015}}) {
     const Spread error = depth_error(soundings, from, to);
@@ -80,7 +81,8 @@ TEST_CASE("outer beams are detected by phase, about the nadir amplitude has its 
   }
   REQUIRE(nadir > 90);
   REQUIRE(outer > 700);
-  // In much less noise than kernels/detect is tested in phase gains there too, and speckle decides which of the two.
+  // In much less noise than kernels/acoustics/detect is tested in phase gains there too, and speckle decides which of
+  // the two.
   CHECK(nadir_by_amplitude > 0.2 * nadir);
   CHECK(outer_by_phase > 0.95 * outer);
 }
@@ -100,7 +102,7 @@ TEST_CASE("the predicted standard deviations tell the scatter of depths") {
         squares += std::pow(range_sd_m * std::cos(angle), 2), ++n;
       }
     }
-    // As kernels/detect promises for a plane: within a factor of 1.5.
+    // As kernels/acoustics/detect promises for a plane: within a factor of 1.5.
     const double ratio = depth_error(soundings, from, to).sd / std::sqrt(squares / n);
     INFO(from << " to " << to << " deg: " << ratio << " of the prediction, " << n << " soundings");
     CHECK(ratio < 1.5);

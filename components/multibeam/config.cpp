@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/line_shading.h"
-#include "components/runtime/head/tone_shape.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/line_shading.h"
+#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -138,7 +138,7 @@ void check(ConfigReader& from, const MultibeamConfig& c) {
 
 }  // namespace
 
-MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+MultibeamConfig MultibeamConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   MultibeamConfig c;
   read_array(from, c);
   read_sectors(from, c);
@@ -146,8 +146,8 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
   read_receiver(from, c);
   read_uncertainty(from, c.uncertainty);
 
-  read_head(from, scenario, process, kFastest_hz, c);
-  c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
+  read_head(from, world, process, kFastest_hz, c);
+  c.sound_speed_mps = applied_profile(world).speed_mps(world.mission.depth_m);
   check(from, c);
   return c;
 }

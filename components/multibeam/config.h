@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/head_config.h"
-#include "kernels/array/shading.h"
-#include "kernels/echo/pulse.h"
-#include "kernels/uncertainty/sounding.h"
+#include "components/sonar/head_config.h"
+#include "kernels/acoustics/array/shading.h"
+#include "kernels/acoustics/echo/pulse.h"
+#include "kernels/survey/uncertainty/sounding.h"
 
 namespace ensonify {
 
@@ -112,7 +112,7 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
     gain_absorption_dbpm = 0.07;
     quality = 0.25;
   }
-  static MultibeamConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static MultibeamConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// Parameters only.
   bool operator==(const MultibeamConfig& other) const {
     return same_parameters(*this, other) && MultibeamParameters::operator==(other);

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
+#include "components/sonar/test_config.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -53,9 +53,9 @@ TEST_CASE("a head that no vehicle carries is refused") {
 }
 
 TEST_CASE("the profile that the instrument applies turns range into time") {
-  Scenario scenario = world_with("bow");
-  scenario.water.profile.sound_speed_mps = 1520.0;
-  scenario.water.applied.sound_speed_mps = 1490.0;
+  World world = world_with("bow");
+  world.water.profile.sound_speed_mps = 1520.0;
+  world.water.applied.sound_speed_mps = 1490.0;
   auto from = ConfigReader::from_text("{}", "head.yaml");
-  CHECK(MultibeamConfig::read(from, scenario, "bow").sound_speed_mps == 1490.0);
+  CHECK(MultibeamConfig::read(from, world, "bow").sound_speed_mps == 1490.0);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/head/tone_shape.h"
+#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 

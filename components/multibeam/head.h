@@ -7,11 +7,11 @@
 #include "components/multibeam/config.h"
 #include "components/multibeam/sector_echoes.h"
 #include "components/multibeam/steering.h"
-#include "components/runtime/head/shot.h"
-#include "components/runtime/head/sight.h"
-#include "kernels/detect/bottom.h"
-#include "kernels/frames/pose.h"
-#include "kernels/trace/scene.h"
+#include "components/sonar/shot.h"
+#include "components/sonar/sight.h"
+#include "kernels/acoustics/detect/bottom.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

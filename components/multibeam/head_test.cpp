@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "components/multibeam/test_head.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
 
 using namespace ensonify;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/multibeam/snippets.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/head_motion.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/head_motion.h"
 
 namespace ensonify {
 namespace {

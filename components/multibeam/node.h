@@ -7,10 +7,10 @@
 #include "components/multibeam/head.h"
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
-#include "components/runtime/head/auto_range.h"
-#include "components/runtime/head/head_inputs.h"
-#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
+#include "components/sonar/auto_range.h"
+#include "components/sonar/head_inputs.h"
+#include "components/sonar/ping_cycle.h"
 #include "messages/navigation.h"
 
 namespace ensonify {

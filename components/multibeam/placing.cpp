@@ -1,6 +1,6 @@
 #include "components/multibeam/placing.h"
 
-#include "kernels/georeference/sounding.h"
+#include "kernels/survey/georeference/sounding.h"
 
 namespace ensonify {
 

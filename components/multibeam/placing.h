@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/frames/pose.h"
-#include "kernels/refraction/profile.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/water/refraction/profile.h"
 
 namespace ensonify {
 

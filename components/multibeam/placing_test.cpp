@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/refraction/eigenray.h"
+#include "kernels/water/refraction/eigenray.h"
 
 using namespace ensonify;
 using frames::Attitude;

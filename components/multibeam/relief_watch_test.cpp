@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 
 using namespace ensonify;
 

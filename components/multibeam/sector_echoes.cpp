@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/patch.h"
-#include "kernels/array/stabilisation.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/patch.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {
 namespace {

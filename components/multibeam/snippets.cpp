@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/detect/seabed_image.h"
+#include "kernels/acoustics/detect/seabed_image.h"
 
 namespace ensonify {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/multibeam/test_survey.h"
-#include "kernels/detect/seabed_image.h"
+#include "kernels/acoustics/detect/seabed_image.h"
 
 using namespace ensonify;
 

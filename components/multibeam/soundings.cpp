@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "components/multibeam/placing.h"
-#include "components/runtime/head/environment.h"
-#include "kernels/array/line.h"
+#include "components/sonar/environment.h"
+#include "kernels/acoustics/array/line.h"
 
 namespace ensonify {
 namespace {

@@ -7,11 +7,11 @@
 #include "components/multibeam/head.h"
 #include "components/multibeam/relief_watch.h"
 #include "components/multibeam/steering.h"
-#include "components/runtime/head/auto_range.h"
-#include "components/runtime/head/shot.h"
-#include "kernels/detect/bottom.h"
-#include "kernels/frames/pose.h"
-#include "kernels/refraction/profile.h"
+#include "components/sonar/auto_range.h"
+#include "components/sonar/shot.h"
+#include "kernels/acoustics/detect/bottom.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/water/refraction/profile.h"
 #include "messages/soundings.h"
 
 namespace ensonify {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/array/beam_layout.h"
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/beam_layout.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
-#include "kernels/array/sectors.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/acoustics/array/sectors.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 

@@ -6,7 +6,7 @@
 
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/test_head.h"
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 using namespace ensonify;
 using frames::Vec3;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "components/runtime/config/scenario.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -29,7 +29,7 @@ struct NavFeedConfig {
   vertical::Datums datums;
   std::optional<vertical::Loading> floats;
 
-  static NavFeedConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static NavFeedConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const NavFeedConfig& other) const {
     return port == other.port && pose_rate_hz == other.pose_rate_hz && delay_s == other.delay_s &&

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/vertical/reduction.h"
+#include "kernels/vehicle/vertical/reduction.h"
 
 namespace ensonify {
 namespace {

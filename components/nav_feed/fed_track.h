@@ -8,8 +8,8 @@
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/nmea.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/frames/pose.h"
-#include "kernels/motion/sampled_curve.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/vehicle/motion/sampled_curve.h"
 #include "messages/navigation.h"
 
 namespace ensonify {

@@ -7,7 +7,7 @@
 
 #include "components/nav_feed/node.h"
 #include "components/nav_feed/test_sentence.h"
-#include "components/runtime/config/default_yaml.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 using nmea::sentence;
@@ -55,9 +55,9 @@ SimTime at_s(double t_s) { return from_seconds(t_s); }
 }  // namespace
 
 TEST_CASE("nav_feed/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles = {{"boat"}};
-  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", scenario) == "");
+  World world;
+  world.vehicles = {{"boat"}};
+  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", world) == "");
 }
 
 TEST_CASE(

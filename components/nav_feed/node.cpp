@@ -1,7 +1,7 @@
 #include "components/nav_feed/node.h"
 
 #include "components/runtime/log.h"
-#include "components/runtime/pose_message.h"
+#include "components/truth/pose_message.h"
 
 namespace ensonify {
 namespace {

@@ -6,7 +6,7 @@
 #include "components/nav_feed/fed_track.h"
 #include "components/nav_feed/udp_listener.h"
 #include "components/runtime/ports.h"
-#include "kernels/vertical/floating.h"
+#include "kernels/vehicle/vertical/floating.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 

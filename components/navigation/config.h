@@ -8,7 +8,7 @@
 #include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
 #include "components/navigation/true_water.h"
-#include "components/runtime/config/scenario.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -58,7 +58,7 @@ struct NavigationConfig {
   std::optional<frames::Geodetic> origin;  // not given: the chart tells it
   TrueWater water;
 
-  static NavigationConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static NavigationConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters that have a default in default.yaml.
   bool operator==(const NavigationConfig& other) const {
     return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::sailing;

@@ -6,8 +6,8 @@
 
 #include "components/navigation/instrument_config.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/frames/local_projection.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

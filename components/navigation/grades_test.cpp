@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "components/navigation/test_sailing.h"
-#include "kernels/navigation_filter/test_vehicle.h"
+#include "kernels/instruments/navigation_filter/test_vehicle.h"
 
 using namespace ensonify;
 namespace kernel = ensonify::navigation_filter::sailing;

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "kernels/motion/current.h"
-#include "kernels/vertical/draught.h"
-#include "kernels/vertical/reduction.h"
-#include "kernels/vertical/tide.h"
+#include "kernels/vehicle/motion/current.h"
+#include "kernels/vehicle/vertical/draught.h"
+#include "kernels/vehicle/vertical/reduction.h"
+#include "kernels/vehicle/vertical/tide.h"
 #include "messages/motion.h"
 
 namespace ensonify {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/data_paths.h"
+#include "components/config/config_reader.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify {
 namespace {

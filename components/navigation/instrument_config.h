@@ -3,18 +3,18 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/frames/pose.h"
-#include "kernels/inertial/imu.h"
-#include "kernels/navigation_filter/error_state.h"
-#include "kernels/sensors/doppler_log.h"
-#include "kernels/sensors/gnss.h"
-#include "kernels/sensors/heading.h"
-#include "kernels/sensors/heave.h"
-#include "kernels/sensors/instrument_clock.h"
-#include "kernels/sensors/level.h"
-#include "kernels/sensors/range_sensor.h"
-#include "kernels/sensors/scalar_sensor.h"
-#include "kernels/sensors/usbl.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/instruments/inertial/imu.h"
+#include "kernels/instruments/navigation_filter/error_state.h"
+#include "kernels/instruments/sensors/doppler_log.h"
+#include "kernels/instruments/sensors/gnss.h"
+#include "kernels/instruments/sensors/heading.h"
+#include "kernels/instruments/sensors/heave.h"
+#include "kernels/instruments/sensors/instrument_clock.h"
+#include "kernels/instruments/sensors/level.h"
+#include "kernels/instruments/sensors/range_sensor.h"
+#include "kernels/instruments/sensors/scalar_sensor.h"
+#include "kernels/instruments/sensors/usbl.h"
 
 namespace ensonify {
 

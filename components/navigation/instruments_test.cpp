@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_mesh.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/sonar/test_mesh.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::sailing;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::sailing;

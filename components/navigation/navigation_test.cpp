@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "components/navigation/test_sailing.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/terrain.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 constexpr double kPi = std::numbers::pi;
@@ -51,9 +51,9 @@ struct Moments {
 }  // namespace
 
 TEST_CASE("navigation/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles.resize(1);
-  CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, sailing::kSections) == "");
+  World world;
+  world.vehicles.resize(1);
+  CHECK(default_yaml_fault<NavigationConfig>("navigation", world, sailing::kSections) == "");
 }
 
 TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/frames/pose.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
-#include "kernels/frames/pose.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 

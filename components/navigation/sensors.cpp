@@ -1,7 +1,7 @@
 #include "components/navigation/sensors.h"
 
 #include "components/navigation/world_frame.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 namespace {

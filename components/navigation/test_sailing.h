@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "components/config/config_reader.h"
 #include "components/navigation/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 
 // What tests of instruments share: a configuration of a few sections, and a vehicle that sails in a circle.
 namespace ensonify::sailing {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/frames/local_projection.h"
-#include "kernels/frames/pose.h"
-#include "kernels/inertial/strapdown.h"
-#include "kernels/vertical/reduction.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/instruments/inertial/strapdown.h"
+#include "kernels/vehicle/vertical/reduction.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

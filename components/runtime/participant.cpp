@@ -5,7 +5,7 @@
 #include <chrono>
 #include <set>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/protocol.h"
 

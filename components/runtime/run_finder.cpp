@@ -19,7 +19,7 @@
 #include <optional>
 #include <string_view>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify {
 

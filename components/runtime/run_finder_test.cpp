@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify {
 

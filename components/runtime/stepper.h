@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/ports.h"
 #include "messages/codec.h"
 

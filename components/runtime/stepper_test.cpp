@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/assert.h"
-#include "components/runtime/testing.h"
+#include "components/errors/assert.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 
 using namespace ensonify;

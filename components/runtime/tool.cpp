@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/version.h"
 
 namespace ensonify {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/sight.h"
 #include "components/scanning/config.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/sight.h"
 
 namespace ensonify {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 namespace {

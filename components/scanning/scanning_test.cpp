@@ -1,15 +1,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/scanning/node.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_config.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <set>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/line_shading.h"
-#include "components/runtime/head/ranged_pulse.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/line_array.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/line_shading.h"
+#include "components/sonar/ranged_pulse.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/line_array.h"
 
 namespace ensonify {
 namespace {
@@ -76,7 +76,7 @@ echo::Pulse SidescanChannel::pulse(double length_s) const {
   return echo::tapered_pulse(length_s, tapered_fraction);
 }
 
-SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+SidescanConfig SidescanConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   SidescanConfig c;
   if (from.has("channels")) c.channels.clear();
   std::set<std::string> names;
@@ -85,7 +85,7 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
     if (!names.insert(c.channels.back().name).second) channel.problem("name", "is taken by another channel");
   }
   if (c.channels.empty()) from.problem("channels", "needs at least one channel");
-  read_head(from, scenario, process, kFastest_hz, c);
+  read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   for (const SidescanChannel& channel : c.channels) {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/head_config.h"
-#include "kernels/array/shading.h"
-#include "kernels/echo/pulse.h"
+#include "components/sonar/head_config.h"
+#include "kernels/acoustics/array/shading.h"
+#include "kernels/acoustics/echo/pulse.h"
 
 namespace ensonify {
 
@@ -63,7 +63,7 @@ struct SidescanConfig : HeadConfig {
     ping_rate_hz = 30.0;
     gain_absorption_dbpm = 0.1;
   }
-  static SidescanConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static SidescanConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const SidescanConfig& other) const;
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/bottom_finder.h"
 #include "components/sidescan/config.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/bottom_finder.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

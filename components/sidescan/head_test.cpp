@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/water/noise.h"
 
 using namespace ensonify;

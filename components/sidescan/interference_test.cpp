@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/sidescan/node.h"
+#include "components/sonar/test_seabed.h"
 #include "messages/motion.h"
 
 using namespace ensonify;
@@ -160,7 +160,7 @@ TEST_CASE("interference switched off changes nothing but itself") {
 }
 
 TEST_CASE("heads that are heard stand on the same vehicle, and need time to arrive") {
-  Scenario scenario;
+  World world;
   Vehicle boat;
   boat.name = "boat";
   boat.mountings["side"].actual.position_body_m = {1.0, 0.0, 0.5};
@@ -168,10 +168,10 @@ TEST_CASE("heads that are heard stand on the same vehicle, and need time to arri
   Vehicle other;
   other.name = "auv";
   other.mountings["far"] = {};
-  scenario.vehicles = {boat, other};
+  world.vehicles = {boat, other};
   const auto read = [&](const std::string& yaml, std::string& problems) {
     auto from = ConfigReader::from_text(yaml, "head.yaml");
-    auto config = SidescanConfig::read(from, scenario, "side");
+    auto config = SidescanConfig::read(from, world, "side");
     try {
       from.finish();
     } catch (const ConfigError& error) {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "components/runtime/head/tile_set.h"
 #include "components/sidescan/head.h"
-#include "kernels/array/line.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 
 // A line inside L^2 / lambda, through the whole head, against the sum over its elements by exact distances: a bright
 // strip across the track of a dark level seabed, as the head passes it. Sums of mean squares: the mean over the strip's

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/test_seabed.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/scenario.h"
+#include "components/config/config_error.h"
 #include "components/runtime/sim_time.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -31,15 +31,15 @@ struct TerrainPagerConfig {
 
   // From the scenario.
   std::string scenario_file;
-  std::string scenario_text;        // canonical, as it is recorded; whoever has a launch puts it here
-  std::optional<SimTime> duration;  // of the run, where it has an end of its own; so with this
+  std::string scenario_text;        // canonical, as it is recorded; empty without a launch
+  std::optional<SimTime> duration;  // of the run, where it has an end of its own
   source::TerrainOptions terrain;
   Mission mission;
   std::vector<Vehicle> vehicles;
   vertical::Tide tide;
   double fastest_mps = 10.0;  // of all vehicles
 
-  static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static TerrainPagerConfig read(ConfigReader& from, const World& world, const std::string& process);
 };
 
 }  // namespace ensonify

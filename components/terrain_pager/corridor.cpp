@@ -50,11 +50,11 @@ struct Looks {
 
 Looks looks_along(const TerrainSource& terrain, const Leg& leg) {
   constexpr std::size_t kTogether = 64;  // places under one block of posts: each block costs some milliseconds at most
-  const double length_m = navigation::length_m(leg.line);
+  const double length_m = runlines::length_m(leg.line);
   const double spacing_m = std::max({terrain.native_spacing_m(), leg.spacing_m, length_m / kMostLooks});
   const auto steps = static_cast<int>(std::ceil(length_m / spacing_m));
   Looks looks;
-  for (int i = 0; i <= steps; ++i) looks.place.push_back(navigation::point_on(leg.line, length_m * i / steps));
+  for (int i = 0; i <= steps; ++i) looks.place.push_back(runlines::point_on(leg.line, length_m * i / steps));
   for (std::size_t first = 0; first < looks.place.size(); first += kTogether) {
     const auto some = std::span(looks.place).subspan(first, std::min(kTogether, looks.place.size() - first));
     const terrain::Tile posts = posts_around(terrain, some.front(), some.back(), spacing_m);
@@ -120,7 +120,7 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const Leg& leg
   if (leg.surveyed) {
     if (const auto fault = too_shallow(leg, looks, rules)) return fault;
   }
-  const Vec2 along = (leg.line.end_enu_m - leg.line.start_enu_m) / navigation::length_m(leg.line);
+  const Vec2 along = (leg.line.end_enu_m - leg.line.start_enu_m) / runlines::length_m(leg.line);
   const Vec2 starboard(along.y(), -along.x());
   for (std::size_t i = 0; i < looks.place.size(); ++i) {
     if (const auto fault = fault_at(looks.place[i], looks.height_m[i], leg.reach_m, rules.lowest_water_m)) return fault;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/terrain/terrain_source.h"
-#include "kernels/navigation/runline.h"
+#include "components/config/config_error.h"
+#include "components/terrain/terrain_source.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {
 
@@ -16,7 +16,7 @@ using source::TerrainSource;
 
 /// A straight piece of what a mission flies.
 struct Leg {
-  navigation::Runline line;
+  runlines::Runline line;
   double reach_m = 0.0;              // of the vehicle's lowest part below the water level; at the surface where it
   std::optional<double> altitude_m;  // follows the bottom, this far above it
   ConfigPlace place;                 // in the file that says so

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "components/runtime/mesh_message.h"
-#include "components/runtime/terrain/prepared_mesh.h"
+#include "components/terrain/mesh_message.h"
+#include "components/terrain/prepared_mesh.h"
 #include "components/terrain_pager/mission_flight.h"
-#include "kernels/navigation/runline.h"
-#include "kernels/progressive/crossing.h"
+#include "kernels/mesh/progressive/crossing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {
 namespace {
@@ -42,7 +42,7 @@ void check_legs(const Flight& flight, const std::string& name, const progressive
     const double lowest_z_m = flight.lowest_water_m - leg.reach_m;
     const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, lowest_z_m});
     if (!along_m) continue;
-    const frames::Vec2 place = navigation::point_on(leg.line, *along_m);
+    const frames::Vec2 place = runlines::point_on(leg.line, *along_m);
     throw ConfigError(
         {ConfigProblem{leg.place, leg.key,
                        fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a way "

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/terrain_source.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
-#include "kernels/paging/near.h"
-#include "kernels/paging/residency.h"
+#include "kernels/mesh/paging/near.h"
+#include "kernels/mesh/paging/residency.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {

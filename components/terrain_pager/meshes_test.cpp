@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/terrain_pager/node.h"
 
 using namespace ensonify;
@@ -61,7 +61,7 @@ TEST_CASE("what no head could ever meet or hold is refused, with its place") {
 
 TEST_CASE("a runline through a mesh is refused with its place, one beside it or above it is not") {
   TerrainPagerConfig config = quay();
-  const auto refused = [&](const navigation::Runline& line, double depth_m) {
+  const auto refused = [&](const runlines::Runline& line, double depth_m) {
     config.mission.depth_m = depth_m;
     config.mission.steps = {FlyLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
     try {

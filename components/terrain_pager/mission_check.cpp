@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/meshes.h"
 #include "components/terrain_pager/mission_flight.h"

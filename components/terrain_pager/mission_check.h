@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/runtime/terrain/terrain_source.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
 
 namespace ensonify::pager {

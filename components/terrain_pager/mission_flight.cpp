@@ -55,8 +55,8 @@ class Walk {
   void go(const FlyLine& line) {
     const auto& points = line.points_enu_m;
     const std::size_t last = points.size() - 1;
-    const Vec2 before = navigation::extended({points[0], points[1]}, mission_.run_in_m, 0.0).start_enu_m;
-    const Vec2 behind = navigation::extended({points[last - 1], points[last]}, 0.0, mission_.run_out_m).end_enu_m;
+    const Vec2 before = runlines::extended({points[0], points[1]}, mission_.run_in_m, 0.0).start_enu_m;
+    const Vec2 behind = runlines::extended({points[last - 1], points[last]}, 0.0, mission_.run_out_m).end_enu_m;
     if (mission_.run_in_m > 0.0) add("mission run-in", {before, points[0]});
     for (std::size_t i = 0; i < last; ++i)
       add(fmt::format("mission runline {}", ++runlines_), {points[i], points[i + 1]}).surveyed = true;
@@ -92,14 +92,14 @@ class Walk {
     AdaptivePlan moved = plan;
     for (int i = 0; i <= count; ++i) {
       moved.first_line_m = plan.width_m * i / count;
-      Leg& leg = add("mission adaptive", navigation::extended(first_line(moved), further_m, further_m));
+      Leg& leg = add("mission adaptive", runlines::extended(first_line(moved), further_m, further_m));
       leg.surveyed = true;
       leg.spacing_m = spacing_m;
     }
   }
 
   double reach_m() const { return depth_m_.value_or(0.0) + lowest_head_m_; }
-  Leg& add(std::string key, const navigation::Runline& line) {
+  Leg& add(std::string key, const runlines::Runline& line) {
     flight_.legs.push_back({line, reach_m(), altitude_m_, here_, std::move(key)});
     return flight_.legs.back();
   }
@@ -122,15 +122,14 @@ class Walk {
 
 Flight flight_of(const TerrainPagerConfig& config) {
   const MissionPlaces where = mission_places(config.scenario_file, config.scenario_text);
-  const std::vector<navigation::Runline>& runlines = config.mission.runlines;
+  const std::vector<runlines::Runline>& runlines = config.mission.runlines;
   std::vector<VisitedPlace> starts;
   std::vector<Vec2> from;
   double least_reach_m = config.vehicles.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Vehicle& vehicle : config.vehicles) {
     least_reach_m = std::min(least_reach_m, lowest_head_m(vehicle));
     if (!vehicle.start) {
-      if (!runlines.empty())
-        from.push_back(navigation::extended(runlines[0], config.mission.run_in_m, 0.0).start_enu_m);
+      if (!runlines.empty()) from.push_back(runlines::extended(runlines[0], config.mission.run_in_m, 0.0).start_enu_m);
       continue;
     }
     const frames::Vec3& place = vehicle.start->position_enu_m;  // up from the water level

@@ -7,7 +7,7 @@
 #include "components/runtime/sim_time.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/corridor.h"
-#include "kernels/vertical/tide.h"
+#include "kernels/vehicle/vertical/tide.h"
 
 namespace ensonify::pager {
 

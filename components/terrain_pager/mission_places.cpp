@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "components/runtime/config/config_node.h"
-#include "components/runtime/config/data_paths.h"
+#include "components/config/config_node.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify::pager {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
 
 namespace ensonify::pager {
 

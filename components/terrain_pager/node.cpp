@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/budget.h"
 #include "components/terrain_pager/demand.h"
 #include "components/terrain_pager/mission_check.h"
@@ -58,7 +58,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   store_.emplace([this](const TileKey& key) { return made(key); },
                  pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
   if (!config.mission.runlines.empty()) {
-    const navigation::Runline& line = config.mission.runlines.front();
+    const runlines::Runline& line = config.mission.runlines.front();
     const pager::Paging probably(grid_, box_, rules(feed_m));
     store_->hold(probably.before_start(line.start_enu_m));
   }

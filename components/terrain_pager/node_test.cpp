@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
 
@@ -192,9 +192,9 @@ TEST_CASE("posts too fine for the depth are refused before the run") {
 
 TEST_CASE("a budget too small for what heads need at once is refused, with its place") {
   auto from = ConfigReader::from_text("feed_margin_m: 60\nbudget_mb: 30\n", "pager.yaml");
-  Scenario scenario;
-  scenario.seabed = small_slope().terrain.seabed;
-  const auto config = TerrainPagerConfig::read(from, scenario, "pager");
+  World world;
+  world.seabed = small_slope().terrain.seabed;
+  const auto config = TerrainPagerConfig::read(from, world, "pager");
   CHECK_THROWS_WITH(
       NodeUnderTest<TerrainPagerNode>(config),
       "pager.yaml:1:1: budget_mb: 30 does not hold the 6 tiles that may lie within 60 m of the vehicle and 2 "

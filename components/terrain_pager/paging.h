@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "kernels/paging/prediction.h"
-#include "kernels/paging/residency.h"
+#include "kernels/mesh/paging/prediction.h"
+#include "kernels/mesh/paging/residency.h"
 
 namespace ensonify::pager {
 
@@ -13,8 +13,8 @@ using paging::Box;
 using terrain::TileGrid;
 using terrain::TileKey;
 
-/// Decides which tiles heads hold and which of them memory is meant to hold: the rules of kernels/paging with what they
-/// decided before. A function of the poses seen so far and of nothing else.
+/// Decides which tiles heads hold and which of them memory is meant to hold: the rules of kernels/mesh/paging with what
+/// they decided before. A function of the poses seen so far and of nothing else.
 class Paging {
  public:
   struct Rules {

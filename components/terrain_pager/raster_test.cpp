@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/terrain/raster_source.h"
-#include "components/runtime/terrain/source_of.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/terrain/raster_source.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/node.h"
 #include "components/terrain_pager/tile_messages.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <regex>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/tiles/tile_set.h"
+#include "components/config/config_reader.h"
+#include "components/terrain/tiles/tile_set.h"
 #include "components/terrain_pager/identity.h"
 
 using namespace ensonify;

@@ -16,9 +16,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "components/runtime/tiles/crc32c.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/sha256.h"
+#include "components/terrain/tiles/crc32c.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/sha256.h"
 #include "messages/codec.h"
 
 namespace ensonify::pager {

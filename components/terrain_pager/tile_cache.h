@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/terrain/tile.h"
+#include "kernels/mesh/tile.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {

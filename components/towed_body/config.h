@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "components/runtime/config/scenario.h"
-#include "kernels/motion/towed_body.h"
+#include "kernels/vehicle/motion/towed_body.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -44,7 +44,7 @@ struct TowedBodyConfig {
   motion::DisturbanceParameters disturbance;
   motion::Current current;
 
-  static TowedBodyConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static TowedBodyConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const TowedBodyConfig& other) const;
 };

@@ -5,7 +5,7 @@
 
 #include "components/runtime/sim_time.h"
 #include "components/towed_body/config.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/towed_body/node.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kSpeed_mps = 2.0;
 
-Scenario sea() {
-  Scenario scenario;
-  scenario.vehicles = {{"fish"}};
-  return scenario;
+World sea() {
+  World world;
+  world.vehicles = {{"fish"}};
+  return world;
 }
 
 TowedBodyConfig config_of(const std::string& yaml) {

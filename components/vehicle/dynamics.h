@@ -5,7 +5,7 @@
 
 #include "components/runtime/sim_time.h"
 #include "components/vehicle/config.h"
-#include "kernels/frames/pose.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 

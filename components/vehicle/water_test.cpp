@@ -7,7 +7,7 @@
 #include "components/vehicle/integrated.h"
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
-#include "kernels/motion/disturbance_presets.h"
+#include "kernels/vehicle/motion/disturbance_presets.h"
 
 using namespace ensonify;
 using frames::Vec3;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/seabed/backscatter.h"
 #include "kernels/seabed/facets.h"
 #include "kernels/seabed/table.h"

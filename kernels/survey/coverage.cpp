@@ -20,7 +20,7 @@ Runline line_across(const Rectangle& r, double across_m, bool back) {
   const Vec2 middle = r.centre_enu_m + (across_m - 0.5 * r.width_m) * starboard_of(r);
   const Vec2 half = 0.5 * r.length_m * forward_of(r);
   const Runline line{middle - half, middle + half};
-  return back ? navigation::reversed(line) : line;
+  return back ? runlines::reversed(line) : line;
 }
 
 Coverage::Coverage(const Rectangle& r, double cell_m, int needed)

@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "kernels/navigation/runline.h"
 #include "kernels/survey/spacing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-using navigation::Runline;
-using navigation::Vec2;
+using runlines::Runline;
+using runlines::Vec2;
 
 /// A rectangle that a survey covers with parallel lines, each to starboard of the one before (seen along the first).
 struct Rectangle {

@@ -11,7 +11,7 @@ namespace {
 /// A vessel with a fan of 121 beams over 60 degrees either side, on a plane that deepens to the east: x_m from the
 /// western edge. Two pings a cell.
 void survey_line(Coverage& coverage, const Runline& line, double deepening, double cell_m) {
-  const double length_m = navigation::length_m(line);
+  const double length_m = runlines::length_m(line);
   const Vec2 forward = (line.end_enu_m - line.start_enu_m) / length_m;
   const auto depth = [&](double east_m) { return 10.0 + deepening * east_m; };
   for (double along = 0.25 * cell_m; along < length_m; along += 0.5 * cell_m) {

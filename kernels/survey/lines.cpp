@@ -60,7 +60,7 @@ std::vector<Runline> clipped(const Turned& area, const std::vector<double>& acro
     if (pieces.empty()) continue;
     if (!up) {
       std::reverse(pieces.begin(), pieces.end());
-      for (Runline& piece : pieces) piece = navigation::reversed(piece);
+      for (Runline& piece : pieces) piece = runlines::reversed(piece);
     }
     lines.insert(lines.end(), pieces.begin(), pieces.end());
     up = !up;

@@ -3,13 +3,13 @@
 #include <functional>
 #include <vector>
 
-#include "kernels/navigation/runline.h"
 #include "kernels/survey/polygon.h"
 #include "kernels/survey/spacing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-using navigation::Runline;
+using runlines::Runline;
 
 /// Depth below the head at a place, m; NaN where it is not known.
 using DepthAt = std::function<double(const Vec2& place_enu_m)>;

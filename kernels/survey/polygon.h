@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "kernels/navigation/runline.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-using navigation::Vec2;
+using runlines::Vec2;
 
 /// Corners in order, either sense; the last is joined to the first, and may be the first given again.
 using Polygon = std::vector<Vec2>;

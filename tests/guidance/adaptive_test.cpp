@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "components/autopilot/node.h"
+#include "components/config/config_reader.h"
 #include "components/coverage/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/terrain/source_of.h"
-#include "components/runtime/testing.h"
-#include "kernels/motion/kinematics.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/terrain/source_of.h"
+#include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify;
-using navigation::Vec2;
+using runlines::Vec2;
 
 namespace {
 
@@ -40,11 +40,11 @@ struct Slope {
     return mission;
   }
 
-  Scenario scenario = read_scenario(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
+  World world = read_world(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
   std::vector<float> depths_m;  // west to east, and so northward
 
   Slope() {
-    const auto terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+    const auto terrain = source::source_of({world.site, world.seabed, "", 1, {}});
     for (int north = -kHalfNorth; north <= kHalfNorth; ++north) {
       for (int east = -kHalfEast; east <= kHalfEast; ++east) {
         depths_m.push_back(static_cast<float>(-terrain->height_m(kStep_m * Vec2(east, north))));
@@ -96,7 +96,7 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
 
 /// Flies a mission over the slope while coverage looks on, and, where the mission is adaptive, lays the lines. Returns
 /// coverage's report.
-nlohmann::json fly(const Slope& slope, const Scenario& flown) {
+nlohmann::json fly(const Slope& slope, const World& flown) {
   auto empty = ConfigReader::from_text("{}", "test.yaml");
   const auto pilot_config = AutopilotConfig::read(empty, flown, "pilot");
   const auto coverage_config = CoverageConfig::read(empty, slope.scenario, "coverage");
@@ -135,14 +135,14 @@ nlohmann::json fly(const Slope& slope, const Scenario& flown) {
 }
 
 /// The same survey with so many lines at one distance, from the shallow side to the deep one.
-Scenario with_fixed_lines(const Slope& slope, std::size_t count) {
-  Scenario fixed = slope.scenario;
+World with_fixed_lines(const Slope& slope, std::size_t count) {
+  World fixed = slope.scenario;
   const AdaptivePlan plan = *std::exchange(fixed.mission.adaptive, std::nullopt);
   fixed.mission.runlines.clear();
   for (std::size_t i = 0; i < count; ++i) {
     AdaptivePlan at = plan;
     at.first_line_m = plan.width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    navigation::Runline line = first_line(at);
+    runlines::Runline line = first_line(at);
     if (i % 2 == 1) std::swap(line.start_enu_m, line.end_enu_m);
     fixed.mission.runlines.push_back(line);
   }

@@ -26,14 +26,14 @@ double within_95(std::vector<double>& values) {
 
 /// Sails the lines.
 Within95 sail(const std::string& vehicle, const std::string& mission, const std::string& instruments = "") {
-  const Scenario scenario = world_of(
+  const World world = world_of(
       vehicle, mission + ", lawnmower: {centre_m: [0, 0], heading_deg: 0, length_m: 1000, spacing_m: 80, count: 5}");
   std::vector<double> truth_m, estimate_m, error_m;
-  const bool done = fly(scenario, 6000_s, instruments, [&](const auto& state, const auto& pose, const auto& estimate) {
+  const bool done = fly(world, 6000_s, instruments, [&](const auto& state, const auto& pose, const auto& estimate) {
     if (state.state != "on_line") return;
-    const auto& line = scenario.mission.runlines[static_cast<std::size_t>(state.line)];
+    const auto& line = world.mission.runlines[static_cast<std::size_t>(state.line)];
     const auto off_m = [&](const std::array<double, 3>& place) {
-      return navigation::line_position(line, {place[0], place[1]}).cross_track_m;
+      return runlines::line_position(line, {place[0], place[1]}).cross_track_m;
     };
     const double believed_m = off_m(estimate.position_enu_m), true_m = off_m(pose.position_enu_m);
     truth_m.push_back(std::abs(true_m));

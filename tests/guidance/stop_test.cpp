@@ -10,7 +10,7 @@
 
 using namespace ensonify;
 using namespace ensonify::closed_loop;
-using navigation::Vec2;
+using runlines::Vec2;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/random/stream.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/base/random/stream.h"
 #include "tests/physics/heads.h"
 
 // Objects on the seabed of 20 m in a survey at 2 m/s: how many soundings fall on each. The whole head, through its
@@ -89,7 +89,7 @@ TEST_CASE("cubes of 0.5 m within 45 degrees and of 1 m within 60 get at least 9 
   std::vector<Cube> cubes;
   strew(0.5, std::numbers::pi / 4, {1, "small cubes"}, cubes);
   strew(1.0, std::numbers::pi / 3, {1, "large cubes"}, cubes);
-  const Scenario world = world_with("head");
+  const World world = world_with("head");
   NodeUnderTest<MultibeamNode> head(config_of<MultibeamNode>(yaml, world, "head"));
   const double lead_m = 1.5;
   const SimTime end = from_seconds((2.0 * (-kFirstRow_m + lead_m)) / kSpeed_mps);

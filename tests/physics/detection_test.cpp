@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/detect/accuracy.h"
-#include "kernels/sonar_equation/sonar_equation.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/detect/testing/accuracy.h"
+#include "kernels/acoustics/sonar_equation.h"
 #include "tests/physics/heads.h"
 
-// How well a multibeam finds a plane: the head through its ports, from the water to soundings. (kernels/detect does the
-// same for the detector alone, on echoes that it is given.)
+// How well a multibeam finds a plane: the head through its ports, from the water to soundings.
+// (kernels/acoustics/detect does the same for the detector alone, on echoes that it is given.)
 
 using namespace ensonify;
 using namespace ensonify::physics;
@@ -49,7 +49,7 @@ struct Errors {  // of depth, relative
 
 /// By the number of the bin of beam angle, both sides together, of three seconds at 3 m/s.
 std::map<int, Errors> survey(double source_level_db, const std::string& transmit_window = "taylor") {
-  Scenario world = world_with("head");
+  World world = world_with("head");
   world.water.profile.sound_speed_mps = 1500.0;
   world.water.absorption_dbpm = kAbsorption_dbpm;
   world.water.noise_level_db = kNoise_db;

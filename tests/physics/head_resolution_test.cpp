@@ -5,8 +5,8 @@
 
 #include "components/forward_looking/head.h"
 #include "components/multibeam/head.h"
-#include "components/runtime/head/tile_set.h"
-#include "kernels/array/line.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/dip.h"
 #include "tests/physics/sidescan_ping.h"
 #include "tests/physics/strips.h"

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/aperture.h"
-#include "kernels/random/stream.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/seabed/lambert.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/mills_cross.h"
@@ -56,7 +56,7 @@ Echo echo_of(const End& source, const Vec3& point_enu_m, const End& receiver) {
 }  // namespace
 
 TEST_CASE("reciprocity: source and receiver change places, and nothing changes") {
-  // Two stations with lines of different lengths anyhow turned. Bent paths: kernels/refraction, "there and back".
+  // Two stations with lines of different lengths anyhow turned. Bent paths: kernels/water/refraction, "there and back".
   const random::Stream draw{1, "reciprocity"};
   for (std::uint64_t i = 0; i < 300; ++i) {
     const auto station = [&](std::uint64_t which) {

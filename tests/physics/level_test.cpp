@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/sediment.h"
 #include "kernels/water/absorption.h"
 #include "kernels/water/noise.h"

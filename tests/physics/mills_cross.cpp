@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/line_receiver.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/seabed/table.h"
-#include "kernels/trace/ray_distribution.h"
 #include "tests/physics/area_integral.h"
 
 namespace ensonify::physics {

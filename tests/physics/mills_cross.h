@@ -3,10 +3,10 @@
 #include <functional>
 #include <span>
 
-#include "kernels/echo/image.h"
-#include "kernels/frames/pose.h"
+#include "kernels/acoustics/echo/image.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
 #include "kernels/seabed/law.h"
-#include "kernels/trace/scene.h"
 
 namespace ensonify::physics {
 

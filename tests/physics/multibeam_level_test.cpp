@@ -6,8 +6,8 @@
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/array/pattern_table.h"
 #include "kernels/water/absorption.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/heads.h"
@@ -31,7 +31,7 @@ struct Heard {
 
 /// At rest over a level seabed, as sums of mean squares; `yaml` is set besides.
 Heard hear(double frequency_hz, const std::string& yaml, SimTime until) {
-  Scenario world = world_with("head");
+  World world = world_with("head");
   world.water.profile.sound_speed_mps = 1500.0;
   world.water.noise_level_db = 50.0;
   Heard heard;

@@ -7,8 +7,8 @@
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/heads.h"
 
@@ -24,7 +24,7 @@ constexpr double kDepth_m = 20.0;
 constexpr std::size_t kPulse = 2;  // samples
 
 msg::Ping hear(std::uint64_t seed, const frames::Vec3& moved_m, bool speckle) {
-  Scenario world = world_with("head");
+  World world = world_with("head");
   world.seed = seed;
   world.water.profile.sound_speed_mps = 1500.0;
   const std::string yaml =

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
 #include "tests/physics/dip.h"
 
 // Two equal points, seen by a line of 0.5 degrees that sends and hears, as sums of mean squares: the mean over the

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/mills_cross.h"
 #include "tests/physics/sidescan_ping.h"

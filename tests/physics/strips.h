@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "components/runtime/head/effects.h"
-#include "components/runtime/head/environment.h"
+#include "components/sonar/effects.h"
+#include "components/sonar/environment.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/terrain.h"
 

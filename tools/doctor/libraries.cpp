@@ -11,7 +11,7 @@
 #include <memory>
 #include <sstream>
 
-#include "components/runtime/config/data_paths.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify::doctor {
 

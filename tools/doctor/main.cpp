@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/doctor/libraries.h"
 #include "tools/doctor/machine.h"

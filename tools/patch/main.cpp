@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/patch/report.h"
 

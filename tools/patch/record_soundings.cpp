@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/reader.h"
-#include "kernels/frames/pose.h"
+#include "components/errors/exit_error.h"
+#include "components/record/reader.h"
+#include "kernels/base/frames/pose.h"
 #include "messages/codec.h"
 #include "messages/navigation.h"
 #include "messages/soundings.h"

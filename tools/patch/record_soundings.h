@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/boresight/adjust.h"
+#include "kernels/survey/boresight/adjust.h"
 
 namespace ensonify::patch_tool {
 

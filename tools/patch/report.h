@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/boresight/adjust.h"
+#include "kernels/survey/boresight/adjust.h"
 #include "tools/patch/record_soundings.h"
 #include "tools/patch/split_lines.h"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "kernels/refraction/path_table.h"
-#include "kernels/refraction/thermocline.h"
+#include "kernels/water/refraction/path_table.h"
+#include "kernels/water/refraction/thermocline.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

@@ -1,4 +1,4 @@
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 #include <cmath>
 #include <limits>

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/readers.h"
 
 namespace ensonify::plan {

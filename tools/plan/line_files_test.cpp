@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 using namespace ensonify;
 using namespace ensonify::plan;

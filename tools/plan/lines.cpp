@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/source_of.h"
 #include "kernels/survey/cost.h"
+#include "scenarios/world/world.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
 
@@ -32,8 +32,8 @@ struct Options {
 /// Depths below the head: of the scenario's seabed, or one depth.
 survey::DepthAt depth_of(const Options& o) {
   if (o.scenario.empty()) return [depth_m = o.depth_m - o.head_depth_m](const survey::Vec2&) { return depth_m; };
-  const Scenario scenario = read_scenario(o.scenario);
-  const std::shared_ptr<source::TerrainSource> terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+  const World world = read_world(o.scenario);
+  const std::shared_ptr<source::TerrainSource> terrain = source::source_of({world.site, world.seabed, "", 1, {}});
   return [terrain, head_m = o.head_depth_m](const survey::Vec2& place) { return -terrain->height_m(place) - head_m; };
 }
 
@@ -125,7 +125,7 @@ Verb add_lines(CLI::App& parent) {
       ->capture_default_str();
   app->add_flag("--json", o->json, "print JSON");
   app->add_flag("--csv", o->csv, "print CSV");
-  return {app, [o, scenario, depth] {
+  return {app, [o, world, depth] {
             if (scenario->count() + depth->count() == 0) {
               throw UserError("no depths; allowed: --scenario FILE or --depth M");
             }

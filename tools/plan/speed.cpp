@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "kernels/survey/feature.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"

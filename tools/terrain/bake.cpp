@@ -14,12 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/tile_posts.h"
-#include "components/runtime/terrain/tile_set_source.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/overview.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
+#include "components/terrain/tile_posts.h"
+#include "components/terrain/tile_set_source.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/overview.h"
 
 namespace ensonify::terrain_tool {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "components/runtime/terrain/terrain_source.h"
-#include "components/runtime/tiles/tile_set.h"
+#include "components/terrain/terrain_source.h"
+#include "components/terrain/tiles/tile_set.h"
 
 namespace CLI {
 class App;

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/sha256.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/sha256.h"
 #include "tools/terrain/bake.h"
 #include "tools/terrain/import/file_words.h"
 #include "tools/terrain/import/fill.h"

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/prepared_mesh.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "kernels/frames/attitude.h"
-#include "kernels/progressive/cut.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/prepared_mesh.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "kernels/base/frames/attitude.h"
+#include "kernels/mesh/progressive/cut.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {

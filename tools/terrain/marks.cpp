@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/layered_seabed.h"
-#include "kernels/frames/local_projection.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/layered_seabed.h"
+#include "kernels/base/frames/local_projection.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

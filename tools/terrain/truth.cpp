@@ -10,10 +10,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
-#include "kernels/relief_statistics/patches.h"
-#include "kernels/relief_statistics/power_spectrum.h"
-#include "kernels/relief_statistics/structure.h"
+#include "components/errors/exit_error.h"
+#include "kernels/seabed/statistics/patches.h"
+#include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/structure.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

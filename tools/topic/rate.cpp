@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/topic/meter.h"
 #include "tools/topic/select.h"

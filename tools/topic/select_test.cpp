@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::topic_tool {
 

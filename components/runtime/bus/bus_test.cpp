@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <thread>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/link.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/bus/sockets.h"
-#include "components/runtime/exit_error.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 

@@ -9,9 +9,9 @@
 #include <thread>
 #include <zmq.hpp>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
-#include "components/runtime/exit_error.h"
 
 namespace ensonify::bus {
 

@@ -52,7 +52,7 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::rcvtimeo, static_cast<int>(kCoarse.count()));
   socket.set(zmq::sockopt::sndhwm, 0);
   socket.set(zmq::sockopt::rcvhwm, 0);
-  sockets_->endpoint = bind(socket, address, "clock");
+  sockets_->endpoint = bind_to(socket, address, "clock");
   sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
 }
 

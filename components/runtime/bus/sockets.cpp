@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::bus {
 
-std::string bind(zmq::socket_t& socket, const Address& address, const std::string& name) {
+std::string bind_to(zmq::socket_t& socket, const Address& address, const std::string& name) {
   constexpr std::size_t kLongestSocketPath = 107;
   const std::string path = address.run_dir + "/" + name;
   if (!address.tcp && path.size() > kLongestSocketPath) {
@@ -28,7 +28,7 @@ std::string bind_live(zmq::socket_t& socket, const Address& address, const std::
   constexpr int kLiveQueue = 4;
   socket.set(zmq::sockopt::sndhwm, kLiveQueue);
   socket.set(zmq::sockopt::linger, 0);
-  return bind(socket, address, process + ".live");
+  return bind_to(socket, address, process + ".live");
 }
 
 std::vector<std::string> Audience::read(zmq::socket_t& xpub) {

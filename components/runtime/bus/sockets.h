@@ -16,7 +16,7 @@ inline constexpr int kKernelBuffer = 1 << 20;  // fewer switches between process
 
 /// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, not on the loopback
 /// interface, or a socket path is longer than the system's 107 bytes.
-std::string bind(zmq::socket_t& socket, const Address& address, const std::string& name);
+std::string bind_to(zmq::socket_t& socket, const Address& address, const std::string& name);
 
 /// Makes an XPUB the live plane of a process: a tiny queue, nothing is waited for. Binds it and returns its endpoint.
 std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process);

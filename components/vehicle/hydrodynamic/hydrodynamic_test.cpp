@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
 #include "components/vehicle/integrated.h"
 
 using namespace ensonify;

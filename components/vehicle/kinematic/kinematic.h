@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/vehicle/dynamics.h"
-#include "kernels/vertical/floating.h"
+#include "kernels/vehicle/vertical/floating.h"
 
 namespace ensonify {
 

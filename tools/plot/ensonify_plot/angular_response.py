@@ -31,7 +31,7 @@ class Response:
 def area_m2(range_m, beam_rad, incidence_rad, transmit_rad: float, receive_rad: float):
     """Footprint of a beam on a level bottom from its one-way -3 dB widths: it widens by 1 / cos of the steering, and on the
     ground by 1 / cos of the incidence. The level of a sounding is its echo's energy over the pulse length: all of the
-    footprint sends it (`kernels/detect/bottom.h`), however short the pulse."""
+    footprint sends it (`kernels/acoustics/detect/bottom.h`), however short the pulse."""
     widths = np.square(ONE_WAY_EQUIVALENT) * transmit_rad * receive_rad
     return np.square(range_m) * widths / (np.cos(beam_rad) * np.cos(incidence_rad))
 

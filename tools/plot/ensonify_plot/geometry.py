@@ -71,7 +71,7 @@ def slant_range_m(ground_range_m, altitude_m):
 def ground_line(power: np.ndarray, first_range_m: float, step_m: float, altitude_m: float, cell_m: float, cells: int):
     """One side of a waterfall over ground range: cell j reaches from j to j + 1 times `cell_m` and gets the mean power of the
     samples that fall in it, or the sample nearest to its centre where none does; NaN where there is none. Altitude 0 leaves
-    slant range. As `kernels/detect/bottom_track.h` does it."""
+    slant range. As `kernels/acoustics/detect/bottom_track.h` does it."""
     range_m = first_range_m + np.arange(len(power)) * step_m
     on_ground = range_m >= altitude_m
     cell = np.floor(ground_range_m(range_m, altitude_m) / cell_m).astype(np.int64)

@@ -82,7 +82,7 @@ def dot(a, b):
 
 
 def on_both_cones(transmit_axis, sin_transmit, receive_axis, sin_receive, down):
-    """The unit vectors with these sines from the planes across two axes, on the side of `down`, as kernels/georeference has them."""
+    """The unit vectors with these sines from the planes across two axes, on the side of `down`, as kernels/survey/georeference has them."""
     cosine = dot(transmit_axis, receive_axis)
     in_plane = ((sin_transmit - cosine * sin_receive)[:, None] * transmit_axis +
                 (sin_receive - cosine * sin_transmit)[:, None] * receive_axis) / (1 - cosine**2)[:, None]

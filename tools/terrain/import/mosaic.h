@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/terrain_source.h"
-#include "kernels/survey_grid/holes.h"
+#include "components/terrain/terrain_source.h"
+#include "kernels/survey/grid/holes.h"
 #include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {

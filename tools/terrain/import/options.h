@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/raster_file.h"
+#include "components/terrain/raster_file.h"
 
 namespace ensonify::terrain_import {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/survey_grid/band.h"
-#include "kernels/survey_grid/spikes.h"
-#include "kernels/survey_grid/stripes.h"
+#include "kernels/survey/grid/band.h"
+#include "kernels/survey/grid/spikes.h"
+#include "kernels/survey/grid/stripes.h"
 #include "tools/terrain/import/options.h"
 #include "tools/terrain/import/points.h"
 #include "tools/terrain/import/values.h"

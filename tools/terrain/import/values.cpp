@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::terrain_import {
 namespace {

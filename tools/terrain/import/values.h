@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/raster_file.h"
+#include "components/terrain/raster_file.h"
 #include "tools/terrain/import/options.h"
 
 namespace ensonify::terrain_import {
