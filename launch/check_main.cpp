@@ -18,7 +18,7 @@ namespace {
 using namespace ensonify;
 using namespace ensonify::launcher;
 
-/// Guides are read for it, so it is for launches whose pager reads them too: what it refuses has been told already.
+/// Guides are read for it, so it is for launches whose pager reads them too: what it refuses has been reported already.
 void append_uneven(const Launch& launch, const World& world, std::vector<std::string>& warnings) {
   const bool paged = std::ranges::any_of(
       launch.processes, [](const ProcessSpec& process) { return process.component == "terrain_pager"; });

@@ -95,8 +95,8 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
         continue;
       }
       if (native || answer.ended_with(kExitUserError)) {
-        const std::string said = answer.error.empty() ? answer.out : answer.error;
-        checked.problems.push_back(said.empty() ? process.name + ": --check failed without a word" : said);
+        const std::string stated = answer.error.empty() ? answer.out : answer.error;
+        checked.problems.push_back(stated.empty() ? process.name + ": --check failed without a word" : stated);
       } else {
         checked.unknown.push_back(process.name);
       }

@@ -7,7 +7,7 @@
 
 namespace ensonify::launcher {
 
-/// Folders that every process of a run is told of.
+/// Folders that every process of a run gets.
 struct RunPlaces {
   std::string program_folder;  // where the ensonify-* programs are
   std::string run_dir;

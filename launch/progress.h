@@ -9,7 +9,7 @@
 
 namespace ensonify::launcher {
 
-/// How long the run will be in sim time: its hard end, else what its runlines take at mission speed with their turns;
+/// Length of the run in sim time: its hard end, else what its runlines take at mission speed with their turns;
 /// nothing when neither is known.
 std::optional<double> expected_duration_s(const Launch& launch, const World& world);
 

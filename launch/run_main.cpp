@@ -62,7 +62,7 @@ RunReport run_in_process(const Launch& launch) {
   } else if (report.code != kExitOk) {
     report.cause = Fault{report.code, "", "the run in one process failed"};
   }
-  if (const auto told = read_clock_report(launch.options.out)) report.sim_s = told->sim_s;
+  if (const auto reported = read_clock_report(launch.options.out)) report.sim_s = reported->sim_s;
   report.expectations = read_expectations(launch.options.out + "/expect.json");
   return report;
 }

@@ -42,7 +42,7 @@ class Supervisor {
     std::optional<WallTime> respawn_at;
   };
 
-  /// How the run is being ended; each step has a deadline after which the next begins.
+  /// Ending of the run; each step has a deadline after which the next begins.
   enum class Ending { kNo, kAsked, kTerminated, kKilled };
 
   void start_clock();
@@ -77,7 +77,7 @@ class Supervisor {
   RunPlaces places_;
   Progress progress_;
   std::vector<Member> members_;  // the clock first
-  std::unique_ptr<bus::Asker> asker_;
+  std::unique_ptr<bus::ClockQuery> query_;
   std::string clock_endpoint_;
   Verdict verdict_;
   std::vector<Expectation> exits_;  // of the launch file's `exit:` entries

@@ -48,10 +48,10 @@ Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
       station_(limits_, kLag_s, drift_settle_s_, period_s_),
       speed_mps_(mission_.speed_mps),
       depth_(mission_, limits_.vertical_speed_mps),
-      abort_watch_(mission_.abort, config.patience_s) {
+      abort_monitor_(mission_.abort, config.patience_s) {
   ENSONIFY_ASSERT(!steps_.empty(), "a pilot needs a step");
   const auto lines = std::count_if(steps_.begin(), steps_.end(),
-                                   [](const MissionStep& step) { return std::holds_alternative<FlyLine>(step); });
+                                   [](const MissionStep& step) { return std::holds_alternative<FollowLine>(step); });
   line_count_ = mission_.repeat * static_cast<std::int64_t>(lines);
 }
 
@@ -71,7 +71,7 @@ void Pilot::begin_step(SimTime now) {
   }
 }
 
-void Pilot::begin(const FlyLine& line, SimTime) {
+void Pilot::begin(const FollowLine& line, SimTime) {
   pieces_.clear();
   for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
     pieces_.push_back({line.points_enu_m[i - 1], line.points_enu_m[i]});
@@ -97,7 +97,7 @@ void Pilot::begin(const KeepPlace& keep, SimTime) {
   approaching_ = false;
 }
 
-void Pilot::begin(const FlyOrbit& orbit, SimTime) {
+void Pilot::begin(const FollowOrbit& orbit, SimTime) {
   state_ = State::kOrbit;
   circle_ = {orbit.centre_enu_m, orbit.radius_m, orbit.clockwise};
   to_sweep_rad_ = 2.0 * std::numbers::pi * orbit.turns;
@@ -136,7 +136,7 @@ void Pilot::await_line() {
   const auto& start = offered_->start_enu_m;
   const auto& end = offered_->end_enu_m;
   ++line_count_;
-  begin(FlyLine{{{start[0], start[1]}, {end[0], end[1]}}}, {});
+  begin(FollowLine{{{start[0], start[1]}, {end[0], end[1]}}}, {});
 }
 
 // --- lines and turns ------------------------------------------------------------------------------------------------
@@ -179,7 +179,7 @@ void Pilot::head_for(const runlines::Waypose& goal) {
 }
 
 /// Moves on along the turn; true at its end. A vehicle that has lost the path takes a new one from where it is.
-bool Pilot::turn_flown() {
+bool Pilot::turn_done() {
   const double step_m = std::max(0.25, here_.speed_mps * kLag_s);
   const runlines::Vec2& place = here_.waypose.position_enu_m;
   along_turn_m_ = runlines::nearest_along_m(turn_, place, along_turn_m_, 10.0 * step_m);
@@ -230,7 +230,7 @@ void Pilot::keep_place(SimTime now) {
     approaching_ = begin.has_value();
     if (begin) head_for(*begin);
   }
-  if (approaching_) approaching_ = !turn_flown();
+  if (approaching_) approaching_ = !turn_done();
   if (station_.kept(now, here_.waypose.position_enu_m, approaching_)) begin_step(now);
 }
 
@@ -240,7 +240,7 @@ bool Pilot::holds_line() const {
   return state_ == State::kRunIn || state_ == State::kOnLine || state_ == State::kRunOut || state_ == State::kAwaitLine;
 }
 
-void Pilot::look(SimTime now, const msg::Estimate& estimate) {
+void Pilot::observe(SimTime now, const msg::Estimate& estimate) {
   const auto attitude = frames::attitude_of(frames::quaternion_of(estimate.enu_from_body));
   const runlines::Vec2 velocity(estimate.velocity_enu_mps[0], estimate.velocity_enu_mps[1]);
   const runlines::Vec2 place(estimate.position_enu_m[0], estimate.position_enu_m[1]);
@@ -248,7 +248,8 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
     to_sweep_rad_ -= guidance::swept_rad(circle_, here_.waypose.position_enu_m, place);
   }
   if (begun_) {
-    station_.look(velocity, attitude.heading_rad, command(now).speed_mps, holds_line() || (keeps() && !approaching_));
+    station_.observe(velocity, attitude.heading_rad, command(now).speed_mps,
+                     holds_line() || (keeps() && !approaching_));
   }
   position_enu_m_ = estimate.position_enu_m;
   cosine_of_tilt_ = std::cos(attitude.roll_rad) * std::cos(attitude.pitch_rad);
@@ -257,7 +258,7 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
     drift_enu_mps_ = guidance::learn_drift(drift_enu_mps_, velocity, attitude.heading_rad, period_s_, drift_settle_s_);
   }
   if (depth_.steers()) height_ = depth_.order(now, here_.depth_m);
-  abort_watch_.look(now, height_.too_low);
+  abort_monitor_.observe(now, height_.too_low);
 }
 
 /// What headway shortens: off the line counts too, for a vehicle may be carried past it sideways.
@@ -272,28 +273,28 @@ std::optional<double> Pilot::way_to_go_m() const {
   if (keeps() && approaching_)
     return turn_.length_m() - along_turn_m_ + runlines::length_m(station_.way_up(speed_mps_));
   if (keeps() && station_.arrived()) return std::nullopt;
-  const msg::MissionState told = mission_state({});
-  return told.distance_to_go_m + std::abs(told.cross_track_m);
+  const msg::MissionState reported = mission_state({});
+  return reported.distance_to_go_m + std::abs(reported.cross_track_m);
 }
 
-void Pilot::hear(const msg::Altitude& altitude) {
+void Pilot::take_altitude(const msg::Altitude& altitude) {
   if (begun_ && altitude.valid) {
-    depth_.heard(SimTime{altitude.stamp_ns}, altitude.range_m * cosine_of_tilt_, here_.depth_m);
+    depth_.take_altitude(SimTime{altitude.stamp_ns}, altitude.range_m * cosine_of_tilt_, here_.depth_m);
   }
 }
 
 void Pilot::update(SimTime now, const msg::Estimate& estimate) {
-  look(now, estimate);
+  observe(now, estimate);
   if (!std::exchange(begun_, true)) begin_step(now);
-  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = abort_watch_.why(now, estimate);
+  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = abort_monitor_.why(now, estimate);
   if (!given_up_.empty()) state_ = State::kAbort;
   const auto goal = std::tuple(state_, step_, round_, piece_);
   switch (state_) {
     case State::kTurn:
-      if (turn_flown()) state_ = State::kRunIn;
+      if (turn_done()) state_ = State::kRunIn;
       break;
     case State::kPass:
-      if (turn_flown()) begin_step(now);
+      if (turn_done()) begin_step(now);
       break;
     case State::kKeep: keep_place(now); break;
     case State::kOrbit:
@@ -303,7 +304,7 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
     default: break;
   }
   if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
-  abort_watch_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
+  abort_monitor_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
 }
 
 bool Pilot::ended() const {

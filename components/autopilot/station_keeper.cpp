@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kApproach_ps = 0.2;  // speed over ground per metre outside the watch circle
 constexpr double kArrived = 1.5;      // watch circles from the place within which it counts as kept
-constexpr double kSteady_s = 5.0;     // a vehicle makes what it was told some of these after the order has last changed
-constexpr double kSteady_mps = 0.1;   // an order that has changed less lately is steady
-constexpr double kOther_mps = 0.2;    // a current that differs by more is another one
+constexpr double kSteady_s =
+    5.0;  // a vehicle makes what it was commanded some of these after the order has last changed
+constexpr double kSteady_mps = 0.1;    // an order that has changed less lately is steady
+constexpr double kOther_mps = 0.2;     // a current that differs by more is another one
 constexpr double kUpstream_rad = 0.5;  // a bow so near to upstream needs no turn
 constexpr double kLookahead = 1.5;     // turning radii
 constexpr double kSettle = 2.0;        // turning radii, to line up after a turn
@@ -26,11 +27,12 @@ guidance::StationRules StationKeeper::rules(double speed_mps) const {
   return {keep_.within_m, kApproach_ps, speed_mps, limits_.deceleration_mps2, lag_s_};
 }
 
-void StationKeeper::look(const runlines::Vec2& velocity_enu_mps, double heading_rad, double told_mps, bool straight) {
-  told_lately_mps_ += (1.0 - std::exp(-period_s_ / kSteady_s)) * (told_mps - told_lately_mps_);
-  if (!straight || settle_s_ == 0.0 || std::abs(told_mps - told_lately_mps_) > kSteady_mps) return;
+void StationKeeper::observe(const runlines::Vec2& velocity_enu_mps, double heading_rad, double commanded_mps,
+                            bool straight) {
+  commanded_lately_mps_ += (1.0 - std::exp(-period_s_ / kSteady_s)) * (commanded_mps - commanded_lately_mps_);
+  if (!straight || settle_s_ == 0.0 || std::abs(commanded_mps - commanded_lately_mps_) > kSteady_mps) return;
   current_enu_mps_ =
-      guidance::learn_current(current_enu_mps_, velocity_enu_mps, heading_rad, told_mps, period_s_, settle_s_);
+      guidance::learn_current(current_enu_mps_, velocity_enu_mps, heading_rad, commanded_mps, period_s_, settle_s_);
 }
 
 void StationKeeper::begin(const KeepPlace& keep, const runlines::Vec2& at_rest_enu_m) {

@@ -12,14 +12,14 @@ namespace ensonify {
 
 /// Keeps one place after another. A vehicle that only goes ahead stands in a current with its bow upstream, so that it
 /// has to come from downstream: with the current astern it would be carried past its place while it turns. The current
-/// is learned on straight ways, from the speed that the vehicle was told.
+/// is learned on straight ways, from the speed that the vehicle was commanded.
 class StationKeeper {
  public:
   /// `settle_s` is the time constant of learning; 0: nothing is learned. Called every `period_s`.
   StationKeeper(const motion::Limits& limits, double lag_s, double settle_s, double period_s);
 
-  /// `told_mps` is the speed last commanded; `straight`: no turn is flown.
-  void look(const runlines::Vec2& velocity_enu_mps, double heading_rad, double told_mps, bool straight);
+  /// `commanded_mps` is the speed last commanded; `straight`: no turn is run.
+  void observe(const runlines::Vec2& velocity_enu_mps, double heading_rad, double commanded_mps, bool straight);
 
   /// `at_rest_enu_m` is kept where no place is given: where the vehicle comes to rest without turning back.
   void begin(const KeepPlace& keep, const runlines::Vec2& at_rest_enu_m);
@@ -47,7 +47,7 @@ class StationKeeper {
   motion::Limits limits_;
   double lag_s_, settle_s_, period_s_;
   runlines::Vec2 current_enu_mps_ = runlines::Vec2::Zero();
-  double told_lately_mps_ = 0.0;
+  double commanded_lately_mps_ = 0.0;
 
   KeepPlace keep_;
   runlines::Vec2 place_enu_m_ = runlines::Vec2::Zero();

@@ -67,7 +67,7 @@ class Loop {
   }
 
   NodeUnderTest<AutopilotNode> autopilot;
-  std::function<double(double north_m)> bottom;  // depth, NaN: not heard; given: an altimeter is carried
+  std::function<double(double north_m)> bottom;  // depth, NaN: not received; given: an altimeter is carried
   std::optional<SimTime> uncertain_after;        // the place to the north is known within 0.5 m, and then within 3 m
   SimTime now() const { return now_; }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace ensonify;
 
-/// Tells everybody where the clock is. Renamed into place, so that whoever sees the file sees all of it.
+/// Publishes to all where the clock is. Renamed into place, so that whoever sees the file sees all of it.
 void write_endpoint(const std::filesystem::path& run_dir, const std::string& endpoint) {
   const std::filesystem::path unfinished = run_dir / "clock.endpoint.new";
   std::ofstream(unfinished) << endpoint;

@@ -10,7 +10,7 @@
 
 namespace ensonify::clock {
 
-/// Who is in the run, checked as a whole before time starts. One address to know for everybody.
+/// Participants of the run, checked as a whole before time starts. One address to know for everybody.
 class Registry {
  public:
   explicit Registry(const Launch& launch);

@@ -7,7 +7,7 @@
 
 namespace ensonify {
 
-/// Where a value stands: in a file (line and column count from 1), or on the command line (line 0, `file` is then the
+/// Place of a value: in a file (line and column count from 1), or on the command line (line 0, `file` is then the
 /// option as it was typed, e.g. "--set bow.frequency_hz").
 struct ConfigPlace {
   std::string file;

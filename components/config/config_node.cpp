@@ -142,8 +142,8 @@ std::string canonical_scalar(const ConfigNode& node) {
   if (text.size() > 1 && text[0] == '/') {
     text = text.substr(text.find_last_not_of('/') == std::string::npos ? 0 : text.rfind('/', text.size() - 2) + 1);
   }
-  const bool looks_typed = text == "true" || text == "false" || parse_integer(text) || parse_number(text);
-  return reads_as_plain(text) && !(node.quoted && looks_typed) ? text : json_text(text);
+  const bool reads_as_value = text == "true" || text == "false" || parse_integer(text) || parse_number(text);
+  return reads_as_plain(text) && !(node.quoted && reads_as_value) ? text : json_text(text);
 }
 
 void write_canonical(const ConfigNode& node, std::size_t indent, std::string& out) {

@@ -17,7 +17,7 @@
 
 namespace ensonify {
 
-/// What one unit of the file is in SI: `from.optional("heading_deg", heading_rad, -180, 360, kDegrees)` reads degrees,
+/// Factor from the file's unit to SI: `from.optional("heading_deg", heading_rad, -180, 360, kDegrees)` reads degrees,
 /// checks the range in degrees and stores radians.
 struct FileUnit {
   double si = 1.0;
@@ -77,8 +77,8 @@ class ConfigReader {
     choose(key, value, choices, false);
   }
 
-  /// An existing file or folder. A relative path is looked for beside the file that names it, then in the project's own
-  /// data (data_paths.h); one that was typed on the command line first in the working folder. Gives the path found.
+  /// An existing file or folder. A relative path is searched for beside the file that names it, then in the project's
+  /// own data (data_paths.h); one that was typed on the command line first in the working folder. Gives the path found.
   void required_path(std::string_view key, std::string& path) { read_path(key, path, true); }
   void optional_path(std::string_view key, std::string& path) { read_path(key, path, false); }
 

@@ -131,12 +131,13 @@ TEST_CASE("mistakes in other types") {
           int kind = 0;
           from.required_choice("a", kind, {{"synthetic", 0}, {"raster", 1}});
         }) == "head.yaml:1:4: a: is \"rastr\", not one of synthetic, raster");
-  CHECK(problems_of("a: missing.tif",
-                    [](ConfigReader& from) {
-                      std::string path;
-                      from.required_path("a", path);
-                    }) ==
-        "head.yaml:1:4: a: \"missing.tif\": no such file or folder (looked beside this file and in the data folders)");
+  CHECK(
+      problems_of("a: missing.tif",
+                  [](ConfigReader& from) {
+                    std::string path;
+                    from.required_path("a", path);
+                  }) ==
+      "head.yaml:1:4: a: \"missing.tif\": no such file or folder (searched beside this file and in the data folders)");
 }
 
 TEST_CASE("sections, lists and named sections report the path of their keys") {
@@ -240,7 +241,7 @@ TEST_CASE("an alias gives the anchored value again") {
   CHECK(x == 1);
 }
 
-TEST_CASE("values set on the command line are checked like the file and named by their option") {
+TEST_CASE("command line values are checked like the file's and named by their option") {
   ConfigDocument document = parse_config("frequency_hz: 200e3\nlist: [{x: 1}]\n", "head.yaml");
   const auto set = [&](const std::string& path, const std::string& value) {
     return set_config_value(document.root, path, parse_config_value(value, {"--set bow." + path}));

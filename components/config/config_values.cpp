@@ -263,7 +263,7 @@ void ConfigReader::read_path(std::string_view key, std::string& path, bool must)
   if (found.empty()) {
     problem(key,
             quoted(node->scalar) + ": no such file or folder" +
-                (fs::path(node->scalar).is_absolute() ? "" : " (looked beside this file and in the data folders)"));
+                (fs::path(node->scalar).is_absolute() ? "" : " (searched beside this file and in the data folders)"));
     return;
   }
   path = found;

@@ -9,10 +9,10 @@ namespace ensonify {
 /// tree that this program was built in, <prefix>/share/ensonify. Only folders that exist.
 std::vector<std::string> data_roots();
 
-/// For messages: these folders, or, where there are none, where one was looked for.
+/// For messages: these folders, or, where there are none, where one was searched for.
 std::string data_roots_text();
 
-/// Where made tiles are kept from run to run unless a launch names a folder: `$XDG_CACHE_HOME/ensonify/tiles`, or
+/// Folder of made tiles kept from run to run unless a launch names a folder: `$XDG_CACHE_HOME/ensonify/tiles`, or
 /// `~/.cache/ensonify/tiles`; "" when neither is known.
 std::string tile_cache_folder();
 

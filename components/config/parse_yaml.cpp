@@ -231,7 +231,7 @@ ConfigDocument parse_config_file(const std::string& path) {
   if (!stream) {
     fail({path}, "cannot be read");
   }
-  std::string text;  // grows with what is read: a pipe does not tell its size
+  std::string text;  // grows with what is read: a pipe does not state its size
   std::array<char, 1 << 16> part;
   while (stream) {
     stream.read(part.data(), part.size());

@@ -23,7 +23,7 @@ struct ConfigReader::State {
   }
 };
 
-/// What all readers of one finish() share. Every reader's pointer keeps it alive as a whole.
+/// State that all readers of one finish() share. Every reader's pointer keeps it alive as a whole.
 struct ConfigReader::Documents {
   std::deque<ConfigNode> roots;
   std::deque<State> maps;
@@ -37,7 +37,7 @@ struct ConfigReader::Documents {
   }
 };
 
-/// What stands there, for a message: `is "7 knots"`, "is a list".
+/// Text of the node, for a message: `is "7 knots"`, "is a list".
 std::string described(const ConfigNode& node);
 /// With commas between.
 std::string joined(const std::vector<std::string>& words);

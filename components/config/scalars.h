@@ -13,7 +13,8 @@ std::optional<double> parse_number(const std::string& text);
 std::optional<std::int64_t> parse_integer(const std::string& text);
 std::optional<std::uint64_t> parse_natural(const std::string& text);
 
-/// "100000", "1e+06": as %g writes it when that is exact, else with as many digits as tell it from its neighbours.
+/// "100000", "1e+06": as %g writes it when that is exact, else with as many digits as distinguish it from its
+/// neighbours.
 std::string shortest_number(double value);
 
 }  // namespace ensonify

@@ -13,7 +13,7 @@ struct CoverageConfig {
   int rate_hz = 1;
   double head_depth_m = 0.0;  // of the transducer below chart datum
   double cost_per_day = 0.0;  // any currency, of 24 h
-  double cube_step_m = 0.25;  // how finely soundings are counted to tell the smallest cube that is found
+  double cube_step_m = 0.25;  // how finely soundings are counted to give the smallest cube that is found
 
   // From the scenario.
   AdaptivePlan plan;

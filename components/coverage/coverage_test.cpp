@@ -67,7 +67,7 @@ TEST_CASE("a mission that is not adaptive has nothing to cover") {
   CHECK_THROWS_WITH(from.finish(), Catch::Contains("needs a mission that is adaptive"));
 }
 
-TEST_CASE("line after line is laid where coverage ends, until all is covered; the report says what was saved") {
+TEST_CASE("lines are laid where coverage ends until all is covered; savings are reported") {
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_coverage_test";
   std::filesystem::create_directories(folder);
   NodeUnderTest<CoverageNode> coverage(config_of(slope()), "test", folder);
@@ -108,7 +108,7 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
   CHECK(report.find("\"holes\": 0") != std::string::npos);
   CHECK(report.find("\"lines_for_holes\": 0") != std::string::npos);
   // Pings 1 m apart, beams up to 4 x 40 m x 1 degree / cos^2 = 2.8 m: 4 soundings take two of each, but for the rows
-  // at the rectangle's ends no more than 2 x 2.8 m and the two cells that are not told.
+  // at the rectangle's ends no more than 2 x 2.8 m and the two cells that are not given.
   const auto cube = nlohmann::json::parse(report)["cube_m"];
   CHECK(cube["everywhere"].get<double>() > 2.0);
   CHECK(cube["everywhere"].get<double>() < 6.1);
@@ -129,7 +129,7 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
 
 TEST_CASE("an order holds when soundings, coverage and feature search all do") {
   // One sounding is enough; pings 0.5 m apart, beams up to 12 m x 1 degree / cos^2 = 0.84 m: one on every cube of 2 m
-  // less the two cells that are not told.
+  // less the two cells that are not given.
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_order_test";
   std::filesystem::create_directories(folder);
   World world = slope();

@@ -30,7 +30,7 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const World& world
   from.optional("least_range_m", c.least_range_m, kLeastColumn_m, 2000);
   read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
-  const double samples = c.listening_s(c.start()) / c.sample_period_s();
+  const double samples = c.reception_s(c.start()) / c.sample_period_s();
   if (samples > kMostSamples) {
     from.problem("range_m", "makes " + std::to_string(std::llround(samples)) + " samples; at most " +
                                 std::to_string(kMostSamples) + " are allowed: shorten it or lower samples_per_pulse");

@@ -8,7 +8,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// A single-beam echosounder: one piston that looks along the head's z axis, sends a tone and listens.
+/// A single-beam echosounder: one piston that points along the head's z axis, sends a tone and receives.
 struct EchosounderConfig : HeadConfig {
   enum class Face { kCircular, kSquare };
 
@@ -36,7 +36,7 @@ struct EchosounderConfig : HeadConfig {
   HeadSettings start() const;
   SettingLimits limits() const;
   double sample_period_s() const { return pulse_length_s / samples_per_pulse; }
-  double listening_s(const HeadSettings& settings) const {
+  double reception_s(const HeadSettings& settings) const {
     return 2.0 * settings.range_m / sound_speed_mps + settings.pulse_length_s;
   }
 

@@ -15,7 +15,7 @@ constexpr double kFastest_hz = 100.0;
 constexpr double kMostSamples = 20000;  // per beam: 20 MB of ping with 256 beams
 constexpr double kLongestPulse_s = 10e-3;
 constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
-constexpr double kChirpTail = 2.0;   // inverse bandwidths after a point's echo in which it is still heard
+constexpr double kChirpTail = 2.0;   // inverse bandwidths after a point's echo in which it is still received
 constexpr double kNarrowestSwath_rad = 1.0 * MultibeamConfig::kDegree;
 constexpr double kWidestSwath_rad = 170.0 * MultibeamConfig::kDegree;
 constexpr int kMostSoundings = 2048;
@@ -152,7 +152,7 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const World& world, co
   return c;
 }
 
-uncertainty::Navigation MultibeamParameters::Uncertainty::untold() const {
+uncertainty::Navigation MultibeamParameters::Uncertainty::unstated() const {
   uncertainty::Navigation navigation;
   navigation.position_enu_m2.diagonal() << position_m * position_m, position_m * position_m, height_m * height_m;
   navigation.rotation_enu_rad2.diagonal() << level_rad * level_rad, level_rad * level_rad, heading_rad * heading_rad;
@@ -198,7 +198,7 @@ double MultibeamConfig::last_start_s(double of_range_m) const {
   return delay_s + 2.0 * of_range_m / sound_speed_mps;
 }
 
-double MultibeamConfig::listening_s(double of_range_m, double of_pulse_length_s) const {
+double MultibeamConfig::reception_s(double of_range_m, double of_pulse_length_s) const {
   return last_start_s(of_range_m) + of_pulse_length_s;
 }
 
@@ -207,8 +207,8 @@ int MultibeamConfig::samples(double of_range_m, double of_pulse_length_s) const 
   return static_cast<int>(std::ceil((last_start_s(of_range_m) + tail_s) * sample_rate_hz));
 }
 
-double MultibeamConfig::longest_listening_s() const {
-  return listening_s(range_m, std::max(pulse_length_s, kLongestPulse_s));
+double MultibeamConfig::longest_reception_s() const {
+  return reception_s(range_m, std::max(pulse_length_s, kLongestPulse_s));
 }
 
 int MultibeamConfig::most_samples() const { return samples(range_m, std::max(pulse_length_s, kLongestPulse_s)); }

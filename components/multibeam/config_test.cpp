@@ -40,7 +40,7 @@ TEST_CASE("sectors take the head's frequency where they name none") {
   REQUIRE(config.sectors.size() == 2);
   CHECK(config.sectors[0].frequency_hz == 200e3);
   CHECK(config.sectors[1].frequency_hz == 210e3);
-  CHECK(config.listening_s(75.0, 1e-4) == Approx(0.002 + 150.0 / config.sound_speed_mps + 1e-4));
+  CHECK(config.reception_s(75.0, 1e-4) == Approx(0.002 + 150.0 / config.sound_speed_mps + 1e-4));
   CHECK(problems_of<MultibeamConfig>("sectors: [{tilt_deg: 30}]").find("30 is outside [-20, 20]") != std::string::npos);
   CHECK(problems_of<MultibeamConfig>("spacing: high_density\nsoundings: 100").find("100 are fewer than the beams") !=
         std::string::npos);

@@ -18,12 +18,12 @@ struct NavFeedConfig {
   int port = 10110;        // UDP, on the loopback interface
   int pose_rate_hz = 100;  // how often the true pose is published
   double delay_s = 2.5;    // of the vehicle behind the feed; two intervals between fixes and more make its way smooth
-  double fastest_mps = 30.0;                           // fixes that ask for more are not believed
+  double fastest_mps = 30.0;                           // fixes that ask for more are not accepted
   frames::Vec3 antenna_body_m = frames::Vec3::Zero();  // the place that GGA is of
   Height height = Height::kWater;
 
   // From the scenario.
-  std::optional<frames::Geodetic> origin;  // not given: the chart tells it
+  std::optional<frames::Geodetic> origin;  // not given: the chart gives it
   vertical::Tide tide;
   motion::Current current;
   vertical::Datums datums;

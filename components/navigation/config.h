@@ -45,7 +45,7 @@ struct NavigationConfig {
   int attitude_rate_hz = 100;  // attitude and estimate
   int position_rate_hz = 5;
   double position_gain = 0.2;       // how much of a fix's difference from the estimate is taken over, 0..1
-  double motion_latency_s = 0.0;    // age of attitude and velocity at their stamp: a sensor that does not tell its own
+  double motion_latency_s = 0.0;    // age of attitude and velocity at their stamp: a sensor that does not state its own
   double position_latency_s = 0.0;  // the same of the estimate's east and north
   NavigationErrors sigma;
   SoundSpeedProbe probe;
@@ -55,7 +55,7 @@ struct NavigationConfig {
   std::uint64_t seed = 1;
   std::string process;
   Heights heights;
-  std::optional<frames::Geodetic> origin;  // not given: the chart tells it
+  std::optional<frames::Geodetic> origin;  // not given: the chart gives it
   TrueWater water;
 
   static NavigationConfig read(ConfigReader& from, const World& world, const std::string& process);

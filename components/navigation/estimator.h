@@ -31,7 +31,7 @@ class Estimator {
 
   bool ready() const { return filter_.has_value(); }
   double time_s() const { return seconds(SimTime{stamp_ns_}); }  // of the estimate
-  /// Of the body's origin, by the measured mounting of the unit. Only when ready.
+  /// Estimate of the body's origin, by the measured mounting of the unit. Only when ready.
   msg::Estimate estimate(const frames::LocalProjection& world) const;
 
   /// A place of the body as seen from the unit, its axes; and turns from the body's axes to its.

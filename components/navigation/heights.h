@@ -10,7 +10,7 @@
 
 namespace ensonify {
 
-/// What heights and depths of instruments refer to. World zero is chart datum.
+/// References of the heights and depths of instruments. World zero is chart datum.
 struct Heights {
   vertical::Tide tide;
   vertical::Datums datums;
@@ -21,7 +21,7 @@ struct Heights {
   /// The water level above chart datum at sim time t.
   double water_level_m(double t_s) const { return tide.at(t_s).height_m; }
 
-  /// Of the water at a height above chart datum; it goes along with the tide's streams, not with its height.
+  /// Velocity of the water at a height above chart datum; it goes along with the tide's streams, not with its height.
   frames::Vec3 water_velocity_enu_mps(double height_m, double t_s) const {
     const frames::Vec2 across = current.velocity_enu_mps(-height_m, t_s);
     return {across.x(), across.y(), 0.0};

@@ -20,6 +20,6 @@ inertial::NavigationState geodetic_state(const frames::MovingPose& body, const f
 frames::MovingPose moving_pose(const msg::Pose& pose);
 
 /// Completes a position whose place in the world is set by its latitude, longitude and heights.
-void tell_place(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums);
+void report_position(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums);
 
 }  // namespace ensonify

@@ -134,7 +134,7 @@ TEST_CASE("a lost message is found, on either side, also the last one") {
   }
 }
 
-TEST_CASE("of several differences the earliest in sim time is named, however late it is noticed") {
+TEST_CASE("of several differences the earliest in sim time is named, however late found") {
   const Comparison differ = compare_with([](Message& m) {
     if (m.channel == 2 && m.seq == 3) m.lost = true;                        // 1.5 s, noticed at 2.0 s
     if (m.channel == 1 && m.seq >= 17) m.pose.position_enu_m[2] = -2.9999;  // 1.7 s

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// What a record is: an MCAP file (https://mcap.dev/spec, major 0, profile below). One channel per topic, payloads are
-/// msgpack maps with their arrays inside (msg::encode_inline), and
+/// Format of a record: an MCAP file (https://mcap.dev/spec, major 0, profile below). One channel per topic, payloads
+/// are msgpack maps with their arrays inside (msg::encode_inline), and
 ///
 ///   log_time = publish_time = UTC of the scenario's start + t_sim, sequence = low 32 bits of seq.
 ///

@@ -35,7 +35,7 @@ class RecordReader {
 
   const RecordInfo& info() const { return info_; }
   const std::vector<Attachment>& attachments() const { return attachments_; }
-  /// Topics met so far, by id. Those that were known when the record began are all there after opening.
+  /// Topics so far, by id. Those that were known when the record began are all there after opening.
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
 
   /// The next message in the order of the file; false at the end of the record, or of what is left of it.

@@ -161,7 +161,7 @@ TEST_CASE("two records of the same messages are equal byte by byte") {
   CHECK(read_file(folder / "a.mcap") != read_file(folder / "c.mcap"));
 }
 
-TEST_CASE("records stand in the order of the specification, one chunk per second of sim time") {
+TEST_CASE("records follow the specification's order, one chunk per second of sim time") {
   const Folder folder;
   write_survey(folder / "a.mcap", 25);  // 0 .. 2.4 s
   const std::string chunk = "\x06\x07\x07";

@@ -25,7 +25,7 @@ std::string number_text(const std::byte* at) {
     }
   }
   char text[32] = {};
-  std::to_chars(text, text + sizeof text, number);  // as many digits as tell it from its neighbours
+  std::to_chars(text, text + sizeof text, number);  // as many digits as distinguish it from its neighbours
   return text;
 }
 

@@ -30,7 +30,7 @@ struct RecorderConfig {
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const RecorderConfig& other) const { return file == other.file && topics == other.topics; }
 
-  /// How many messages of a topic make one that is kept. Of several patterns that match, the longest counts.
+  /// Number of messages of a topic per one that is kept. Of several patterns that match, the longest counts.
   std::int64_t every(const std::string& topic) const;
 };
 

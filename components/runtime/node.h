@@ -11,7 +11,7 @@ class AnyNode {
   virtual SimTime step(SimTime now) = 0;
   /// The run has ended in order: files are completed here, where an error can still be reported.
   virtual void finish_run() = 0;
-  /// What the process exits with after an orderly end.
+  /// Exit code of the process after an orderly end.
   virtual int exit_code() const = 0;
 };
 

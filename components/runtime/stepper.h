@@ -11,7 +11,7 @@
 
 namespace ensonify {
 
-/// What a process's outputs are called on the bus.
+/// Names of a process's outputs on the bus.
 struct OutTopic {
   std::string topic;
   std::uint32_t topic_id = 0;
@@ -42,7 +42,7 @@ class Stepper {
   /// Time of the last event run.
   SimTime last() const { return last_; }
   const std::vector<OutTopic>& outs() const { return outs_; }
-  /// How many messages have been published on each output.
+  /// Number of messages published on each output.
   const std::vector<std::uint64_t>& published() const { return published_; }
 
  private:

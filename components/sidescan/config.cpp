@@ -18,7 +18,7 @@ constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
 constexpr double kLongestPulse_s = 20e-3;
 constexpr double kMostSamples = 100'000.0;  // per side
 
-/// One-way width of a line that sends and listens with a two-way width: 50.76 / 36.55 of it when uniform.
+/// One-way width of a line that transmits and receives with a two-way width: 50.76 / 36.55 of it when uniform.
 double one_way_rad(double two_way_rad, const array::Shading& shading) {
   const array::LineArray line = array::line_array_of_width(two_way_rad, 1.0, shading);
   const auto both_ways = [&](double sine) { return std::pow(array::power(line, 1.0, sine), 2); };
@@ -89,7 +89,7 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const World& world, cons
   read_sound_speed(from, c);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   for (const SidescanChannel& channel : c.channels) {
-    const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
+    const double samples = c.reception_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
     if (samples > kMostSamples) {
       from.problem("channels", "channel " + channel.name + " makes " + std::to_string(std::llround(samples)) +
                                    " samples a side; at most 100000 are allowed: shorten range_m");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/sonar/arrivals.h"
-#include "components/sonar/shot.h"
+#include "components/sonar/ping_event.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
@@ -20,12 +20,12 @@ namespace ensonify {
 /// spreading; 1 on its axis far away (range infinite).
 using AperturePattern = std::function<float(const Eigen::Vector3f& direction_head, float range_m)>;
 
-/// Of transducers of one frequency, the same of each in the same place.
+/// Patterns of transducers of one frequency, the same of each in the same place.
 struct AperturePatterns {
   std::vector<AperturePattern> transmit, receive;
 };
 
-/// Transducers of one frequency that send at once and of which each listens for itself: both sides of a sidescan, the
+/// Transducers of one frequency that send at once and of which each receives for itself: both sides of a sidescan, the
 /// one face of an echosounder.
 struct Apertures {
   double frequency_hz = 0.0;
@@ -40,16 +40,16 @@ struct Apertures {
   std::string process;  // names the streams of random numbers, with the frequency
 };
 
-/// What is set for one ping.
+/// Settings of one ping.
 struct Emission {
-  Shot shot;
+  PingEvent event;
   double source_level_db = 0.0;
-  double listening_s = 0.0;        // after transmission
+  double reception_s = 0.0;        // after transmission
   double sample_period_s = 50e-6;  // of the complex envelope
 };
 
-/// The echoes of one transmission as each aperture hears them, by the true motion and the true water: seabed, surface,
-/// water column and noise. A function of the emission, the poses and the tiles.
+/// The echoes of one transmission as each aperture receives them, by the true motion and the true water: seabed,
+/// surface, water column and noise. A function of the emission, the poses and the tiles.
 class ApertureEchoes {
  public:
   /// `rays` are those of its transmissions.
@@ -58,14 +58,15 @@ class ApertureEchoes {
 
   /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `poses` are where the head truly is
   /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
-  echo::Image& listen(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
-                      trace::Scene& seabed);
+  echo::Image& receive_echoes(const Emission& emission, const echo::Pulse& pulse,
+                              std::span<const frames::HeadPose> poses, trace::Scene& seabed);
 
-  /// What the rays of the last ping met.
+  /// Arrivals of the last ping, with its hits.
   const Arrivals& arrivals() const { return arrivals_; }
 
  private:
-  void hear(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse, const echo::Sampling& sampling);
+  void beamform(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse,
+                const echo::Sampling& sampling);
   void add_noise(const Emission& emission, const echo::Pulse& pulse);
 
   Apertures apertures_;

@@ -8,7 +8,7 @@
 
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
-#include "components/sonar/sight.h"
+#include "components/sonar/trace_summary.h"
 #include "components/sonar/water_paths.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/interference.h"
@@ -18,9 +18,9 @@
 
 namespace ensonify {
 
-/// What one transmission sends back to a head of one frequency, as it arrives there: echoes of the seabed and those by
+/// Arrivals of one transmission at a head of one frequency: echoes of the seabed and those by
 /// way of the surface, by the true motion and the true water. A function of the transmission, the poses, the rays and
-/// the tiles. What the head hears of it by its receive patterns, and the noise, are the head's.
+/// the tiles. What the head receives of it by its receive patterns, and the noise, are the head's.
 class Arrivals {
  public:
   /// Power of the transmission in a direction (unit vector, head frame) as it is at this range, times the range
@@ -29,7 +29,7 @@ class Arrivals {
 
   Arrivals(const Environment& environment, double frequency_hz, const Effects& effects, TransmittedPower transmitted);
 
-  /// Where the head truly is from transmission on, which is at sim time `t_s`; frames::HeadPose per kTrackPeriod. Comes
+  /// True poses of the head from transmission on, which is at sim time `t_s`; frames::HeadPose per kTrackPeriod. Comes
   /// before the others.
   void move(std::span<const frames::HeadPose> poses, double t_s);
   const frames::HeadPose& transmit_pose() const { return poses_.front(); }
@@ -37,39 +37,39 @@ class Arrivals {
   double sound_speed_mps() const { return paths_.sound_speed_mps(transmit_pose()); }
 
   /// The rays of the transmission, as the seabed asks for them (trace::RayDistribution), and the first seabed that each
-  /// meets from the pose of transmission, within a slant range. The seabed's mesh becomes that of this transmission.
-  void look(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m, std::vector<trace::Ray>& rays,
-            std::vector<trace::Hit>& hits);
+  /// hits from the pose of transmission, within a slant range. The seabed's mesh becomes that of this transmission.
+  void insonify(trace::Scene& seabed, trace::RayDistribution& distribution, double range_m,
+                std::vector<trace::Ray>& rays, std::vector<trace::Hit>& hits);
 
   /// Echoes with their direction and time, valid until the next call; amplitudes are pressures, or with speckle
-  /// switched off mean squares. `rays` and `hits` are those of look(), the patches of seabed that answer as one point
-  /// those of `scatterers`.
-  const std::vector<echo::Arrival>& listen(double source_level_db, echo::Scatterers& scatterers,
-                                           std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+  /// switched off mean squares. `rays` and `hits` are those of insonify(), the patches of seabed that answer as one
+  /// point those of `scatterers`.
+  const std::vector<echo::Arrival>& receive_echoes(double source_level_db, echo::Scatterers& scatterers,
+                                                   std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
 
-  /// What the last call of listen() gave, without what was added since.
+  /// Echoes of the last call of receive_echoes(), without what was added since.
   std::span<const echo::Arrival> echoes() const { return std::span(arrivals_).first(echoes_); }
 
-  /// The same and another sector's echoes: `other` tells what was sent.
-  const std::vector<echo::Arrival>& add_echoes_of(const echo::ForeignTransmission& other,
+  /// The same and another sector's echoes: `other` gives what was sent.
+  const std::vector<echo::Arrival>& add_echoes_of(const echo::InterferingTransmission& other,
                                                   std::span<const echo::Arrival> echoes, const echo::Pulse& pulse);
 
-  /// The same and what other heads send meanwhile, as the filter of this pulse hears it.
-  const std::vector<echo::Arrival>& add_interference(std::span<const echo::ForeignTransmission> foreign,
+  /// The same and what other heads send meanwhile, as the filter of this pulse receives it.
+  const std::vector<echo::Arrival>& add_interference(std::span<const echo::InterferingTransmission> interfering,
                                                      const echo::Pulse& pulse);
 
-  /// Mean squares of what the water column sends back to listeners in these directions, down to the seabed that the
-  /// last call of listen() found; sample by listener. Nobody needs them where the water does not scatter or that is
-  /// off.
+  /// Mean squares of what the water column sends back towards these receive directions, down to the seabed that the
+  /// last call of receive_echoes() found; sample by direction. Nobody needs them where the water does not scatter or
+  /// that is off.
   bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
-  /// Mean squares of that (sample by listener) for listeners in these directions, down to the depth of the seabed that
-  /// the last call of listen() met.
+  /// Mean squares of that (sample by direction) of these receive directions, down to the depth of the seabed that
+  /// the last call of receive_echoes() hit.
   const std::vector<float>& reverberation_upa2(double source_level_db,
-                                               std::span<const echo::VolumeDirections> listeners,
+                                               std::span<const echo::VolumeDirections> receive_directions,
                                                const echo::Pulse& pulse, const echo::Sampling& sampling);
 
-  /// What a receive pattern (amplitude by arrival) gives each arrival: that amplitude, or with speckle switched off its
-  /// square.
+  /// Gain of a receive pattern (amplitude by arrival) for each arrival: that amplitude, or with speckle switched off
+  /// its square.
   template <class Pattern>
   void gains(const Pattern& pattern, std::vector<float>& gains) const {
     constexpr std::size_t kPerTask = 4096;
@@ -86,17 +86,17 @@ class Arrivals {
   }
 
   const Environment& environment() const { return environment_; }
-  /// How many rays of the last ping met the seabed.
+  /// Number of rays of the last ping that hit the seabed.
   int rays_that_hit() const { return rays_that_hit_; }
-  /// What they met, for health.
-  Sight sight(double range_m, const trace::Scene& seabed) const {
+  /// Summary of the hits, for health.
+  TraceSummary trace_summary(double range_m, const trace::Scene& seabed) const {
     return {rays_that_hit_, rays_in_lobe_, range_m, altitude_m(seabed, transmit_pose())};
   }
 
  private:
   echo::ReceiverBand band() const { return {frequency_hz_, sound_speed_mps(), absorption_dbpm_, sum()}; }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
-  void light(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
+  void set_source_levels(double source_level_db, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits);
   double sent_db(double source_level_db) const;
 
   Environment environment_;

@@ -9,7 +9,7 @@
 
 namespace ensonify {
 
-/// Where an instrument hears the bottom first, from ping to ping, by its own echoes and its own sound speed.
+/// Finder of the first bottom return, from ping to ping, by the instrument's own echoes and its own sound speed.
 class BottomFinder {
  public:
   /// The length of a single echo is each ping's own, not that of these settings.

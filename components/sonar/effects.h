@@ -4,12 +4,12 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// What happens to sound in a head's simulation; each can be switched off alone. Every random draw belongs to one
+/// Effects in a head's simulation; each can be switched off alone. Every random draw belongs to one
 /// effect and is counted by what it belongs to, so two runs that differ in one switch differ by that effect only.
 struct Effects {
   bool refraction = true;    // off: straight paths, at the speed of sound at the head
-  bool absorption = true;    // off: the water swallows nothing (the operator's gain still believes it does)
-  bool directivity = true;   // off: faces send and hear alike in all directions; what makes narrow beams stays
+  bool absorption = true;    // off: the water swallows nothing (the operator's gain still assumes it does)
+  bool directivity = true;   // off: faces transmit and receive alike in all directions; what makes narrow beams stays
   bool side_lobes = true;    // off: narrow beams end at their first nulls
   bool speckle = true;       // off: the mean level of the seabed, as sums of mean squares
   bool noise = true;         // off: neither ambient nor electronic noise

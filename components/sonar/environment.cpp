@@ -100,7 +100,7 @@ Environment::Environment(const World& world, double frequency_hz)
       scattering_layers_(world.water.scattering_layers),
       bubble_loss_db_(world.water.bubble_loss_db) {}
 
-void Environment::meet_facets(std::span<const double> mean_square_slope) {
+void Environment::set_facet_slopes(std::span<const double> mean_square_slope) {
   if (std::ranges::equal(mean_square_slope, facet_mean_square_slope_)) return;
   facet_mean_square_slope_.assign(mean_square_slope.begin(), mean_square_slope.end());
   backscatter_ = tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);

@@ -25,7 +25,7 @@ refraction::SoundSpeedProfile applied_profile(const World& world);
 /// Temperature and salinity over depth, as they truly are: beyond the scenario's samples they stay the same.
 water::Column true_column(const Water& water);
 
-/// Water, surface and seabed as a head of one frequency meets them: what every head has from the scenario besides its
+/// Water, surface and seabed as a head of one frequency has them: what every head has from the scenario besides its
 /// mounting. Depths are positive down from chart datum; water above that is as it is there, without scattering layers.
 class Environment {
  public:
@@ -35,20 +35,20 @@ class Environment {
   const refraction::SoundSpeedProfile& applied_profile() const { return applied_; }  // what the instrument applies
 
   /// Absorption in dB/m: averaged over the depths between the ends of a path, so what a straight path between them
-  /// meets whatever its slope, and a bent one nearly. `water.absorption_db_per_km` where that is given.
+  /// has whatever its slope, and a refracted one nearly. `water.absorption_db_per_km` where that is given.
   double absorption_dbpm(double from_depth_m, double to_depth_m) const;
 
-  /// Noise as an omnidirectional receiver hears it, dB re 1 uPa^2/Hz: thermal and wind noise, or
+  /// Noise as an omnidirectional receiver receives it, dB re 1 uPa^2/Hz: thermal and wind noise, or
   /// `water.noise_level_db`.
   double noise_level_db() const { return noise_level_db_; }
 
   /// Backscattering cross section of the seabed per unit area by class of the post and grazing angle. The sediments'
-  /// laws are made for the speed of sound at the profile's last sample, and for the facets last met.
+  /// laws are made for the speed of sound at the profile's last sample, and for the facets last hit.
   const seabed::ClassTables& backscatter() const { return backscatter_; }
 
-  /// The mesh that sound meets from now on says how steep its facets are, by class (trace::Scene). Tables are made anew
+  /// The mesh that sound hits from now on says how steep its facets are, by class (trace::Scene). Tables are made anew
   /// where that is news.
-  void meet_facets(std::span<const double> mean_square_slope);
+  void set_facet_slopes(std::span<const double> mean_square_slope);
 
   /// The same of the sea surface, seen from below.
   const seabed::BackscatterTable& surface_backscatter() const { return surface_backscatter_; }
@@ -56,8 +56,9 @@ class Environment {
   /// The sea surface above chart datum, m, at sim time t.
   double water_level_m(double t_s) const { return tide_.at(t_s).height_m; }
   double wind_speed_mps() const { return wind_speed_mps_; }
-  /// Of a fully developed sea of that wind: what roughens the mirror of the surface (surface::coherent_reflection). The
-  /// scenario's wind, 10 m above the sea, stands for that at 19.5 m, which makes waves 5 % too low.
+  /// Rms height of a fully developed sea of that wind: what roughens the mirror of the surface
+  /// (surface::coherent_reflection). The scenario's wind, 10 m above the sea, stands for that at 19.5 m, which makes
+  /// waves 5 % too low.
   double rms_wave_height_m() const { return rms_wave_height_m_; }
 
   /// For water::volume_scattering_db; empty: the water does not scatter.

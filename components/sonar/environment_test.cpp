@@ -62,7 +62,7 @@ TEST_CASE("the applied profile is the true one until another is stated") {
   CHECK(true_profile(errs).speed_mps(0.0) == 1490.0);
 }
 
-TEST_CASE("a probe's cast of temperature and salinity gives the sound speed that the probe printed") {
+TEST_CASE("a cast of temperature and salinity gives the sound speed that its probe printed") {
   const char* shared = std::getenv("ENSONIFY_SHARED");
   const std::string cast =
       std::string(shared != nullptr ? shared : "") + "/data/ssp/portsmouth_castaway_20120821_1228.csv";
@@ -100,7 +100,7 @@ TEST_CASE("absorption is that of the water between two depths") {
   CHECK(Environment(world("{absorption_db_per_km: 60}"), 300e3).absorption_dbpm(0.0, 80.0) == Approx(0.06));
 }
 
-TEST_CASE("noise is thermal in calm water, more in wind, and what is stated where it is stated") {
+TEST_CASE("noise is thermal in calm water, more in wind, and the stated level where given") {
   CHECK(Environment(world("{}"), 300e3).noise_level_db() == Approx(water::thermal_noise_level_db(300e3)));
   CHECK(Environment(world("{wind_speed_mps: 10}"), 50e3).noise_level_db() ==
         Approx(water::ambient_noise_level_db(50e3, 10.0)));
@@ -128,13 +128,13 @@ TEST_CASE("each class scatters by its sediment; classes without one as class 0")
   }
 }
 
-TEST_CASE("mud whose relief is in the heights answers on average as it does on a plane: nothing counts twice") {
+TEST_CASE("mud with its relief in the mesh returns on average what a plane of it returns") {
   const World mud = world("{sound_speed_mps: 1500}", "{0: medium silt}",
                           "{ground: {plane: {}}, mud: {spectral: {as_sediment: medium silt, outer_scale_m: 20}}}");
-  // What the pager tells of it: facets' slopes, which are all of the sediment's relief between posts.
+  // What the pager indicates it: facets' slopes, which are all of the sediment's relief between posts.
   const auto& spectrum = std::get<layers::Spectral>(mud.seabed.layered.layers[1].form).spectrum;
-  Environment heard(mud, 300e3);
-  heard.meet_facets(std::vector{relief::facet_mean_square_slope(spectrum, 0.1)});
+  Environment with_facets(mud, 300e3);
+  with_facets.set_facet_slopes(std::vector{relief::facet_mean_square_slope(spectrum, 0.1)});
   const auto whole = seabed::law_of(*seabed::sediment_of("medium silt"), 300e3, 1500.0);
 
   // The heights that the pager would make, each cell two triangles as the tracer has them.
@@ -160,7 +160,7 @@ TEST_CASE("mud whose relief is in the heights answers on average as it does on a
     return sum / (2.0 * (kPosts - 1) * (kPosts - 1));
   };
   const auto of_head = [&](double grazing) {
-    return static_cast<double>(heard.backscatter().at_angle(0, static_cast<float>(grazing)));
+    return static_cast<double>(with_facets.backscatter().at_angle(0, static_cast<float>(grazing)));
   };
   for (const double grazing_deg : {20.0, 45.0, 70.0, 83.0, 90.0}) {
     const double grazing = grazing_deg * std::numbers::pi / 180;
@@ -172,7 +172,7 @@ TEST_CASE("mud whose relief is in the heights answers on average as it does on a
   CHECK(db(mean_over_facets(whole, up)) < db(whole(up)) - 0.8);  // with the plane's law on the facets
 }
 
-TEST_CASE("facets' slopes are those of the mesh, by class, unless the scenario says them itself") {
+TEST_CASE("facet slopes are the mesh's, by class, unless the scenario states them") {
   const World world = world("{sound_speed_mps: 1500}",
                             "{0: medium silt, 1: {name: medium silt, facet_slope_deg: 3}, 2: medium silt, "
                             "3: {lambert_mu_db: -20}, 4: {name: medium silt, capped: true}}");
@@ -180,15 +180,16 @@ TEST_CASE("facets' slopes are those of the mesh, by class, unless the scenario s
     return db(environment.backscatter().at_angle(number, 0.5F * std::numbers::pi_v<float>));
   };
   const Environment plane(world, 300e3);
-  Environment met = plane;
-  met.meet_facets(std::vector{0.002, 0.002, 0.0, 0.002, 0.002});
-  CHECK(up(met, 0) > up(plane, 0) + 0.1);  // facets stand for more than they return alone
-  CHECK(up(met, 1) == up(plane, 1));
-  CHECK(up(met, 2) == up(plane, 2));
-  CHECK(up(met, 3) == up(plane, 3));
-  CHECK(up(met, 4) == Approx(up(met, 0)).margin(0.02));  // the limit is off at right angles; tables have 0.01 dB
-  met.meet_facets({});
-  CHECK(up(met, 0) == up(plane, 0));
+  Environment faceted = plane;
+  faceted.set_facet_slopes(std::vector{0.002, 0.002, 0.0, 0.002, 0.002});
+  CHECK(up(faceted, 0) > up(plane, 0) + 0.1);  // facets stand for more than they return alone
+  CHECK(up(faceted, 1) == up(plane, 1));
+  CHECK(up(faceted, 2) == up(plane, 2));
+  CHECK(up(faceted, 3) == up(plane, 3));
+  CHECK(up(faceted, 4) ==
+        Approx(up(faceted, 0)).margin(0.02));  // the limit is off at right angles; tables have 0.01 dB
+  faceted.set_facet_slopes({});
+  CHECK(up(faceted, 0) == up(plane, 0));
 }
 
 TEST_CASE("wind roughens the surface") {

@@ -16,7 +16,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// What every head is configured with, whatever it sends and hears: parameters of one name and meaning, and its place
+/// Configuration that every head has: parameters of one name and meaning, and its place
 /// in the world. A head's configuration begins with it and has defaults of its own for some.
 struct HeadConfig {
   double ping_rate_hz = 10.0;  // at most; the interval is never less than 2 R / c + dead time
@@ -30,7 +30,7 @@ struct HeadConfig {
   double quality = 1.0;  // of the rays (trace::RaySettings)
   trace::LevelOfDetail lod{.enabled = true};
   Trigger trigger;
-  std::vector<OtherHead> interference;  // whom it hears
+  std::vector<OtherHead> interference;  // whom it receives
   Effects effects;
 
   // From the scenario.
@@ -48,7 +48,7 @@ struct HeadConfig {
 
   /// Settings to start with. Pulse length and swath are the head's to add.
   HeadSettings start_at(double range_m, double source_level_db) const;
-  /// What commands can make of them: up to that range, and down to 40 dB below that source level.
+  /// Limits of commands: up to that range, and down to 40 dB below that source level.
   SettingLimits limits_up_to(double nearest_m, double range_m, double source_level_db) const;
 };
 
@@ -56,7 +56,7 @@ struct HeadConfig {
 void read_head(ConfigReader& from, const World& world, const std::string& process, double fastest_hz,
                HeadConfig& config);
 
-/// Reads the sound speed of a head that is told one.
+/// Reads the sound speed of a head that is given one.
 void read_sound_speed(ConfigReader& from, HeadConfig& config);
 
 /// Reads the weighting of a chirp's matched filter: none, hann, hamming or blackman.

@@ -28,7 +28,7 @@ void note_reach(Ports& ports, const HeadInputs::Start& start) {
   if (follows) ports.note("auto_range", 1.0);
 }
 
-/// Covariances that are all zero are not told.
+/// Covariances that are all zero are not given.
 std::optional<uncertainty::Navigation> errors_of(const msg::Estimate& estimate) {
   uncertainty::Navigation errors;
   errors.position_enu_m2 = Eigen::Map<const Eigen::Matrix3d>(estimate.position_covariance_enu_m2.data());
@@ -83,8 +83,8 @@ void HeadInputs::command(const msg::SonarSettings& wanted) {
   }
 }
 
-void HeadInputs::fill_track(msg::HeadTrack& track, SimTime transmit, SimTime listening) const {
-  fill(track, estimate_, mounting_.measured, transmit, listening);
+void HeadInputs::fill_track(msg::HeadTrack& track, SimTime transmit, SimTime reception) const {
+  fill(track, estimate_, mounting_.measured, transmit, reception);
 }
 
 std::string HeadInputs::obstacle(SimTime now) const {

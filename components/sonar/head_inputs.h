@@ -15,12 +15,12 @@
 
 namespace ensonify {
 
-/// What a head is told, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `mesh`,
+/// Inputs of a head, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `mesh`,
 /// `mesh_release`, `estimate`, `settings` and, of a head that has a probe at its face, `sound_speed`. A command is
-/// heard 100 ms later: it may well come from somebody who looks at the head's own pings.
+/// received 100 ms later: it may well come from somebody who examines the head's own pings.
 class HeadInputs {
  public:
-  /// What is set by commands, apart from other channels of the head.
+  /// Channel of a head with settings of its own.
   struct Channel {
     std::string name;  // "": the only one
     HeadSettings settings;
@@ -30,7 +30,7 @@ class HeadInputs {
     HeadMounting mounting;
     vertical::Tide tide;              // of the water that the head is to be under
     SimTime longest_ping{0};          // from transmission to the end of its processing: poses are kept for two of them
-    double sound_speed_mps = 1500.0;  // believed, until a probe tells
+    double sound_speed_mps = 1500.0;  // assumed, until a probe reports
     bool probe = false;               // there is one
     std::vector<Channel> channels;
     trace::LevelOfDetail lod;
@@ -41,23 +41,23 @@ class HeadInputs {
 
   const frames::PoseHistory& truth() const { return truth_; }
   const frames::PoseHistory& estimate() const { return estimate_; }
-  /// What the newest estimate says of its own errors; nothing where it does not tell.
+  /// Errors that the newest estimate states; nothing where it does not state.
   const std::optional<uncertainty::Navigation>& navigation_errors() const { return navigation_errors_; }
   trace::Scene& seabed() { return tiles_.scene(); }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   const HeadMounting& mounting() const { return mounting_; }
-  /// Believed: of the probe, or what the head starts with.
+  /// Assumed: of the probe, or what the head starts with.
   double sound_speed_mps() const { return probe_mps_.value_or(start_mps_); }
-  /// The newest that the probe told.
+  /// The newest that the probe given.
   std::optional<double> probe_mps() const { return probe_mps_; }
 
   /// The settings of a channel for the ping that goes out now.
   const HeadSettings& settings_at_ping(std::size_t channel = 0) { return settings_[channel].at_ping(); }
 
-  /// Where the head was while it listened, by the estimate and the measured mounting.
-  void fill_track(msg::HeadTrack& track, SimTime transmit, SimTime listening) const;
+  /// Poses of the head during reception, by the estimate and the measured mounting.
+  void fill_track(msg::HeadTrack& track, SimTime transmit, SimTime reception) const;
 
-  /// Why the head cannot ping now; "" when it can. A head never pings on missing geometry.
+  /// Reason that the head cannot ping now; "" when it can. A head never pings on missing geometry.
   std::string obstacle(SimTime now) const;
 
  private:

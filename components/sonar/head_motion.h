@@ -14,7 +14,7 @@ class ConfigReader;
 /// The mounting of the head that this process is; a problem of the reader when no vehicle carries it.
 HeadMounting read_mounting(const ConfigReader& from, const World& world, const std::string& process);
 
-/// Adds the pose that a message tells: pose/1, the truth, or estimate/1.
+/// Adds the pose that a message gives: pose/1, the truth, or estimate/1.
 template <class M>
 void push(frames::PoseHistory& history, const M& message) {
   const auto& place = message.position_enu_m;
@@ -27,7 +27,7 @@ inline constexpr SimTime kTrackPeriod = std::chrono::milliseconds(5);
 void head_poses(const frames::PoseHistory& vehicle, const frames::Mounting& mounting, SimTime first, SimTime duration,
                 std::vector<frames::HeadPose>& poses);
 
-/// Writes where the head was while it listened, by the navigation estimate and the measured mounting. Without an
+/// Writes where the head was while it received, by the navigation estimate and the measured mounting. Without an
 /// estimate nothing is written.
 void fill(msg::HeadTrack& track, const frames::PoseHistory& estimate, const frames::Mounting& measured, SimTime first,
           SimTime duration);

@@ -11,8 +11,8 @@
 
 namespace ensonify {
 
-/// What other heads of the vehicle send while this one listens. With heads to hear it has the input `transmits`,
-/// delayed: heads may hear each other, and what was sent up to the last echo has arrived when the ping is computed.
+/// Transmissions of the vehicle's other heads during reception. With heads to receive it has the input `transmits`,
+/// delayed: heads may receive each other, and what was sent up to the last echo has arrived when the ping is computed.
 class Interference {
  public:
   /// `latency` is that from the last echo to the computation.
@@ -20,19 +20,19 @@ class Interference {
   Interference(const Interference&) = delete;
   Interference& operator=(const Interference&) = delete;
 
-  /// Transmissions that may be heard by a ping that left at `transmit` and listens for `listening`: straight, and by
-  /// the mirror of a level seabed, as deep everywhere as below the head. By the true poses of the vehicle.
-  std::vector<echo::ForeignTransmission> during(SimTime transmit, SimTime listening) const;
+  /// Transmissions that may be received by a ping that left at `transmit` and receives for `reception`: straight, and
+  /// by the mirror of a level seabed, as deep everywhere as below the head. By the true poses of the vehicle.
+  std::vector<echo::InterferingTransmission> during(SimTime transmit, SimTime reception) const;
 
  private:
-  struct Heard {
+  struct Received {
     const OtherHead* from;
     msg::Transmit sent;
   };
 
   const HeadInputs& inputs_;
   std::vector<OtherHead> others_;
-  std::deque<Heard> heard_;
+  std::deque<Received> received_;
 };
 
 }  // namespace ensonify

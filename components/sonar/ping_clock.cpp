@@ -28,7 +28,7 @@ bool PingClock::due(SimTime now) { return trigger_.mode == Trigger::Mode::kSlave
 
 SimTime PingClock::next() const {
   if (trigger_.mode != Trigger::Mode::kSlave) return next_;
-  return to_follow_.empty() ? look_ : std::min(look_, to_follow_.front());
+  return to_follow_.empty() ? poll_ : std::min(poll_, to_follow_.front());
 }
 
 void PingClock::set_rate(Rate rate) {
@@ -39,8 +39,8 @@ void PingClock::set_rate(Rate rate) {
   beat_ = 0;
 }
 
-void PingClock::transmitted(SimTime now, SimTime listening) {
-  free_ = now + listening + dead_time_;
+void PingClock::transmitted(SimTime now, SimTime reception) {
+  free_ = now + reception + dead_time_;
   if (trigger_.mode == Trigger::Mode::kFree) {
     advance();
     if (next_ >= free_) return;
@@ -78,11 +78,11 @@ void PingClock::follow(const msg::Transmit& master) {
   followed_ping_ = master.ping;
   to_follow_.push_back(at + from_seconds(trigger_.offset_s));
   expected_.reset();
-  if (master.next_ns > master.stamp_ns) look_ = *(expected_ = SimTime{master.next_ns});
+  if (master.next_ns > master.stamp_ns) poll_ = *(expected_ = SimTime{master.next_ns});
 }
 
 bool PingClock::follows_now(SimTime now) {
-  if (look_ <= now) look_ = now + kLook;
+  if (poll_ <= now) poll_ = now + kPoll;
   std::optional<SimTime> wanted;
   for (; !to_follow_.empty() && to_follow_.front() <= now; to_follow_.pop_front()) {
     if (wanted || now < free_) ports_.count("triggers_missed");
@@ -92,11 +92,11 @@ bool PingClock::follows_now(SimTime now) {
     ports_.count("triggers_late");
     log::event(ports_, "trigger_late", "by_s={:.6f}", seconds(now - *wanted));
   }
-  if (!wanted && to_follow_.empty()) tell_missing(now);
+  if (!wanted && to_follow_.empty()) report_missing(now);
   return wanted.has_value();
 }
 
-void PingClock::tell_missing(SimTime now) {
+void PingClock::report_missing(SimTime now) {
   if (now - std::max(followed_, SimTime{0}) <= from_seconds(trigger_.patience_s)) return;
   ports_.health("degraded", followed_ < SimTime{0}
                                 ? "this head is a slave, and its master has not transmitted"

@@ -16,7 +16,7 @@ std::optional<PingUnderWay> PingCycle::ready(SimTime now) {
   if (under_way_.empty() || under_way_.front().ready > now) return std::nullopt;
   PingUnderWay ping = std::move(under_way_.front());
   under_way_.pop_front();
-  ping.foreign = others_.during(ping.transmit, ping.ready - processing_latency_ - ping.transmit);
+  ping.interfering = others_.during(ping.transmit, ping.ready - processing_latency_ - ping.transmit);
   return ping;
 }
 
@@ -31,10 +31,10 @@ bool PingCycle::may_transmit(SimTime now) {
 }
 
 void PingCycle::transmit(SimTime now, std::vector<Transmission> channels) {
-  SimTime listening{0};
-  for (const Transmission& channel : channels) listening = std::max(listening, channel.listening);
+  SimTime reception{0};
+  for (const Transmission& channel : channels) reception = std::max(reception, channel.reception);
   clock_.set_rate(rate_of(channels.front().settings.ping_rate_hz));
-  clock_.transmitted(now, listening);
+  clock_.transmitted(now, reception);
   std::vector<const Transmission*> in_time;
   for (const Transmission& channel : channels) in_time.push_back(&channel);
   std::ranges::stable_sort(in_time, {}, [](const Transmission* channel) { return channel->delay; });
@@ -51,7 +51,7 @@ void PingCycle::transmit(SimTime now, std::vector<Transmission> channels) {
     transmit_out_.send(transmit);
   }
   under_way_.push_back(
-      {pings_++, now, std::move(channels), inputs_.sound_speed_mps(), now + listening + processing_latency_});
+      {pings_++, now, std::move(channels), inputs_.sound_speed_mps(), now + reception + processing_latency_});
 }
 
 void PingCycle::published(const std::string& trouble) {

@@ -9,16 +9,16 @@
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/interference.h"
 #include "components/sonar/ping_clock.h"
-#include "components/sonar/shot.h"
+#include "components/sonar/ping_event.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
 
-/// What one channel of a head sends, and until when it listens to it.
+/// Transmission of one channel of a head, and the end of its reception.
 struct Transmission {
   double frequency_hz = 0.0;
   double pulse_length_s = 0.0;
-  SimTime listening{0};  // from the ping's time of transmission to the end of the last echo
+  SimTime reception{0};  // from the ping's time of transmission to the end of the last echo
   HeadSettings settings;
   double bandwidth_hz = 0.0;  // that a chirp sweeps
   SimTime delay{0};           // after the ping's time of transmission
@@ -32,9 +32,11 @@ struct PingUnderWay {
   double sound_speed_mps = 0.0;        // as the head knew it
   SimTime ready{0};                    // its last echo has come and is processed, every pose that it needs is known
 
-  std::vector<echo::ForeignTransmission> foreign = {};  // what other heads send meanwhile
+  std::vector<echo::InterferingTransmission> interfering = {};  // what other heads send meanwhile
 
-  Shot shot(std::size_t channel = 0) const { return {ping, transmit, channels[channel].settings.range_m, foreign}; }
+  PingEvent event(std::size_t channel = 0) const {
+    return {ping, transmit, channels[channel].settings.range_m, interfering};
+  }
 };
 
 /// The pings of a head from transmission to publication, and its ports `transmit`, `trigger` and `transmits`
@@ -52,11 +54,11 @@ class PingCycle {
     return next();
   }
 
-  /// The next ping goes out. Each channel is told in transmit/1 now, with its own time, the earliest first. The first
-  /// channel's settings tell the ping rate.
+  /// The next ping goes out. Each channel is published in transmit/1 now, with its own time, the earliest first. The
+  /// first channel's settings give the ping rate.
   void transmit(SimTime now, std::vector<Transmission> channels);
 
-  /// A ping was published. Health tells `trouble`, or if there is none, whether the ping lacks its track.
+  /// A ping was published. Health reports `trouble`, or if there is none, whether the ping lacks its track.
   void published(const std::string& trouble);
 
  private:

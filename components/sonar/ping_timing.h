@@ -9,7 +9,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// What makes a head transmit.
+/// Trigger of a head's transmissions.
 struct Trigger {
   enum class Mode {
     kFree,         // the beat of its own ping rate
@@ -28,13 +28,13 @@ struct Trigger {
 /// Reads the section `trigger:`; left out, the head runs free.
 void read_trigger(ConfigReader& from, Trigger& trigger);
 
-/// How fast a head pings, at whose word, and how long it takes from the last echo to the published ping.
+/// Ping rate and trigger of a head, and its latency from the last echo to the published ping.
 struct PingTiming {
   Rate rate;             // at most
-  SimTime dead_time{0};  // between the end of listening and the next transmission, at least
+  SimTime dead_time{0};  // between the end of reception and the next transmission, at least
   SimTime processing_latency{0};
   Trigger trigger = {};
-  std::vector<OtherHead> others = {};  // that ping beside it, and are heard
+  std::vector<OtherHead> others = {};  // that ping beside it, and are received
 };
 
 }  // namespace ensonify

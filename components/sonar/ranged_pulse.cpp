@@ -27,14 +27,14 @@ void read_pulse(ConfigReader& from, PulseDesign& design) {
 }
 
 RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_speed_mps, double held_s) {
-  const double listening_s = 2.0 * range_m / sound_speed_mps;
+  const double reception_s = 2.0 * range_m / sound_speed_mps;
   const double length_s = held_s > 0.0 ? held_s : design.length_s;
   RangedPulse pulse;
   pulse.band_hz = std::min(design.chirp ? design.bandwidth_hz : 1.0 / length_s,
-                           design.most_samples / (design.samples_per_pulse * listening_s));
+                           design.most_samples / (design.samples_per_pulse * reception_s));
   pulse.length_s = design.chirp ? std::max(length_s, kLeastSweep / pulse.band_hz) : 1.0 / pulse.band_hz;
   pulse.sampling.period_s = 1.0 / (design.samples_per_pulse * pulse.band_hz);
-  const double samples = std::ceil(listening_s / pulse.sampling.period_s - 1e-6);
+  const double samples = std::ceil(reception_s / pulse.sampling.period_s - 1e-6);
   pulse.sampling.count = std::clamp(static_cast<int>(samples), 1, design.most_samples);
   return pulse;
 }
@@ -49,7 +49,7 @@ void allow_held_pulses(const PulseDesign& design, double sound_speed_mps, Settin
 }
 
 /// Samples end less than a period after the range; the longest pulse has the longest period.
-double longest_listening_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps) {
+double longest_reception_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps) {
   const RangedPulse longest = pulse_at(design, longest_range_m, sound_speed_mps, design.longest_s);
   return 2.0 * longest_range_m / sound_speed_mps + longest.sampling.period_s + longest.length_s;
 }

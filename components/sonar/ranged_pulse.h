@@ -34,20 +34,20 @@ struct PulseDesign {
 /// samples_per_pulse and most_samples. Whether it is a chirp is known.
 void read_pulse(ConfigReader& from, PulseDesign& design);
 
-/// What is sent and sampled at one range.
+/// Pulse and sampling at one range.
 struct RangedPulse {
   double length_s = 0.0;
   double band_hz = 0.0;  // resolution is c / 2 of it
   echo::Sampling sampling;
 
   /// From transmission to the end of the last echo.
-  double listening_s() const { return sampling.count * sampling.period_s + length_s; }
+  double reception_s() const { return sampling.count * sampling.period_s + length_s; }
   bool operator==(const RangedPulse& other) const {
     return length_s == other.length_s && band_hz == other.band_hz && sampling.count == other.sampling.count;
   }
 };
 
-/// range_m > 0, by the sound speed that the head believes; held_s is 0 where no length is held. A chirp of less than 4
+/// range_m > 0, by the sound speed that the head assumes; held_s is 0 where no length is held. A chirp of less than 4
 /// cycles of B x length would be none, and a tone shorter than its samples_per_pulse would fall between them: both
 /// are made longer.
 RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_speed_mps, double held_s = 0.0);
@@ -55,8 +55,8 @@ RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_spe
 /// Lets commands hold a length, and a length of 0 follow the range again.
 void allow_held_pulses(const PulseDesign& design, double sound_speed_mps, SettingLimits& limits);
 
-/// No pulse that can be sent at any range up to this one is listened to for longer.
-double longest_listening_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps);
+/// No pulse that can be sent at any range up to this one is received for longer.
+double longest_reception_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps);
 
 echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse);
 

@@ -26,7 +26,7 @@ TEST_CASE("a tone lasts as long as two of its samples") {
   const RangedPulse far = pulse_at(design, 50.0, 1500.0);
   CHECK(far.sampling.count == 1200);
   CHECK(far.length_s == Approx(2 * far.sampling.period_s));
-  CHECK(far.listening_s() == Approx(2 * 50.0 / 1500.0 + far.length_s));
+  CHECK(far.reception_s() == Approx(2 * 50.0 / 1500.0 + far.length_s));
   CHECK_NOTHROW(echo::SampledPulse(echo_pulse(design, far), far.sampling.period_s));
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("a held tone keeps its length where the samples reach, a held chirp it
   CHECK(pulse_at(chirp, 120.0, 1500.0, 100e-6).length_s == Approx(4 / 6250.0));  // of B T = 4
 }
 
-TEST_CASE("commands may hold what the design can send, and hear where the range asks for more") {
+TEST_CASE("commands stay within the design's pulses, with a remark if the range needs more") {
   const PulseDesign tone{.length_s = 20e-6, .longest_s = 1e-3, .most_samples = 1200};
   SettingLimits limits;
   allow_held_pulses(tone, 1500.0, limits);
@@ -55,15 +55,15 @@ TEST_CASE("commands may hold what the design can send, and hear where the range 
   CHECK(limits.shortest_pulse_s(50.0) == Approx(111.11e-6).epsilon(1e-4));
 }
 
-TEST_CASE("no pulse at any range is listened to for longer than the longest") {
+TEST_CASE("no pulse at any range is received for longer than the longest") {
   for (const bool chirp : {false, true}) {
     const PulseDesign design{
         .chirp = chirp, .length_s = 20e-6, .longest_s = 5e-3, .bandwidth_hz = 188e3, .most_samples = 1200};
-    const double longest_s = longest_listening_s(design, 50.0, 1500.0);
+    const double longest_s = longest_reception_s(design, 50.0, 1500.0);
     double found_s = 0.0;
     for (double range_m = 0.5; range_m <= 50.0; range_m += 0.37) {
       for (double held_s = 20e-6; held_s <= 5e-3; held_s *= 1.17) {
-        found_s = std::max(found_s, pulse_at(design, range_m, 1500.0, held_s).listening_s());
+        found_s = std::max(found_s, pulse_at(design, range_m, 1500.0, held_s).reception_s());
       }
     }
     CHECK(found_s <= longest_s);

@@ -13,7 +13,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// What turns amplitudes into counts, behind the gain.
+/// Converter of amplitudes into counts, behind the gain.
 struct Converter {
   int bits = 0;  // 1..16; 0: none
   double full_scale_upa = 1e9;

@@ -55,7 +55,7 @@ void take_pulse(double wanted_s, const SettingLimits& limits, HeadSettings& sett
   }
 }
 
-void tell_longer_pulse(const SettingLimits& limits, const HeadSettings& settings, std::vector<std::string>& remarks) {
+void report_longer_pulse(const SettingLimits& limits, const HeadSettings& settings, std::vector<std::string>& remarks) {
   if (!limits.shortest_pulse_s || settings.pulse_length_s == 0.0) return;
   const double shortest_s = limits.shortest_pulse_s(settings.range_m);
   if (settings.pulse_length_s >= (1.0 - 1e-9) * shortest_s) return;
@@ -88,7 +88,7 @@ std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& co
   take_range(command.range_m, limits_, next_, remarks);
   number("source_level_db", command.source_level_db, limits_.source_level_db, next_.source_level_db);
   take_pulse(command.pulse_length_s, limits_, next_, remarks);
-  if (!std::isnan(command.range_m) || !std::isnan(command.pulse_length_s)) tell_longer_pulse(limits_, next_, remarks);
+  if (!std::isnan(command.range_m) || !std::isnan(command.pulse_length_s)) report_longer_pulse(limits_, next_, remarks);
   number("gain_spreading_db", command.gain_spreading_db, limits_.gain_spreading_db, next_.gain_spreading_db);
   number("gain_absorption_dbpm", command.gain_absorption_dbpm, limits_.gain_absorption_dbpm,
          next_.gain_absorption_dbpm);

@@ -9,10 +9,10 @@
 
 namespace ensonify {
 
-/// What an operator can set on a head. A head's configuration holds it as it starts; commands change it.
+/// Operator's settings of a head. A head's configuration holds it as it starts; commands change it.
 struct HeadSettings {
   bool auto_range = false;            // the head chooses, up to range_m
-  double range_m = 0.0;               // that is listened to
+  double range_m = 0.0;               // of reception
   double source_level_db = 0.0;       // re 1 uPa^2 at 1 m, rms, on the axis
   double pulse_length_s = 0.0;        // 0: the head chooses, by the range
   double gain_spreading_db = 0.0;     // gain in dB at range R: S log10(R / m) + 2 A R + O; this is S
@@ -25,13 +25,13 @@ struct HeadSettings {
   bool operator==(const HeadSettings&) const = default;
 };
 
-/// What a setting may be, inclusive. Nothing: the head has no such setting. Both the same: it is fixed.
+/// Limits of a setting, inclusive. Nothing: the head has no such setting. Both the same: it is fixed.
 struct SettingRange {
   double least = 0.0;
   double most = 0.0;
 };
 
-/// What a head lets its operator set.
+/// Limits of the settings of a head.
 struct SettingLimits {
   std::optional<SettingRange> range_m, source_level_db, pulse_length_s, gain_spreading_db, gain_absorption_dbpm,
       gain_offset_db, swath_rad, ping_rate_hz;
@@ -45,8 +45,8 @@ struct SettingLimits {
 /// The settings of a head in force, and those commanded for its next ping.
 ///
 /// A command changes what it names. A value beyond the limits is clamped to them; one that the head cannot take (no
-/// such setting, an unknown mode) is refused and the rest of the command obeyed. Both are told in one line each, and so
-/// is a pulse length that the commanded range does not allow: it stays commanded for nearer ranges.
+/// such setting, an unknown mode) is refused and the rest of the command obeyed. Both are reported in one line each,
+/// and so is a pulse length that the commanded range does not allow: it stays commanded for nearer ranges.
 class CommandedSettings {
  public:
   /// The limits are the caller's word: the settings to start with need not lie within them.

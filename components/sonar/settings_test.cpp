@@ -35,9 +35,9 @@ SettingLimits limits() {
 
 TEST_CASE("a command counts from the next ping on, and only for what it names") {
   CommandedSettings settings(start(), limits());
-  msg::SonarSettings louder;
-  louder.source_level_db = 218.0;
-  CHECK(settings.command(louder).empty());
+  msg::SonarSettings stronger;
+  stronger.source_level_db = 218.0;
+  CHECK(settings.command(stronger).empty());
   CHECK(settings.in_force() == start());  // the ping under way keeps its settings
   HeadSettings expected = start();
   expected.source_level_db = 218.0;
@@ -58,7 +58,7 @@ TEST_CASE("two commands before a ping add up; of two for the same setting the la
   CHECK(settings.at_ping().mode == "equidistant");
 }
 
-TEST_CASE("what is beyond the limits is clamped, what the head has not is refused, and a line says so") {
+TEST_CASE("beyond limits is clamped, missing settings are refused, each with a remark") {
   CommandedSettings settings(start(), limits());
   msg::SonarSettings command;
   command.range_m = 900.0;
@@ -111,7 +111,7 @@ TEST_CASE("a pulse length of 0 lets the head choose again, where it can") {
   CHECK(manual.at_ping() == start());
 }
 
-TEST_CASE("a pulse that the range does not allow is told, whichever of the two was commanded, and kept") {
+TEST_CASE("a pulse too short for the range is reported and kept, whichever was commanded") {
   SettingLimits by_range = limits();
   by_range.shortest_pulse_s = [](double range_m) { return 1e-6 * range_m; };
   CommandedSettings settings(start(), by_range);
@@ -138,7 +138,7 @@ TEST_CASE("what is fixed says at what") {
   CHECK(settings.command(command).empty());
 }
 
-TEST_CASE("a ping tells its settings") {
+TEST_CASE("a ping states its settings") {
   msg::Ping ping;
   ping.applied.frequency_hz = 300e3;
   fill(ping.applied, start());

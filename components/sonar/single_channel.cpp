@@ -9,7 +9,7 @@ HeadInputs::Start start_of(const HeadConfig& config, const HeadInputs::Channel& 
   start.mounting = config.mounting;
   start.tide = config.world.vertical.tide;
   start.lod = config.lod;
-  start.longest_ping = from_seconds(plan.longest_listening_s + config.processing_latency_s);
+  start.longest_ping = from_seconds(plan.longest_reception_s + config.processing_latency_s);
   start.sound_speed_mps = config.sound_speed_mps;
   start.probe = plan.probe;
   start.channels = {channel};
@@ -26,10 +26,10 @@ SingleChannel::SingleChannel(const HeadConfig& config, const HeadInputs::Channel
   ports.note("finest_beam_rad", plan.finest_beam_rad);
 }
 
-void SingleChannel::publish(const PingUnderWay& ping, Heard heard) {
-  inputs_.fill_track(heard.ping.track, ping.transmit, ping.channels.front().listening);
-  ping_out_.send(heard.ping);
-  cycle_.published(heard.trouble);
+void SingleChannel::publish(const PingUnderWay& ping, Received received) {
+  inputs_.fill_track(received.ping.track, ping.transmit, ping.channels.front().reception);
+  ping_out_.send(received.ping);
+  cycle_.published(received.trouble);
 }
 
 }  // namespace ensonify

@@ -9,20 +9,20 @@
 
 namespace ensonify {
 
-/// What the node of a head with one channel has besides its model: what it is told, the turns of its pings, and the
+/// Node parts of a head with one channel besides its model: inputs, ping cycle, and the
 /// port `ping`. Two kinds of event: a transmission, at which the settings of the ping are fixed, and the end of its
 /// processing, at which every pose it needs has arrived and it is computed and published.
 class SingleChannel {
  public:
-  /// What follows from the head's parameters.
+  /// Values that follow from the head's parameters.
   struct Plan {
-    double longest_listening_s = 0.0;  // with the longest range and pulse that can be set
+    double longest_reception_s = 0.0;  // with the longest range and pulse that can be set
     std::size_t max_ping_bytes = 0;
     double finest_beam_rad = 0.0;
     bool probe = false;  // for the sound speed at its face
   };
-  /// A ping as heard, without its track, and what health is to tell of it: "" when all is well.
-  struct Heard {
+  /// A ping as received, without its track, and what health is to report of it: "" when all is well.
+  struct Received {
     msg::Ping ping;
     std::string trouble;
   };
@@ -32,13 +32,13 @@ class SingleChannel {
   SingleChannel(const Config& config, const Plan& plan, Ports& ports)
       : SingleChannel(config, {"", config.start(), config.limits()}, plan, ports) {}
 
-  /// A step of the node. send(settings) gives the Transmission of a ping that goes out now, listen(ping, settings) what
-  /// was Heard of one that is complete.
-  template <class Send, class Listen>
-  SimTime step(SimTime now, const Send& send, const Listen& listen) {
+  /// A step of the node. send(settings) gives the Transmission of a ping that goes out now, receive_echoes(ping,
+  /// settings) what was Received of one that is complete.
+  template <class Send, class Receive>
+  SimTime step(SimTime now, const Send& send, const Receive& receive_echoes) {
     return cycle_.step(
         now, [&] { cycle_.transmit(now, {send(inputs_.settings_at_ping())}); },
-        [&](const PingUnderWay& ping) { publish(ping, listen(ping, ping.channels.front().settings)); });
+        [&](const PingUnderWay& ping) { publish(ping, receive_echoes(ping, ping.channels.front().settings)); });
   }
 
   const frames::PoseHistory& truth() const { return inputs_.truth(); }
@@ -46,7 +46,7 @@ class SingleChannel {
 
  private:
   SingleChannel(const HeadConfig& config, const HeadInputs::Channel& channel, const Plan& plan, Ports& ports);
-  void publish(const PingUnderWay& ping, Heard heard);
+  void publish(const PingUnderWay& ping, Received received);
 
   HeadInputs inputs_;
   PingCycle cycle_;

@@ -8,7 +8,8 @@
 
 namespace ensonify {
 
-/// For tests of what hears meshes: a square about the origin, `side_m` wide, level at a height, as 2 x 8 x 8 triangles.
+/// For tests of what receives meshes: a square about the origin, `side_m` wide, level at a height, as 2 x 8 x 8
+/// triangles.
 inline msg::Mesh table_of(double side_m, double height_m) {
   constexpr std::uint32_t kCells = 8, kPosts = kCells + 1;
   progressive::TriangleMesh table;

@@ -22,7 +22,7 @@ class Driven {
   }
 
   /// Runs until `t`; what the master has sent is given when it is due.
-  void run(SimTime t, SimTime listening) {
+  void run(SimTime t, SimTime reception) {
     while (clock_.next() <= t) {
       const SimTime now = clock_.next();
       ports_.begin_event(now);
@@ -31,26 +31,26 @@ class Driven {
       }
       if (clock_.due(now)) {
         sent_.push_back(now);
-        clock_.transmitted(now, listening);
+        clock_.transmitted(now, reception);
       }
       REQUIRE(clock_.next() > now);
       ports_.end_event();
     }
   }
 
-  /// The master transmits, says when it means to do so next, and is heard of `late` after it.
+  /// The master transmits, says when it means to do so next, and is received `late` after it.
   void master(SimTime at, SimTime next = 0_ms, SimTime late = 0_ms) {
     msg::Transmit transmit;
     transmit.stamp_ns = at.count();
-    transmit.ping = masters_told_++;
+    transmit.ping = masters_reported_++;
     transmit.next_ns = next.count();
     masters_.emplace_back(transmit, at + late);
   }
-  /// A further sector of its last ping: heard of with the first.
+  /// A further sector of its last ping: received with the first.
   void sector_of_master(SimTime after) {
-    auto [transmit, heard] = masters_.back();
+    auto [transmit, received] = masters_.back();
     transmit.stamp_ns += after.count();
-    masters_.emplace_back(transmit, heard);
+    masters_.emplace_back(transmit, received);
   }
 
   PingClock& clock() { return clock_; }
@@ -74,7 +74,7 @@ class Driven {
   Ports ports_;
   PingClock clock_;
   std::deque<std::pair<msg::Transmit, SimTime>> masters_;
-  std::int64_t masters_told_ = 0;
+  std::int64_t masters_reported_ = 0;
   std::vector<SimTime> sent_;
   msg::Health health_;
 };
@@ -90,7 +90,7 @@ TEST_CASE("short pings keep the beat exactly") {
   for (int n = 0; n < 900; ++n) REQUIRE(head.sent()[n] == event_time(n, {15, 1}));
 }
 
-TEST_CASE("a long ping moves the beat: never less than listening plus dead time") {
+TEST_CASE("a long ping moves the beat: never less than reception plus dead time") {
   Ports ports("head");
   PingClock clock(ports, {.rate = {10, 1}, .dead_time = 1_ms});
   clock.transmitted(0_ms, 120_ms);
@@ -136,7 +136,7 @@ TEST_CASE("a slave follows a ping once, however many sectors it has") {
   CHECK(head.counted("triggers_missed") == 0);
 }
 
-TEST_CASE("a master that does not say when it goes on is followed exactly too, if the offset leaves time to look") {
+TEST_CASE("a master without announced times is followed exactly at a sufficient offset") {
   Driven head(slave(0.01));
   for (int n = 0; n < 20; ++n) head.master(event_time(n, {7, 1}));
   head.run(3_s, 20_ms);
@@ -144,7 +144,7 @@ TEST_CASE("a master that does not say when it goes on is followed exactly too, i
   for (int n = 0; n < 20; ++n) CHECK(head.sent()[n] == event_time(n, {7, 1}) + 10_ms);
 }
 
-TEST_CASE("a slave that still listens passes the master's transmission over, and counts it") {
+TEST_CASE("a slave that still receives skips the master's transmission, and counts it") {
   Driven head(slave(0.0));
   for (int n = 0; n < 20; ++n) head.master(n * 100_ms, (n + 1) * 100_ms);
   head.run(1950_ms, 150_ms);
@@ -154,7 +154,7 @@ TEST_CASE("a slave that still listens passes the master's transmission over, and
   CHECK(head.counted("triggers_missed") == 10);
 }
 
-TEST_CASE("its own ping rate is the most that a slave transmits; beats rounded to nanoseconds do not count as faster") {
+TEST_CASE("a slave keeps its own highest ping rate; rounding to nanoseconds is not faster") {
   Driven at_rate(slave(0.0), {15, 1}), faster(slave(0.0), {15, 1});
   for (int n = 0; n < 30; ++n) {
     at_rate.master(event_time(n, {15, 1}), event_time(n + 1, {15, 1}));
@@ -166,10 +166,10 @@ TEST_CASE("its own ping rate is the most that a slave transmits; beats rounded t
   CHECK(faster.sent().size() == 15);
 }
 
-TEST_CASE("a late master is followed at once and counted; a missing one is told in health") {
+TEST_CASE("a late master is followed at once and counted; a missing one shows in health") {
   Driven head(slave(0.0));
   head.master(0_ms, 100_ms);
-  head.master(100_ms, 0_ms, 4_ms);  // the look at 100 ms comes too early for it, the next is 10 ms later
+  head.master(100_ms, 0_ms, 4_ms);  // the poll at 100 ms comes too early for it, the next is 10 ms later
   head.run(500_ms, 20_ms);
   CHECK(head.sent() == Times{0_ms, 110_ms});
   head.run(1100_ms, 20_ms);
@@ -184,12 +184,12 @@ TEST_CASE("a late master is followed at once and counted; a missing one is told 
   CHECK(lonely.health().message == "this head is a slave, and its master has not transmitted");
 }
 
-TEST_CASE("interleaved heads transmit in their slots; a long ping passes slots over and keeps the beat") {
+TEST_CASE("interleaved heads transmit in slots; a long ping skips slots, keeps the beat") {
   const Trigger trigger{.mode = Trigger::Mode::kInterleaved, .cycle_s = 0.15, .slot_s = 0.05};
   Driven head(trigger);
   head.run(400_ms, 60_ms);
   CHECK(head.sent() == Times{50_ms, 200_ms, 350_ms});
-  head.run(1_s, 200_ms);  // what was sent at 350 ms listened 60 ms
+  head.run(1_s, 200_ms);  // what was sent at 350 ms received 60 ms
   CHECK(head.sent() == Times{50_ms, 200_ms, 350_ms, 500_ms, 800_ms});
   CHECK(head.clock().intended() == 1100_ms);
 }
@@ -215,14 +215,14 @@ TEST_CASE("a trigger is read with its limits") {
 TEST_CASE("auto range follows the edge of the swath and falls back to the longest") {
   AutoRange range(200, 1.1, 256);
   CHECK(range.range_m() == 200);
-  std::vector<HeardBottom> level;  // 20 m below
+  std::vector<BottomDetection> level;  // 20 m below
   for (int beam = 0; beam < 256; ++beam) {
     const double angle = -1.1 + 2.2 * beam / 255;
     level.push_back({angle, 20.0 / std::cos(angle)});
   }
   const double edge_m = 20.0 / std::cos(1.1);
-  const auto settled = [&](std::vector<HeardBottom> heard, double listened_m) {
-    range.update(heard, listened_m);
+  const auto settled = [&](std::vector<BottomDetection> received, double received_range_m) {
+    range.update(received, received_range_m);
     return range.range_m();
   };
   CHECK(settled(level, 200) == std::ceil(1.13 * edge_m));
@@ -232,7 +232,7 @@ TEST_CASE("auto range follows the edge of the swath and falls back to the longes
   // The outer beams of one side are lost: what the others say of the edge still holds.
   CHECK(settled({level.begin() + 20, level.end()}, 45) == std::ceil(1.13 * edge_m));
   CHECK(settled({level.begin() + 20, level.end() - 20}, 45) == std::ceil(1.13 * edge_m));
-  // Half of them are lost, as after a step down: listen longer.
+  // Half of them are lost, as after a step down: receive longer.
   CHECK(settled({level.begin() + 70, level.end() - 70}, 60) == 66);
   CHECK(settled({level.begin(), level.begin() + 10}, 60) == 200);
 }

@@ -9,7 +9,7 @@ class ConfigReader;
 /// Reads tapered_fraction of a head's tone (echo::tapered_pulse), 0 to 1. A chirp has a window instead.
 void read_taper(ConfigReader& from, bool chirp, double& tapered_fraction);
 
-/// Tells what kind of pulse is sent.
+/// Gives what kind of pulse is sent.
 void fill_shape(bool chirp, double tapered_fraction, msg::AppliedSettings& applied);
 
 }  // namespace ensonify

@@ -229,7 +229,7 @@ std::vector<NamedMark> marks_of(const LayeredSeabed& seabed, double post_spacing
     if (form == nullptr || !layer.used) continue;
     for (const relief::Mark& mark :
          marks_in(*form, layer.name, post_spacing_m, seabed.seed).within(south_west, north_east))
-      if (relief::meets(mark, south_west, north_east)) marks.push_back({layer.name, mark});
+      if (relief::intersects(mark, south_west, north_east)) marks.push_back({layer.name, mark});
   }
   return marks;
 }

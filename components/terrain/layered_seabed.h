@@ -32,8 +32,8 @@ struct NamedMark {
   relief::Mark mark;
 };
 
-/// All furrows that meet the seabed's rectangle, layer by layer: where they are, whether or not a mask, what covers
-/// them or their age hides them.
+/// All furrows that intersect the seabed's rectangle, layer by layer: where they are, whether or not a mask, what
+/// covers them or their age hides them.
 std::vector<NamedMark> marks_of(const LayeredSeabed& seabed, double post_spacing_m);
 
 }  // namespace ensonify::source

@@ -46,7 +46,7 @@ LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
 }
 
 void LayersSource::probe() {
-  constexpr double kProbes = 256.0;  // per side: enough for the range of depths that a chart tells
+  constexpr double kProbes = 256.0;  // per side: enough for the range of depths that a chart gives
   const double side_m = std::max(extent_.east_m - extent_.west_m, extent_.north_m - extent_.south_m);
   const int level =
       std::max(0, static_cast<int>(std::ceil(std::log2(side_m / (kProbes * description_.post_spacing_m)))));

@@ -17,7 +17,7 @@ class LayersSource : public TerrainSource {
   LayersSource(const Seabed& seabed, const frames::Geodetic& origin);
 
   Extent extent() const override { return extent_; }
-  /// As far as 256 x 256 places tell.
+  /// As far as 256 x 256 places show.
   double lowest_m() const override { return lowest_m_; }
   double highest_m() const override { return highest_m_; }
   frames::Geodetic origin() const override { return origin_; }

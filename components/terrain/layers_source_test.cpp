@@ -76,7 +76,7 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE("baked tiles and generated ones have the same bits, in any order and by any number of threads") {
+TEST_CASE("baked and generated tiles are bit-equal, in any order, on any number of threads") {
   const Seabed seabed = seabed_from(kMixed);
   const LayersSource generated(seabed, kOrigin);
   const Folder folder;
@@ -158,7 +158,7 @@ TEST_CASE("every layer shows, and each can be left out without moving another") 
   CHECK_FALSE(same(all.height_m, other.height_m));
 }
 
-TEST_CASE("at wide spacings the seabed is that of a coarser level, cut off at the same rectangle") {
+TEST_CASE("wide spacings give a coarser level of the seabed, within the same rectangle") {
   const LayersSource source(seabed_from(kMixed), kOrigin);
   const PostBlock block{-16, -16, 32, 32, 11.1};
   const Posts coarse = sampled(source, block);

@@ -24,7 +24,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSteepest_deg = 35.0;
 constexpr double kFar_m = 1000.0;           // outer scale: at posts it takes less than 1 % from D
 constexpr double kSome = 0.1, kMost = 0.9;  // of a class's places
-constexpr double kWorthSaying_db = 0.1;
+constexpr double kWorthReporting_db = 0.1;
 
 /// The sediment's relief as a surface.
 relief::Spectrum spectrum_of(const seabed::SedimentParameters& sediment) {
@@ -69,7 +69,7 @@ std::vector<Relief> reliefs_of(const Seabed& seabed) {
   return reliefs;
 }
 
-/// One place stands for all of them where no mask tells them apart.
+/// One place stands for all of them where no mask distinguishes them.
 SeabedPlaces places_for(const std::vector<Relief>& reliefs, const Seabed& seabed, const LayeredFields& fields) {
   std::set<std::string> masked;
   for (const Relief& relief : reliefs) {
@@ -109,7 +109,7 @@ class SlopesOfClass {
   /// Mean square at a typical place, by relief that the sediment's law counts too.
   double typical() const { return typical_of(where_); }
 
-  /// What UnevenClass tells of a layer, but for what it makes of echoes.
+  /// What UnevenClass indicates a layer, but for what it makes of echoes.
   struct Part {
     std::string layer;
     double share = 0.0;
@@ -203,7 +203,7 @@ MeshedRelief meshed_relief(const Seabed& seabed, const LayeredFields& fields) {
     }
     for (const auto& part : slopes.parts()) {
       const double db = off_db(meshed, part.lesser);
-      if (std::abs(db) >= kWorthSaying_db) found.uneven.push_back({part.layer, number, part.share, db});
+      if (std::abs(db) >= kWorthReporting_db) found.uneven.push_back({part.layer, number, part.share, db});
     }
   }
   return found;

@@ -24,7 +24,7 @@ struct UnevenClass {
 /// That in words for the scenario's author, with what to do about it.
 std::string text_of(const UnevenClass& uneven);
 
-/// What the facets of a seabed's mesh have of its sediments' relief.
+/// Share of the sediments' relief in the facets of a seabed's mesh.
 struct MeshedRelief {
   /// Mean square slope by class, of what the sediment's law counts too: 0 or beyond the end where that is nothing.
   std::vector<double> mean_square_slope;

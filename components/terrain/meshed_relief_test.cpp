@@ -109,7 +109,7 @@ const auto kAll = Approx(1.0).epsilon(0.005);  // the outer scale's part: 0.4 %
 
 }  // namespace
 
-TEST_CASE("what a layered seabed's heights have of a sediment's relief is told to its law, by class") {
+TEST_CASE("relief in a layered seabed's heights is passed to its scattering law by class") {
   const Seabed seabed = seabed_from(R"(seabed:
   kind: layers
   post_spacing_m: 0.1
@@ -137,10 +137,10 @@ TEST_CASE("what a layered seabed's heights have of a sediment's relief is told t
   CHECK(std::holds_alternative<seabed::Lambert>(sediments.at(5)));
 
   // A tile set's heights have what its own file says, to the last bit: the layers' slope is rounded for that.
-  const double told_deg = facet_slope_deg(std::get<seabed::MeshedSediment>(sediments.at(0)));
+  const double reported_deg = facet_slope_deg(std::get<seabed::MeshedSediment>(sediments.at(0)));
   const Seabed on_tiles =
       seabed_from("seabed: {kind: tiles, tiles: {folder: .}, sediments: {0: {name: medium silt, facet_slope_deg: " +
-                  std::to_string(told_deg) + "}}}");
+                  std::to_string(reported_deg) + "}}}");
   CHECK(slope_of(on_tiles.sediments.at(0)) == slope_of(sediments.at(0)));
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("what a mask of a guide's shape holds on is looked up on the guide") {
   CHECK_THAT(text_of(uneven[0]), Catch::Contains("layer silt holds at 0.6"));
 }
 
-TEST_CASE("facets of a seabed that is rough here and smooth there return on average what the plane's law says") {
+TEST_CASE("facets of a partly rough seabed return on average what the plane's law gives") {
   // Medium silt at right angles, where twice the slopes are 1 dB: all facets between posts of a square of 40 m, five
   // outer scales and 40 patches of the cascade a side.
   const auto everywhere = [](double) { return true; };
@@ -234,7 +234,7 @@ TEST_CASE("facets of a seabed that is rough here and smooth there return on aver
   }
 }
 
-TEST_CASE("of a class that is rough in part the author hears by how much the lesser part is off") {
+TEST_CASE("for a class that is rough in part, the smaller part's error in dB is reported") {
   // 1:191, so 20.03 m are 5.7 m north of the middle: 0.6 of 60 m. The next case has the rough part there and to the
   // north.
   const std::string silt = "spectral: {as_sediment: medium silt, outer_scale_m: 8}, mask: {depth_m: {";

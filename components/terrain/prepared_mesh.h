@@ -18,7 +18,7 @@ struct PreparedMesh {
 /// damaged; else made anew, not written. Throws ConfigError for a mesh that cannot be read or used.
 PreparedMesh prepared_mesh(const std::string& mesh_path, double unit_m, const std::string& lod_path);
 
-/// Where the splits of a mesh file are kept.
+/// File of the splits of a mesh file.
 std::string lod_path_of(const std::string& mesh_path);
 
 struct PlacedMesh {

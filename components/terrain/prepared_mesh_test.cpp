@@ -68,7 +68,7 @@ SeabedMesh poles(int count, std::vector<std::uint8_t> on = {}) {
 
 }  // namespace
 
-TEST_CASE("splits are read when they were made of this file in this unit, and made anew otherwise") {
+TEST_CASE("stored splits are used for the same file and unit only, else made anew") {
   const Ridge ridge;
   const std::string lod = lod_path_of(ridge.path);
   const PreparedMesh made = prepared_mesh(ridge.path, 1.0, lod);
@@ -139,7 +139,7 @@ TEST_CASE("bars stand where the scenario says, turned clockwise") {
   CHECK((box.max() - frames::Vec3(130, 50.5, -8)).norm() < 1e-4);
 }
 
-TEST_CASE("strewn copies stand on the ground, on the classes that are asked for, by the seed and the name") {
+TEST_CASE("strewn copies stand on the ground, on the set classes, by seed and name") {
   const auto ground = slope();
   const auto feet = [&](const SeabedMesh& mesh, std::uint64_t seed) {  // the middle of the lower end
     const auto hierarchy = placed_mesh(mesh, seed, *ground).hierarchy;
@@ -170,7 +170,7 @@ TEST_CASE("copies without ground, or too many of them, are refused") {
                     "s.yaml:3:9: seabed.meshes.poles.strewn: makes 3400000 vertices; allowed: 2000000");
 }
 
-TEST_CASE("a mesh beyond what floats tell is refused, with its file") {
+TEST_CASE("a mesh beyond float precision is refused, with its file") {
   const Ridge ridge;
   ridge.write(1e39);
   CHECK_THROWS_WITH(prepared_mesh(ridge.path, 1.0, ""),

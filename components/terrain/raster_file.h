@@ -23,7 +23,7 @@ struct GeodeticBox {
   double north_deg = 0.0;
 };
 
-/// How to read a raster file.
+/// Options for reading a raster file.
 struct RasterOptions {
   std::string path;
   std::string called;  // by messages; "" is the path
@@ -42,7 +42,7 @@ struct RasterOptions {
   std::string crs_setting = "the pager's `raster_crs: EPSG:...`";  // what sets `crs`, as its user knows it
 };
 
-/// What a file says of its values, as far as it does.
+/// Description of its values in a file, as far as given.
 struct RasterHints {
   std::string unit;            // GDAL's word: "m", "ft", "us-ft", "fathom"; "" when nothing is said
   std::string words;           // names and descriptions of the band, lower case

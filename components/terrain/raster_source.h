@@ -31,7 +31,7 @@ class RasterSource : public TerrainSource {
   double highest_m() const override { return file_->highest_m(); }
   frames::Geodetic origin() const override { return origin_; }
   double native_spacing_m() const override { return native_spacing_m_; }
-  /// Of one of the raster's cells, in its middle, m2.
+  /// Area of one of the raster's cells, in its middle, m2.
   double cell_area_m2() const { return cell_area_m2_; }
   void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const override;
   double height_m(const Vec2& place) const override;

@@ -27,7 +27,7 @@ void for_masks_of(const layers::Layer& layer, const What& what) {
   if (spectral != nullptr && spectral->rough) for_masks_in(*spectral->rough, what);
 }
 
-/// The level of the lattice at which the finest of all masks looks.
+/// The level of the lattice at which the finest of all masks is evaluated.
 int level_of(const LayeredSeabed& seabed, double post_spacing_m) {
   double finest_m = std::numeric_limits<double>::infinity();
   for (const layers::Layer& layer : seabed.layers) {

@@ -10,7 +10,7 @@
 
 namespace ensonify::source {
 
-/// What a layered seabed is at places all over its rectangle.
+/// Sample of a layered seabed at places all over its rectangle.
 struct SeabedPlaces {
   std::size_t count = 0;
   std::vector<std::uint8_t> seabed_class;

@@ -49,7 +49,7 @@ struct Overview {
   std::string fault;            // why one that was kept could not be used, and these heights were made anew; or ""
 };
 
-/// Where heights come from: a raster or a generator. All functions are pure and may be called from any thread.
+/// Source of heights: a raster or a generator. All functions are pure and may be called from any thread.
 class TerrainSource {
  public:
   virtual ~TerrainSource() = default;
@@ -59,7 +59,7 @@ class TerrainSource {
   /// Lowest and highest height, ENU z, m.
   virtual double lowest_m() const = 0;
   virtual double highest_m() const = 0;
-  /// Where the world's origin lies on the ellipsoid.
+  /// Place of the world's origin on the ellipsoid.
   virtual frames::Geodetic origin() const = 0;
   /// Distance between posts that loses nothing worth keeping, m.
   virtual double native_spacing_m() const = 0;
@@ -71,7 +71,7 @@ class TerrainSource {
   virtual void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const = 0;
   /// The same of overview_posts(extent()), the heights.
   virtual Overview overview() const;
-  /// What facets between its posts have of the sediments' relief, where it knows what its heights are made of.
+  /// Slopes of facets between its posts by the sediments' relief, where it knows what its heights are made of.
   virtual MeshedRelief meshed_relief() const { return {}; }
   /// Height at one place; NaN where nothing is known.
   virtual double height_m(const Vec2& place) const = 0;

@@ -46,7 +46,7 @@ class TileSetSource : public TerrainSource {
   /// Nothing where the set has no tile.
   TilePtr tile_at(const terrain::TileKey& key) const;
 
-  /// Of sample(): columns from `first` to before `behind`.
+  /// Part of sample(): columns from `first` to before `behind`.
   void sample_columns(const PostBlock& posts, int first, int behind, std::span<float> height_m,
                       std::span<std::uint8_t> sediment) const;
 
@@ -60,7 +60,7 @@ class TileSetSource : public TerrainSource {
   mutable std::list<Kept> kept_;  // the last used first
 };
 
-/// What is wrong with tiles of this origin in a world whose origin is `site`: "", or where the two are if they are more
+/// Fault of tiles of this origin in a world whose origin is `site`: "", or where the two are if they are more
 /// than 0.1 mm apart. Tiles are squares of the world's own lattice and cannot be moved.
 std::string fault_of_origin(const frames::Geodetic& tiles, const frames::Geodetic& site);
 

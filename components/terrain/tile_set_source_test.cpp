@@ -37,7 +37,7 @@ struct Set {
 
 }  // namespace
 
-TEST_CASE("posts of a set are the stored ones, across tiles and on the edges beside a missing tile") {
+TEST_CASE("posts of a set are the stored ones, across tiles and beside a missing tile") {
   const Set made;
   const TileSetSource source(made.folder);
   CHECK(source.native_spacing_m() == 0.5);
@@ -76,8 +76,7 @@ TEST_CASE("between posts a set is bilinear") {
   CHECK(sediment[0] == 1);
 }
 
-TEST_CASE(
-    "a set's overview has the bits of its posts, kept with the set, not kept, and where the kept one is damaged") {
+TEST_CASE("a set's overview is bit-equal to its posts, whether stored, missing or damaged") {
   Set made;
   const Overview from_tiles = TileSetSource(made.set).overview();
   CHECK(from_tiles.fault.empty());

@@ -13,10 +13,10 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// What the pager is told: its own parameters and, from the scenario, which seabed and where the survey goes.
+/// Configuration of the pager: its own parameters and, from the scenario, which seabed and where the survey goes.
 struct TerrainPagerConfig {
-  int rate_hz = 2;                     // how often it looks where the vehicle is
-  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: as far as they can hear (demand.h)
+  int rate_hz = 2;                     // how often it checks where the vehicle is
+  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: as far as they can receive (demand.h)
   double release_hysteresis_m = 50.0;  // and give them up when farther than feed margin + this
   double wide_margin_m = 100.0;        // memory has tiles nearer than feed margin + this to the predicted track
   double load_ahead_s = 60.0;          // which is followed for so long

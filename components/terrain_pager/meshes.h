@@ -25,10 +25,10 @@ class Meshes {
     std::vector<const msg::Mesh*> publish;  // in the scenario's order
     std::vector<std::int64_t> release;
   };
-  /// One look at where the vehicle is.
-  Decision look(const frames::Vec2& place_enu_m, const paging::Margins& margins);
+  /// An update for where the vehicle is.
+  Decision update(const frames::Vec2& place_enu_m, const paging::Margins& margins);
 
-  /// Of the largest one, as a message.
+  /// Size of the largest one, as a message.
   std::size_t max_bytes() const;
   /// Names of those whose splits had to be made at the start and are many.
   const std::vector<std::string>& unprepared() const { return unprepared_; }

@@ -41,7 +41,7 @@ class TileCache {
   std::shared_ptr<const msg::Chart> read_chart();
   void write(const msg::Chart& chart);
 
-  /// What a user should hear of: a word for the log and its key=value pairs. Each is given once.
+  /// A report to the user: a word for the log and its key=value pairs. Each is given once.
   struct Notice {
     std::string event;
     std::string pairs;

@@ -11,8 +11,8 @@
 
 namespace ensonify {
 
-/// Where the body is believed to be, aboard: by the vessel's estimate, and what cable, fixes and the body's own depth,
-/// heading and level sensors tell.
+/// Estimate of the body's place, aboard: by the vessel's estimate, and what cable, fixes and the body's own depth,
+/// heading and level sensors give.
 class TowEstimator {
  public:
   explicit TowEstimator(const TowedBodyConfig& config);

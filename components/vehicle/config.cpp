@@ -11,7 +11,7 @@
 namespace ensonify {
 namespace {
 
-/// Holds a mission against what a vehicle's forces can do. With several vehicles the one that is flown is not known
+/// Holds a mission against what a vehicle's forces can do. With several vehicles the one that is steered is not known
 /// here; it is taken to be the one without a start of its own.
 void check_abilities(ConfigReader& from, const World& world, const Vehicle& vehicle, const HydrodynamicVehicle& moved) {
   if (vehicle.start && world.vehicles.size() > 1) return;
@@ -61,7 +61,7 @@ VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const 
   config.plan = MissionPlan::of(world, vehicle);
   if (!config.start && !config.plan.needs_chart()) {
     if (world.mission.runlines.empty()) {
-      from.problem("", "the scenario tells vehicle " + vehicle.name + " neither a start nor a runline to start at");
+      from.problem("", "the scenario gives vehicle " + vehicle.name + " neither a start nor a runline to start at");
     } else {
       config.start = start_of(config.plan, world.mission.runlines);
     }

@@ -33,7 +33,7 @@ struct VehicleConfig {
   MissionPlan plan;
 
   static VehicleConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// Where the vehicle starts is known only when the chart is.
+  /// Need of the chart: the vehicle's start is known only with it.
   bool needs_chart() const { return !start && plan.needs_chart(); }
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const VehicleConfig& other) const { return pose_rate_hz == other.pose_rate_hz; }

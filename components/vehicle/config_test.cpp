@@ -67,12 +67,12 @@ TEST_CASE("what a vehicle's forces cannot do of a mission is refused") {
   world.mission.steps = {GoAt{4.0, {}, {}}};
   CHECK(problem("{}", world, "auv") ==
         "v.yaml:1:1: the mission asks for 4 m/s, more than auv's propellers make; allowed: 2.55 m/s");
-  auv.start.emplace();  // somebody else may be the one that is flown
+  auv.start.emplace();  // somebody else may be the one that is steered
   world.vehicles.push_back(two_vehicles().vehicles[1]);
   CHECK(problem("{}", world, "auv") == "");
 }
 
-TEST_CASE("a vehicle told no start begins the first line's run-in at mission speed") {
+TEST_CASE("a vehicle without a start begins the first line's run-in at mission speed") {
   World world = two_vehicles();
   world.mission.run_in_m = 15;
   world.mission.depth_m = 4;

@@ -19,7 +19,7 @@ TEST_CASE("gyro/default.yaml lists every parameter with its default") {
   CHECK(default_yaml_fault<GyroConfig>("gyro", World{}) == "");
 }
 
-TEST_CASE("the gyro tells heading plus its bias, ten times a second, whatever the roll") {
+TEST_CASE("the gyro reports heading plus its bias, ten times a second, whatever the roll") {
   GyroConfig config;
   config.bias_rad = 0.1;
   config.sigma_rad = 0.0;

@@ -29,7 +29,7 @@ SurfaceBackscatter sea_surface_backscatter(double grazing_rad, double frequency_
 /// Mean-square slope of the wind sea in the report's facets (a ratio): 0.0046 ln(2.1 U^2), U >= 1; 0.0034 below.
 double mean_square_slope(double wind_speed_mps);
 
-/// What is left of the mirror reflection, as a factor of pressure: -exp(-2 (k sigma_h sin(grazing))^2), the coherent
+/// Coherent reflection as a factor of pressure: -exp(-2 (k sigma_h sin(grazing))^2), the coherent
 /// reflection of a Gaussian surface in the Kirchhoff approximation [Ogilvy1991]. The sign is the phase flip at a
 /// surface that yields. 0 sigma_h is a mirror. Grazing 0..pi/2.
 double coherent_reflection(double wavenumber_radpm, double rms_height_m, double grazing_rad);

@@ -16,7 +16,7 @@ double strength_db(double degrees, double frequency_hz, double wind_speed_mps) {
 
 }  // namespace
 
-TEST_CASE("an independent implementation's values, and the report's figures within their reading") {
+TEST_CASE("values equal an independent implementation's and the report's figures") {
   CHECK(strength_db(20, 15e3, 3.5) == Approx(-47.2).margin(0.1));
   CHECK(strength_db(30, 70e3, 8) == Approx(-24.5).margin(0.1));
   CHECK(strength_db(60, 70e3, 8) == Approx(-20.3).margin(0.1));
@@ -45,9 +45,9 @@ TEST_CASE("finite for every angle, frequency and wind, and without steps above 1
   CHECK(greatest_step_db < 1.5);
 }
 
-TEST_CASE("the laws meet where wind speed changes them") {
+TEST_CASE("the laws join where wind speed changes them") {
   for (const double degrees : {5.0, 30.0, 60.0, 89.0}) {
-    // 6 m/s: the loss; 11 m/s: the bubbles. Their values meet there.
+    // 6 m/s: the loss; 11 m/s: the bubbles. Their values join there.
     CHECK(strength_db(degrees, 70e3, 6 - 1e-9) == Approx(strength_db(degrees, 70e3, 6 + 1e-9)).margin(1e-6));
     CHECK(strength_db(degrees, 70e3, 11 - 1e-9) == Approx(strength_db(degrees, 70e3, 11 + 1e-9)).margin(1e-6));
   }

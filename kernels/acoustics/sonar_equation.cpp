@@ -8,7 +8,7 @@ namespace {
 
 double db(double ratio) { return 10.0 * std::log10(ratio); }
 
-/// Horizontal distance to where a sphere meets the level seabed; 0 if it does not.
+/// Horizontal distance to where a sphere intersects the level seabed; 0 if it does not.
 double ground_range_m(double range_m, double altitude_m) {
   return range_m > altitude_m ? std::sqrt(range_m * range_m - altitude_m * altitude_m) : 0.0;
 }

@@ -39,13 +39,13 @@ double volume_level_db(double source_level_db, const Path& path, double volume_s
 constexpr double kOneWayWidth = 1.1288;
 constexpr double kTwoWayWidth = 0.7525;
 
-/// Area, in m^2, that a sidescan hears at once: a strip of a level seabed. Its length is range times the equivalent
-/// two-way width along track; it reaches from where the sphere of range R - c tau/4 meets the seabed to where R + c
+/// Area, in m^2, that a sidescan receives at once: a strip of a level seabed. Its length is range times the equivalent
+/// two-way width along track; it reaches from where the sphere of range R - c tau/4 cuts the seabed to where R + c
 /// tau/4 does, so it holds at nadir too. No area before the first bottom echo.
 double sidescan_area_m2(double range_m, double altitude_m, double along_track_width_rad, double sound_speed_mps,
                         double pulse_length_s);
 
-/// Area, in m^2, that a beam of a Mills cross hears on a level seabed: transmit width along track; across track the
+/// Area, in m^2, that a beam of a Mills cross receives on a level seabed: transmit width along track; across track the
 /// smaller of the beam's footprint R width / cos^2(angle), where the steered array has widened by 1 / cos, and the
 /// pulse's c tau/2 / sin(angle). Equivalent widths at broadside. An upper bound: by 1.2 dB where both are equal, by
 /// less than 0.15 dB beyond 35 degrees (for 1 degree and 100 us at 20 m).

@@ -30,7 +30,7 @@ double multibeam_level_db(double beam_deg) {
 }
 }  // namespace
 
-TEST_CASE("a sidescan hears what the area integral over the seabed gives") {
+TEST_CASE("a sidescan receives what the area integral over the seabed gives") {
   // Numerical integrals of the sonar equation: SL 210, 100 us, 0.5 deg, 0.1 dB/m, 10 m above a Lambert seabed of -25
   // dB.
   CHECK(sidescan_level_db(20) == Approx(103.50).margin(0.01));
@@ -38,7 +38,7 @@ TEST_CASE("a sidescan hears what the area integral over the seabed gives") {
   CHECK(sidescan_level_db(100) == Approx(51.95).margin(0.01));
 }
 
-TEST_CASE("a multibeam hears what the area integral gives, or a little more where beam and pulse are alike") {
+TEST_CASE("a multibeam's level is the area integral's, or slightly more") {
   // Numerical integrals: SL 220, 100 us, 1 x 1 deg, 0.07 dB/m, 20 m above the same seabed.
   CHECK(multibeam_level_db(45) == Approx(117.65).margin(0.1));
   CHECK(multibeam_level_db(60) == Approx(107.68).margin(0.1));
@@ -49,7 +49,7 @@ TEST_CASE("a multibeam hears what the area integral gives, or a little more wher
   CHECK(multibeam_level_db(-45) == multibeam_level_db(45));
 }
 
-TEST_CASE("the strip of a sidescan is R psi (c tau / 2) / cos(grazing) away from nadir, a disc's slice at nadir") {
+TEST_CASE("a sidescan's strip is R psi (c tau / 2) / cos(grazing), a disc's slice at nadir") {
   const double grazing = std::asin(10.0 / 50.0);
   CHECK(sidescan_area_m2(50, 10, 0.01, kSpeed, kPulse) == Approx(50 * 0.01 * 0.075 / std::cos(grazing)).epsilon(1e-4));
   CHECK(sidescan_area_m2(10, 10, 0.01, kSpeed, kPulse) == Approx(10 * 0.01 * std::sqrt(2 * 10 * 0.0375)).epsilon(1e-3));

@@ -41,7 +41,7 @@ struct Tile {
   }
 };
 
-/// What is wrong with a tile's sizes, or nothing.
+/// Fault of a tile's sizes, or nothing.
 std::optional<const char*> fault_of(const Tile& tile);
 
 /// Height (ENU z, m) between the posts, bilinear. Empty outside the tile and in cells that touch a hole.

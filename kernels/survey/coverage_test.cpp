@@ -62,7 +62,7 @@ TEST_CASE("the next line lies a reach beyond the row that is covered least far")
   CHECK(coverage.depths(-1.0).deepest_m == 24.0);
 }
 
-TEST_CASE("lines over holes are flown once") {
+TEST_CASE("lines over holes are run once") {
   Coverage coverage({{50, 10}, 0.0, 20.0, 100.0}, 10.0, 1);
   for (double x = 5.0; x < 100.0; x += 10.0) {
     if (x != 35.0) coverage.add({x, 5.0}, -20.0);
@@ -74,7 +74,7 @@ TEST_CASE("lines over holes are flown once") {
   CHECK(std::isnan(coverage.take_holes(15.0)));
 }
 
-TEST_CASE("a plane from 10 to 40 m is covered without a gap, with lines within 15 % of the bound") {
+TEST_CASE("a plane of 10-40 m is covered without a gap, lines within 15 % of the bound") {
   const double deepening = 0.02, width_m = 30.0 / deepening, cell_m = 4.0;
   const Rectangle area{{0.5 * width_m, 50.0}, 0.0, 100.0, width_m};
   Coverage coverage(area, cell_m, 1);

@@ -17,7 +17,7 @@ double x_of(const Runline& line) { return line.start_enu_m.x(); }
 
 }  // namespace
 
-TEST_CASE("on level ground lines are two reaches apart, the first one reach from the edge, run up and down") {
+TEST_CASE("on level ground lines are two reaches apart, the first one reach from the edge") {
   const auto level = [](const Vec2&) { return 20.0; };
   const auto lines = adapted_lines(kSquare, level, {0.0, kSixty});
   const double reach = 20.0 * std::sqrt(3.0);

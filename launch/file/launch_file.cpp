@@ -283,7 +283,7 @@ void read_scenario_file(ConfigReader& from, const Overrides& overrides, const Re
     scenario.document.problems.insert(scenario.document.problems.end(), problems.begin(), problems.end());
     scenario.path = path;
     scenario.text = to_canonical_yaml(scenario.document.root);
-    ConfigReader header(scenario.document);  // its problems are told by who reads the world
+    ConfigReader header(scenario.document);  // its problems are reported by who reads the world
     read_header(header, scenario.header);
     if (read_scenario) {
       ConfigReader whole = from.also(scenario.document);

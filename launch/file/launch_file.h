@@ -19,7 +19,7 @@ namespace ensonify {
 
 inline constexpr const char* kLaunchFormat = "launch/1";
 
-/// What a user says about a launch on the command line. Whoever reads the same file with the same options gets the same
+/// Options of a launch on the command line. Whoever reads the same file with the same options gets the same
 /// Launch: the launcher hands to_arguments() to every process.
 struct LaunchOptions {
   std::string file;

@@ -128,7 +128,7 @@ TEST_CASE("each process reads its own parameters, with the place where they stan
                     Catch::Contains("x.yaml:7:70: processes.pager.config.gain_db: 3 is outside [100000, 1e+06]"));
 }
 
-TEST_CASE("--set and set: change processes, scenario sections and the clock, the command line last") {
+TEST_CASE("--set and set: change processes, scenario and clock; the command line wins") {
   const Folder folder;
   folder.add("x.yaml",
              std::string(kLaunch) + "set: {bow.frequency_hz: 1e5, seed: 4, clock.rate: 2}\nclock: {window_s: 2}\n");

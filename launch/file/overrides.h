@@ -11,11 +11,11 @@ namespace ensonify {
 /// Overrides sorted by what they change.
 struct OverrideTargets {
   std::map<std::string, Overrides> processes;  // paths within the process's parameters
-  Overrides scenario;                             // paths from the scenario's root
+  Overrides scenario;                          // paths from the scenario's root
   Overrides clock;
 };
 
-/// What the file's own `set:` and then --set say, in the order in which they count.
+/// Overrides of the file's own `set:`, then of --set, in the order in which they count.
 Overrides overrides_of(const ConfigNode& root, const std::vector<std::string>& sets,
                        std::vector<ConfigProblem>& problems);
 

@@ -13,10 +13,10 @@ namespace ensonify {
 /// A launch file's `wiring:` as rules with places.
 std::vector<WireRule> wire_rules(const Launch& launch);
 
-/// Where each process's stanza stands, for messages: "demo.yaml:12:3".
+/// Place of each process's stanza, for messages: "demo.yaml:12:3".
 std::map<std::string, std::string> process_places(const Launch& launch);
 
-/// What is fixed for the run and kept for whoever asks: "launch", "scenario", "version", "seed".
+/// Facts fixed for the run and kept for queries: "launch", "scenario", "version", "seed".
 std::map<std::string, std::string> facts_of(const Launch& launch);
 /// Adds what a process notes: "bow/finest_beam_rad".
 void add_notes(std::map<std::string, std::string>& facts, const Declaration& process);

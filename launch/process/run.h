@@ -6,7 +6,7 @@
 namespace ensonify {
 
 /// A component's main(): reads the launch file and this process's parameters, then either prints the ports (`--check`)
-/// or takes part in the run. Returns the exit code; every error is caught, told and turned into one here.
+/// or takes part in the run. Returns the exit code; every error is caught, reported and turned into one here.
 int run_component(const char* component, const NodeFactory& factory, int argc, char** argv);
 
 /// `int main(int argc, char** argv) { return ensonify::run<MultibeamNode>(argc, argv); }`

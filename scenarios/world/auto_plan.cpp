@@ -40,18 +40,18 @@ std::vector<runlines::Runline> planned_lines(const MissionPlan& plan, const msg:
   ground.rows = chart.height_m.rows();
   ground.height_m = chart.height_m.flat();
 
-  runlines::SurveyWish wish;
-  wish.most_lines = wanted.count;
-  wish.longest_line_m = wanted.longest_m;
-  wish.swath_rad = wanted.swath_rad;
-  wish.overlap = wanted.overlap;
-  wish.spacing_m = wanted.spacing_m;
-  wish.heading_rad = wanted.heading_rad;
-  wish.head_height_m = -mission.depth_m;
-  wish.run_in_m = mission.run_in_m;
-  wish.turn_room_m = mission.run_in_m + 2.0 * plan.limits.turning_radius_m;
+  runlines::SurveyRequest request;
+  request.most_lines = wanted.count;
+  request.longest_line_m = wanted.longest_m;
+  request.swath_rad = wanted.swath_rad;
+  request.overlap = wanted.overlap;
+  request.spacing_m = wanted.spacing_m;
+  request.heading_rad = wanted.heading_rad;
+  request.head_height_m = -mission.depth_m;
+  request.run_in_m = mission.run_in_m;
+  request.turn_room_m = mission.run_in_m + 2.0 * plan.limits.turning_radius_m;
   try {
-    return runlines::plan_survey(ground, wish).lines;
+    return runlines::plan_survey(ground, request).lines;
   } catch (const runlines::NoRoom& no_room) {
     throw ConfigError(
         {{place_of_auto(plan.scenario_file), "mission.auto", std::string("no room for a survey: ") + no_room.what()}});

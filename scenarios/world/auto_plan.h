@@ -7,11 +7,11 @@
 
 namespace ensonify {
 
-/// What a process needs of the scenario to know the survey lines.
+/// Part of the scenario that determines the survey lines.
 struct MissionPlan {
   std::string scenario_file;
   Mission mission;
-  motion::Limits limits;  // of the vehicle that flies them
+  motion::Limits limits;  // of the vehicle that runs them
 
   static MissionPlan of(const World& world, const Vehicle& vehicle);
   /// The lines are known only when the chart is.
@@ -22,7 +22,7 @@ struct MissionPlan {
 /// scenario and chart gets the same lines. Throws ConfigError naming mission.auto when the chart has no room for them.
 std::vector<runlines::Runline> planned_lines(const MissionPlan& plan, const msg::Chart& chart);
 
-/// Where a vehicle starts that is told no place: at the start of the first line's run-in, on its way at mission speed.
+/// Start of a vehicle without a place: at the start of the first line's run-in, on its way at mission speed.
 motion::State start_of(const MissionPlan& plan, const std::vector<runlines::Runline>& lines);
 
 }  // namespace ensonify

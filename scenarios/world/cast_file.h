@@ -7,7 +7,7 @@
 
 namespace ensonify {
 
-/// What the columns of a cast are called in the first line of the file: the words there, or numbers from 1 for files
+/// Names of a cast's columns in the first line of the file: the words there, or numbers from 1 for files
 /// without such a line. A column that is left at its default may be missing.
 struct CastColumns {
   std::string depth_m = "depth_m";

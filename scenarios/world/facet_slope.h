@@ -9,7 +9,7 @@
 
 namespace ensonify {
 
-/// What facets of that rms slope (0 to 35 degrees) make of a sediment.
+/// Sediment as facets of that rms slope (0 to 35 degrees) change it.
 seabed::MeshedSediment on_facets(const std::variant<seabed::SedimentParameters, seabed::CappedSediment>& whole,
                                  double facet_slope_deg);
 

@@ -19,11 +19,11 @@
 /// kernels/seabed/relief, in SI; names refer to layers further up in the list.
 namespace ensonify::layers {
 
-/// Where a layer applies: everywhere that all given terms allow. Without terms: everywhere.
+/// Mask of a layer: everywhere that all given terms allow. Without terms: everywhere.
 struct Mask {
   /// Depth, slope and curvature are those of the seabed up to and with this layer; "": the first one.
   std::string of;
-  double scale_m = 2.0;  // at which depth, slope, curvature and sediment are looked at, > 0
+  double scale_m = 2.0;  // at which depth, slope, curvature and sediment are examined, > 0
   std::optional<relief::Band> depth_m, slope, curvature_1pm;
   std::vector<frames::Vec2> polygon_enu_m;
   double polygon_softness_m = 0.0;
@@ -57,7 +57,7 @@ struct Guide {
   double cell_m = 5.0;  // of the copy in memory
 };
 
-/// What a guide of coarse cells lacks (relief::detail_below).
+/// Detail that a guide of coarse cells lacks (relief::detail_below).
 struct Restored {
   std::string guide;  // the layer
   double hurst = 0.625;

@@ -76,8 +76,8 @@ class Places {
   std::optional<frames::LocalProjection> projection_;
 };
 
-FlyLine read_line(ConfigReader& from, const Places& places) {
-  const FlyLine line{places.required_list(from, "line")};
+FollowLine read_line(ConfigReader& from, const Places& places) {
+  const FollowLine line{places.required_list(from, "line")};
   if (!from.good()) return line;
   if (line.points_enu_m.size() < 2) from.problem("line", "has fewer than 2 places");
   for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
@@ -88,8 +88,8 @@ FlyLine read_line(ConfigReader& from, const Places& places) {
   return line;
 }
 
-FlyOrbit read_orbit(ConfigReader& from, const Places& places) {
-  FlyOrbit orbit{places.required(from, "orbit")};
+FollowOrbit read_orbit(ConfigReader& from, const Places& places) {
+  FollowOrbit orbit{places.required(from, "orbit")};
   from.required("radius_m", orbit.radius_m, 1, 10000);
   from.optional("turns", orbit.turns, 0.05, 1000);
   from.optional_choice("centre_to", orbit.clockwise, {{"starboard", true}, {"port", false}});
@@ -241,7 +241,7 @@ int read_keys(ConfigReader& from, const std::optional<frames::Geodetic>& origin,
 std::vector<runlines::Runline> straight_pieces(const std::vector<MissionStep>& steps) {
   std::vector<runlines::Runline> pieces;
   for (const MissionStep& step : steps) {
-    const auto* line = std::get_if<FlyLine>(&step);
+    const auto* line = std::get_if<FollowLine>(&step);
     for (std::size_t i = 1; line != nullptr && i < line->points_enu_m.size(); ++i) {
       pieces.push_back({line->points_enu_m[i - 1], line->points_enu_m[i]});
     }
@@ -249,7 +249,7 @@ std::vector<runlines::Runline> straight_pieces(const std::vector<MissionStep>& s
   return pieces;
 }
 
-/// An altitude below the obstacle floor is never flown, and without a floor nothing is ever below it.
+/// An altitude below the obstacle floor is never run, and without a floor nothing is ever below it.
 void check_altitudes(const ConfigReader& from, const Mission& mission) {
   const auto fault = [&](double altitude_m) {
     return fmt::format("altitude_m {} is below least_altitude_m {}; allowed: that or more", altitude_m,
@@ -271,7 +271,7 @@ void check_altitudes(const ConfigReader& from, const Mission& mission) {
 
 std::vector<MissionStep> steps_of(const std::vector<runlines::Runline>& lines) {
   std::vector<MissionStep> steps;
-  for (const auto& line : lines) steps.push_back(FlyLine{{line.start_enu_m, line.end_enu_m}});
+  for (const auto& line : lines) steps.push_back(FollowLine{{line.start_enu_m, line.end_enu_m}});
   return steps;
 }
 
@@ -291,7 +291,7 @@ std::vector<std::optional<double>> Mission::runline_depths_m() const {
   std::optional<double> now_m = altitude_m ? std::nullopt : std::optional(depth_m);
   for (const MissionStep& step : steps) {
     if (const auto* go = std::get_if<GoAt>(&step)) now_m = depth_after(*go, now_m);
-    if (const auto* line = std::get_if<FlyLine>(&step))
+    if (const auto* line = std::get_if<FollowLine>(&step))
       depths.insert(depths.end(), line->points_enu_m.size() - 1, now_m);
   }
   return depths;
@@ -375,7 +375,7 @@ class VehicleCheck {
   void check_orbits(const Mission& mission, double speed_mps) const {
     for (std::size_t i = 0; i < mission.steps.size(); ++i) {
       if (const auto* go = std::get_if<GoAt>(&mission.steps[i])) speed_mps = go->speed_mps.value_or(speed_mps);
-      const auto* orbit = std::get_if<FlyOrbit>(&mission.steps[i]);
+      const auto* orbit = std::get_if<FollowOrbit>(&mission.steps[i]);
       if (orbit == nullptr || orbit->radius_m >= circle(speed_mps)) continue;
       problem(i, fmt::format("radius_m {} is less than {} can turn at {} m/s; allowed: {} m or more", orbit->radius_m,
                              vehicle_, speed_mps, circle(speed_mps)));

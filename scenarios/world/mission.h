@@ -36,10 +36,10 @@ struct AdaptivePlan {
   int soundings = 9;                   // accepted ones that a covered cell has at least
 };
 
-// --- the steps of a mission, in the order flown -------------------------------------------------------------------
+// --- the steps of a mission, in the order run -------------------------------------------------------------------
 
 /// A line through two places or more, with run-in and run-out.
-struct FlyLine {
+struct FollowLine {
   std::vector<runlines::Vec2> points_enu_m;
 };
 /// Pass through a place, on a heading where one is given.
@@ -53,7 +53,7 @@ struct KeepPlace {
   double for_s = 0.0;
   double within_m = 5.0;
 };
-struct FlyOrbit {
+struct FollowOrbit {
   runlines::Vec2 centre_enu_m;
   double radius_m = 0.0;
   double turns = 1.0;
@@ -72,9 +72,9 @@ struct SetSonar {
 struct SetMark {
   std::string text;
 };
-using MissionStep = std::variant<FlyLine, PassPlace, KeepPlace, FlyOrbit, GoAt, SetSonar, SetMark>;
+using MissionStep = std::variant<FollowLine, PassPlace, KeepPlace, FollowOrbit, GoAt, SetSonar, SetMark>;
 
-/// When to give a mission up: come to the surface, stop and end the run. Not given: never.
+/// Rules for giving a mission up: come to the surface, stop and end the run. Not given: never.
 struct AbortRules {
   std::optional<double> after_s;        // of sim time
   std::optional<double> position_sd_m;  // estimated, the larger horizontal axis
@@ -89,13 +89,13 @@ struct Mission {
   double least_altitude_m = 0.0;  // obstacle floor; 0: none
   double run_in_m = 10.0;
   double run_out_m = 0.0;
-  int repeat = 1;                           // times that the steps are flown
+  int repeat = 1;                           // times that the steps are run
   std::vector<MissionStep> steps;           // in order; lawnmowers are already laid out
   std::vector<runlines::Runline> runlines;  // all straight pieces of the steps' lines, in order
   std::optional<AutoPlan> auto_plan;        // set: `steps` is empty until it has been resolved
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
   AbortRules abort;
-  /// How deep each of `runlines` is run, below the water level; nothing where the bottom is followed.
+  /// Depth at which each of `runlines` is run, below the water level; nothing where the bottom is followed.
   std::vector<std::optional<double>> runline_depths_m() const;
   std::vector<std::string> sonars() const;  // heads that SetSonar names, in order, each once
 };
@@ -117,7 +117,7 @@ std::vector<MissionStep> steps_of(const std::vector<runlines::Runline>& lines);
 /// The first line of an adaptive survey.
 runlines::Runline first_line(const AdaptivePlan& plan);
 
-/// What a vehicle of these limits cannot do of a mission, as problems of `from`: speeds, orbits.
+/// Steps of a mission beyond a vehicle's limits, as problems of `from`: speeds, orbits.
 void check_mission(const ConfigReader& from, const Mission& mission, const std::string& vehicle, double fastest_mps,
                    const motion::Limits& limits, bool floats);
 

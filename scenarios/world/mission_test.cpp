@@ -33,7 +33,7 @@ std::string problems_of(const std::string& mission, const std::string& vehicle =
 
 }  // namespace
 
-TEST_CASE("a mission of steps is read in order, and its straight pieces with the depth of each") {
+TEST_CASE("a mission's steps are read in order, its straight legs with their depths") {
   const Mission mission = scenario_with(R"(  depth_m: 4
   run_out_m: 15
   repeat: 2
@@ -52,12 +52,12 @@ TEST_CASE("a mission of steps is read in order, and its straight pieces with the
                                         "mountings: {bow: {actual: {}}}")
                               .mission;
   REQUIRE(mission.steps.size() == 10);
-  CHECK(std::get<FlyLine>(mission.steps[0]).points_enu_m.size() == 3);
+  CHECK(std::get<FollowLine>(mission.steps[0]).points_enu_m.size() == 3);
   CHECK(std::get<GoAt>(mission.steps[1]).altitude_m == 6.0);
   CHECK(*std::get<PassPlace>(mission.steps[2]).heading_rad == Approx(1.5707963));
   CHECK(std::get<KeepPlace>(mission.steps[3]).within_m == 2.0);
   CHECK_FALSE(std::get<KeepPlace>(mission.steps[4]).place_enu_m);
-  CHECK_FALSE(std::get<FlyOrbit>(mission.steps[5]).clockwise);
+  CHECK_FALSE(std::get<FollowOrbit>(mission.steps[5]).clockwise);
   CHECK(*std::get<SetSonar>(mission.steps[6]).swath_rad == Approx(1.5707963));
   CHECK(std::get<SetMark>(mission.steps[7]).text == "wreck");
   CHECK(mission.sonars() == std::vector<std::string>{"bow"});
@@ -86,7 +86,7 @@ TEST_CASE("a mission stands in a file of its own, and what the scenario says as 
         file.string() + ":3:11: steps[0].line: has fewer than 2 places");
 }
 
-TEST_CASE("wrong places are told with their distance, and swapped ones recognised") {
+TEST_CASE("wrong positions are reported with their distance, and swapped ones recognised") {
   CHECK(problems_of("  positions: geodetic\n  steps:\n    - line: [[53.2, -9.6], [-9.6, 53.21]]\n") ==
         "bay.yaml:8:13: mission.steps[0].line: [-9.6, 53.21] is 9136 km from the site's origin; allowed: 100 km; are "
         "latitude "
@@ -98,7 +98,7 @@ TEST_CASE("wrong places are told with their distance, and swapped ones recognise
   CHECK(problems_of("  steps:\n    - line: [[0, .nan], [10, 0]]\n").find("line") != std::string::npos);
 }
 
-TEST_CASE("what cannot be flown is told before time starts") {
+TEST_CASE("what cannot be run is reported before time starts") {
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 0]]\n") ==
         "bay.yaml:7:13: mission.steps[0].line: place 2 is less than 1 m from the one before");
   CHECK(problems_of("  steps:\n    - {orbit: [0, 50], radius_m: 5}\n    - line: [[0, 0], [0, 90]]\n")
@@ -109,7 +109,7 @@ TEST_CASE("what cannot be flown is told before time starts") {
                     "fastest_mps: 9, turn_rate_dps: 0.2")
             .find("mission: step 1: at speed_mps 8 turn_rate_dps makes auv turn on a radius of 2292 m; allowed: 1000 m "
                   "or less") != std::string::npos);
-  // The second round's orbit is flown at the speed that the first has ended with.
+  // The second round's orbit is run at the speed that the first has ended with.
   const std::string orbits = "  steps:\n    - {orbit: [0, 50], radius_m: 25}\n    - {speed_mps: 3}\n";
   CHECK(problems_of(orbits, "turn_rate_dps: 6") == "");
   CHECK(problems_of("  repeat: 2\n" + orbits, "turn_rate_dps: 6").find("step 1: radius_m 25 is less than") !=

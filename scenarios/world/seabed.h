@@ -58,7 +58,7 @@ struct Seabed {
   Kind kind = Kind::kLayers;
   double post_spacing_m = 0.5;
   double lsb_m = 2e-4;  // heights are whole multiples of this; a tile set has its own
-  /// What the classes of posts are made of. Class 0 is always there (medium sand unless it is given); a class that is
+  /// Sediments of the classes of posts. Class 0 is always there (medium sand unless it is given); a class that is
   /// not listed is as class 0.
   std::map<std::uint8_t, seabed::Scatterer> sediments = {{0, *seabed::sediment_of("medium sand")}};
   LayeredSeabed layered;

@@ -7,7 +7,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// How heights hang together: the water level above chart datum, and chart datum between geoid and ellipsoid.
+/// Relation of heights: the water level above chart datum, and chart datum between geoid and ellipsoid.
 struct Vertical {
   vertical::Tide tide;
   vertical::Datums datums;

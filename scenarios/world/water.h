@@ -33,7 +33,7 @@ struct Water {
   double ph = 8.0;
   /// Not given: one speed everywhere, of temperature and salinity at the mission's depth.
   WaterProfile profile;
-  /// What those believe who correct soundings for refraction. Not given: they know the true profile.
+  /// The profile of those who correct soundings for refraction. Not given: they know the true profile.
   WaterProfile applied;
   water::SoundSpeedLaw sound_speed_law = water::SoundSpeedLaw::kMackenzie;
   water::AbsorptionLaw absorption_law = water::AbsorptionLaw::kFrancoisGarrison;

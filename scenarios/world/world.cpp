@@ -138,10 +138,10 @@ double least_round_s(const Mission& mission, double& speed_mps) {
   for (const MissionStep& step : mission.steps) {
     if (const auto* go = std::get_if<GoAt>(&step)) speed_mps = go->speed_mps.value_or(speed_mps);
     if (const auto* keep = std::get_if<KeepPlace>(&step)) round_s += keep->for_s;
-    if (const auto* orbit = std::get_if<FlyOrbit>(&step)) {
+    if (const auto* orbit = std::get_if<FollowOrbit>(&step)) {
       round_s += 2.0 * std::numbers::pi * orbit->radius_m * orbit->turns / speed_mps;
     }
-    if (const auto* line = std::get_if<FlyLine>(&step)) {
+    if (const auto* line = std::get_if<FollowLine>(&step)) {
       double way_m = mission.run_in_m + mission.run_out_m;
       for (std::size_t i = 1; i < line->points_enu_m.size(); ++i) {
         way_m += (line->points_enu_m[i] - line->points_enu_m[i - 1]).norm();

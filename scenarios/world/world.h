@@ -26,7 +26,7 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// Where the world is. ENU x = y = 0 is at the origin, z = 0 is chart datum.
+/// Place of the world. ENU x = y = 0 is at the origin, z = 0 is chart datum.
 struct Site {
   std::string name = "unnamed";
   /// `origin: raster` in the file: the centre of the imported raster, known only after somebody has opened it.
@@ -34,7 +34,7 @@ struct Site {
   frames::Geodetic origin;
 };
 
-/// A head on its vehicle: where it truly is, and where its makers of records believe it to be.
+/// A head on its vehicle: where it truly is, and where its makers of records estimate it to be.
 struct HeadMounting {
   frames::Mounting actual;
   frames::Mounting measured;

@@ -53,7 +53,7 @@ inline msg::Estimate estimate_of(const msg::Pose& pose, const random::Stream& no
 /// of a navigation process whose filter makes the estimate; "": estimate_of(). `see(mission state, true pose,
 /// estimate)` at each command. Returns whether the mission was done.
 template <class See>
-bool fly(const World& world, SimTime end, const std::string& instruments, See&& see) {
+bool run_line(const World& world, SimTime end, const std::string& instruments, See&& see) {
   constexpr SimTime kPeriod = 100_ms;
   auto empty = ConfigReader::from_text("{}", "auv.yaml");
   const auto vehicle_config = VehicleConfig::read(empty, world, "auv");

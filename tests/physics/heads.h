@@ -9,7 +9,7 @@
 #include "messages/navigation.h"
 #include "messages/terrain.h"
 
-/// Heads as a launch runs them: configured by YAML, fed and heard through their ports.
+/// Heads as a launch runs them: configured by YAML, fed and read through their ports.
 namespace ensonify::physics {
 
 /// Throws ConfigError when the head's reader refuses the text.

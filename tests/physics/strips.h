@@ -42,7 +42,7 @@ msg::Tile striped(const StripedSeabed& of, const Bright& bright) {
 
 /// The strips' sediments, and sums of mean squares: the mean over the strips' phases.
 template <class Config>
-void hear_strips(Config& config) {
+void receive_strips(Config& config) {
   config.world.water.profile.sound_speed_mps = 1500.0;
   config.world.seabed.sediments[0] = seabed::Lambert{-120.0};
   config.world.seabed.sediments[1] = seabed::Lambert{-10.0};

@@ -20,7 +20,7 @@ struct FanShape {
       0.7;  // share of the rows spread equally in slant range on a flat seabed; the rest equally in angle
 };
 
-/// Rays over the transmit volume of a Mills cross, a fixed number whatever they meet: what tests and benchmarks send
+/// Rays over the transmit volume of a Mills cross, a fixed number whatever they hit: what tests and benchmarks send
 /// where heads ask the seabed (kernels/acoustics/trace/ray_distribution.h).
 ///
 /// A direction is (u, sqrt(1-u^2) sin phi, sqrt(1-u^2) cos phi): u the sine of the along-track angle, phi the

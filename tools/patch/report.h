@@ -9,9 +9,9 @@
 
 namespace ensonify::patch_tool {
 
-/// What a patch test found, and from what.
+/// Result of a patch test, and its input.
 struct Finding {
-  Heard heard;                 // its soundings have gone into `lines`
+  RecordInput input;           // its soundings have gone into `lines`
   std::vector<RunLine> lines;  // all that were found
   std::vector<bool> used;      // of the lines
   boresight::Adjusted adjusted;

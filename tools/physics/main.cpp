@@ -1,4 +1,4 @@
-// ensonify physics: any kernel's values, for whoever wants to look or compare.
+// ensonify physics: any kernel's values, for whoever wants to inspect or compare.
 #include <CLI/CLI.hpp>
 
 #include "components/errors/exit_error.h"

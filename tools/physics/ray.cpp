@@ -120,7 +120,7 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   verb.choice(
       "until", in->until,
       {{"depth", Until::kDepth}, {"time", Until::kTime}, {"distance", Until::kDistance}, {"point", Until::kPoint}},
-      "where the path ends: point finds the launch that meets the target depth at the distance");
+      "where the path ends: point finds the launch that reaches the target depth at the distance");
   verb.choice("method", in->method, {{"exact", Method::kExact}, {"table", Method::kTable}},
               "exact arcs, or (until depth) the table that rays of a ping use");
   verb.number("surface_speed_mps", in->surface_speed_mps, SoundSpeedProfile::kSlowest_mps,

@@ -87,7 +87,7 @@ Verb add_lines(CLI::App& parent) {
       "time, data and cost that they take.");
   app->add_option("--corner", o->corners, "corner of the area, east and north in world metres; three or more")
       ->required();
-  auto* scenario = app->add_option("--scenario", o->scenario, "scenario file whose seabed tells the depths");
+  auto* scenario = app->add_option("--scenario", o->scenario, "scenario file whose seabed gives the depths");
   auto* depth = app->add_option("--depth", o->depth_m, "instead: one depth below chart datum, m");
   depth->check(CLI::Range(0.1, 11000.0));
   scenario->excludes(depth);
@@ -108,7 +108,7 @@ Verb add_lines(CLI::App& parent) {
       ->check(CLI::Range(0.1, 1e5));
   app->add_flag("--fixed", o->fixed, "one distance between all lines, the one that the shallowest place asks for");
   app->add_option("--shortest", o->shortest_m, "of a line, m")->check(CLI::Range(1.0, 1e5))->capture_default_str();
-  app->add_option("--row", o->row_m, "distance along lines at which the bottom is looked at, m")
+  app->add_option("--row", o->row_m, "distance along lines at which the bottom is sampled, m")
       ->check(CLI::Range(0.1, 1e4))
       ->capture_default_str();
   app->add_option("--speed", o->run.speed_mps, "on lines, m/s")->check(CLI::Range(0.01, 30.0))->capture_default_str();

@@ -11,7 +11,7 @@ class App;
 
 namespace ensonify::terrain_tool {
 
-/// What the verbs that write tiles have in common on the command line.
+/// Options common to the verbs that write tiles.
 struct BakeOptions {
   std::string folder;
   int cells = 1024;

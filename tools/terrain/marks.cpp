@@ -69,8 +69,8 @@ Verb add_marks(CLI::App& parent) {
   auto options = std::make_shared<Options>();
   CLI::App* app = parent.add_subcommand(
       "marks",
-      "Prints the middle lines of a generated seabed's trawl scars and anchor drags, the ground truth for who looks "
-      "for them, as CSV in m from the origin. Listed is what meets the seabed (furrows of a pair follow each other, "
+      "Prints the middle lines of a generated seabed's trawl scars and anchor drags, the ground truth for who searches "
+      "for them, as CSV in m from the origin. Listed is what lies in the seabed (furrows of a pair follow each other, "
       "but one may lie outside), whether or not a mask, later layers or its age hide it; depth_m is what is left of "
       "it.");
   app->add_option("seabed", options->seabed, "scenario file")->required();

@@ -131,7 +131,7 @@ ordered_json truth_of(const Opened& seabed, const Square& square) {
   truth["share_of_class"] = classes;
   truth["slope_deg"] = slopes_of(z);
   const auto patches = relief_statistics::patchiness(z);
-  if (patches.patches == 0) return truth;  // level, or a plane's rounding: nothing to tell
+  if (patches.patches == 0) return truth;  // level, or a plane's rounding: nothing to report
   const double pi = std::numbers::pi;
   const auto scaling = relief_statistics::scaling_exponents(z);
   const auto law = relief_statistics::fit_power_law(relief_statistics::radial_spectrum(z, 256),

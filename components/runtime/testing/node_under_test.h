@@ -9,7 +9,7 @@
 
 namespace ensonify {
 
-/// A node alone on a `local:` bus: no sockets, no sleeps, no threads. Give it messages, let sim time pass, look at what
+/// A node alone on a `local:` bus: no sockets, no sleeps, no threads. Give it messages, let sim time pass, examine what
 /// it published.
 ///
 ///   NodeUnderTest<MultibeamNode> head({.frequency_hz = 300e3});

@@ -9,7 +9,7 @@
 
 namespace ensonify::tiles {
 
-/// What makes a tile set unreadable or unwritable; the text says where and why.
+/// Error that makes a tile set unreadable or unwritable; the text says where and why.
 struct TileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -29,7 +29,7 @@ TEST_CASE("every 8-bit value comes back") {
   CHECK(back.value == image.value);
 }
 
-TEST_CASE("bytes that are no whole PNG of this size and depth are refused, wherever they end") {
+TEST_CASE("bytes that are not a whole PNG of this size and depth are refused") {
   const auto png = encode_png(counted(33));
   GreyImage<std::uint16_t> image;
   GreyImage<std::uint8_t> classes;

@@ -14,7 +14,7 @@ class Sha256 {
  public:
   Sha256();
   void add(std::span<const std::byte> bytes);
-  /// Of all that was added, as 64 hexadecimal digits; the last call.
+  /// Digest of all that was added, as 64 hexadecimal digits; the last call.
   std::string digest();
 
  private:

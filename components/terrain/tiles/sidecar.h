@@ -6,11 +6,11 @@
 
 namespace ensonify::tiles {
 
-/// What stands in a tile's sidecar and world file; the same facts give the same bytes.
+/// Contents of a tile's sidecar and world file; the same facts give the same bytes.
 std::string sidecar_text(const TileSet& set, const terrain::TileKey& key, const TileFacts& facts);
 std::string world_file(const TileSet& set, const terrain::TileKey& key);
 
-/// What stands in seabed.vrt: one virtual raster over all tiles, in metres.
+/// Contents of seabed.vrt: one virtual raster over all tiles, in metres.
 std::string vrt_text(const TileSet& set);
 
 }  // namespace ensonify::tiles

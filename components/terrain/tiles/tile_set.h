@@ -22,7 +22,7 @@ inline constexpr const char* kFormat = "tiles/1";
 inline constexpr const char* kManifest = "tileset.yaml";
 inline constexpr std::int64_t kMostSteps = 65534;  // between the lowest and the highest post of a tile
 
-/// What a set's sidecar says of a tile.
+/// Facts of a tile in a set's sidecar.
 struct TileFacts {
   std::int64_t offset_steps = 0;  // height = (offset_steps + value) * lsb_m
   double lowest_m = 0.0;          // of the posts that are no holes; 0 where all are

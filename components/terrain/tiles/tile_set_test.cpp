@@ -122,8 +122,7 @@ TEST_CASE("verify finds a flipped bit, a missing tile, a wrong scale and a seam"
   }
 }
 
-TEST_CASE(
-    "an overview comes back to the bit, holes included; a changed one, a missing one, one of other tiles does not") {
+TEST_CASE("an overview is read back bit-equal; a changed, missing or foreign one is refused") {
   const Folder folder;
   TileSet set = written(folder.path);
   CHECK_THROWS_WITH(read_overview(set), Contains("overview.npy"));

@@ -9,7 +9,7 @@
 /// Patterns of plane apertures: rectangles as products of two lines, circular pistons, and what the face adds.
 namespace ensonify::array {
 
-/// How the face of a head weighs directions, besides the interference of its elements.
+/// Directivity of a head's face, besides the interference of its elements.
 class Face {
  public:
   /// All directions alike.

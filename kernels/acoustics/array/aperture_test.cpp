@@ -16,7 +16,7 @@ double db(double amplitude) { return 20.0 * std::log10(std::abs(amplitude)); }
 
 }  // namespace
 
-TEST_CASE("a circular piston is 58.96 lambda/D degrees wide, 42.32 two-way, first side lobe -17.57 dB") {
+TEST_CASE("a piston's width is 58.96 lambda/D deg, 42.32 two-way, first lobe -17.57 dB") {
   const double D = 100.0;
   const auto edge = [&](double level_db) {  // sine at which the one-way pattern has fallen so far
     double low = 0.0, high = 1.0 / D;
@@ -63,7 +63,7 @@ TEST_CASE("a plane array is the product of its lines in both direction cosines")
   }
 }
 
-TEST_CASE("the face takes directions off its normal down, and those behind it by the baffle's loss") {
+TEST_CASE("a face attenuates off its normal, and behind it by the baffle's loss") {
   CHECK(Face().amplitude(0.3) == 1.0);
   CHECK(Face().amplitude(-0.3) == 1.0);
   const Face soft(1.0, 20.0);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-/// Where the beams of a swath point: angles across track, positive to starboard, from the vertical when the receive
+/// Directions of a swath's beams: angles across track, positive to starboard, from the vertical when the receive
 /// beams are roll-stabilised (stabilisation.h) and from the head's z axis when they are not.
 ///
 /// Every function throws std::invalid_argument unless count >= 2 and -pi/2 < lower < upper < pi/2.
@@ -14,7 +14,7 @@ std::vector<float> equiangular_beams_rad(double lower_rad, double upper_rad, int
 /// Angles whose axes are equally spaced on a level seabed (in the tangent).
 std::vector<float> equidistant_beams_rad(double lower_rad, double upper_rad, int count);
 
-/// Of a swath that reaches equally far to both sides.
+/// Beams of a swath that reaches equally far to both sides.
 inline std::vector<float> equiangular_beams_rad(double half_swath_rad, int count) {
   return equiangular_beams_rad(-half_swath_rad, half_swath_rad, count);
 }

@@ -20,7 +20,7 @@ TEST_CASE("beams are symmetric and spaced as they say") {
   CHECK(equiangular_beams_rad(-10 * kDeg, 70 * kDeg, 3)[1] == Approx(30 * kDeg));  // a swath to one side
 }
 
-TEST_CASE("high density: soundings equally spaced on the seabed, each from the beam that points nearest") {
+TEST_CASE("high density spaces soundings equally, each from the beam that points nearest") {
   const HighDensity layout = high_density_beams(-65 * kDeg, 65 * kDeg, 256, 400);
   REQUIRE(layout.beam_rad.size() == 256);
   REQUIRE(layout.sounding_rad.size() == 400);

@@ -34,7 +34,7 @@ std::complex<double> amplitude(const LineArray& array, double wavelength_m, doub
 /// Squared magnitude of amplitude().
 double power(const LineArray& array, double wavelength_m, double sine, double sin_steer = 0.0);
 
-/// Where the power falls to one half of what it is at `sin_steer`, first on either side; -1 or 1 where it does not.
+/// Sines at which the power falls to half of that at `sin_steer`, first on either side; -1 or 1 where it does not.
 struct BeamEdges {
   double lower_sine = -1.0;
   double upper_sine = 1.0;

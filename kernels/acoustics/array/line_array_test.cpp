@@ -20,7 +20,7 @@ LineArray uniform(int elements, double spacing_m) { return {spacing_m, shading_w
 
 }  // namespace
 
-TEST_CASE("point elements with equal weights give sin(N x) / (N sin x), and touching elements a line's sinc") {
+TEST_CASE("equal point elements give sin(N x) / (N sin x), touching ones a line's sinc") {
   const int N = 40;
   LineArray line = uniform(N, 0.5);
   for (const double u : {-0.93, -0.2, 0.001, 0.0371, 0.5, 0.99}) {
@@ -87,7 +87,7 @@ TEST_CASE("the first null of a line is where its window puts it") {
   CHECK(first_null({.spacing_m = 0.3, .weights = {1.0, 1.0}, .element_length_m = 0.3}, 1.0) == 1.0);
 }
 
-TEST_CASE("the effective length of a shaded line is that of a uniform one whose beam covers as much") {
+TEST_CASE("a shaded line's effective length is that of a uniform one of equal beam integral") {
   const auto line = [](Window window) {
     return LineArray{.spacing_m = 0.5, .weights = shading_weights({.window = window}, 200), .element_length_m = 0.5};
   };
@@ -169,7 +169,7 @@ TEST_CASE("the phase between halves is 2 pi baseline (u - u0) / lambda") {
   CHECK_THROWS_WITH(split_aperture(uniform(8, 0.5), 1.0), "a part of 8.000000 of 8 elements: at least 1, and not all");
 }
 
-TEST_CASE("any array has a finite pattern of at most 1, mirrored by mirrored steering, and a beam around its axis") {
+TEST_CASE("any pattern is at most 1, symmetric in steering, with a beam around its axis") {
   const ensonify::random::Stream draw{11, "arrays"};
   for (std::uint64_t i = 0; i < 200; ++i) {
     const auto between = [&](std::uint64_t k, double low, double high) {

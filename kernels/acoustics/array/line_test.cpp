@@ -27,7 +27,7 @@ TEST_CASE("two-way it is 36.55 lambda/L degrees wide, first sidelobe -26.52 dB")
   CHECK(std::pow(line_power(100.0, std::sin(0.5 * 36.55 / 100 * kDeg)), 2) == Approx(0.5).margin(1e-3));
 }
 
-TEST_CASE("the integral of the pattern over sine is lambda/L, and of its square two thirds of it") {
+TEST_CASE("the pattern's integral over sine is lambda/L, its square's two thirds of that") {
   double one_way = 0.0, two_way = 0.0;
   const double step = 1e-5;
   for (double s = -1 + step / 2; s < 1; s += step) {

@@ -94,7 +94,7 @@ TEST_CASE("far away near and far field are the same, focusing off") {
   }
 }
 
-TEST_CASE("deep in the near field an unfocused beam is as wide as the array, and focusing makes it sharp") {
+TEST_CASE("in the near field an unfocused beam is as wide as the array, a focused one sharp") {
   const LineArray line = long_line();
   const double range_m = 2.0;  // 1/25 of L^2 / lambda
   const BeamEdges blurred = near_field_half_power_edges(line, kWavelength_m, 0.0, range_m);
@@ -120,7 +120,7 @@ TEST_CASE("Fresnel's approximation agrees with exact distances where it says it 
   }
   // A cubic phase of pi / 8 at the ends is a quarter of it in the mean, and power changes by at most twice that: 0.196.
   CHECK(worst_at_limit < 0.2);
-  CHECK(worst_at_limit > 0.01);  // it is an approximation: this tells that it was not compared with itself
+  CHECK(worst_at_limit > 0.01);  // it is an approximation: this gives that it was not compared with itself
   CHECK(worst_far < 0.002);      // falls as 1 / R^2
 }
 

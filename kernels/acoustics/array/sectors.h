@@ -23,8 +23,8 @@ struct TransmitSector {
   double upper_rad() const { return centre_rad + 0.5 * width_rad; }
 };
 
-/// The sector in which a direction is nearest to the centre, in half widths: where sectors overlap the one that hears
-/// it better, on a common edge the first. Nothing outside all of them.
+/// The sector in which a direction is nearest to the centre, in half widths: where sectors overlap the one that
+/// receives it better, on a common edge the first. Nothing outside all of them.
 std::optional<std::size_t> sector_of(std::span<const TransmitSector> sectors, double across_rad);
 
 /// The across-track beam of a sector: a flat top with steep edges.

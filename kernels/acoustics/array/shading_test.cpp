@@ -63,7 +63,7 @@ TEST_CASE("Dolph-Chebyshev weights of three elements are those of T2") {
   CHECK(w[2] == Approx(w[0]).epsilon(1e-12));
 }
 
-TEST_CASE("every Dolph-Chebyshev side lobe has the level asked for, with few elements and many, even and odd") {
+TEST_CASE("every Dolph-Chebyshev side lobe has the set level, for any number of elements") {
   for (const int elements : {5, 10, 33, 128, 501}) {
     for (const double level : {20.0, 40.0, 80.0}) {
       const LineArray line = line_of({.window = Window::kDolphChebyshev, .side_lobe_db = level}, elements);
@@ -100,7 +100,7 @@ TEST_CASE("weights agree with SciPy's") {
   for (std::size_t n = 0; n < 4; ++n) CHECK(even[n] == Approx(taylor_even[n]).margin(1e-8));
 }
 
-TEST_CASE("uniform weights gain most against independent noise, and every window is symmetric with largest weight 1") {
+TEST_CASE("uniform weights have the most gain; windows are symmetric with largest weight 1") {
   for (const int elements : {1, 2, 3, 16, 77}) {
     for (const Window window :
          {Window::kUniform, Window::kHann, Window::kHamming, Window::kDolphChebyshev, Window::kTaylor}) {

@@ -6,12 +6,12 @@
 
 #include "kernels/base/frames/attitude.h"
 
-/// From what an instrument believes (attitude by its motion sensor, sound speed at the face by its probe) to the sines
+/// From what an instrument assumes (attitude by its motion sensor, sound speed at the face by its probe) to the sines
 /// that it steers its arrays to, and from those to where the beams then really are.
 ///
 /// A Mills cross transmits with a line along the head's x axis (forward) and receives with one along y (starboard). A
-/// line steered to sine s hears the cone x . d = s, or y . d = s. Nothing here knows the truth: the caller hands in the
-/// attitude that the sensor has delivered by the time in question, errors and latency included.
+/// line steered to sine s receives the cone x . d = s, or y . d = s. Nothing here knows the truth: the caller hands in
+/// the attitude that the sensor has delivered by the time in question, errors and latency included.
 namespace ensonify::array {
 
 /// Which angles the beams are held against.
@@ -49,7 +49,7 @@ std::optional<frames::Vec3> fan_direction(const frames::Quaternion& held_from_he
 
 /// Unit vector on both cones axis . d = sine, on the side of axis_transmit x axis_receive (below the head: x cross y is
 /// z). Axes are unit vectors in one frame, at transmit and at receive time; they need not be orthogonal but must not be
-/// parallel. Nothing when the cones do not meet.
+/// parallel. Nothing when the cones do not intersect.
 std::optional<frames::Vec3> cone_intersection(const frames::Vec3& axis_transmit, double sin_transmit,
                                               const frames::Vec3& axis_receive, double sin_receive);
 

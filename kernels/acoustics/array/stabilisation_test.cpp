@@ -52,7 +52,7 @@ TEST_CASE("a head that is level and unstabilised steers to the sine of the angle
   CHECK(transmit_sine(q, direction_held(0.7, 0.05)) == Approx(std::sin(0.05)));
 }
 
-TEST_CASE("roll alone adds to the beam's angle, pitch alone takes from the tilt, yaw turns the outer fan back") {
+TEST_CASE("roll adds to the beam angle, pitch takes from the tilt, yaw turns the outer fan") {
   const double roll = 0.15, pitch = 0.1, yaw = 0.05;
   // Starboard down: a beam to starboard of the vertical is nearer to the head's starboard axis.
   CHECK(across_sine(held_from_head(kAll, {.roll_rad = roll}, 0.0), direction_held(0.6)) ==
@@ -67,7 +67,7 @@ TEST_CASE("roll alone adds to the beam's angle, pitch alone takes from the tilt,
         Approx(0.0).margin(1e-15));
 }
 
-TEST_CASE("with a perfect sensor and no delay every beam is where it was wanted, at any attitude") {
+TEST_CASE("with a perfect sensor and no delay every beam is steered right at any attitude") {
   const random::Stream draw{7, "attitudes"};
   for (std::uint64_t i = 0; i < 200; ++i) {
     const auto angle = [&](std::uint64_t k, double limit_deg) {
@@ -90,7 +90,7 @@ TEST_CASE("with a perfect sensor and no delay every beam is where it was wanted,
   }
 }
 
-TEST_CASE("with 10 degrees of roll sector edges stay within sensor error plus latency times roll rate") {
+TEST_CASE("at 10 degrees of roll sector edges err by sensor error plus latency times rate") {
   const Motion motion{.roll_rad = 10 * kDeg, .roll_period_s = 6.0, .pitch_rad = 0.0, .pitch_period_s = 5.0};
   const random::Stream draw{3, "pings"};
   for (const double latency_s : {0.0, 0.005, 0.02, 0.1}) {
@@ -104,17 +104,17 @@ TEST_CASE("with 10 degrees of roll sector edges stay within sensor error plus la
       double worst = 0.0, worst_sent = 0.0;
       for (std::uint64_t ping = 0; ping < 300; ++ping) {
         const double transmit_s = 60.0 * draw.uniform(ping, 0), receive_s = transmit_s + 0.3 * draw.uniform(ping, 1);
-        const Quaternion believed = held_from_head(kAll, measured(transmit_s), 0.0);
-        const double sin_transmit = transmit_sine(believed, direction_held(0.0));
+        const Quaternion estimated = held_from_head(kAll, measured(transmit_s), 0.0);
+        const double sin_transmit = transmit_sine(estimated, direction_held(0.0));
         for (const double edge : {-65 * kDeg, 65 * kDeg}) {
-          const auto wanted = fan_direction(believed, sin_transmit, edge);
+          const auto wanted = fan_direction(estimated, sin_transmit, edge);
           REQUIRE(wanted);
           const double sin_receive = across_sine(held_from_head(kAll, measured(receive_s), 0.0), *wanted);
           const double got = true_across_rad(motion.at(transmit_s), sin_transmit, motion.at(receive_s), sin_receive);
           worst = std::max(worst, std::abs(got - edge));
           // The edge of a transmit sector: the same, but by what was measured at transmission.
           const double sent = true_across_rad(motion.at(transmit_s), sin_transmit, motion.at(transmit_s),
-                                              across_sine(believed, *wanted));
+                                              across_sine(estimated, *wanted));
           worst_sent = std::max(worst_sent, std::abs(sent - edge));
         }
       }
@@ -139,11 +139,11 @@ TEST_CASE("with pitch too the edges stay within the same bound to 2 percent") {
       return Attitude{.pitch_rad = motion.at(t_s).pitch_rad,
                       .roll_rad = motion.at(t_s - latency_s).roll_rad + error_rad};
     };
-    const Quaternion believed = held_from_head(kAll, measured(transmit_s), 0.0);
-    const double sin_transmit = transmit_sine(believed, direction_held(0.0));
+    const Quaternion estimated = held_from_head(kAll, measured(transmit_s), 0.0);
+    const double sin_transmit = transmit_sine(estimated, direction_held(0.0));
     for (const double edge : {-65 * kDeg, 65 * kDeg}) {
       const double sin_receive =
-          across_sine(held_from_head(kAll, measured(receive_s), 0.0), *fan_direction(believed, sin_transmit, edge));
+          across_sine(held_from_head(kAll, measured(receive_s), 0.0), *fan_direction(estimated, sin_transmit, edge));
       worst = std::max(
           worst,
           std::abs(true_across_rad(motion.at(transmit_s), sin_transmit, motion.at(receive_s), sin_receive) - edge));
@@ -153,7 +153,7 @@ TEST_CASE("with pitch too the edges stay within the same bound to 2 percent") {
   CHECK(worst >= 0.9 * bound);
 }
 
-TEST_CASE("cones that do not meet have no direction, and a beam on the head's y-z plane no x") {
+TEST_CASE("cones without intersection give no direction, a beam on the y-z plane no x") {
   CHECK_FALSE(cone_intersection(Vec3::UnitX(), 0.8, Vec3::UnitY(), 0.8));
   const auto direction = cone_intersection(Vec3::UnitX(), 0.0, Vec3::UnitY(), std::sin(0.4));
   REQUIRE(direction);
@@ -167,7 +167,7 @@ TEST_CASE("a wrong sound speed at the face turns beams as Snell says") {
   const double frequency_hz = 300e3;
   const LineArray line{.spacing_m = 0.0025, .weights = shading_weights({}, 128)};
   const double commanded = std::sin(60 * kDeg);
-  const auto heard = [&](double u) {  // phases are k_used x commanded = k_true x (commanded true / used)
+  const auto received = [&](double u) {  // phases are k_used x commanded = k_true x (commanded true / used)
     return power(line, 1515.0 / frequency_hz, u, true_sine(commanded, 1500.0, 1515.0));
   };
   std::complex<double> sum = 0.0;
@@ -176,7 +176,7 @@ TEST_CASE("a wrong sound speed at the face turns beams as Snell says") {
     const double x = 0.0025 * (n - 63.5);
     sum += std::polar(1.0 / 128.0, 2.0 * kPi * frequency_hz * x * (at / 1515.0 - commanded / 1500.0));
   }
-  CHECK(heard(at) == Approx(std::norm(sum)).epsilon(1e-9));
+  CHECK(received(at) == Approx(std::norm(sum)).epsilon(1e-9));
 }
 
 TEST_CASE("beams that cannot be formed are named") {

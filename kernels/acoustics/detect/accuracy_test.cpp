@@ -28,14 +28,14 @@ const std::vector<double> kAngles{0, 3, 5, 7, 10, 12, 15, 20, 25, 30, -30, 45, 6
 
 }  // namespace
 
-TEST_CASE("a plane is detected without bias, as exactly as theory allows, and the detector knows how exactly") {
+TEST_CASE("a plane is detected without bias, at the theoretical sd, which is predicted") {
   for (const double snr_db : {20.0, 10.0}) {
     for (const Accuracy& a : accuracy_at(snr_db, kAngles, 0.0, 100)) {
       const double angle_deg = std::abs(a.angle_rad) / kDeg;
       INFO(snr_db << " dB, " << a.angle_rad / kDeg << " deg: found " << a.found << ", bias " << 100 * a.bias
                   << " %, sd " << 100 * a.sd << " %, predicted " << 100 * a.predicted_sd << " %, allowed "
                   << 150 * theoretical_sd(a.angle_rad, snr_db) << " %");
-      // A beam near nadir hears one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
+      // A beam near nadir receives one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
       // 47 % of the pings.
       CHECK(a.found > (angle_deg > 25 ? 0.9 : 0.4));
       // The mean of 40 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
@@ -45,7 +45,7 @@ TEST_CASE("a plane is detected without bias, as exactly as theory allows, and th
       if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
       // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
       // by.
-      // At 10 dB a faded echo now and then errs by more than its own scatter tells.
+      // At 10 dB a faded echo now and then errs by more than its own scatter gives.
       CHECK(a.predicted_sd / a.sd > (snr_db > 15.0 ? 0.7 : 0.6));
       CHECK(a.predicted_sd / a.sd < (angle_deg < 15.5 ? 2.0 : 1.4));
     }
@@ -69,11 +69,11 @@ TEST_CASE("near nadir two samples a pulse suffice, and the detector knows how ex
     }
   }
   for (std::size_t k = 0; k < angles_deg.size(); ++k) {
-    const double error_m = 20.0 * std::sqrt(squares[k]), said_m = 20.0 * std::sqrt(predicted[k]);
-    INFO(angles_deg[k] << " deg: " << 1e3 * error_m << " mm, predicted " << 1e3 * said_m);
+    const double error_m = 20.0 * std::sqrt(squares[k]), stated_m = 20.0 * std::sqrt(predicted[k]);
+    INFO(angles_deg[k] << " deg: " << 1e3 * error_m << " mm, predicted " << 1e3 * stated_m);
     CHECK(error_m < 0.0145);  // 50 us over sqrt(12) are 10.8 mm
-    CHECK(said_m / error_m > 0.8);
-    CHECK(said_m / error_m < 1.6);
+    CHECK(stated_m / error_m > 0.8);
+    CHECK(stated_m / error_m < 1.6);
   }
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("phase takes over from amplitude where it becomes the better") {
   CHECK(crossed_deg < 25.0);
 }
 
-TEST_CASE("a tilted plane is unbiased where the detector is told of the tilt") {
+TEST_CASE("a tilted plane is unbiased where the detector is given the tilt") {
   for (const Accuracy& a : accuracy_at(20.0, {-50, -30, 30, 45, 60, 70}, 10 * kDeg, 60)) {
     INFO(a.angle_rad / kDeg << " deg: bias " << 100 * a.bias << " %, sd " << 100 * a.sd << " %");
     CHECK(std::abs(a.bias) < 3e-4);

@@ -5,7 +5,7 @@
 #include <complex>
 #include <span>
 
-/// Internal to this folder: what one beam heard, and the seabed it expects.
+/// Internal to this folder: what one beam received, and the seabed it expects.
 namespace ensonify::detect {
 
 /// One beam against time. The halves are empty where there is amplitude alone.
@@ -54,7 +54,7 @@ class ExpectedSeabed {
   double sin_incidence() const { return std::sin(incidence_rad_); }
   double tan_incidence() const { return std::abs(sin_incidence()) / cos_incidence(); }
 
-  /// How long the plane echoes between the half-power edges of the beam, the pulse not counted.
+  /// Duration of the plane's echo between the half-power edges of the beam, without the pulse.
   double footprint_s(double two_way_s) const { return two_way_s * tan_incidence() * 2.0 * half_width_ / cos_beam_; }
 
   /// The sine from which an echo comes at t, if the one at the axis comes at `axis_s`. Before the plane's nearest point

@@ -116,7 +116,7 @@ class Beam {
       const Peak peak = unexplained.strongest_in(series_);
       if (!(peak.power > least_power)) break;
       Detection& detection = found[count];
-      detection = look_at(peak);
+      detection = detection_at(peak);
       if (detection.flags & (kLowSnr | kNoSignal)) {
         if (count > 0) detection = {};
         break;
@@ -128,14 +128,14 @@ class Beam {
       }
       unexplained.remove({detection.snippet_first, detection.snippet_first + detection.snippet_count});
     }
-    if (count == 0) tell_what_is_outside(gate, found.front());
+    if (count == 0) flag_outside(gate, found.front());
     for (Detection& detection : found) detection.valid = (detection.flags & kRejecting) == 0;
     std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Detection& a, const Detection& b) { return a.two_way_s < b.two_way_s; });
   }
 
  private:
-  Detection look_at(const Peak& peak) const {
+  Detection detection_at(const Peak& peak) const {
     Detection detection;
     detection.snr_db = snr_db(peak);
     if (detection.snr_db < settings_.gates.snr_db) {
@@ -194,7 +194,7 @@ class Beam {
   }
 
   /// Nothing passed inside the gates; perhaps something does outside.
-  void tell_what_is_outside(Interval gate, Detection& detection) const {
+  void flag_outside(Interval gate, Detection& detection) const {
     Unexplained outside({0, series_.samples()});
     outside.remove(gate);
     const Peak peak = outside.strongest_in(series_);
@@ -255,10 +255,10 @@ void detect_bottom(const Settings& settings, std::span<const float> sin_beams, c
   };
   tbb::parallel_for(std::size_t{0}, sin_beams.size(), [&](std::size_t beam) { detect_in(beam, settings); });
   if (!settings.second_echo.refused) return;
-  for (const SecondEchoHeard& heard : second_echoes(settings, sin_beams, detections)) {
+  for (const DetectedSecondEcho& second : second_echoes(settings, sin_beams, detections)) {
     Settings short_of_it = settings;
-    short_of_it.gates.max_range_m = std::min(settings.gates.max_range_m, heard.farthest_m);
-    detect_in(heard.beam, short_of_it);
+    short_of_it.gates.max_range_m = std::min(settings.gates.max_range_m, second.farthest_m);
+    detect_in(second.beam, short_of_it);
   }
 }
 

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-/// Bottom detection: where in its time series each beam heard the seabed, by amplitude and by the phase between the
+/// Bottom detection: where in its time series each beam received the seabed, by amplitude and by the phase between the
 /// halves of the receive aperture. What an instrument can know goes in: its samples, its own settings, its beams.
 namespace ensonify::detect {
 
-/// Where a detection may lie. Ranges are slant ranges from the head, depths are below the head along the expected
+/// Gates of a detection. Ranges are slant ranges from the head, depths are below the head along the expected
 /// seabed's normal; both at the sound speed of Settings.
 struct Gates {
   double min_range_m = 0.0;
@@ -29,7 +29,7 @@ struct SecondEcho {
 struct Settings {
   double pulse_length_s = 100e-6;
   Gates gates;
-  double sound_speed_mps = 1500.0;  // of the water, as the instrument believes
+  double sound_speed_mps = 1500.0;  // of the water, as the instrument assumes
   double absorption_dbpm = 0.0;     // likewise
   double receive_length_in_waves = 50.0;
   double phase_centres_in_waves = 25.0;  // from half to half; half the length if they share no element
@@ -50,15 +50,15 @@ struct Amplitudes {
   std::span<const float> amplitude_upa;  // beam by beam
 };
 
-/// The same beams as the two halves of the aperture heard them, complex envelopes, each steered to the beam's axis, in
-/// the layout of Amplitudes (array::split_aperture). The phase of the half on the side of positive sines over the other
-/// grows with the sine of arrival. Empty: amplitude alone decides.
+/// The same beams as the two halves of the aperture received them, complex envelopes, each steered to the beam's axis,
+/// in the layout of Amplitudes (array::split_aperture). The phase of the half on the side of positive sines over the
+/// other grows with the sine of arrival. Empty: amplitude alone decides.
 struct HalfApertures {
   std::span<const std::complex<float>> positive_upa;
   std::span<const std::complex<float>> negative_upa;
 };
 
-/// What is to be said of a detection: a set of bits.
+/// Flags of a detection: a set of bits.
 enum Flag : std::uint16_t {
   kNoSignal = 1,      // nothing was sampled where an echo is allowed, or all of it is zero
   kLowSnr = 2,        // the strongest return does not pass the gate
@@ -118,11 +118,11 @@ struct Detection {
 /// Second echo: makers set a gate about the swath's bottom, within 15 to 20 % of its depth [Teledyne2019] or up to 90 %
 /// [R2Sonic2014], so that the second return is not searched. Here the gate is made of the ping itself, and shuts out
 /// nothing else: a beam with a detection within 5 % of 2 B + d is sought through again, short of that depth. B is the
-/// depth that the beams about it hear: the median over the strongest detections within five half-power widths, of the
-/// side where it is deeper. A drop to twice the depth so stays wherever one side of a beam is down there too; within
-/// half of those widths of an end of the swath the inner side decides. What is lost is a hole of just that depth,
-/// narrower than five widths; it keeps its edges if it is wider than half of that. A beam that hears nothing else says
-/// kOutOfGate.
+/// depth that the beams about it receive: the median over the strongest detections within five half-power widths, of
+/// the side where it is deeper. A drop to twice the depth so stays wherever one side of a beam is down there too;
+/// within half of those widths of an end of the swath the inner side decides. What is lost is a hole of just that
+/// depth, narrower than five widths; it keeps its edges if it is wider than half of that. A beam that receives nothing
+/// else says kOutOfGate.
 ///
 /// sin_beams: one per beam, sine from the plane across the array. std::invalid_argument if images and beams differ in
 /// size, max_detections is outside 1..kMostDetections, or a length, period or speed is not above 0.

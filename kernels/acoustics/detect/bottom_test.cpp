@@ -119,8 +119,8 @@ TEST_CASE("a plane seabed is one detection per beam, however many are allowed") 
     detect_bottom(settings, plane.sin_beams, echo.amplitudes(plane), echo.halves(), found);
     for (std::size_t i = 0; i < found.size(); ++i) (i % 4 == 0 ? lone : further) += found[i].valid;
   }
-  // The strongest fades below the gate of 13 dB in some 10 % of the pings near nadir, where a beam hears one pulse. A
-  // sidelobe (-13 dB, outside the snippet) must fade up by 3 dB or more to count; seldom.
+  // The strongest fades below the gate of 13 dB in some 10 % of the pings near nadir, where a beam receives one pulse.
+  // A sidelobe (-13 dB, outside the snippet) must fade up by 3 dB or more to count; seldom.
   CHECK(lone > 130);
   CHECK(further <= 15);
 }
@@ -184,7 +184,7 @@ TEST_CASE("the energy of an echo is that of its scatterers") {
       count[beam] += 1;
     }
   }
-  // Beyond 40 degrees a beam hears 6 or more independent pulses: the mean of 60 has an sd of 0.23 dB or less. The
+  // Beyond 40 degrees a beam receives 6 or more independent pulses: the mean of 60 has an sd of 0.23 dB or less. The
   // snippet cuts some 5 % of the pattern's skirts, and the second-order fall within the beam adds to them.
   for (const std::size_t beam : {0, 1, 2, 3, 11, 12, 13, 14}) {
     CHECK(10 * std::log10(energy[beam] / count[beam]) == Approx(-0.1).margin(0.7));
@@ -234,7 +234,7 @@ TEST_CASE("images that do not fit the beams are refused") {
                     "detect_bottom: period_s is 0.000000; finite numbers above 0 are allowed");
 }
 
-TEST_CASE("whatever is heard, what is said of it is finite") {
+TEST_CASE("whatever is received, the detection is finite") {
   const random::Stream stream{8, "any"};
   const std::vector<float> beams{-1.0F, -0.99F, -0.3F, 0.0F, 0.02F, 0.7F, 1.0F};
   const int samples = 300;

@@ -22,7 +22,7 @@ std::size_t index_from(const WaterfallLine& line, double range_m) {
   return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(line.amplitude.size())));
 }
 
-/// How many samples are looked at from a strong one on, and how many of them must be strong.
+/// How many samples are examined from a strong one on, and how many of them must be strong.
 struct Run {
   std::size_t samples, strong;
 };

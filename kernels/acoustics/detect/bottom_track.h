@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-/// What a sidescan or an echosounder knows of the bottom below it: the first strong echo of its own waterfall that
+/// Bottom track of a sidescan or an echosounder: the first strong echo of its own waterfall that
 /// lasts, and with it the ground range of the rest on a flat bottom. Never the true altitude.
 namespace ensonify::detect {
 
@@ -33,10 +33,10 @@ struct BottomPick {
 
 /// The first range between nearest_m and farthest_m from which on `share` of the samples within persistence_m are
 /// strong and which is strong itself. Where a single echo could fill that share, the samples are as many more as it
-/// takes that it cannot, with a tenth to spare: nothing that is heard for one pulse is the bottom, be it a fish or the
-/// surface overhead. A bottom that answers for less than 1.1 pulses and a sample is not found either. The water column
-/// is the geometric mean power of all samples between blanking and there, so that a few strong ones count little (for
-/// noise it reads 2.5 dB below the mean).
+/// takes that it cannot, with a tenth to spare: nothing that is received for one pulse is the bottom, be it a fish or
+/// the surface overhead. A bottom that answers for less than 1.1 pulses and a sample is not found either. The water
+/// column is the geometric mean power of all samples between blanking and there, so that a few strong ones count little
+/// (for noise it reads 2.5 dB below the mean).
 ///
 /// False picks: noise is strong with probability p = exp(-10^((threshold - 2.5 dB) / 10)), 1.5e-4 at 12 dB; n samples
 /// of persistence must hold 0.7 n strong ones: below 1e-20 for n = 10.

@@ -50,7 +50,7 @@ TEST_CASE("the first bottom is found within a few samples, and fish are not") {
   CHECK(missed == 0);
 }
 
-TEST_CASE("what is heard for a single pulse is not the bottom, however many samples it fills") {
+TEST_CASE("an echo of one pulse is not the bottom, however many samples it fills") {
   for (const std::size_t pulse : {1, 2, 3, 7, 20, 40}) {
     FirstBottomSettings settings;
     settings.persistence_m = 0.1;
@@ -93,13 +93,13 @@ TEST_CASE("the track follows a slope, bridges gaps, and starts again after a ste
   for (int i = 0; i < 20; ++i) feed(10.0 + 0.2 * i);
   CHECK(track.tracked);
   CHECK(track.altitude_m == Approx(13.8).margin(0.15));
-  for (int i = 0; i < 5; ++i) feed(13.8, -100.0);  // nothing heard
+  for (int i = 0; i < 5; ++i) feed(13.8, -100.0);  // nothing received
   CHECK(track.tracked);
   CHECK(track.missed == 5);
   CHECK(track.altitude_m == Approx(13.8).margin(0.15));
   feed(14.0);
   CHECK(track.missed == 0);
-  for (int i = 0; i < 6; ++i) feed(40.0);  // a step that nothing tows over: not believed at once
+  for (int i = 0; i < 6; ++i) feed(40.0);  // a step that nothing tows over: not accepted at once
   CHECK(track.altitude_m == Approx(14.0).margin(0.15));
   feed(40.0);
   CHECK(track.altitude_m == Approx(40.0).margin(0.15));

@@ -6,8 +6,8 @@ namespace ensonify::detect {
 namespace {
 
 constexpr double kWindow = 1.5;  // footprints
-// Pulses that a footprint lasts at least where its phase is a ramp. A shorter one is heard all at once, and what a
-// whole beam hears at once is incoherent between its halves (van Cittert and Zernike). Here both errors are equal
+// Pulses that a footprint lasts at least where its phase is a ramp. A shorter one is received all at once, and what a
+// whole beam receives at once is incoherent between its halves (van Cittert and Zernike). Here both errors are equal
 // (simulated).
 constexpr double kShortestFootprint = 2.0 / 3.0;
 constexpr int kMostPasses = 6;
@@ -22,7 +22,7 @@ struct Model {
   double slope = 1.0;
 };
 
-/// Samples [first, end) that may tell of the ramp.
+/// Samples [first, end) that may indicate the ramp.
 struct Window {
   int first, end;
 };
@@ -116,9 +116,9 @@ double offset_variance_rad2(const BeamSeries& series, const ExpectedSeabed& seab
     if (++count == per_pulse) close();
   });
   if (count > 0) close();
-  const double heard = squares * runs / std::max(runs - 1.0, 1.0);
+  const double measured = squares * runs / std::max(runs - 1.0, 1.0);
   const double expected = expected_variance_rad2(series, seabed, radians_per_sine, model.axis_s);
-  return (runs * heard + expected) / (runs + 1.0);
+  return (runs * measured + expected) / (runs + 1.0);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ struct PhaseRamp {
 };
 
 /// Phase detection (bottom.h) of the echo about `near_s`: where the phase between the halves crosses zero. Not found
-/// where the beam looks within its own width of the seabed's normal, where its footprint echoes for less than two
-/// thirds of a pulse, or where it hears nothing.
+/// where the beam points within its own width of the seabed's normal, where its footprint echoes for less than two
+/// thirds of a pulse, or where it receives nothing.
 PhaseRamp fit_phase_ramp(const BeamSeries& series, const ExpectedSeabed& seabed, double near_s,
                          double phase_centres_in_waves);
 

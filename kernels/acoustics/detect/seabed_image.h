@@ -14,7 +14,7 @@ struct RangeLaw {
 };
 double gain_db(const RangeLaw& law, double range_m);
 
-/// What the flattening of a seabed image assumes of the head, the water and the bottom. The bottom is level: a range R
+/// Model of the head, the water and the bottom for flattening a seabed image. The bottom is level: a range R
 /// is taken to come from the incidence acos(nearest range / R), whatever the beam.
 struct FlatteningModel {
   double source_level_db = 220.0;  // rms during the pulse, re 1 uPa at 1 m

@@ -13,7 +13,7 @@ constexpr double kNeighboursInWidths = 5.0;  // to either side, in half-power wi
 constexpr std::size_t kMostNeighbours = 32;  // to either side
 constexpr double kAtTheSecond = 0.05;        // of its depth: nearer to it is taken for it
 
-/// The swath as its beams' strongest detections tell it.
+/// The swath as its beams' strongest detections give it.
 class Swath {
  public:
   Swath(const Settings& settings, std::span<const float> sin_beams, std::span<const Detection> detections)
@@ -33,12 +33,12 @@ class Swath {
     return std::max(std::sqrt(std::max(1.0 - sine * sine, 0.0)) * cos_tilt_ + sine * sin_tilt_, 0.0);
   }
   /// Below the head, along the expected seabed's normal.
-  double depth_m(std::size_t beam, const Detection& heard) const {
-    return 0.5 * settings_.sound_speed_mps * heard.two_way_s * cosine(beam);
+  double depth_m(std::size_t beam, const Detection& detected) const {
+    return 0.5 * settings_.sound_speed_mps * detected.two_way_s * cosine(beam);
   }
 
-  /// The bottom as the beams about this one hear it: the deeper one of both sides', so that a drop is none that has its
-  /// like on one side. Near an end of the swath the inner side decides. 0 without neighbours.
+  /// The bottom as the beams about this one receive it: the deeper one of both sides', so that a drop is none that has
+  /// its like on one side. Near an end of the swath the inner side decides. 0 without neighbours.
   double bottom_about_m(std::size_t beam) const {
     const Side before = beside(beam, -1), after = beside(beam, 1);
     if (2 * before.beams < after.beams) return after.bottom_m;
@@ -62,8 +62,8 @@ class Swath {
       const auto other = static_cast<std::size_t>(i);
       if (std::abs(static_cast<double>(sin_beams_[other]) - static_cast<double>(sin_beams_[beam])) > reach_) break;
       ++side.beams;
-      for (const Detection& heard : of(other)) {
-        if (heard.valid && (heard.flags & kNotStrongest) == 0) depths[count++] = depth_m(other, heard);
+      for (const Detection& detected : of(other)) {
+        if (detected.valid && (detected.flags & kNotStrongest) == 0) depths[count++] = depth_m(other, detected);
       }
     }
     if (count == 0) return side;
@@ -82,18 +82,18 @@ class Swath {
 
 }  // namespace
 
-std::vector<SecondEchoHeard> second_echoes(const Settings& settings, std::span<const float> sin_beams,
-                                           std::span<const Detection> detections) {
+std::vector<DetectedSecondEcho> second_echoes(const Settings& settings, std::span<const float> sin_beams,
+                                              std::span<const Detection> detections) {
   const Swath swath(settings, sin_beams, detections);
-  std::vector<SecondEchoHeard> found;
+  std::vector<DetectedSecondEcho> found;
   for (std::size_t beam = 0; beam < sin_beams.size(); ++beam) {
     const double bottom_m = swath.bottom_about_m(beam);
     if (bottom_m <= 0.0) continue;
     const double second_m = 2.0 * bottom_m + settings.second_echo.head_depth_m;  // as if it came straight
-    const bool heard = std::ranges::any_of(swath.of(beam), [&](const Detection& detection) {
+    const bool detected = std::ranges::any_of(swath.of(beam), [&](const Detection& detection) {
       return detection.valid && std::abs(swath.depth_m(beam, detection) - second_m) < kAtTheSecond * second_m;
     });
-    if (heard) found.push_back({beam, (1.0 - kAtTheSecond) * second_m / swath.cosine(beam)});
+    if (detected) found.push_back({beam, (1.0 - kAtTheSecond) * second_m / swath.cosine(beam)});
   }
   return found;
 }

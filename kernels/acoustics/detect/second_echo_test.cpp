@@ -33,7 +33,7 @@ struct Fan {
     for (int beam = 0; beam < kBeams; ++beam) sin_beams.push_back(static_cast<float>(std::sin(angle_rad(beam))));
   }
   static double angle_rad(int beam) { return 0.5 * kDeg * (beam - kNadir); }
-  /// Each beam hears one return, from this depth below the head.
+  /// Each beam receives one return, from this depth below the head.
   explicit Fan(const std::function<double(int beam)>& depth_m) : Fan() {
     for (int beam = 0; beam < kBeams; ++beam) add(beam, depth_m(beam), 100.0F);
   }
@@ -92,7 +92,7 @@ TEST_CASE("a bottom that has faded below its second echo is found all the same")
   }
 }
 
-TEST_CASE("a beam that hears nothing but the second echo has no bottom and says so") {
+TEST_CASE("a beam with the second echo alone has no bottom, and is flagged") {
   Fan fan(level);
   fan.fade(Fan::kNadir, 1.0F).add(Fan::kNadir, kSecond_m, 60.0F);
   const Detection nadir = fan.detect()[Fan::kNadir];
@@ -175,7 +175,7 @@ TEST_CASE("the nadir's echo in the side lobes of the outer beams refuses none of
 }
 
 TEST_CASE("speckle: of the beams about nadir that would take the second echo none does") {
-  // 13 dB below the first, at 50 dB over the noise. A beam that hears one pulse of each takes the second with the
+  // 13 dB below the first, at 50 dB over the noise. A beam that receives one pulse of each takes the second with the
   // probability s / (1 + s) = 4.8 %, s = 0.05; farther from nadir than some 5 degrees pulses average. 21 of the 41
   // beams in 40 pings: up to 40, fewer since the second echo lasts twice as long.
   PlaneSurvey plane;

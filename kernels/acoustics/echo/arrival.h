@@ -21,7 +21,7 @@ struct Arrival {
   Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // to where it comes from, unit, in the receiver's frame
 };
 
-/// Where the receiver is while echoes come back: poses at start_s + i * period_s after transmission, straight lines
+/// Track of the receiver while echoes come back: poses at start_s + i * period_s after transmission, straight lines
 /// between, the nearest one outside.
 struct ReceiveTrack {
   double start_s = 0.0;
@@ -47,7 +47,7 @@ class Receivers {
   std::vector<At> poses_;
 };
 
-/// What arrivals are for: sums of pressure with speckle, or sums of mean-square pressure.
+/// Use of arrivals: sums of pressure with speckle, or sums of mean-square pressure.
 enum class Sum { kPressure, kMeanSquare };
 
 struct Carrier {

@@ -17,14 +17,14 @@ namespace ensonify::echo {
 /// steps, EdgeTech dB per 100 m; 40 suits targets, 30 a seabed, 20 volume echoes.
 struct TvgLaw {
   double spreading_db = 30.0;    // per decade of range
-  double absorption_dbpm = 0.0;  // as the operator believes
+  double absorption_dbpm = 0.0;  // as the operator assumes
   double slope_db_per_100m = 0.0;
   double offset_db = 0.0;
   double start_range_m = 1.0;
   double stop_range_m = 1e9;
   double min_db = -300.0, max_db = 300.0;
   double step_db = 0.0;             // 0: continuous
-  double sound_speed_mps = 1500.0;  // as the instrument believes
+  double sound_speed_mps = 1500.0;  // as the instrument assumes
 };
 
 /// The gain in force at each sample, dB; resized. Throws std::invalid_argument for a start range that is not positive,

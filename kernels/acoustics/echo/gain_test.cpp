@@ -40,7 +40,7 @@ TEST_CASE("a gain law is spreading, absorption, slope and offset, held outside i
 }
 
 TEST_CASE("the right law flattens, a wrong absorption leaves its trend") {
-  // An echo that falls as 30 log R + 2 alpha R, alpha 0.07; the operator believes 0.05: 2 (0.05 - 0.07) R is left.
+  // An echo that falls as 30 log R + 2 alpha R, alpha 0.07; the operator assumes 0.05: 2 (0.05 - 0.07) R is left.
   const Sampling sampling{20e-3, 1e-4, 1000};
   std::vector<float> right(1000), gain;
   for (int k = 0; k < 1000; ++k) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 
 namespace ensonify::echo {
 

@@ -7,7 +7,7 @@
 
 namespace ensonify::echo {
 
-/// When a receiver samples: sample k is taken at start_s + k * period_s after the start of transmission.
+/// Sampling of a receiver: sample k is taken at start_s + k * period_s after the start of transmission.
 struct Sampling {
   double start_s = 0.0;
   double period_s = 50e-6;  // Pulse says how long it may be

@@ -26,30 +26,30 @@ double passes_at_s(double sweep_hz, double length_s, double offset_hz) {
 
 }  // namespace
 
-Passed through_filter(const ForeignTransmission& foreign, const ReceiverBand& band, const Pulse& pulse) {
-  const double theirs_hz = foreign.sweep_hz > 0.0 ? foreign.sweep_hz : 1.0 / foreign.duration_s;
+Passed through_filter(const InterferingTransmission& interfering, const ReceiverBand& band, const Pulse& pulse) {
+  const double theirs_hz = interfering.sweep_hz > 0.0 ? interfering.sweep_hz : 1.0 / interfering.duration_s;
   const double ours_hz = pulse.bandwidth_hz;
-  const double apart_hz = foreign.frequency_hz - band.frequency_hz;
+  const double apart_hz = interfering.frequency_hz - band.frequency_hz;
   const double low_hz = std::max(apart_hz - 0.5 * theirs_hz, -0.5 * ours_hz);
   const double high_hz = std::min(apart_hz + 0.5 * theirs_hz, 0.5 * ours_hz);
   const double least = pulse.equivalent_length_s();
   if (high_hz <= low_hz) {
-    return {0.0, std::max(least, foreign.duration_s), std::pow(10.0, -0.1 * foreign.rejection_db)};
+    return {0.0, std::max(least, interfering.duration_s), std::pow(10.0, -0.1 * interfering.rejection_db)};
   }
   const double filter_sweep_hz = pulse.processing_gain_db > 0.0 ? ours_hz : 0.0;
   const auto out_s = [&](double offset_hz) {
-    return passes_at_s(foreign.sweep_hz, foreign.duration_s, offset_hz - apart_hz) -
+    return passes_at_s(interfering.sweep_hz, interfering.duration_s, offset_hz - apart_hz) -
            passes_at_s(filter_sweep_hz, pulse.duration_s, offset_hz);
   };
   const double first_s = std::min(out_s(low_hz), out_s(high_hz)), last_s = std::max(out_s(low_hz), out_s(high_hz));
-  const double each_s = foreign.sweep_hz > 0.0 ? 0.0 : foreign.duration_s;  // how long one frequency lasts
+  const double each_s = interfering.sweep_hz > 0.0 ? 0.0 : interfering.duration_s;  // how long one frequency lasts
   const double duration_s = std::max(least, last_s - first_s + each_s);
-  const double energy_s = foreign.duration_s * (high_hz - low_hz) / theirs_hz *
+  const double energy_s = interfering.duration_s * (high_hz - low_hz) / theirs_hz *
                           std::min(1.0, pulse.noise_bandwidth_hz / pulse.bandwidth_hz);
   return {first_s, duration_s, std::min(1.0, energy_s / duration_s)};
 }
 
-void add_echoes_of(const ForeignTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
+void add_echoes_of(const InterferingTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
                    const Pulse& pulse, std::vector<Arrival>& arrivals) {
   const Passed passed = through_filter(other, band, pulse);
   const double length_s = pulse.equivalent_length_s();
@@ -68,22 +68,23 @@ void add_echoes_of(const ForeignTransmission& other, std::span<const Arrival> ec
   }
 }
 
-void add_interference(std::span<const ForeignTransmission> transmissions, const ReceiverBand& band, const Pulse& pulse,
-                      const Receivers& receivers, std::vector<Arrival>& arrivals) {
+void add_interference(std::span<const InterferingTransmission> transmissions, const ReceiverBand& band,
+                      const Pulse& pulse, const Receivers& receivers, std::vector<Arrival>& arrivals) {
   const double length_s = pulse.equivalent_length_s();
-  for (const ForeignTransmission& foreign : transmissions) {
-    const Passed passed = through_filter(foreign, band, pulse);
-    const double path_m = std::max(kNearest_m, foreign.source_enu_m.norm());
-    const double level_db = foreign.source_level_db - 20.0 * std::log10(path_m) - band.absorption_dbpm * path_m;
+  for (const InterferingTransmission& interfering : transmissions) {
+    const Passed passed = through_filter(interfering, band, pulse);
+    const double path_m = std::max(kNearest_m, interfering.source_enu_m.norm());
+    const double level_db = interfering.source_level_db - 20.0 * std::log10(path_m) - band.absorption_dbpm * path_m;
     const double mean_square = std::pow(10.0, 0.1 * level_db) * passed.power;
-    const double arrival_s = foreign.time_s + path_m / band.sound_speed_mps;
+    const double arrival_s = interfering.time_s + path_m / band.sound_speed_mps;
     const Eigen::Vector3f direction =
-        receivers.at(arrival_s).head_from_enu * (foreign.source_enu_m / path_m).cast<float>();
+        receivers.at(arrival_s).head_from_enu * (interfering.source_enu_m / path_m).cast<float>();
     const long pulses = pulses_in(passed, length_s);
     for (long i = 0; i < pulses; ++i) {
       const double time_s = arrival_s + passed.start_s + static_cast<double>(i) * length_s;
       // Our mixer turns it at the difference of frequencies; it left at phase 0 of its own.
-      const double cycles = (foreign.frequency_hz - band.frequency_hz) * time_s - foreign.frequency_hz * arrival_s;
+      const double cycles =
+          (interfering.frequency_hz - band.frequency_hz) * time_s - interfering.frequency_hz * arrival_s;
       const auto pressure = band.sum == Sum::kPressure ? turned(std::sqrt(mean_square), cycles) : mean_square;
       arrivals.push_back({time_s, std::complex<float>(pressure), direction});
     }

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 #include "kernels/base/random/gaussian.h"
 
 namespace ensonify::echo {
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kBlock = TimeIndex::kBlock;
 constexpr int kWidth = Spreading::kWidth;
-constexpr double kUnheard = 1e-16;     // of electronic to isotropic noise: float's rounding hides it
+constexpr double kNegligible = 1e-16;  // of electronic to isotropic noise: float's rounding hides it
 constexpr int kLeft = kWidth / 2 - 1;  // points of a tap before the one that holds the number
 
 /// Number k of a sample draws from counter (sample << 24) + k / 2: arrays of up to 2^25 cells do not overlap.
@@ -221,7 +221,7 @@ void LineReceiver::draw_field(const Input& input, int block, int sample, Memory&
     for (const float e : envelope) energy += e * e;
     std::complex<float>* sum = memory.sum.data();
     std::fill_n(sum, cells, std::complex<float>{});
-    for (int k = 0; k < input.pulse.support(); ++k) {  // what was met k samples ago is in the pulse's k-th sample
+    for (int k = 0; k < input.pulse.support(); ++k) {  // what arrived k samples ago is in the pulse's k-th sample
       const int row = sample - block * kBlock + input.pulse.support() - 1 - k;
       const std::complex<float>* draws =
           memory.draws.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_);
@@ -255,7 +255,7 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Memory
     random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
                          component_sd(background.isotropic_upa2), std::span(elements, static_cast<std::size_t>(M)));
   }
-  if (background.electronic_upa2 > kUnheard * background.isotropic_upa2) {
+  if (background.electronic_upa2 > kNegligible * background.isotropic_upa2) {
     random::add_gaussian(*background.electronic, background.ping, counter_of(sample),
                          component_sd(background.electronic_upa2), std::span(elements, static_cast<std::size_t>(M)));
   }

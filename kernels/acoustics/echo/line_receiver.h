@@ -50,7 +50,7 @@ struct Background {
 };
 
 /// Beams of a line array with their full side lobes, at a cost that does not depend on how many arrivals each beam
-/// hears.
+/// receives.
 ///
 /// Arrivals go onto a grid of sample by sine (phase between elements), spread over six points (spreading.h); for each
 /// sample a Fourier transform along sine gives the elements' signals; they are weighted; a second transform and the
@@ -59,7 +59,7 @@ struct Background {
 /// (m - floor(M / 2)) spacings along the axis, and that of number floor(M / 2) is the reference of phase.
 ///
 /// Isotropic noise has the correlation sin(2 pi x) / (2 pi x) between elements x waves apart: none at half waves. Where
-/// elements stand within 1 % of half a wave they draw their own; beams then hear it within 0.05 dB.
+/// elements stand within 1 % of half a wave they draw their own; beams then receive it within 0.05 dB.
 ///
 /// Blocks of samples are independent and each sums in a fixed order: the same bits for any number of threads.
 class LineReceiver {
@@ -74,7 +74,7 @@ class LineReceiver {
   int cells() const { return cells_; }
   double cell_sine(int cell) const;
 
-  /// What one ping hears. Spans are not owned.
+  /// Input of one ping. Spans are not owned.
   struct Input {
     std::span<const Arrival> arrivals;
     std::span<const float> gain;  // amplitude pattern of an element towards each arrival; empty: 1
@@ -101,7 +101,7 @@ class LineReceiver {
   void check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const;
   double share_of_sphere(int cell) const;
   float grid_place(float sine) const;
-  /// Where a transform has element m.
+  /// Index of element m in a transform.
   int harmonic(int m) const {
     return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
   }

@@ -64,15 +64,15 @@ TEST_CASE("beams are the direct sum over elements, 90 dB below the peak") {
     for (std::size_t b = 0; b < beams.size(); ++b) {
       std::vector<Complex> direct(100);
       for (const Arrival& arrival : arrivals) {
-        Complex heard;
+        Complex received;
         for (int m = 0; m < array.elements; ++m) {
           const double phase = kTurn * array.spacing_in_waves * (m - array.elements / 2);
-          heard += double(weights[m]) * std::polar(1.0, phase * (double(arrival.direction_head.y()) - beams[b]));
+          received += double(weights[m]) * std::polar(1.0, phase * (double(arrival.direction_head.y()) - beams[b]));
         }
         const auto place = kPulse.place((arrival.time_s - kSampling.start_s) / kSampling.period_s);
         for (int k = 0; k < kPulse.support(); ++k) {
           if (place.first + k < 0 || place.first + k >= kSampling.count) continue;
-          direct[place.first + k] += heard * Complex(arrival.pressure_upa) * double(kPulse.row(place.phase)[k]);
+          direct[place.first + k] += received * Complex(arrival.pressure_upa) * double(kPulse.row(place.phase)[k]);
         }
       }
       for (int k = 0; k < kSampling.count; ++k) {
@@ -101,7 +101,7 @@ TEST_CASE("the first side lobes of a uniform line are -13.26 and -17.83 dB acros
   CHECK(std::abs(image.row(200)[41]) < 1e-4);  // the null at lambda / L
 }
 
-TEST_CASE("the halves of an array add up to it, and their phase tells how far off its axis an echo is") {
+TEST_CASE("an array's halves add up to it, and their phase gives the angle off its axis") {
   const auto arrivals = many(50);
   const auto beams = sines(20);
   const array::LineArray array{1.0, std::vector<double>(60, 1.0)};
@@ -146,7 +146,7 @@ static Complex product(const Image& image, int p, int q) {
   return sum / double(image.samples);
 }
 
-TEST_CASE("isotropic noise loses the directivity index and is correlated between neighbouring beams") {
+TEST_CASE("isotropic noise drops by the directivity index and correlates between neighbours") {
   // Beams of a uniform line at half a wave: noise is white over sine, so the mean square is 1 / M, and two beams x
   // nulls apart have the correlation sin(pi x) / (M sin(pi x / M)). 40,000 samples: sd 0.5 %; limits are 4 sd.
   const random::Stream ambient{1, "ambient"}, electronics{1, "electronics"};
@@ -167,7 +167,7 @@ TEST_CASE("isotropic noise loses the directivity index and is correlated between
   const Image dense = form({M, 0.3}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                            std::vector<float>{0.1F}, uniform(M));
   CHECK(product(dense, 0, 0).real() == Approx(100.0 / (2 * 0.3 * M)).epsilon(0.03));
-  // Sparse elements, 0.8 waves apart, hear a grating lobe too; at +-0.625 of the grid two aliases become one.
+  // Sparse elements, 0.8 waves apart, receive a grating lobe too; at +-0.625 of the grid two aliases become one.
   const Image sparse = form({M, 0.8}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                             std::vector<float>{0.0F, 0.6F}, uniform(M));
   CHECK(product(sparse, 0, 0).real() == Approx(100.0 / (2 * 0.8 * M)).epsilon(0.03));
@@ -179,13 +179,13 @@ TEST_CASE("switching one background off leaves the others' draws as they are") {
   const auto beams = sines(9);
   LineReceiver receiver({33, 0.5});
   const std::vector<float> volume(std::size_t(receiver.cells()) * 100, 2.0F);
-  const auto heard = [&](double ambient, double electronic, bool with_volume) {
+  const auto received = [&](double ambient, double electronic, bool with_volume) {
     Background background{7, ambient, &a, electronic, &e, {}, &v};
     if (with_volume) background.volume_upa2 = volume;
     return form({33, 0.5}, {{}, {}, kPulse, kSampling, background}, beams, uniform(33));
   };
-  const Image all = heard(9, 5, true), ambient = heard(9, 0, false), electronic = heard(0, 5, false),
-              reverberation = heard(0, 0, true);
+  const Image all = received(9, 5, true), ambient = received(9, 0, false), electronic = received(0, 5, false),
+              reverberation = received(0, 0, true);
   for (std::size_t i = 0; i < all.envelope_upa.size(); ++i) {
     const auto sum = ambient.envelope_upa[i] + electronic.envelope_upa[i] + reverberation.envelope_upa[i];
     REQUIRE(std::abs(all.envelope_upa[i] - sum) < 1e-5F);

@@ -63,9 +63,9 @@ struct Paths {
     const Vec3 image = mirrored(place, surface.level_enu_m);
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
     const double V = reflection(pose.position_enu_m, image);
-    const double lit = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
+    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
     return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
-            arrive(lit, V, bounced_m, place, scatterer.response)};
+            arrive(insonified, V, bounced_m, place, scatterer.response)};
   }
 
   /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order.
@@ -75,9 +75,9 @@ struct Paths {
     const Vec3 image = mirrored(mirrored(place, surface.level_enu_m), place.z());
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
     const double V = reflection(pose.position_enu_m, image) * bottom_mirror;
-    const double lit = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
+    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
     return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
-            arrive(lit, V, bounced_m, place, scatterer.response)};
+            arrive(insonified, V, bounced_m, place, scatterer.response)};
   }
 
   /// The head's own sound by way of mirrors. It seems to come from `image` and left as if for `target`, the images of
@@ -97,7 +97,7 @@ struct Paths {
   }
 };
 
-/// Of the surface on the way to any of the scatterers: waves leave most where it is met at the lowest angle.
+/// Of the surface on the way to any of the scatterers: waves leave most where it is hit at the lowest angle.
 double strongest_reflection(const Paths& paths, std::span<const Scatterer> scatterers) {
   double least_sine = 1.0;
   for (const Scatterer& scatterer : scatterers) {

@@ -26,7 +26,7 @@ struct MultipathParts {
   bool surface_echo = true;   // up and down again
 };
 
-/// What the added paths need to know of the head. Poses are those of transmission; the receiver moves little in the
+/// Data of the head for the added paths. Poses are those of transmission; the receiver moves little in the
 /// time of a bounce, and its attitude at arrival is used.
 struct MultipathHead {
   double source_level_db = 220.0;  // on the transmit axis
@@ -38,7 +38,7 @@ struct MultipathHead {
 /// through.
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
 
-/// Of add_multipath, for each scatterer, at most.
+/// Number of arrivals of add_multipath, for each scatterer, at most.
 inline constexpr std::size_t kMostMultipathEach = 4;
 
 /// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.

@@ -45,7 +45,7 @@ struct Geometry {
 
 static double level_db(const Arrival& arrival) { return 10 * std::log10(std::norm(arrival.pressure_upa)); }
 
-TEST_CASE("an oblique ghost arrives after R1 + R2, from above and from below, and the two add as pressures") {
+TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as pressures") {
   const Geometry geometry(4.0, 20.0);
   const double x = 30.0, D = 24.0, d = 4.0;
   const double R1 = std::hypot(x, 20.0), R2 = std::hypot(x, D + d);
@@ -103,7 +103,7 @@ TEST_CASE("mirror echoes are those of image sources") {
 }
 
 TEST_CASE("paths leave and arrive where the patterns say") {
-  // A head that sends downwards only: nothing goes to the surface first; what comes back from above is still heard.
+  // A head that sends downwards only: nothing goes to the surface first; what comes back from above is still received.
   Geometry geometry(4.0, 20.0);
   geometry.head.transmit = [](const Eigen::Vector3f& direction) { return direction.z() > 0 ? 1.0 : 0.0; };
   const auto ghosts = geometry.multipath(30.0, {true, false, true});
@@ -120,7 +120,7 @@ TEST_CASE("waves and bubbles take the coherent reflection away") {
 }
 
 TEST_CASE("where waves leave nothing, nothing is added") {
-  // At 30 m the surface is met at 43 degrees: 2 k sigma sin = 4 leaves e^-8, 3e-4; 6 leaves 2e-8.
+  // At 30 m the surface is hit at 43 degrees: 2 k sigma sin = 4 leaves e^-8, 3e-4; 6 leaves 2e-8.
   Geometry geometry(4.0, 20.0);
   const double sine = 28.0 / std::hypot(28.0, 30.0), wavenumber = 2.0 * std::numbers::pi * 100e3 / kSpeed;
   geometry.surface.rms_height_m = 4.0 / (2.0 * wavenumber * sine);

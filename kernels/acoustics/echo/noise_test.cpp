@@ -13,7 +13,7 @@ static Image silence(int beams, int samples) {
   return {beams, samples, std::vector<std::complex<float>>(static_cast<std::size_t>(beams) * samples)};
 }
 
-TEST_CASE("noise has its level, an exponential power and no correlation between samples, parts or beams") {
+TEST_CASE("noise has its level, exponential power, and no correlation of samples or beams") {
   Image image = silence(20, 5001);
   add_noise(40.0, 3, Stream{1, "noise"}, image);
   const double n = 20 * 5001;  // power is exponential: sd of its mean 1/sqrt(n) = 0.3 %, of its mean square 1.4 %; 4 sd

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 
 namespace ensonify::echo {
 

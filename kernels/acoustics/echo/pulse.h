@@ -6,7 +6,7 @@
 
 namespace ensonify::echo {
 
-/// What the receiver's filter makes of the echo of one point: its envelope against the time since the echo's start
+/// Echo of one point behind the receiver's filter: its envelope against the time since the echo's start
 /// arrived. The peak is 1, so an echo keeps its level (rms during the pulse) whatever the pulse.
 ///
 /// For a compressed chirp the filter's delay is taken out: the peak stands at time 0.
@@ -57,7 +57,7 @@ class SampledPulse {
   /// The squares, for sums of mean-square pressure.
   SampledPulse squared() const;
 
-  /// Where an echo that arrives `periods` sample periods after sample 0 begins to be seen.
+  /// First sample of an echo that arrives `periods` sample periods after sample 0.
   struct Place {
     int first;  // sample
     int phase;

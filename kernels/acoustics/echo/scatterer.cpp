@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 
 namespace ensonify::echo {
 namespace {
@@ -52,7 +52,7 @@ std::uint64_t Scatterers::cell_at(const Vec3& position_enu_m) const {
   return index(cell.x()) | (index(cell.y()) << kBits) | (index(cell.z()) << (2 * kBits));
 }
 
-Scatterers::Lit Scatterers::lit_by(const Transmission& transmission, std::size_t ray) const {
+Scatterers::Insonified Scatterers::insonified_by(const Transmission& transmission, std::size_t ray) const {
   const trace::Hit& hit = transmission.hits[ray];
   if (!hit.hit()) return {kNothing, 0, 0.0F, 0.0F};
   const float sigma_solid =
@@ -61,20 +61,21 @@ Scatterers::Lit Scatterers::lit_by(const Transmission& transmission, std::size_t
           hit.tube_m2 * sigma_solid};
 }
 
-/// Brings the rays of each cell together at the front of `lit`, in the order in which cells are first met; how many.
-std::size_t Scatterers::merge(std::span<Lit> lit, std::span<std::int32_t> table) const {
+/// Brings the rays of each cell together at the front of `insonified`, in the order in which cells are first found; how
+/// many.
+std::size_t Scatterers::merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const {
   std::fill(table.begin(), table.end(), -1);
   const std::size_t last_slot = table.size() - 1;
   std::size_t cells = 0;
-  for (const Lit& one : lit) {
+  for (const Insonified& one : insonified) {
     std::size_t slot = (spread(one.cell) >> 40) & last_slot;
-    while (table[slot] >= 0 && lit[static_cast<std::size_t>(table[slot])].cell != one.cell)
+    while (table[slot] >= 0 && insonified[static_cast<std::size_t>(table[slot])].cell != one.cell)
       slot = (slot + 1) & last_slot;
     if (table[slot] < 0) {
       table[slot] = static_cast<std::int32_t>(cells);
-      lit[cells++] = one;
+      insonified[cells++] = one;
     } else {
-      Lit& same = lit[static_cast<std::size_t>(table[slot])];
+      Insonified& same = insonified[static_cast<std::size_t>(table[slot])];
       same.scattered_upa2m2 += one.scattered_upa2m2;
       same.cross_section_m2 += one.cross_section_m2;
     }
@@ -82,15 +83,15 @@ std::size_t Scatterers::merge(std::span<Lit> lit, std::span<std::int32_t> table)
   return cells;
 }
 
-Scatterer Scatterers::scatterer(const Transmission& transmission, const Lit& lit) const {
-  const trace::Hit& hit = transmission.hits[lit.ray];
-  const auto bits = stream_.bits(lit.cell);
+Scatterer Scatterers::scatterer(const Transmission& transmission, const Insonified& insonified) const {
+  const trace::Hit& hit = transmission.hits[insonified.ray];
+  const auto bits = stream_.bits(insonified.cell);
   const Vec3 inside(0x1p-16 * (bits[2] & 0xffff), 0x1p-16 * (bits[2] >> 16), 0x1p-16 * (bits[3] & 0xffff));
   const Vec3 cell = (hit.position_enu_m * per_cell_ + kShift).array().floor();
   const Vec3 somewhere = cell_m_ * (cell + inside - kShift);
   const Vec3 normal = hit.normal_enu.cast<double>();
   const double straight_m = hit.range_m;
-  const Vec3 launch = transmission.pose.enu_from_head * transmission.rays[lit.ray].direction_head.cast<double>();
+  const Vec3 launch = transmission.pose.enu_from_head * transmission.rays[insonified.ray].direction_head.cast<double>();
 
   Scatterer found;
   found.position_enu_m = somewhere - normal * normal.dot(somewhere - hit.position_enu_m);
@@ -99,22 +100,22 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, const Lit& lit
   found.stretch = hit.path_length_m / hit.range_m;
   found.spreading = hit.tube_m2 / (hit.range_m * hit.range_m);
   found.sin_grazing = hit.sin_grazing;
-  found.scattered_upa2m2 = lit.scattered_upa2m2;
-  found.cross_section_m2 = lit.cross_section_m2;
+  found.scattered_upa2m2 = insonified.scattered_upa2m2;
+  found.cross_section_m2 = insonified.cross_section_m2;
   found.response = gaussian(bits[0], bits[1]);
   return found;
 }
 
 std::span<const Scatterer> Scatterers::find(const Transmission& transmission) {
-  trace::make_elements(lit_, transmission.hits.size());
+  trace::make_elements(insonified_, transmission.hits.size());
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, lit_.size(), kRaysPerTask),
+      tbb::blocked_range<std::size_t>(0, insonified_.size(), kRaysPerTask),
       [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) lit_[i] = lit_by(transmission, i);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) insonified_[i] = insonified_by(transmission, i);
       },
       tbb::simple_partitioner());
-  by_cell_.sort(lit_, kBuckets, [](const Lit& lit) {
-    return lit.cell == kNothing ? kBuckets : static_cast<std::size_t>(spread(lit.cell & kBlock) >> 56);
+  by_cell_.sort(insonified_, kBuckets, [](const Insonified& insonified) {
+    return insonified.cell == kNothing ? kBuckets : static_cast<std::size_t>(spread(insonified.cell & kBlock) >> 56);
   });
 
   const std::size_t table_size = std::bit_ceil(2 * by_cell_.largest() + 1);
@@ -132,9 +133,9 @@ std::span<const Scatterer> Scatterers::find(const Transmission& transmission) {
   for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) merged_start_[bucket + 1] += merged_start_[bucket];
   trace::make_elements(found_, merged_start_.back());
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
-    const auto lit = by_cell_.bucket(bucket);
+    const auto insonified = by_cell_.bucket(bucket);
     for (std::size_t i = merged_start_[bucket]; i < merged_start_[bucket + 1]; ++i) {
-      found_[i] = scatterer(transmission, lit[i - merged_start_[bucket]]);
+      found_[i] = scatterer(transmission, insonified[i - merged_start_[bucket]]);
     }
   });
   return found_;

@@ -13,7 +13,7 @@
 
 namespace ensonify::echo {
 
-/// One transmission and what its rays met. The spans have one entry per ray.
+/// One transmission and what its rays hit. The spans have one entry per ray.
 struct Transmission {
   frames::HeadPose pose;
   std::span<const trace::Ray> rays;
@@ -55,26 +55,26 @@ class Scatterers {
 
   /// The scatterers of a transmission in a fixed order; valid until the next call.
   ///
-  /// A ray of solid angle dOmega that meets the seabed at grazing angle theta lights dA = tube dOmega / sin(theta) with
-  /// source / tube, so it sends back source sigma dOmega / sin(theta), whatever the path: spreading out is counted by
-  /// the rays themselves. sin(theta) below 0.001 counts as that.
+  /// A ray of solid angle dOmega that hits the seabed at grazing angle theta insonifies dA = tube dOmega / sin(theta)
+  /// with source / tube, so it sends back source sigma dOmega / sin(theta), whatever the path: spreading out is counted
+  /// by the rays themselves. sin(theta) below 0.001 counts as that.
   std::span<const Scatterer> find(const Transmission& transmission);
 
  private:
-  struct Lit {  // by one ray, then by all rays of a cell
+  struct Insonified {  // by one ray, then by all rays of a cell
     std::uint64_t cell;
     std::uint32_t ray;
     float scattered_upa2m2, cross_section_m2;
   };
   std::uint64_t cell_at(const frames::Vec3& position_enu_m) const;
-  Lit lit_by(const Transmission& transmission, std::size_t ray) const;
-  std::size_t merge(std::span<Lit> lit, std::span<std::int32_t> table) const;
-  Scatterer scatterer(const Transmission& transmission, const Lit& lit) const;
+  Insonified insonified_by(const Transmission& transmission, std::size_t ray) const;
+  std::size_t merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const;
+  Scatterer scatterer(const Transmission& transmission, const Insonified& insonified) const;
 
   double cell_m_, per_cell_;
   random::Stream stream_;
-  std::vector<Lit> lit_;
-  Partition<Lit> by_cell_;
+  std::vector<Insonified> insonified_;
+  Partition<Insonified> by_cell_;
   std::vector<std::size_t> merged_start_;
   std::vector<std::vector<std::int32_t>> tables_;  // one per thread
   std::vector<Scatterer> found_;

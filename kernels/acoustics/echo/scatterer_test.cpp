@@ -20,7 +20,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDepth = 20.0, kSpeed = 1500.0, kFrequency = 300e3, kWave = kSpeed / kFrequency;
 constexpr double kLines = 50.76;  // length of the transmit line in waves: 1 deg
 
-/// Rays of a strip about 45 deg to starboard, the same for every ping, and the flat seabed that they meet.
+/// Rays of a strip about 45 deg to starboard, the same for every ping, and the flat seabed that they hit.
 struct Strip {
   std::vector<trace::Ray> rays;
   std::vector<float> source, backscatter;
@@ -59,16 +59,16 @@ struct Strip {
     return found;
   }
 
-  /// What an omnidirectional receiver beside the transmitter hears.
+  /// What an omnidirectional receiver beside the transmitter receives.
   std::vector<std::complex<float>> echo(const Vec3& position_enu_m, std::uint64_t seed, double cell_m = 0.03) const {
     const frames::HeadPose pose{position_enu_m, frames::enu_from_ned()};
-    const auto met = hits(pose);
+    const auto surface_hits = hits(pose);
     Scatterers scatterers(cell_m, {seed, "seabed"});
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     std::vector<Arrival> arrivals;
-    add_direct_echoes({kFrequency, 0.07}, position_enu_m, scatterers.find({pose, rays, met, source, backscatter}),
-                      receivers, arrivals);
+    add_direct_echoes({kFrequency, 0.07}, position_enu_m,
+                      scatterers.find({pose, rays, surface_hits, source, backscatter}), receivers, arrivals);
     ApertureReceiver receiver;
     Image image;
     const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);
@@ -159,9 +159,9 @@ TEST_CASE("the energy of all rays arrives, whatever the cells") {
   const auto hits = strip().hits(pose);
   double want = 0.0, area = 0.0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double lit = strip().rays[i].solid_angle_sr / hits[i].sin_grazing * 0.01;
-    want += strip().source[i] * lit;
-    area += hits[i].range_m * hits[i].range_m * lit;
+    const double insonified = strip().rays[i].solid_angle_sr / hits[i].sin_grazing * 0.01;
+    want += strip().source[i] * insonified;
+    area += hits[i].range_m * hits[i].range_m * insonified;
   }
   for (const double cell_m : {0.003, 0.03, 0.5}) {
     Scatterers scatterers(cell_m, {1, "seabed"});

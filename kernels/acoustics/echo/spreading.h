@@ -6,7 +6,7 @@
 
 namespace ensonify::echo {
 
-/// How a number that stands between the points of a regular grid is put on the grid, and read from it, so that a
+/// Spreading of a number between the points of a regular grid, and its interpolation, so that a
 /// Fourier transform of the grid is that of the number: the window of a non-uniform FFT [Barnett2019].
 ///
 /// phi(z) = exp(beta (sqrt(1 - (2 z / w)^2) - 1)), w = kWidth = 6 points wide, beta = 2.30 w for a grid twice as fine

@@ -15,7 +15,7 @@
 
 namespace ensonify::echo {
 
-/// Where a channel listens: a two-way power pattern as a few directions with solid angles.
+/// Receive directions of a channel: a two-way power pattern as a few directions with solid angles.
 ///
 /// Directions of the head's frame are cut along an axis (u, its direction cosine) and around it. The sum of the weights
 /// is Psi = Integral b dOmega over the part; for volume scattering only that and the depth of each direction matter.

@@ -72,7 +72,7 @@ TEST_CASE("a seabed above the surface leaves no water to scatter") {
   }
 }
 
-TEST_CASE("beams of a line array hear it with their own patterns, and neighbours alike") {
+TEST_CASE("beams of a line array receive it with their own patterns, and neighbours alike") {
   // Isotropic transmission: a beam's Psi is 4 pi lambda / 2 L. Beams a null apart are independent, half a null apart
   // correlated by 2 / pi. The pulse colours time: samples within it are alike, beyond are not.
   const int M = 32;

@@ -39,22 +39,22 @@ void Scene::Impl::adapt(std::span<const lod::View> wanted) {
   show();
 }
 
-/// Makes the mesh that the covers say. What is not looked at is built when a ray comes to it, which is hardly ever.
+/// Makes the mesh that the covers say. What is out of view is built when a ray comes to it, which is hardly ever.
 void Scene::Impl::show() {
   ++adaptations;
   use(wanted());
-  std::vector<const Part*> shown, looked_at;
+  std::vector<const Part*> shown, in_view;
   for (const CachedPart& cached : parts) {
     if (cached.used != adaptations) continue;
     shown.push_back(cached.part.get());
-    if (is_looked_at(cached.key.leaf)) looked_at.push_back(cached.part.get());
+    if (is_in_view(cached.key.leaf)) in_view.push_back(cached.part.get());
   }
   for (auto& [number, one] : irregular) {
     const auto pieces = one.show(device, origin_enu_m);
     shown.insert(shown.end(), pieces.begin(), pieces.end());
   }
   tbb::parallel_invoke([&] { mesh.assign(device, shown); },
-                       [&] { tbb::parallel_for_each(looked_at, [](const Part* part) { part->scene(); }); });
+                       [&] { tbb::parallel_for_each(in_view, [](const Part* part) { part->scene(); }); });
   forget();
   stale = false;
 }
@@ -99,8 +99,10 @@ void Scene::Impl::use(const std::vector<PartKey>& keys) {
 /// passed: they stay as long as there is room, fine ones first, then the last used longest. What no ray has come to
 /// costs nothing to make.
 void Scene::Impl::forget() {
-  const auto looks = static_cast<std::uint64_t>(detail.looks);
-  const auto age = [&](const CachedPart& cached) { return (adaptations - cached.used) / looks; };  // in pings
+  const auto adaptations_per_ping = static_cast<std::uint64_t>(detail.adaptations_per_ping);
+  const auto age = [&](const CachedPart& cached) {
+    return (adaptations - cached.used) / adaptations_per_ping;
+  };  // in pings
   std::size_t paged = 0, held = 0, fine = 0;
   for (const auto& [key, entry] : tiles)
     paged += 2 * static_cast<std::size_t>(entry.tile.columns - 1) * static_cast<std::size_t>(entry.tile.rows - 1);
@@ -127,8 +129,8 @@ void Scene::Impl::forget() {
   tbb::parallel_for_each(given_up, [](std::unique_ptr<BlockPart>& part) { part.reset(); });
 }
 
-/// A block is as coarse as a view asks for, or coarser where none meets it.
-bool Scene::Impl::is_looked_at(const lod::Leaf& leaf) const {
+/// A block is as coarse as a view asks for, or coarser where none intersects it.
+bool Scene::Impl::is_in_view(const lod::Leaf& leaf) const {
   return !detail.enabled || std::ranges::any_of(views, [&](const lod::View& view) { return leaf.level <= view.level; });
 }
 

@@ -82,7 +82,7 @@ std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
 
 }  // namespace
 
-TEST_CASE("rays of the main lobe hit what they hit with everything at full detail, to the bit") {
+TEST_CASE("main lobe rays hit bit-equal what they hit at full detail") {
   Scene scene = scene_of({.enabled = true});
   const auto summer = refraction::summer_thermocline();
   std::vector<Hit> all, some;
@@ -123,7 +123,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
     for (std::uint64_t i = 0; i < 250'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
       Vec2 at(140.0 * (draws.uniform(k, i, 0) - 0.5), 140.0 * (draws.uniform(k, i, 1) - 0.5));
-      if (i % 4 != 0) {  // at a border of blocks, and as near to it as floats tell
+      if (i % 4 != 0) {  // at a border of blocks, and as near to it as floats resolve
         const int axis = i % 2 == 0 ? 0 : 1;
         at[axis] = 3.2 * std::round(at[axis] / 3.2) + (i % 4 == 1 ? 1e-5 * draws.normal(k, i, 2) : 0.0);
       }
@@ -154,7 +154,7 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
   CHECK(differences(a, b) == 0);
 }
 
-TEST_CASE("what is not looked at is forgotten after a while, and nothing is there before an adaptation") {
+TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
   Scene scene = scene_of({.enabled = true});
   std::vector<Hit> hits;
   const auto rays = rays_of(0, 100, true);
@@ -174,11 +174,11 @@ TEST_CASE("what is not looked at is forgotten after a while, and nothing is ther
   CHECK(scene.triangles() >= triangles);
 }
 
-TEST_CASE("what no view meets is built when a ray comes to it, by however many threads") {
+TEST_CASE("what no view intersects is built when a ray hits it, by any number of threads") {
   Scene scene = scene_of({.enabled = true}), other = scene_of({.enabled = true});
   const HeadPose head = pose(0);
   for (Scene* one : {&scene, &other}) one->adapt(views_at(head));
-  const std::size_t looked_at = scene.triangles();
+  const std::size_t in_view = scene.triangles();
   const random::Stream draws(17, "beyond");
   std::vector<Ray> rays;
   for (std::uint64_t i = 0; i < 20'000; ++i) {
@@ -189,7 +189,7 @@ TEST_CASE("what no view meets is built when a ray comes to it, by however many t
   std::vector<Hit> first, again, alone;
   scene.trace(head, rays, 500.0F, first);
   const std::size_t with_others = scene.triangles();
-  CHECK(with_others > looked_at + 1000);
+  CHECK(with_others > in_view + 1000);
   scene.trace(head, rays, 500.0F, again);
   CHECK(scene.triangles() == with_others);
   CHECK(differences(first, again) == 0);
@@ -199,7 +199,7 @@ TEST_CASE("what no view meets is built when a ray comes to it, by however many t
   CHECK(other.triangles() == with_others);
 }
 
-TEST_CASE("in what is held ready a swath 50 m above posts of 0.1 m is a fiftieth of the paged tiles") {
+TEST_CASE("50 m above posts of 0.1 m, held parts of a swath are 1/50 of the paged tiles") {
   // One tile's relief, repeated over the 21 tiles that a pager holds within 170 m (three depths and 20 m).
   const terrain::TileGrid grid{.origin_enu_m = {-51.2, -51.2}, .spacing_m = 0.1, .cells = 1024};
   const double turn = 2.0 * std::numbers::pi / 102.4;

@@ -46,7 +46,7 @@ std::optional<Footprint> footprint_of(const std::array<Vec3, 6>& directions, dou
 
 }  // namespace
 
-bool RayDistribution::aim_at_places(Part& part, const Look& probes, std::vector<Ray>& rays) const {
+bool RayDistribution::aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const {
   const bool forward = volume_.axis == TransmitVolume::Axis::kForward;
   const double low = part.low_sine, high = part.high_sine, below_m = part.need.plane_m;
   const Vec2 from(std::cos(part.low_rad), std::sin(part.low_rad)), to(std::cos(part.high_rad), std::sin(part.high_rad));

@@ -1,4 +1,4 @@
-// How fast one fan of rays meets a tile of seabed, against Embree alone with the same rays and geometry (the floor).
+// How fast one fan of rays hits a tile of seabed, against Embree alone with the same rays and geometry (the floor).
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -161,9 +161,9 @@ trace::Scene deep_scene() {
   return value;
 }
 
-/// Bent rays must end where exact arcs do, or their time means nothing.
-void check_bent(const std::vector<trace::Ray>& rays, const std::vector<trace::Hit>& hits,
-                const refraction::PathTable& paths) {
+/// Refracted rays must end where exact arcs do, or their time means nothing.
+void check_refracted(const std::vector<trace::Ray>& rays, const std::vector<trace::Hit>& hits,
+                     const refraction::PathTable& paths) {
   for (std::size_t i = 0; i < rays.size(); i += 37) {
     const frames::Vec3 d = rays[i].direction_head.cast<double>(), off = hits[i].position_enu_m - kHigh.position_enu_m;
     const auto exact =
@@ -178,23 +178,23 @@ void check_bent(const std::vector<trace::Ray>& rays, const std::vector<trace::Hi
 }
 
 /// Bent over straight rays to the same seabed, in turns; the table is built for every ping.
-void bent_over_straight(benchmark::State& state) {
+void refracted_over_straight(benchmark::State& state) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const auto rays = fan(static_cast<int>(state.range(0)));
   const auto seabed_scene = deep_scene();
   const auto water = refraction::summer_thermocline();
   refraction::PathTable paths;
-  std::vector<trace::Hit> bent, straight;
+  std::vector<trace::Hit> refracted, straight;
   std::vector<double> ratios;
   for (auto _ : state) {
     const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
     ratios.push_back(ticks_of([&] {
                        seabed_scene.tabulate(water, kHigh, 1.0, kFar, paths);
-                       seabed_scene.trace(kHigh, rays, kFar, bent, paths);
+                       seabed_scene.trace(kHigh, rays, kFar, refracted, paths);
                      }) /
                      floor);
   }
-  check_bent(rays, bent, paths);
+  check_refracted(rays, refracted, paths);
   state.counters["bent/straight"] = median(ratios);
   state.SetItemsProcessed(state.iterations() * 2 * static_cast<std::int64_t>(rays.size()));
 }
@@ -216,7 +216,7 @@ BENCHMARK(embree_alone)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_fan)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(distributed_over_embree)->ArgName("quality_pct")->Arg(25)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);
 BENCHMARK(rock_over_none)->Unit(benchmark::kMillisecond);
-BENCHMARK(bent_over_straight)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(refracted_over_straight)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 BENCHMARK(fill_fan)->Unit(benchmark::kMillisecond);
 BENCHMARK(insert_tile)->Unit(benchmark::kMillisecond);
 

@@ -13,11 +13,11 @@ namespace {
 using frames::Vec2;
 using frames::Vec3;
 
-constexpr double kWidest = 0.5;        // of an object, from its middle, over its distance
-constexpr double kMostBent_rad = 0.3;  // to look for it where straight rays would see it
-constexpr double kSpread_rad = 0.02;   // of what bending does to the directions of one object
-constexpr double kWithinFacet = 0.95;  // rays keep off its edges: which of two facets they meet there is rounding
-constexpr std::uint32_t kLevels = 10;  // of a facet's places: a million
+constexpr double kWidest = 0.5;              // of an object, from its middle, over its distance
+constexpr double kMostRefraction_rad = 0.3;  // to search for it where straight rays would see it
+constexpr double kSpread_rad = 0.02;         // of what bending does to the directions of one object
+constexpr double kWithinFacet = 0.95;        // rays keep off its edges: which of two facets they hit there is rounding
+constexpr std::uint32_t kLevels = 10;        // of a facet's places: a million
 constexpr std::uint64_t kPlaces = 0x6661636574ULL;  // of the stream
 
 std::uint32_t facet_number(const terrain::Tile& tile, std::int32_t column, std::int32_t row, bool upper) {
@@ -38,10 +38,10 @@ std::uint32_t facet_at(const terrain::Tile& tile, const Vec3& place_enu_m) {
 class Towards {
  public:
   /// Empty where no path, or no single one, goes to its corners.
-  static std::optional<Towards> make(const FacetRays::Look& look, const Eigen::AlignedBox3d& box_enu_m) {
-    Towards towards(look.head);
-    if (look.bent == nullptr) return towards;
-    const Vec3 &head = look.head.position_enu_m, middle = box_enu_m.center();
+  static std::optional<Towards> make(const FacetRays::View& view, const Eigen::AlignedBox3d& box_enu_m) {
+    Towards towards(view.head);
+    if (view.refracted == nullptr) return towards;
+    const Vec3 &head = view.head.position_enu_m, middle = box_enu_m.center();
     const double half_m = 0.5 * box_enu_m.sizes().head<2>().norm();
     const double off_m = (middle - head).head<2>().norm();
     towards.near_m_ = std::max(0.0, off_m - half_m), towards.wide_m_ = off_m + half_m - towards.near_m_;
@@ -50,14 +50,14 @@ class Towards {
     for (std::size_t c = 0; c < 4; ++c) {
       const double across_m = towards.near_m_ + (c % 2 == 1 ? towards.wide_m_ : 0.0);
       const double below_m = towards.top_m_ + (c >= 2 ? towards.tall_m_ : 0.0);
-      const double from_m = look.bent->source_depth_m();
-      const auto path = refraction::eigenray(look.bent->profile(), from_m, across_m, from_m + below_m);
+      const double from_m = view.refracted->source_depth_m();
+      const auto path = refraction::eigenray(view.refracted->profile(), from_m, across_m, from_m + below_m);
       if (!path) return std::nullopt;
       towards.turned_rad_[c] = across_m > 0.0 ? path->launch_depression_rad - std::atan2(below_m, across_m) : 0.0;
       least = std::min(least, towards.turned_rad_[c]), most = std::max(most, towards.turned_rad_[c]);
     }
     if (most - least > kSpread_rad) return std::nullopt;
-    towards.bent_ = true;
+    towards.refracted_ = true;
     return towards;
   }
 
@@ -65,7 +65,7 @@ class Towards {
   Vec3 operator()(const Vec3& place_enu_m) const {
     Vec3 off = place_enu_m - head_enu_m_;
     const double across_m = off.head<2>().norm();
-    if (bent_ && across_m > 0.0) {
+    if (refracted_ && across_m > 0.0) {
       const double a = (across_m - near_m_) / wide_m_, b = (-off.z() - top_m_) / tall_m_;
       const double turned_rad =
           std::lerp(std::lerp(turned_rad_[0], turned_rad_[1], a), std::lerp(turned_rad_[2], turned_rad_[3], a), b);
@@ -82,7 +82,7 @@ class Towards {
 
   Vec3 head_enu_m_;
   Eigen::Matrix3d head_from_enu_;
-  bool bent_ = false;
+  bool refracted_ = false;
   double near_m_ = 0.0, wide_m_ = 1.0, top_m_ = 0.0, tall_m_ = 1.0;  // distances and depths below the head
   std::array<double, 4> turned_rad_{};  // by bending: near and far at the top, near and far at the bottom
 };
@@ -124,15 +124,16 @@ const FacetRays::Taken* FacetRays::tile_of(const Hit& hit) const {
   return has && hit.facet_m == static_cast<float>(at->tile->spacing_m) ? &*at : nullptr;
 }
 
-void FacetRays::gather(std::span<const Object> objects, const Look& look, const Asked& asked) {
+void FacetRays::gather(std::span<const Object> objects, const View& view, const Demand& demand) {
   facets_.clear();
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const Object& object = objects[o];
     const double half_m = 0.5 * object.box_enu_m.diagonal().norm();
-    const Vec3 off = look.head.enu_from_head.conjugate() * (object.box_enu_m.center() - look.head.position_enu_m);
-    const double away_m = off.norm(), radius_m = half_m + (look.bent != nullptr ? kMostBent_rad * away_m : 0.0);
-    if (away_m - half_m > look.max_range_m || half_m > kWidest * away_m || !asked.touches(off, radius_m)) continue;
-    const auto towards = Towards::make(look, object.box_enu_m);
+    const Vec3 off = view.head.enu_from_head.conjugate() * (object.box_enu_m.center() - view.head.position_enu_m);
+    const double away_m = off.norm(),
+                 radius_m = half_m + (view.refracted != nullptr ? kMostRefraction_rad * away_m : 0.0);
+    if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !demand.touches(off, radius_m)) continue;
+    const auto towards = Towards::make(view, object.box_enu_m);
     if (!towards) continue;
     take(object);
     const terrain::Tile& tile = *object.tile;
@@ -143,7 +144,7 @@ void FacetRays::gather(std::span<const Object> objects, const Look& look, const 
         if (!std::isfinite(sw.z() + se.z() + nw.z() + ne.z())) continue;
         for (const bool upper : {false, true}) {
           const std::array<Vec3, 3> corners{upper ? ne : sw, nw, se};
-          const double wanted = asked.rays({(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
+          const double wanted = demand.rays({(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
           if (!(wanted > 0.0)) continue;
           const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
           facets_.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
@@ -157,19 +158,19 @@ void FacetRays::gather(std::span<const Object> objects, const Look& look, const 
   std::ranges::sort(taken_, {}, &Taken::number);
 }
 
-std::size_t FacetRays::aim(std::span<const Object> objects, const Look& look, const Asked& asked) {
+std::size_t FacetRays::aim(std::span<const Object> objects, const View& view, const Demand& demand) {
   rays_.clear();
   targets_.clear();
   taken_.clear();
   cells_.clear();
-  gather(objects, look, asked);
+  gather(objects, view, demand);
   double sum = 0.0;
   for (const Facet& facet : facets_) sum += std::max(1.0, facet.wanted);
-  const double share = std::min(1.0, static_cast<double>(asked.most) / std::max(1.0, sum));
+  const double share = std::min(1.0, static_cast<double>(demand.most) / std::max(1.0, sum));
   std::optional<Towards> towards;
   std::size_t of = objects.size();
   for (const Facet& facet : facets_) {
-    if (facet.object != of) of = facet.object, towards = Towards::make(look, objects[of].box_enu_m);
+    if (facet.object != of) of = facet.object, towards = Towards::make(view, objects[of].box_enu_m);
     const double wanted = share * facet.wanted;
     const auto random = stream_.bits(kPlaces, facet.target.facet);
     if (wanted < 1.0 && 0x1p-32 * random[0] >= wanted) continue;
@@ -178,7 +179,7 @@ std::size_t FacetRays::aim(std::span<const Object> objects, const Look& look, co
     target.area_m2 /= static_cast<float>(wanted < 1.0 ? wanted : static_cast<double>(count));
     for (std::uint32_t k = 0; k < count; ++k) {
       const Vec3 direction = (*towards)(place_on(facet.corners_enu_m, random[1], k));
-      if (!asked.holds(direction)) continue;
+      if (!demand.holds(direction)) continue;
       rays_.push_back({direction.normalized().cast<float>(), 0.0F});
       targets_.push_back(target);
     }

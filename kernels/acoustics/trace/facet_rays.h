@@ -17,25 +17,25 @@ namespace ensonify::trace {
 /// Rays to the facets of small objects.
 ///
 /// Rays that are spread over directions miss what is small or seen edge-on. So each facet has rays of its own, to
-/// places that are spread over it and stay with it. Such a ray counts if its facet is the first that it meets, and
+/// places that are spread over it and stay with it. Such a ray counts if its facet is the first that it hits, and
 /// stands for its share of the facet's area: it carries the solid angle area sin(grazing) / tube, as it then finds
-/// them. Rays that are spread over directions and meet a facet that has its own do not count: nothing is counted twice,
+/// them. Rays that are spread over directions and hit a facet that has its own do not count: nothing is counted twice,
 /// and what lies behind stays hidden. Both are unbiased, so their sum is.
 ///
-/// In bent water the launch direction is that of the eigenray, exact at the corners of the object's box (distance and
-/// depth) and between them by straight lines of its difference to the straight direction. An object that no path
+/// In refracting water the launch direction is that of the eigenray, exact at the corners of the object's box (distance
+/// and depth) and between them by straight lines of its difference to the straight direction. An object that no path
 /// reaches, or several with directions apart, is left to the other rays; so is one that is wider than its distance.
 class FacetRays {
  public:
   /// From where, and how far. `bent` is what Scene::tabulate made for this head; null: paths are straight.
-  struct Look {
+  struct View {
     const frames::HeadPose& head;
     double max_range_m;
-    const refraction::PathTable* bent;
+    const refraction::PathTable* refracted;
   };
-  /// What a transmission asks for. Vectors are launch directions times distances, head frame.
-  struct Asked {
-    /// How many rays a facet with these corners needs; below 1 it has one with that probability.
+  /// Demand of a transmission. Vectors are launch directions times distances, head frame.
+  struct Demand {
+    /// Number of rays that a facet with these corners needs; below 1 it has one with that probability.
     std::function<double(const std::array<frames::Vec3, 3>& corners_head_m)> rays;
     /// Whether a ray goes there at all.
     std::function<bool(const frames::Vec3& direction_head_m)> holds;
@@ -47,12 +47,12 @@ class FacetRays {
   explicit FacetRays(const random::Stream& stream) : stream_(stream) {}
 
   /// Chooses the rays to these objects; their number.
-  std::size_t aim(std::span<const Object> objects, const Look& look, const Asked& asked);
+  std::size_t aim(std::span<const Object> objects, const View& view, const Demand& demand);
   /// Adds them to others, yet without solid angles.
   void append(std::vector<Ray>& rays);
 
-  /// When they and the others have been traced: makes misses of the hits that do not count, and
-  /// tells the facets' rays what solid angle they carry.
+  /// Settlement of the hits once all rays are traced: makes misses of those that do not count, and
+  /// gives the facets' rays what solid angle they carry.
   void settle(std::span<Ray> rays, std::span<Hit> hits) const;
 
  private:
@@ -72,7 +72,7 @@ class FacetRays {
     std::size_t object;
     double wanted;
   };
-  void gather(std::span<const Object> objects, const Look& look, const Asked& asked);
+  void gather(std::span<const Object> objects, const View& view, const Demand& demand);
   void take(const Object& object);
   const Taken* tile_of(const Hit& hit) const;
 

@@ -10,7 +10,7 @@
 
 namespace ensonify::trace {
 
-/// Places of the world to aim rays at, so that a ping's rays meet the seabed where those of the ping before did.
+/// Places of the world to aim rays at, so that a ping's rays hit the seabed where those of the ping before did.
 ///
 /// A jittered lattice on a horizontal plane, of about one place per first_m x second_m. So that pings whose rays are
 /// spaced a little differently still share places, spacings are powers of two of a metre and the axes stand at

@@ -26,7 +26,7 @@ static Places places(const GroundLattice& lattice, double half_first_m, double h
   return found;
 }
 
-TEST_CASE("a lattice has as many places as asked for, wherever its spacings lie between powers of two") {
+TEST_CASE("a lattice has the requested number of places at any spacing") {
   // Places are counted to about the square root of those at the rim, 4 x 50 of 2500: 0.6 %.
   for (const double first_m : {0.063, 0.08, 0.1, 0.12, 0.1249}) {
     const GroundLattice lattice({1, 0}, first_m, 0.07);
@@ -34,7 +34,7 @@ TEST_CASE("a lattice has as many places as asked for, wherever its spacings lie 
   }
 }
 
-TEST_CASE("a lattice of nearly the same spacing has nearly the same places; another seed has others") {
+TEST_CASE("nearly equal spacings give nearly equal places; another seed gives others") {
   const auto some = places({{1, 0}, 0.1, 0.07}, 3, 2), more = places({{1, 0.1}, 0.095, 0.07}, 3, 2);
   std::size_t shared = 0;
   for (const auto& place : some) shared += more.count(place);
@@ -43,7 +43,7 @@ TEST_CASE("a lattice of nearly the same spacing has nearly the same places; anot
   for (const auto& place : places({{1, 0}, 0.1, 0.07}, 3, 2, 2)) REQUIRE(some.count(place) == 0);
 }
 
-TEST_CASE("places belong to the world: a part of an outline has the places of the whole there") {
+TEST_CASE("a part of an outline has the places that the whole has there") {
   const GroundLattice lattice({0.3, 1}, 0.11, 0.3);
   const auto whole = places(lattice, 6, 4);
   std::size_t inside = 0;
@@ -53,7 +53,7 @@ TEST_CASE("places belong to the world: a part of an outline has the places of th
   for (const auto& place : part) REQUIRE(whole.count(place) == 1);
 }
 
-TEST_CASE("places are spread evenly: a block has no more than its share, a cell of the lattice one at most") {
+TEST_CASE("places are even: a block has at most its share, a lattice cell at most one") {
   const GroundLattice lattice({1, 0}, 0.09, 0.09);  // cells of 1/16 m, 1.93 to a block of 1/8 m
   std::set<std::pair<int, int>> cells;
   std::map<std::pair<int, int>, int> blocks;
@@ -64,7 +64,7 @@ TEST_CASE("places are spread evenly: a block has no more than its share, a cell 
   for (const auto& [block, count] : blocks) REQUIRE(count <= 2);
 }
 
-TEST_CASE("the axes stand within 7.5 degrees of the direction, and turning there and back is none") {
+TEST_CASE("axes lie within 7.5 degrees of the direction; rotating and back is identity") {
   for (int degree = -180; degree <= 180; ++degree) {
     const double angle = degree * std::numbers::pi / 180.0;
     const GroundLattice lattice({std::cos(angle), std::sin(angle)}, 1.0, 1.0);

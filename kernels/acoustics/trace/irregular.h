@@ -15,7 +15,7 @@ namespace ensonify::trace {
 /// Triangles of an irregular mesh that are neighbours.
 class TrianglePart final : public Part {
  public:
-  /// What all parts of a mesh have.
+  /// Base of all parts of a mesh.
   struct Common {
     std::uint32_t number = 0;  // as Hit has them
     float facet_m = 0.0F;

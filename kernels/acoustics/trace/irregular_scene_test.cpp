@@ -118,7 +118,7 @@ std::size_t on(std::uint8_t sediment, const std::vector<Hit>& hits) {
 
 }  // namespace
 
-TEST_CASE("rays of the main lobe meet a wall and a reef as they do with all of them there, to the bit") {
+TEST_CASE("main lobe rays hit wall and reef bit-equal to the whole meshes") {
   Scene scene = scene_of({.enabled = true});
   const auto summer = refraction::summer_thermocline();
   std::vector<Hit> all, some;
@@ -174,14 +174,14 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
     std::vector<Hit> hits;
     scene.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
-    // Nothing else is farther north than the wall stands out: what is met there came through it.
+    // Nothing else is farther north than the wall stands out: what is hit there came through it.
     for (const Hit& hit : hits) behind += !hit.hit() || hit.position_enu_m.y() > 0.5 ? 1U : 0U;
   }
   CHECK(aimed > 200'000);
   CHECK(behind == 0);
 }
 
-TEST_CASE("the mesh of a ping among irregular meshes does not depend on the way to it, nor on threads") {
+TEST_CASE("a ping's mesh among irregular meshes depends on neither history nor threads") {
   Scene wandering = scene_of({.enabled = true}), fresh = scene_of({.enabled = true}, true);
   for (const int ping : {5, 0, 3}) wandering.adapt(views_at(pose(ping)));
   CHECK(wandering.remove(0));
@@ -201,7 +201,7 @@ TEST_CASE("the mesh of a ping among irregular meshes does not depend on the way 
   CHECK(wandering.triangles() == fresh.triangles());
 }
 
-TEST_CASE("a wall that comes is there, one that goes is not, with and without level of detail") {
+TEST_CASE("an added wall is hit, a removed one is not, with and without level of detail") {
   for (const bool enabled : {false, true}) {
     Scene scene({0, 0}, {.enabled = enabled});
     const HeadPose head{{0.0, -20.0, -5.0}, enu_from_body(frames::Attitude{0.0, 0.0, 0.0})};
@@ -230,7 +230,7 @@ TEST_CASE("a wall that comes is there, one that goes is not, with and without le
   }
 }
 
-TEST_CASE("side lobes hear a wall and a reef as loud as with all of them there, within 0.1 dB") {
+TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB") {
   Scene scene = scene_of({.enabled = true});
   std::map<std::uint8_t, double> all_sum, some_sum;
   std::vector<Hit> hits;
@@ -255,7 +255,7 @@ TEST_CASE("side lobes hear a wall and a reef as loud as with all of them there, 
   }
 }
 
-TEST_CASE("a mesh smaller than a look of the probes answers as loud as rays at it alone tell") {
+TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it alone") {
   // A ball of 0.4 m on the ground, ahead of an imaging head 2 m above it at preview's quality: no facet has rays of its
   // own. Over 40 draws of the rays its power deviates by 0.4 % at 10 m and by 3.9 % at 60 m; four times that, and 0.5 %
   // of the rays at it alone, are 0.1 dB and 0.7 dB.
@@ -317,9 +317,9 @@ TEST_CASE("far fewer triangles are held than a mesh has") {
     scene.adapt(views_at(head));
     return scene.triangles();
   };
-  // Nothing looks at the wall or the reef: what is left of both, and of the tile.
+  // No view holds the wall or the reef: what is left of both, and of the tile.
   CHECK(triangles({{0.0, 500.0, -3.0}, enu_from_body(frames::Attitude{})}) < 3'000);
-  // Of the small tile below, blocks of 64 cells that the fan meets are there whole.
+  // Of the small tile below, blocks of 64 cells that the fan intersects are there whole.
   CHECK(triangles(pose(4)) * 3 < full().triangles());
 }
 

@@ -69,7 +69,7 @@ struct Found {
 };
 
 /// Random rays within a view of tolerance 0, against the refined mesh and against all of it. The same triangle must
-/// give the same bits; on an edge that two triangles share either of them may be told.
+/// give the same bits; on an edge that two triangles share either of them may be given.
 Found compare(const Hierarchy& hierarchy, const Triangles& whole, const View& view, std::uint64_t rays) {
   Cut cut(hierarchy);
   cut.choose(hierarchy, std::vector<View>{view});
@@ -138,7 +138,7 @@ void check(const TriangleMesh& mesh, std::span<const View> views, std::uint64_t 
 
 }  // namespace
 
-TEST_CASE("a ping on a quay wall meets what it meets on the whole wall, to the bit") {
+TEST_CASE("a ping on a quay wall hits what it hits on the whole wall, to the bit") {
   std::vector<View> views = {fan({-5.0, -3.0, 4.0}, 0.3, 0.0, 25.0), fan({12.0, -4.0, 3.0}, -0.2, 0.0, 25.0)};
   check(quay_wall(60.0), views, 100'000, 15);
 }

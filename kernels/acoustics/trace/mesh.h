@@ -12,7 +12,7 @@
 #include "kernels/mesh/lod/hierarchy.h"
 #include "kernels/mesh/tile.h"
 
-/// What rays are traced against. Private to this folder: it includes Embree.
+/// Geometry that rays are traced against. Private to this folder: it includes Embree.
 namespace ensonify::trace {
 
 struct DeviceRelease {
@@ -82,7 +82,7 @@ class Part {
 /// them.
 constexpr float kPartSlack_m = 1e-3F;
 
-/// What a block shows.
+/// Mesh of a block.
 struct Shown {
   const terrain::Tile* tile = nullptr;
   std::uint32_t number = 0;                   // of the tile, as Hit has it

@@ -50,28 +50,27 @@ Packet packet_at(double east_m) {
 
 }  // namespace
 
-TEST_CASE(
-    "a part that cannot be built when a ray comes to it fails the ray's caller, not Embree; it may be tried again") {
+TEST_CASE("a part that cannot be built throws to the ray's caller, and may be tried again") {
   const Device device = new_device();
-  Slab sound(device, 0.0F), planted(device, 10.0F);
+  Slab intact(device, 0.0F), planted(device, 10.0F);
   planted.memory = false;
-  const std::vector<const Part*> parts{&sound, &planted};
+  const std::vector<const Part*> parts{&intact, &planted};
   Mesh mesh;
   mesh.assign(device, parts);
 
-  const auto all_meet = [&](double east_m, const Part& part) {
+  const auto all_hit = [&](double east_m, const Part& part) {
     Packet packet = packet_at(east_m);
     packet.intersect(mesh);
-    return std::ranges::all_of(packet.met, [&](const Part* met) { return met == &part; });
+    return std::ranges::all_of(packet.part_hit, [&](const Part* part_hit) { return part_hit == &part; });
   };
-  CHECK(all_meet(0.0, sound));
-  CHECK_THROWS_AS(all_meet(10.0, planted), std::bad_alloc);
-  CHECK(all_meet(0.0, sound));  // the mesh is as it was
+  CHECK(all_hit(0.0, intact));
+  CHECK_THROWS_AS(all_hit(10.0, planted), std::bad_alloc);
+  CHECK(all_hit(0.0, intact));  // the mesh is as it was
   CHECK(planted.triangles() == 0);
   // As a trace does it: many packets at once, some of which fail.
-  CHECK_THROWS_AS(tbb::parallel_for(0, 1000, [&](int i) { all_meet(i % 2 == 0 ? 0.0 : 10.0, sound); }), std::bad_alloc);
+  CHECK_THROWS_AS(tbb::parallel_for(0, 1000, [&](int i) { all_hit(i % 2 == 0 ? 0.0 : 10.0, intact); }), std::bad_alloc);
 
   planted.memory = true;
-  CHECK(all_meet(10.0, planted));
+  CHECK(all_hit(10.0, planted));
   CHECK(planted.triangles() == 1);
 }

@@ -19,7 +19,7 @@ bool whole_cell(const terrain::Tile& tile, std::int32_t column, std::int32_t row
   return true;
 }
 
-/// Looks at all posts: so there is no branch in the loop.
+/// Examines all posts: so there is no branch in the loop.
 bool has_hole(std::span<const float> height_m) {
   int holes = 0;
   for (const float z : height_m) holes |= std::abs(z) <= std::numeric_limits<float>::max() ? 0 : 1;

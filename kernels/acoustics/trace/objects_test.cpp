@@ -58,14 +58,14 @@ struct Body {
   }
 };
 
-struct Look {
+struct View {
   HeadPose head;
   TransmitVolume volume;
   std::function<bool(const Ray&)> main_lobe;
 };
 
 /// 1 degree x 130 degrees, level.
-Look multibeam() {
+View multibeam() {
   return {{{0.1, 0.2, 0.0}, ensonify::frames::enu_from_ned()},
           mills_cross_volume(50, 50, 67.5 * kDegree),
           [](const Ray& ray) {
@@ -75,7 +75,7 @@ Look multibeam() {
 }
 
 /// 120 x 20 degrees ahead, tilted down by 30.
-Look forward_looking() {
+View forward_looking() {
   const double half = std::sin(10 * kDegree);
   return {{{0.1, 0.2, 0.0}, enu_from_body(ensonify::frames::Attitude{0, -30 * kDegree, 0})},
           {TransmitVolume::Axis::kDown,
@@ -84,26 +84,26 @@ Look forward_looking() {
           [](const Ray&) { return true; }};
 }
 
-std::vector<Hit> look_at(const Scene& scene, const Look& look, std::uint64_t draw, std::vector<Ray>& rays) {
-  RayDistribution distribution(look.volume, {RaySettings::kNormal, 0.3}, Stream{draw, "rays"});
+std::vector<Hit> view_from(const Scene& scene, const View& view, std::uint64_t draw, std::vector<Ray>& rays) {
+  RayDistribution distribution(view.volume, {RaySettings::kNormal, 0.3}, Stream{draw, "rays"});
   std::vector<Hit> hits;
-  scene.trace(look.head, distribution.probes(), kFar_m, hits);
-  distribution.fill(look.head, hits, scene.objects(), kFar_m, rays);
-  scene.trace(look.head, rays, kFar_m, hits);
+  scene.trace(view.head, distribution.probes(), kFar_m, hits);
+  distribution.fill(view.head, hits, scene.objects(), kFar_m, rays);
+  scene.trace(view.head, rays, kFar_m, hits);
   distribution.settle(rays, hits);
   return hits;
 }
 
 /// Somewhere in the middle of the main lobe, 2 m away to the farthest.
-Body body_in(const Look& look, double farthest_m, std::uint64_t k) {
+Body body_in(const View& view, double farthest_m, std::uint64_t k) {
   const Stream place{k, "place"};
-  const Span &u = look.volume.sine, &phi = look.volume.angle_rad;
+  const Span &u = view.volume.sine, &phi = view.volume.angle_rad;
   const double sine = 0.8 * (u.main_low + (u.main_high - u.main_low) * place.uniform(0));
   const double angle = 0.9 * (phi.main_low + (phi.main_high - phi.main_low) * place.uniform(1));
   const double side = std::sqrt(1 - sine * sine) * std::sin(angle), zero = std::sqrt(1 - sine * sine) * std::cos(angle);
-  const bool forward = look.volume.axis == TransmitVolume::Axis::kForward;
-  const Vec3 d = look.head.enu_from_head * (forward ? Vec3(sine, side, zero) : Vec3(zero, side, sine));
-  const Vec3 at = look.head.position_enu_m + 2.0 * std::pow(0.5 * farthest_m, place.uniform(2)) * d;
+  const bool forward = view.volume.axis == TransmitVolume::Axis::kForward;
+  const Vec3 d = view.head.enu_from_head * (forward ? Vec3(sine, side, zero) : Vec3(zero, side, sine));
+  const Vec3 at = view.head.position_enu_m + 2.0 * std::pow(0.5 * farthest_m, place.uniform(2)) * d;
   return {0.05 * std::pow(10.0, place.uniform(3)), at.z(), at.head<2>(), k % 2 == 0};
 }
 
@@ -111,12 +111,12 @@ Body body_in(const Look& look, double farthest_m, std::uint64_t k) {
 struct Seen {
   std::vector<int> hits = std::vector<int>(2 * kCells * kCells);
 
-  void count(const Scene& scene, const Look& look, const Body& body, std::uint64_t draw, bool in_main_lobe) {
+  void count(const Scene& scene, const View& view, const Body& body, std::uint64_t draw, bool in_main_lobe) {
     std::vector<Ray> rays;
-    const auto found = look_at(scene, look, draw, rays);
+    const auto found = view_from(scene, view, draw, rays);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!found[i].hit() || found[i].facet_m != static_cast<float>(body.spacing_m())) continue;
-      if (!in_main_lobe || look.main_lobe(rays[i])) ++hits[body.facet(found[i])];
+      if (!in_main_lobe || view.main_lobe(rays[i])) ++hits[body.facet(found[i])];
     }
   }
 };
@@ -136,15 +136,15 @@ TEST_CASE("small spheres and boxes are hit wherever they are, and so are all the
   // least 4 times, one draw finds, but for 1 in 1000. Over five draws it is 1 in 1600: slivers of facets that another
   // hides, or the volume's edge cuts.
   int found = 0, unhit = 0, missed = 0;
-  for (const Look& look : {multibeam(), forward_looking()}) {
+  for (const View& view : {multibeam(), forward_looking()}) {
     for (const bool over_seabed : {false, true}) {
       Scene scene = over_seabed ? seabed() : Scene({0, 0});
       for (std::uint64_t k = 0; k < (over_seabed ? 3 : 6); ++k) {
-        const Body body = body_in(look, over_seabed ? 50.0 : 100.0, k);
+        const Body body = body_in(view, over_seabed ? 50.0 : 100.0, k);
         body.insert(scene);
         Seen once, sixteen;
-        once.count(scene, look, body, 0, false);
-        for (std::uint64_t draw = 1; draw <= 16; ++draw) sixteen.count(scene, look, body, draw, true);
+        once.count(scene, view, body, 0, false);
+        for (std::uint64_t draw = 1; draw <= 16; ++draw) sixteen.count(scene, view, body, draw, true);
         missed += std::all_of(once.hits.begin(), once.hits.end(), [](int n) { return n == 0; });
         for (std::size_t f = 0; f < once.hits.size(); ++f) {
           found += sixteen.hits[f] >= 4, unhit += sixteen.hits[f] >= 4 && once.hits[f] == 0;
@@ -158,14 +158,14 @@ TEST_CASE("small spheres and boxes are hit wherever they are, and so are all the
   CHECK(unhit <= 1e-3 * found);
 }
 
-TEST_CASE("an object in empty water takes the rays that its facets ask for; all others keep the volume's solid angle") {
-  const Look look = multibeam();
+TEST_CASE("an object takes the rays its facets need; others keep the volume's solid angle") {
+  const View view = multibeam();
   const Body body{0.15, -30.0, {25.0, 0.25}, true};
   Scene scene({0, 0});
   std::vector<Ray> rays;
-  const std::size_t none = (look_at(scene, look, 1, rays), rays.size());
+  const std::size_t none = (view_from(scene, view, 1, rays), rays.size());
   body.insert(scene);
-  const auto hits = look_at(scene, look, 1, rays);
+  const auto hits = view_from(scene, view, 1, rays);
   double sum = 0.0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].hit()) sum += rays[i].solid_angle_sr;
@@ -187,19 +187,19 @@ struct Answer {
 };
 
 /// Of the hits on it, mean over draws.
-Answer answer(const Scene& scene, const Look& look, const Body& body, double quality, bool by_facets, int draws,
+Answer answer(const Scene& scene, const View& view, const Body& body, double quality, bool by_facets, int draws,
               const ensonify::refraction::PathTable* water = nullptr) {
   Answer sum;
   for (int draw = 0; draw < draws; ++draw) {
-    RayDistribution distribution(look.volume, {quality, 0.3}, Stream{static_cast<std::uint64_t>(draw), "rays"});
+    RayDistribution distribution(view.volume, {quality, 0.3}, Stream{static_cast<std::uint64_t>(draw), "rays"});
     const auto trace = [&](std::span<const Ray> rays, std::vector<Hit>& hits) {
-      water != nullptr ? scene.trace(look.head, rays, kFar_m, hits, *water)
-                       : scene.trace(look.head, rays, kFar_m, hits);
+      water != nullptr ? scene.trace(view.head, rays, kFar_m, hits, *water)
+                       : scene.trace(view.head, rays, kFar_m, hits);
     };
     std::vector<Hit> hits;
     std::vector<Ray> rays;
     trace(distribution.probes(), hits);
-    distribution.fill(look.head, hits, by_facets ? scene.objects() : std::span<const Object>{}, kFar_m, rays, water);
+    distribution.fill(view.head, hits, by_facets ? scene.objects() : std::span<const Object>{}, kFar_m, rays, water);
     trace(rays, hits);
     distribution.settle(rays, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -224,12 +224,12 @@ ensonify::refraction::PathTable summer(const Scene& scene, const HeadPose& head)
 
 TEST_CASE("a body answers with the level that evenly spread rays give, and covers as much") {
   // In front of a near seabed that gets rays enough: 12,000 on the body and more, so 0.05 dB of chance; allowed 0.2 dB.
-  const Look look = forward_looking();
+  const View view = forward_looking();
   for (const bool sphere : {true, false}) {
     Scene scene = seabed();
     const Body body{0.8, -4.0, {0.5, 7.0}, sphere};
     body.insert(scene);
-    const Answer facets = answer(scene, look, body, 1.0, true, 1), even = answer(scene, look, body, 4.0, false, 4);
+    const Answer facets = answer(scene, view, body, 1.0, true, 1), even = answer(scene, view, body, 4.0, false, 4);
     INFO((sphere ? "sphere " : "box ") << db(facets.energy / even.energy) << " dB");
     CHECK(even.energy > 0.0);
     CHECK(db(facets.energy / even.energy) == Approx(0.0).margin(0.2));
@@ -238,7 +238,7 @@ TEST_CASE("a body answers with the level that evenly spread rays give, and cover
 }
 
 TEST_CASE("half a sphere straight below covers the solid angle of its disc") {
-  const Look look{{{0.0, 0.0, 0.0}, ensonify::frames::enu_from_ned()},
+  const View view{{{0.0, 0.0, 0.0}, ensonify::frames::enu_from_ned()},
                   mills_cross_volume(5, 5, 67.5 * kDegree),
                   [](const Ray&) { return true; }};
   const Body body{0.3, -20.0, {0.0, 0.0}, true};
@@ -253,24 +253,24 @@ TEST_CASE("half a sphere straight below covers the solid angle of its disc") {
     }
   }
   const double disc_sr = cells * std::pow(body.spacing_m(), 2) / (20.2 * 20.2);
-  CHECK(answer(scene, look, body, 1.0, true, 1).solid_angle_sr == Approx(disc_sr).epsilon(0.01));
+  CHECK(answer(scene, view, body, 1.0, true, 1).solid_angle_sr == Approx(disc_sr).epsilon(0.01));
 }
 
-TEST_CASE("in bent water rays find a small body where it is, and all its facets that straight ones find") {
+TEST_CASE("refracted rays find a small body in place, and all facets straight ones find") {
   // 80 m ahead below a thermocline a path is metres off the straight line.
   const HeadPose head{{0.0, 0.0, -2.0}, enu_from_body(ensonify::frames::Attitude{0, -20 * kDegree, 0})};
-  Look look = forward_looking();
-  look.head = head;
+  View view = forward_looking();
+  view.head = head;
   const Vec3 ahead = head.enu_from_head * Vec3(1, 0, 0);
   const Body body{0.3, -2.0 + 70.0 * ahead.z(), 70.0 * ahead.head<2>(), true};
   Scene scene({0, 0});
   body.insert(scene);
   const auto water = summer(scene, head);
-  const Answer bent = answer(scene, look, body, 1.0, true, 1, &water),
-               straight = answer(scene, look, body, 1.0, true, 1);
+  const Answer refracted = answer(scene, view, body, 1.0, true, 1, &water),
+               straight = answer(scene, view, body, 1.0, true, 1);
   // Sound spreads otherwise, and comes from a little above: nothing like a body that is missed or half seen.
-  INFO("bent " << bent.solid_angle_sr << " sr, straight " << straight.solid_angle_sr << " sr");
-  CHECK(db(bent.solid_angle_sr / straight.solid_angle_sr) == Approx(0.0).margin(1.0));
+  INFO("bent " << refracted.solid_angle_sr << " sr, straight " << straight.solid_angle_sr << " sr");
+  CHECK(db(refracted.solid_angle_sr / straight.solid_angle_sr) == Approx(0.0).margin(1.0));
 }
 
 TEST_CASE("of a scanned coral's facets few are unhit") {
@@ -297,10 +297,10 @@ TEST_CASE("of a scanned coral's facets few are unhit") {
   }
   Scene scene({0, 0});
   scene.insert({0, 0}, tile);
-  const Look look = forward_looking();
+  const View view = forward_looking();
   const auto seen = [&](std::uint64_t draw, std::vector<int>& hits) {
     std::vector<Ray> rays;
-    for (const Hit& hit : look_at(scene, look, draw, rays)) {
+    for (const Hit& hit : view_from(scene, view, draw, rays)) {
       if (!hit.hit()) continue;
       const Vec2 at = (hit.position_enu_m.head<2>() - tile.origin_enu_m) / spacing_m;
       const Vec2 cell = at.array().floor(), inside = at - cell;

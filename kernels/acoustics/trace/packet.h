@@ -3,7 +3,7 @@
 #include "kernels/acoustics/trace/mesh.h"
 #include "kernels/base/frames/attitude.h"
 
-/// What straight and bent rays share. Private to this folder: it includes Embree.
+/// Code shared by straight and refracted rays. Private to this folder: it includes Embree.
 namespace ensonify::trace {
 
 constexpr std::size_t kPacket = 16;  // rays that Embree traces together
@@ -13,12 +13,12 @@ constexpr std::size_t kChunk = 32;   // packets per task: fixed, so the number o
 struct Packet {
   alignas(64) RTCRayHit16 rays;
   alignas(64) int on[kPacket];
-  const Part* met[kPacket];  // by each lane; null: nothing
+  const Part* part_hit[kPacket];  // by each lane; null: nothing
 
   /// One lane, as far as tfar_m.
   void set(std::size_t lane, const frames::Vec3& start, const frames::Vec3& direction, float tfar_m) {
     on[lane] = -1;
-    met[lane] = nullptr;
+    part_hit[lane] = nullptr;
     rays.ray.org_x[lane] = static_cast<float>(start.x());
     rays.ray.org_y[lane] = static_cast<float>(start.y());
     rays.ray.org_z[lane] = static_cast<float>(start.z());
@@ -43,11 +43,11 @@ struct Packet {
   void intersect(const Mesh& mesh) {
     mesh.intersect(on, rays);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) met[lane] = &mesh.part(rays.hit.instID[0][lane]);
+      if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) part_hit[lane] = &mesh.part(rays.hit.instID[0][lane]);
     }
   }
 
-  /// Unit normal of the facet that a lane met; either side.
+  /// Unit normal of the facet that a lane hit; either side.
   frames::Vec3 normal(std::size_t lane) const {
     return frames::Vec3(rays.hit.Ng_x[lane], rays.hit.Ng_y[lane], rays.hit.Ng_z[lane]).normalized();
   }

@@ -49,7 +49,7 @@ static Facets facets(double smooth_below_m, double quality) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const Scene scene = strewn_with_boulders(seed, kSpacing_m, kCells, smooth_below_m);
     const auto count = [&](std::uint64_t draw, bool in_main_lobe, std::vector<int>& hits_of_facet) {
-      const Sounding s = sound(scene, {quality, 0.075}, draw);
+      const Sounding s = trace_ping(scene, {quality, 0.075}, draw);
       for (std::size_t k = 0; k < s.hits.size(); ++k) {
         const Ray& ray = s.rays[k];
         const bool main = std::abs(ray.direction_head.x()) < kNull && std::abs(across_rad(ray)) < kSwath_rad;
@@ -71,7 +71,7 @@ static Facets facets(double smooth_below_m, double quality) {
   return facets;
 }
 
-TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main lobe at most 0.1 % are unhit") {
+TEST_CASE("of the main lobe facets that 16 times the rays hit, at most 0.1 % are unhit") {
   // Shadows, silhouettes and facets seen edge-on. Four seabeds have 15,000 facets in the main lobe, so the limit is 15
   // of them. At normal quality where relief is smooth below four posts; where it is rough down to its posts, with three
   // times the rays, for what is seen nearly edge-on is missed by chance, as exp(-rays).
@@ -88,7 +88,7 @@ TEST_CASE("of the facets that 16 times the rays hit at least 4 times in the main
 }
 
 TEST_CASE("rays for the picture", "[.rays-csv]") {
-  const Sounding s = sound(strewn_with_boulders(1, 0.25, 400), {RaySettings::kNormal, 0.075});
+  const Sounding s = trace_ping(strewn_with_boulders(1, 0.25, 400), {RaySettings::kNormal, 0.075});
   std::puts("sine,across_deg,range_m,east_m,north_m,up_m");
   for (std::size_t k = 0; k < s.hits.size(); ++k) {
     const auto& at = s.hits[k].position_enu_m;
@@ -133,7 +133,7 @@ static Contributions contributions(const Sounding& s, double resolution_m, int b
 TEST_CASE("every resolution cell within -10 dB gets at least 10 contributions") {
   const Scene scene = scene_of(flat);
   for (const double resolution_m : {0.02, 0.075, 0.3}) {
-    const Sounding s = sound(scene, {RaySettings::kNormal, resolution_m});
+    const Sounding s = trace_ping(scene, {RaySettings::kNormal, resolution_m});
     const Contributions c = contributions(s, resolution_m, 131);
     CAPTURE(resolution_m, s.rays.size(), c.mean);
     CHECK(c.fewest >= 10);
@@ -168,11 +168,12 @@ TEST_CASE("a head that moved has rays to the places where they went before") {
                            enu_from_body(ensonify::frames::Attitude{}).conjugate()};
   for (const double quality : {RaySettings::kPreview, RaySettings::kNormal}) {
     const auto shares = [&](const Scene& scene) {
-      return found_again(sound(scene, {quality, 0.075}), sound(scene, {quality, 0.075}, 1, moved));
+      return found_again(trace_ping(scene, {quality, 0.075}), trace_ping(scene, {quality, 0.075}, 1, moved));
     };
     const double level = shares(scene_of(flat)), relief = shares(strewn_with_boulders(1, 0.25, 400));
     const Scene plane = scene_of(flat);
-    const double chance = found_again(sound(plane, {quality, 0.075}), sound(plane, {quality, 0.075}, 2, moved));
+    const double chance =
+        found_again(trace_ping(plane, {quality, 0.075}), trace_ping(plane, {quality, 0.075}, 2, moved));
     CAPTURE(quality, level, relief, chance);
     CHECK(chance < 0.5);
     const bool preview = quality < 1.0;  // cells near nadir have too few rays to aim at places
@@ -185,7 +186,7 @@ TEST_CASE("what is behind a crest is in its shadow, to the crest's line of sight
   // A crest 5 m high along north at x = 10 m, 0.25 m wide at its foot. From 20 m above the seabed at x = 0.1 m its
   // shadow ends at 0.1 + 9.9 * 20 / 15 = 13.3 m.
   const Scene scene = scene_of([](double x, double) { return std::abs(x - 10) < 0.1 ? -15.0 : -20.0; });
-  const Sounding s = sound(scene, {RaySettings::kNormal, 0.075});
+  const Sounding s = trace_ping(scene, {RaySettings::kNormal, 0.075});
   double first_behind_m = 100;
   int on_crest = 0;
   for (const Hit& hit : s.hits) {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 
 namespace ensonify::trace {
 namespace {
@@ -162,7 +162,7 @@ struct RayDistribution::Corners {
   double plane_m;       // of Need
 };
 
-bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const {
+bool RayDistribution::find_corners(std::size_t i, std::size_t j, const View& probes, Corners& corners) const {
   const std::array<std::size_t, 4> at{corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)};
   const Hit* farthest = nullptr;
   double sum_of_z_m = 0.0, hits = 0.0;
@@ -196,10 +196,10 @@ bool RayDistribution::look(std::size_t i, std::size_t j, const Look& probes, Cor
   return true;
 }
 
-RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const Look& probes) const {
+RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const View& probes) const {
   Corners seen;
   const double du = sine_edges_[i + 1] - sine_edges_[i], dphi = angle_edges_rad_[j + 1] - angle_edges_rad_[j];
-  if (!(du > 0.0) || !look(i, j, probes, seen)) return {};
+  if (!(du > 0.0) || !find_corners(i, j, probes, seen)) return {};
 
   // In units of what is resolved: beams, and ranges within a beam.
   const auto& r = seen.range_m;
@@ -246,9 +246,9 @@ std::size_t RayDistribution::cut(double share) {
 
 void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits,
                            std::span<const Object> objects, float max_range_m, std::vector<Ray>& rays,
-                           const refraction::PathTable* bent) {
+                           const refraction::PathTable* refracted) {
   if (probe_hits.size() != probes_.size()) throw std::invalid_argument("there must be one hit per probe");
-  const Look probes{head, head.enu_from_head.toRotationMatrix(), probe_hits, max_range_m};
+  const View probes{head, head.enu_from_head.toRotationMatrix(), probe_hits, max_range_m};
   const auto for_parts = [&](const auto& work) {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, parts_.size(), kCellsPerTask),
@@ -263,7 +263,7 @@ void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> pr
     parts_[k] = {sine_edges_[i], sine_edges_[i + 1], angle_edges_rad_[j], angle_edges_rad_[j + 1], need(i, j, probes)};
   });
   const std::size_t to_facets =
-      facets_.aim(objects, {head, max_range_m, bent},
+      facets_.aim(objects, {head, max_range_m, refracted},
                   {[this](const auto& corners) { return rays_to_facet(corners); },
                    [this](const Vec3& direction) { return holds(direction); },
                    [this](const Vec3& middle, double radius_m) { return touches(middle, radius_m); },
@@ -310,7 +310,7 @@ void RayDistribution::gather(std::vector<Ray>& rays, std::size_t more) {
   });
 }
 
-void RayDistribution::fill_part(std::size_t index, const Look& probes) {
+void RayDistribution::fill_part(std::size_t index, const View& probes) {
   Part& part = parts_[index];
   std::vector<Ray>& rays = rays_[index];
   rays.clear();

@@ -20,12 +20,12 @@ struct Span {
   double beam = 0.0;                       // -3 dB width of what beams resolve, or of the lobe where nothing does
 };
 
-/// Where a head transmits, in its own frame: u is the sine of the angle from the plane across an axis of the head, phi
-/// the angle around that axis, towards starboard. Then dOmega = du dphi exactly.
+/// Transmit volume of a head, in its own frame: u is the sine of the angle from the plane across an axis of the head,
+/// phi the angle around that axis, towards starboard. Then dOmega = du dphi exactly.
 struct TransmitVolume {
   enum class Axis {
-    kForward,  // phi = 0 looks down: across-track angle of a multibeam or a sidescan (phi < 0 is to port)
-    kDown      // phi = 0 looks forward: azimuth of a forward-looking or scanning head; u is the sine of the depression
+    kForward,  // phi = 0 points down: across-track angle of a multibeam or a sidescan (phi < 0 is to port)
+    kDown      // phi = 0 points forward: azimuth of a forward-looking or scanning head; u is the sine of the depression
   };
   Axis axis = Axis::kForward;
   Span sine;       // u, within -1..1
@@ -40,7 +40,7 @@ TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receiv
 struct RaySettings {
   /// In the main lobe, a resolution cell (range resolution x beam, -3 dB) gets 12 rays times this on average and a
   /// facet 10. At kNormal every cell within -10 dB has at least 10, and of 1000 facets in the main lobe 999 are hit;
-  /// kPreview is for a quick look and kReference to compare with.
+  /// kPreview is for a quick preview and kReference to compare with.
   double quality = kNormal;
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
   std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
@@ -51,7 +51,7 @@ struct RaySettings {
 
 /// Rays over a transmit volume, denser where the seabed asks for it.
 ///
-/// The volume is cut into some thousand cells of direction. One probe ray to each corner tells how far away and how
+/// The volume is cut into some thousand cells of direction. One probe ray to each corner gives how far away and how
 /// wide apart the seabed is that a cell sees; from that follows how many rays the cell needs, so that each resolution
 /// cell (range resolution x beam) and each facet that it sees gets the number that the quality asks for. Where
 /// neighbouring corners see different things (the edge of a boulder, the end of a shadow) they are far apart and the
@@ -68,7 +68,7 @@ struct RaySettings {
 /// what is resolved.
 ///
 /// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
-/// in the main lobe, and a third more beyond it; not with the number of beams. A corner that meets nothing counts as
+/// in the main lobe, and a third more beyond it; not with the number of beams. A corner that hits nothing counts as
 /// lying on the plane of the farthest facet that its cell sees, and no farther than the range. A cell that sees nothing
 /// has one ray.
 class RayDistribution {
@@ -80,23 +80,23 @@ class RayDistribution {
   /// Neither changes solid angles; sines beyond -1 and 1 are lost. (0, 0) is the volume as given.
   void steer(double sine, double angle_rad);
 
-  /// Where the rays go, as steered.
+  /// Directions of the rays, as steered.
   TransmitVolume volume() const;
 
-  /// The rays that look first; their solid angles are 0. They change with steer().
+  /// The rays traced first; their solid angles are 0. They change with steer().
   std::span<const Ray> probes() const { return probes_; }
 
-  /// The rays for what the probes met within max_range_m, and for the objects' facets. Neighbours follow each other,
+  /// The rays for what the probes hit within max_range_m, and for the objects' facets. Neighbours follow each other,
   /// as packets want it. Through bent water `bent` is what Scene::tabulate made for this head. Throws
   /// std::invalid_argument unless there is one hit per probe.
   void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, std::span<const Object> objects,
-            float max_range_m, std::vector<Ray>& rays, const refraction::PathTable* bent = nullptr);
+            float max_range_m, std::vector<Ray>& rays, const refraction::PathTable* refracted = nullptr);
 
   /// After the rays of the last fill have been traced: only then do those to objects carry a solid angle, and do hits
   /// that do not count become misses. Throws std::invalid_argument unless there is one hit per ray.
   void settle(std::span<Ray> rays, std::span<Hit> hits) const { facets_.settle(rays, hits); }
 
-  /// What the last fill had of the rays that the quality asks for: 1; less where most_rays limits them, more where
+  /// Share of the rays required by the quality in the last fill: 1; less where most_rays limits them, more where
   /// there are fewest_rays.
   double share() const { return share_; }
 
@@ -106,7 +106,7 @@ class RayDistribution {
     double rays = 1.0, sine_to_angle = 1.0;  // strata, and their number along u over that along phi
     double plane_m = 0.0;                    // how far below the head the plane lies that they aim at; 0: none
   };
-  struct Look {
+  struct View {
     const frames::HeadPose& head;
     Eigen::Matrix3d enu_from_head;
     std::span<const Hit> hits;
@@ -125,8 +125,8 @@ class RayDistribution {
   std::size_t corner(std::size_t i, std::size_t j) const { return i * angle_edges_rad_.size() + j; }
   double importance_of(std::size_t cell) const;
   void aim();
-  bool look(std::size_t i, std::size_t j, const Look& probes, Corners& corners) const;
-  Need need(std::size_t i, std::size_t j, const Look& probes) const;
+  bool find_corners(std::size_t i, std::size_t j, const View& probes, Corners& corners) const;
+  Need need(std::size_t i, std::size_t j, const View& probes) const;
   /// Two triangles to a square of the posts' spacing.
   static double facing_facets_per_sr(double range_m, double facet_m) {
     return 2.0 * range_m * range_m / (facet_m * facet_m);
@@ -137,11 +137,11 @@ class RayDistribution {
   bool holds(const frames::Vec3& direction_head) const;
   bool touches(const frames::Vec3& middle_head_m, double radius_m) const;
   std::size_t cut(double share);
-  void fill_part(std::size_t index, const Look& probes);
+  void fill_part(std::size_t index, const View& probes);
   void gather(std::vector<Ray>& rays, std::size_t more);
   /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
   /// is seen too flat.
-  bool aim_at_places(Part& part, const Look& probes, std::vector<Ray>& rays) const;
+  bool aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const;
   void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
 
   TransmitVolume volume_;

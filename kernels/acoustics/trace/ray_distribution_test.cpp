@@ -19,13 +19,13 @@ TEST_CASE("the solid angles of a distribution sum to that of its volume, whateve
   const Scene seabed = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
   for (const double quality : {RaySettings::kPreview, RaySettings::kNormal}) {
     double sum = 0;
-    for (const Ray& ray : sound(seabed, {quality, 0.075}).rays) {
+    for (const Ray& ray : trace_ping(seabed, {quality, 0.075}).rays) {
       sum += ray.solid_angle_sr;
       REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
     }
     CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));  // du dphi
   }
-  CHECK(sound(Scene({0, 0}), {}).rays.size() >= 1024);  // nothing to see: one ray per cell
+  CHECK(trace_ping(Scene({0, 0}), {}).rays.size() >= 1024);  // nothing to see: one ray per cell
 }
 
 TEST_CASE("rays lie in the volume, about either axis of the head") {
@@ -35,7 +35,7 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
   const HeadPose tilted{{0, 0, 0}, enu_from_body(ensonify::frames::Attitude{0, -0.3, 0})};
   double sum = 0;
   float lowest = 1, highest = -1, port = 0, starboard = 0;
-  for (const Ray& ray : sound(scene_of(flat, 0.5, 400), {RaySettings::kPreview, 0.1}, 1, tilted, ahead).rays) {
+  for (const Ray& ray : trace_ping(scene_of(flat, 0.5, 400), {RaySettings::kPreview, 0.1}, 1, tilted, ahead).rays) {
     sum += ray.solid_angle_sr;
     const float azimuth = std::atan2(ray.direction_head.y(), ray.direction_head.x());
     lowest = std::min(lowest, ray.direction_head.z()), highest = std::max(highest, ray.direction_head.z());
@@ -65,7 +65,7 @@ TEST_CASE("the mean level of a plane is that of the area integral, whatever the 
     over_u += pattern(u) * std::pow(1 - u * u, 1.5) * 16.0 / 50 / kSteps;
   }
   for (const double quality : {RaySettings::kPreview, RaySettings::kNormal, RaySettings::kReference}) {
-    const Sounding s = sound(scene, {quality, 0.075});
+    const Sounding s = trace_ping(scene, {quality, 0.075});
     std::vector<double> level(12);
     for (std::size_t k = 0; k < s.hits.size(); ++k) {
       const int sector = static_cast<int>(std::floor(across_rad(s.rays[k]) / (10 * kDegree))) + 6;
@@ -87,7 +87,7 @@ TEST_CASE("rays follow range cells, not beams") {
   const Scene scene = scene_of(flat, 2.0, 100);  // few facets, so range cells decide
   const auto rays = [&](double resolution_m, double receive_waves) {
     const auto volume = mills_cross_volume(50, receive_waves, kSwath_rad);
-    return static_cast<double>(sound(scene, {RaySettings::kNormal, resolution_m}, 1, kHead, volume).rays.size());
+    return static_cast<double>(trace_ping(scene, {RaySettings::kNormal, resolution_m}, 1, kHead, volume).rays.size());
   };
   // Twice the range cells, twice the rays, but near nadir, where a beam is within one range cell.
   CHECK(rays(0.005, 50) / rays(0.01, 50) == Approx(2).epsilon(0.1));
@@ -96,7 +96,7 @@ TEST_CASE("rays follow range cells, not beams") {
   CHECK(rays(0.01, 100) > rays(0.01, 50));
 }
 
-TEST_CASE("a steered volume has the same solid angles elsewhere, and what is beyond endfire is lost") {
+TEST_CASE("a steered volume keeps its solid angles, but for what is beyond endfire") {
   const auto extent = [](double sine, double angle_rad) {
     RayDistribution distribution(mills_cross_volume(50, 50, 30 * kDegree), {RaySettings::kPreview}, {1, "rays"});
     distribution.steer(sine, angle_rad);
@@ -127,8 +127,8 @@ TEST_CASE("a steered volume has the same solid angles elsewhere, and what is bey
 
 TEST_CASE("the limit of rays holds, and every cell gives way") {
   const Scene scene = scene_of(flat);
-  const Sounding all = sound(scene, {RaySettings::kNormal, 0.075}),
-                 some = sound(scene, {RaySettings::kNormal, 0.075, 10'000});
+  const Sounding all = trace_ping(scene, {RaySettings::kNormal, 0.075}),
+                 some = trace_ping(scene, {RaySettings::kNormal, 0.075, 10'000});
   CHECK(all.share == 1.0);
   CHECK(some.share < 0.2);
   CHECK(some.rays.size() <= 10'000);
@@ -136,14 +136,14 @@ TEST_CASE("the limit of rays holds, and every cell gives way") {
   double sum = 0;
   for (const Ray& ray : some.rays) sum += ray.solid_angle_sr;
   CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
-  CHECK(sound(scene, {RaySettings::kNormal, 1e-9, 10'000}).rays.size() <= 10'000);
+  CHECK(trace_ping(scene, {RaySettings::kNormal, 1e-9, 10'000}).rays.size() <= 10'000);
 }
 
 TEST_CASE("there are never fewer rays than asked for, where there is anything to hit") {
   const Scene scene = scene_of(flat);
-  const Sounding few = sound(scene, {RaySettings::kPreview, 1.0}),
-                 filled = sound(scene,
-                                {.quality = RaySettings::kPreview, .range_resolution_m = 1.0, .fewest_rays = 120'000});
+  const Sounding few = trace_ping(scene, {RaySettings::kPreview, 1.0}),
+                 filled = trace_ping(
+                     scene, {.quality = RaySettings::kPreview, .range_resolution_m = 1.0, .fewest_rays = 120'000});
   REQUIRE(few.rays.size() < 20'000);
   CHECK(filled.rays.size() >= 30'000);  // a quarter, as the quality is
   CHECK(filled.rays.size() < 33'000);
@@ -151,14 +151,14 @@ TEST_CASE("there are never fewer rays than asked for, where there is anything to
   double sum = 0;
   for (const Ray& ray : filled.rays) sum += ray.solid_angle_sr;
   CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
-  CHECK(sound(Scene({0, 0}), {.fewest_rays = 80'000}).rays.size() < 10'000);
+  CHECK(trace_ping(Scene({0, 0}), {.fewest_rays = 80'000}).rays.size() < 10'000);
 }
 
 TEST_CASE("the same pose over the same tiles has the same rays, on any number of threads") {
   const Scene scene = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
   const auto with = [&](std::size_t threads, std::uint64_t seed) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return sound(scene, {RaySettings::kPreview, 0.075}, seed).rays;
+    return trace_ping(scene, {RaySettings::kPreview, 0.075}, seed).rays;
   };
   const auto one = with(1, 1), two = with(2, 1), other = with(2, 2);
   REQUIRE(one.size() == two.size());
@@ -170,7 +170,7 @@ TEST_CASE("heads on the seabed, below it and above an edge have rays of finite d
   const Scene scene = scene_of(flat, 0.5, 40);
   for (const double z : {-20.0, -20.0001, -19.999, -25.0, 5.0}) {
     for (const double x : {0.0, 10.0, 10.1, 80.0}) {
-      const Sounding s = sound(scene, {RaySettings::kPreview, 0.075, 20'000}, 1, {{x, 0, z}, kHead.enu_from_head});
+      const Sounding s = trace_ping(scene, {RaySettings::kPreview, 0.075, 20'000}, 1, {{x, 0, z}, kHead.enu_from_head});
       CHECK(s.rays.size() <= 20'000);
       for (const Ray& ray : s.rays) REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
     }

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kernels/acoustics/trace/packet.h"
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 #include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -41,7 +41,7 @@ bool within(const Vec2& south_west, const Vec2& north_east, const Vec2& place, d
 }
 
 Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float slowness_spm) {
-  const Part& part = *packet.met[lane];
+  const Part& part = *packet.part_hit[lane];
   const Vec3 direction(packet.rays.ray.dir_x[lane], packet.rays.ray.dir_y[lane], packet.rays.ray.dir_z[lane]);
   const Vec3 normal = packet.normal(lane);
   const double cosine = normal.dot(direction);
@@ -185,7 +185,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
     for (std::size_t lane = count; lane < kPacket; ++lane) packet.switch_off(lane);
     packet.intersect(impl_->mesh);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      hits[first + lane] = packet.met[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{};
+      hits[first + lane] = packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{};
     }
   };
   tbb::parallel_for(

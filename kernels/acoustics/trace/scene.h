@@ -17,7 +17,7 @@
 
 namespace ensonify::trace {
 
-/// Where a ray met the seabed, and what happened to its bundle of sound on the way there. Times and lengths are one
+/// Hit of a ray on the seabed, and the history of its bundle of sound. Times and lengths are one
 /// way.
 struct Hit {
   frames::Vec3 position_enu_m = frames::Vec3::Zero();
@@ -57,11 +57,11 @@ struct IrregularMesh {
   std::uint8_t sediment = 0;
 };
 
-/// How finely a scene shows its tiles (docs/seabed/level-of-detail.md).
+/// Level of detail of a scene's tiles (docs/seabed/level-of-detail.md).
 struct LevelOfDetail {
-  bool enabled = false;         // by what is looked at; off: all tiles at full detail
-  std::int32_t side_lobes = 2;  // level, 0..5: side lobes see every 2^level-th post
-  std::int32_t looks = 1;       // adaptations that make a ping: what one has used is kept for the next ping's
+  bool enabled = false;                   // by views; off: all tiles at full detail
+  std::int32_t side_lobes = 2;            // level, 0..5: side lobes see every 2^level-th post
+  std::int32_t adaptations_per_ping = 1;  // adaptations that make a ping: what one has used is kept for the next ping's
 
   bool operator==(const LevelOfDetail&) const = default;
 };
@@ -96,12 +96,12 @@ class Scene {
   /// Takes an irregular mesh away; false when there was none.
   bool remove(std::int64_t number);
 
-  /// Of facets' slopes, the mean square that a sediment's law counts too, by class (seabed::MeshedSediment): kept for
+  /// Mean square of facets' slopes that a sediment's law counts too, by class (seabed::MeshedSediment): kept for
   /// those who ask how strongly hits scatter, the scene itself makes nothing of it. Empty: none is known.
   void set_facet_mean_square_slope(std::span<const double> by_class);
   std::span<const double> facet_mean_square_slope() const;
 
-  /// What a look at the seabed may miss: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
+  /// Omissions of an adaptation to views: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order. Small tiles are always
   /// at full detail.
   std::span<const Object> objects() const;
@@ -111,12 +111,11 @@ class Scene {
   /// whatever way it took.
   void centre_near(const frames::Vec2& place_enu_m);
 
-  /// Makes the mesh for these views: each block as fine as the finest view that meets it asks for, coarsest elsewhere,
-  /// and irregular meshes likewise.
-  /// A ray within a view of level 0 hits what it would hit with all tiles at full detail, to the bit. With level of
-  /// detail enabled there is no mesh before this, nor after a tile has come or gone; without it nothing happens. Blocks
-  /// that no view meets are built when a ray comes to them. Those that were seen lately are kept, coarse ones as long
-  /// as no more than a fiftieth of the tiles' triangles is held.
+  /// Makes the mesh for these views: each block as fine as the finest view that intersects it asks for, coarsest
+  /// elsewhere, and irregular meshes likewise. A ray within a view of level 0 hits what it would hit with all tiles at
+  /// full detail, to the bit. With level of detail enabled there is no mesh before this, nor after a tile has come or
+  /// gone; without it nothing happens. Blocks that no view intersects are built when a ray comes to them. Those that
+  /// were seen lately are kept, coarse ones as long as no more than a fiftieth of the tiles' triangles is held.
   void adapt(std::span<const lod::View> views);
 
   const LevelOfDetail& detail() const;
@@ -129,25 +128,25 @@ class Scene {
   bool contains(const terrain::TileKey& key) const;
   const frames::Vec2& origin_enu_m() const;
 
-  /// The first facet that each ray meets within max_range_m of water where rays are straight. hits is resized to rays
+  /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
   /// and overwritten. sound_speed_mps gives the travel times, nothing else.
   void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
              double sound_speed_mps = 1500.0) const;
 
-  /// The first facet that each ray meets on its bent path, at most max_range_m long. A path takes one look-up in the
-  /// table down to the highest geometry within reach, and goes on from there leg by leg; a leg is met as chords that
-  /// stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end.
-  /// paths is what `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path
-  /// is followed leg by leg from the head, right but slow.
+  /// The first facet that each ray hits on its refracted path, at most max_range_m long. A path takes one look-up in
+  /// the table down to the highest geometry within reach, and goes on from there leg by leg; a leg is hit as chords
+  /// that stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end. paths is what
+  /// `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path is followed
+  /// leg by leg from the head, right but slow.
   void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
              const refraction::PathTable& paths) const;
 
   /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the
-  /// water surface tells where in the profile it is.
+  /// water surface gives where in the profile it is.
   void tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
                 float max_range_m, refraction::PathTable& paths) const;
 
-  /// Of the tiles' own posts, whatever the mesh; empty over a hole or no tile.
+  /// Height by the tiles' own posts, whatever the mesh; empty over a hole or no tile.
   std::optional<double> height_m(const frames::Vec2& place_enu_m) const;
 
   /// Over the tiles and irregular meshes within a horizontal distance of a place; empty when there are none.

@@ -11,7 +11,7 @@
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/mesh/lod/cover.h"
 
-/// What a scene is made of. Private to this folder: it includes Embree.
+/// Parts of a scene. Private to this folder: it includes Embree.
 namespace ensonify::trace {
 
 struct Entry {
@@ -67,14 +67,14 @@ struct Scene::Impl {
   /// All at full detail, unless detail depends on the view.
   void show_all();
   lod::Neighbours neighbours_of(const terrain::TileKey& key) const;
-  /// What the covers say, in order.
+  /// Leaves of the covers, in order.
   std::vector<PartKey> wanted() const;
   /// Marks these parts as used and adds those that are missing, not yet built.
   void use(const std::vector<PartKey>& keys);
   /// Gives up parts that no mesh needs soon.
   void forget();
   /// By one of the views.
-  bool is_looked_at(const lod::Leaf& leaf) const;
+  bool is_in_view(const lod::Leaf& leaf) const;
 };
 
 }  // namespace ensonify::trace

@@ -19,7 +19,7 @@ static double flat(double, double) { return -20.0; }
 static double slope(double x, double y) { return -20.0 + 0.1 * x - 0.2 * y; }
 static double bumpy(double x, double y) { return -20.0 + std::sin(0.9 * x) * std::cos(1.3 * y); }
 
-/// Looking straight down with forward to north: head x = north, y = east, z = down.
+/// Pointing straight down with forward to north: head x = north, y = east, z = down.
 static const HeadPose kLevel{{0.0, 0.0, 0.0}, ensonify::frames::enu_from_ned()};
 
 static Ray towards(const Vec3& enu) {  // for a level head
@@ -27,7 +27,7 @@ static Ray towards(const Vec3& enu) {  // for a level head
   return {head.cast<float>(), 1.0F};
 }
 
-TEST_CASE("a flat seabed is met at depth over cosine, at the right grazing angle") {
+TEST_CASE("a flat seabed is hit at depth over cosine, at the right grazing angle") {
   Scene scene({0, 0});
   scene.insert({0, 0}, tile_of({.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 256}, {0, 0}, flat));
   const std::vector<Ray> rays{towards({0, 0, -1}), towards({1, 0, -1}), towards({0, -1, -2}), towards({0, 0, 1})};
@@ -49,7 +49,7 @@ TEST_CASE("a flat seabed is met at depth over cosine, at the right grazing angle
   CHECK_FALSE(hits[0].hit());
 }
 
-TEST_CASE("on a slope the hit lies on the plane and its normal is the plane's, far from the world's origin too") {
+TEST_CASE("hits on a slope lie on the plane with its normal, also far from the origin") {
   for (const double far_m : {0.0, 50'000.0}) {
     const Vec2 origin(far_m, -far_m);
     Scene scene(origin);

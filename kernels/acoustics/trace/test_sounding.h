@@ -7,7 +7,7 @@
 
 #include "kernels/acoustics/trace/ray_distribution.h"
 
-/// What a head of 1 degree x 1 degree, 20 m above a seabed, sends out and meets: for tests of its rays.
+/// What a head of 1 degree x 1 degree, 20 m above a seabed, sends out and hits: for tests of its rays.
 namespace ensonify::trace::sounding {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
@@ -29,8 +29,8 @@ struct Sounding {
   double share = 1.0;
 };
 
-inline Sounding sound(const Scene& scene, const RaySettings& settings, std::uint64_t seed = 1,
-                      const frames::HeadPose& head = kHead, const TransmitVolume& volume = mills_cross()) {
+inline Sounding trace_ping(const Scene& scene, const RaySettings& settings, std::uint64_t seed = 1,
+                           const frames::HeadPose& head = kHead, const TransmitVolume& volume = mills_cross()) {
   RayDistribution distribution(volume, settings, random::Stream{seed, "rays"});
   Sounding s;
   scene.trace(head, distribution.probes(), kFar_m, s.hits);

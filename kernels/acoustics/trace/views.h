@@ -9,11 +9,11 @@
 
 namespace ensonify::trace {
 
-/// What a transmission sees: its main lobe at full detail, all that rays go to at `side_lobes`.
+/// Views of a transmission: its main lobe at full detail, all that rays go to at `side_lobes`.
 std::array<lod::View, 2> views_of(const TransmitVolume& volume, const frames::HeadPose& head, double max_range_m,
                                   const lod::Water& water, std::int32_t side_lobes);
 
-/// The speeds that paths can meet between the surface and a depth.
+/// The speeds that paths can have between the surface and a depth.
 lod::Water water_above(const refraction::SoundSpeedProfile& profile, double head_depth_m, double deepest_m);
 
 }  // namespace ensonify::trace

@@ -43,7 +43,7 @@ TEST_CASE("a plane wave becomes one number of the plane") {
   }
 }
 
-TEST_CASE("good sizes are even, without large prime factors, and not below what was asked for") {
+TEST_CASE("good sizes are even, of small prime factors, and not below the requested size") {
   CHECK(Transform::good_size(2) == 2);
   CHECK(Transform::good_size(7) == 8);
   CHECK(Transform::good_size(127) == 128);

@@ -38,7 +38,7 @@ TEST_CASE("attitude and rotation are inverses, and w is never negative") {
       }
 }
 
-TEST_CASE("at the vertical the rotation survives though heading and roll cannot be told apart") {
+TEST_CASE("at the vertical the rotation is kept though heading and roll are not separable") {
   for (const double pitch : {90.0, -90.0}) {
     const Quaternion q = enu_from_body(Attitude{30 * kDeg, pitch * kDeg, 20 * kDeg});
     const Attitude back = attitude_of(q);

@@ -8,7 +8,7 @@
 
 namespace ensonify::frames {
 
-/// Where a body's reference point is and how the body is turned.
+/// Position of a body's reference point and the body's attitude.
 struct Pose {
   Vec3 position_enu_m = Vec3::Zero();
   Quaternion enu_from_body = enu_from_ned();  // level, bow to north
@@ -23,13 +23,13 @@ struct MovingPose {
   Vec3 angular_acceleration_body_radps2 = Vec3::Zero();
 };
 
-/// Where a head's transducer sits on the body and how it is turned. Actual and measured mountings are two of these.
+/// Mounting of a head's transducer on the body: place and rotation. Actual and measured mountings are two of these.
 struct Mounting {
   Vec3 position_body_m = Vec3::Zero();
   Quaternion body_from_head = Quaternion::Identity();
 };
 
-/// Where a head's transducer is in the world.
+/// Pose of a head's transducer in the world.
 struct HeadPose {
   Vec3 position_enu_m = Vec3::Zero();
   Quaternion enu_from_head = enu_from_ned();
@@ -49,7 +49,7 @@ Pose interpolate(const Pose& a, const Pose& b, double fraction);
 /// Poses by time, oldest forgotten. Times are simulation nanoseconds.
 class PoseHistory {
  public:
-  /// What to answer for a time outside the stored span.
+  /// Choice for a time outside the stored span.
   enum class Outside { kNothing, kNearest };
 
   /// Keeps at least `keep_ns` behind the newest pose.

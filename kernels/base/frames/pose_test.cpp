@@ -30,7 +30,7 @@ TEST_CASE("half way between two headings across north is north") {
   CHECK(interpolate(a, b, 0.25).enu_from_body.angularDistance(enu_from_body(Attitude{355 * kDeg, 0, 0})) < 1e-9);
 }
 
-TEST_CASE("a history interpolates inside its span and says nothing outside unless asked for the nearest") {
+TEST_CASE("a history interpolates inside its span; outside it gives the nearest on request") {
   PoseHistory poses(1'000'000'000);
   CHECK_FALSE(poses.at(0, PoseHistory::Outside::kNearest));
   for (int i = 0; i <= 30; ++i) CHECK(poses.push(i * 100'000'000LL, Pose{{double(i), 0, 0}}));

@@ -8,7 +8,7 @@
 namespace ensonify::random {
 
 /// A row of blocks of random bits, for a tenth of the cost of a stream's: two 64-bit mixes [Steele2014] each. For
-/// places and dither, of which many are looked at and few used.
+/// places and dither, of which many are examined and few used.
 class Row {
  public:
   /// Row `a` of the stream.

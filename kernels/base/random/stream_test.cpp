@@ -76,7 +76,7 @@ TEST_CASE("normal numbers have the moments of the Gaussian, and neighbours are u
   CHECK(cross / n == Approx(0.0).margin(5 * 4.5e-3));
 }
 
-TEST_CASE("a row's bits are those of its counters, spread evenly and independent of its neighbours") {
+TEST_CASE("a row's bits follow its counters, evenly spread, independent of its neighbours") {
   const Stream stream{1, "rays"};
   CHECK(Row(stream, 7).bits(3) == Row(stream, 7).bits(3));
   CHECK(Row(stream, 7).bits(3) != Row({2, "rays"}, 7).bits(3));

@@ -1,4 +1,4 @@
 #pragma once
 
-/// How often this test program has called operator new: linking allocations.cpp replaces it.
+/// Number of calls of operator new in this test program: linking allocations.cpp replaces it.
 long allocations();

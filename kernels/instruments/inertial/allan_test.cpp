@@ -29,7 +29,7 @@ TEST_CASE("a steady drift of the reading gives R tau / sqrt 2, and a constant gi
   }
 }
 
-TEST_CASE("a Gauss-Markov bias's curve: rate random walk at first, white noise at last, its peak between") {
+TEST_CASE("a Gauss-Markov bias has rate random walk, then a peak, then white noise") {
   const double sigma = 2.0, time_s = 100.0;
   const double start = allan_of_gauss_markov(sigma, time_s, 0.01);
   CHECK(start == Approx(allan_of_rate_random_walk(sigma * std::sqrt(2.0 / time_s), 0.01)).epsilon(1e-4));

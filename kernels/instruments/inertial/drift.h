@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-/// How the errors of an unaided inertial system grow, in closed form: on a resting sphere, level, at rest or on a
+/// Growth of the errors of an unaided inertial system, in closed form: on a resting sphere, level, at rest or on a
 /// straight course, height held, each error alone [Titterton2004, ch. 12; Groves2013, ch. 5.7].
 namespace ensonify::inertial {
 
@@ -16,13 +16,13 @@ struct SchulerSphere {
   double period_s() const { return 2.0 * std::acos(-1.0) / rate_radps(); }  // 84.45 min
 };
 
-/// Of a level accelerometer's constant bias, along its axis: b t^2 / 2 at first.
+/// Drift by a level accelerometer's constant bias, along its axis: b t^2 / 2 at first.
 double accelerometer_bias_drift_m(const SchulerSphere& sphere, double bias_mps2, double time_s);
 
-/// Of a level gyro's constant bias, across its axis: g e t^3 / 6 at first.
+/// Drift by a level gyro's constant bias, across its axis: g e t^3 / 6 at first.
 double gyro_bias_drift_m(const SchulerSphere& sphere, double bias_radps, double time_s);
 
-/// Of a tilt at the start: g phi t^2 / 2 at first.
+/// Drift by a tilt at the start: g phi t^2 / 2 at first.
 double tilt_drift_m(const SchulerSphere& sphere, double tilt_rad, double time_s);
 
 /// Across the track, of a wrong heading on a straight course.

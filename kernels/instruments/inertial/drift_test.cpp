@@ -57,7 +57,7 @@ TEST_CASE("unaided strapdown navigation drifts as the closed forms say, within 0
           Approx(accelerometer_bias_drift_m(kSphere, b, t)).epsilon(1e-3).margin(greatest_m));
     CHECK(drift(at_rest(), Vec3::Zero(), {0, b, 0}, t).east_m ==
           Approx(accelerometer_bias_drift_m(kSphere, b, t)).epsilon(1e-3).margin(greatest_m));
-    // Turning about east (starboard) lifts the bow; the platform believes gravity to push it astern: south.
+    // Turning about east (starboard) lifts the bow; the platform assumes gravity to push it astern: south.
     CHECK(drift(at_rest(), {0, e, 0}, Vec3::Zero(), t).north_m ==
           Approx(-gyro_bias_drift_m(kSphere, e, t)).epsilon(1e-3));
     CHECK(drift(at_rest(), {e, 0, 0}, Vec3::Zero(), t).east_m ==

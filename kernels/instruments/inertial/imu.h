@@ -30,7 +30,7 @@ class Triad {
  public:
   Triad(const TriadErrors& errors, const random::Stream& stream);
 
-  /// What is reported for a true mean reading (u) over the next dt (> 0).
+  /// Reading reported for a true mean (u) over the next dt (> 0).
   frames::Vec3 increment(const frames::Vec3& true_mean, double dt_s);
 
   /// Bias at this moment, all its parts, u: truth for judging a filter.

@@ -69,7 +69,7 @@ TEST_CASE("quantisation loses nothing: the integral stays within one quantum of 
   }
 }
 
-TEST_CASE("without errors the triad tells the truth") {
+TEST_CASE("without errors the triad reports the truth") {
   Triad triad({}, random::Stream(1, "t"));
   CHECK(triad.increment(kSteady, 0.5) == 0.5 * kSteady);
 }
@@ -84,8 +84,8 @@ TEST_CASE("what is drawn at switching on has its stated spread, and stays") {
     bias += first.squaredNorm();
     Triad scaled({.scale_factor = 0.01}, random::Stream(seed, "s"));
     scale += (scaled.increment(kSteady, 1.0) - kSteady).cwiseQuotient(kSteady).squaredNorm();
-    Triad bent({.misalignment_rad = 0.02}, random::Stream(seed, "m"));
-    const frames::Vec3 seen = bent.increment(frames::Vec3::UnitX(), 1.0);
+    Triad misaligned({.misalignment_rad = 0.02}, random::Stream(seed, "m"));
+    const frames::Vec3 seen = misaligned.increment(frames::Vec3::UnitX(), 1.0);
     REQUIRE(seen.x() == 1.0);
     crosstalk += 1.5 * (seen.y() * seen.y() + seen.z() * seen.z());
   }

@@ -18,7 +18,7 @@ struct NavigationState {
   Quaternion ned_from_body = Quaternion::Identity();  // body is forward, starboard, down
 };
 
-/// What ideal sensors feel: turn rate against inertial space, and specific force (acceleration less gravitation, so
+/// Input of ideal sensors: turn rate against inertial space, and specific force (acceleration less gravitation, so
 /// [0, 0, -g] at rest and level), both along the body's axes.
 struct Inertial {
   Vec3 rate_radps = Vec3::Zero();

@@ -152,7 +152,7 @@ TEST_CASE("readings found between two states lead from one to the other") {
   }
 }
 
-TEST_CASE("on the rotating ellipsoid the drift is that of an independent integration, within 1 %") {
+TEST_CASE("drift on the rotating ellipsoid is an independent integration's within 1 %") {
   struct Case {
     double time_s, step_s;
     Vec3 gyro_bias_degph, accelerometer_bias_ug;

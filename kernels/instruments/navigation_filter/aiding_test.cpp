@@ -5,7 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;
-using namespace ensonify::navigation_filter::sailing;
+using namespace ensonify::navigation_filter::test_run;
 
 // Aids under water: velocity through water that drifts, and fixes by a ship that come late.
 
@@ -63,7 +63,7 @@ TEST_CASE("a current walks with every metre that the vehicle sinks") {
   CHECK(sigma(filter, kCurrent) == Approx(0.05 * std::sqrt(20.0)).epsilon(1e-3));
 }
 
-TEST_CASE("with bottom and water in reach the log learns the current, and keeps it when the bottom is lost") {
+TEST_CASE("with bottom and water lock the current is estimated, and kept without the bottom") {
   // n samples of sigma s of a constant: its mean, with the prior as one more.
   FilterModel model;
   model.current_mps = 0.5;
@@ -77,8 +77,8 @@ TEST_CASE("with bottom and water in reach the log learns the current, and keeps 
   for (int i = 0; i < kSamples; ++i) filter.correct_water_velocity(through_body, lever, Vec3::Constant(0.1));
   const double information = 1.0 / (0.5 * 0.5) + kSamples / (0.1 * 0.1);
   CHECK(sigma(filter, kCurrent) == Approx(1.0 / std::sqrt(information)));
-  const double believed = kSamples / (0.1 * 0.1) / information;  // the prior's mean is zero
-  CHECK((filter.current_ned_mps() - believed * current).norm() < 1e-9);
+  const double estimated = kSamples / (0.1 * 0.1) / information;  // the prior's mean is zero
+  CHECK((filter.current_ned_mps() - estimated * current).norm() < 1e-9);
   CHECK(filter.state().velocity_ned_mps == moving.velocity_ned_mps);  // it was certain
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("however often it is read, a compass is no better than what stays of i
 }
 
 TEST_CASE("turned once round, a compass is swung by the gyros") {
-  // Gyros without error hold the heading from one reading to the next, so eight headings tell B to E. A is not told
+  // Gyros without error hold the heading from one reading to the next, so eight headings give B to E. A is not given
   // from the heading at the start.
   const std::array truth{0.01, 0.02, -0.015, 0.004, -0.003};
   const auto reads_too_much = [&](double h) {
@@ -203,7 +203,7 @@ TEST_CASE("turned once round, a compass is swung by the gyros") {
   CHECK(sigma(filter, kCompassDeviation) == Approx(0.02 / std::sqrt(2.0)).epsilon(0.01));  // shared with the heading
 }
 
-TEST_CASE("under water without the bottom the filter is as wrong as it says: mean NEES of 200 runs") {
+TEST_CASE("submerged without bottom lock the filter is consistent: mean NEES of 200 runs") {
   // A minute at the surface with fixes and both tracks, two with water alone, then with a ship's fixes, 2 s old. The
   // bands are those of chi-square with 9 x 200 and 2 x 200 degrees of freedom, 95 %. Reached: 60 and 58 of 60 epochs,
   // in the mean 8.95; the place is lost by 3.5 m in two minutes, and found to 0.6 m.

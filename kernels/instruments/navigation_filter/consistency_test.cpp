@@ -8,7 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;
-using namespace ensonify::navigation_filter::sailing;
+using namespace ensonify::navigation_filter::test_run;
 
 namespace {
 
@@ -83,7 +83,7 @@ TEST_CASE("twenty hundreds of each grade, for docs/navigation/filter.md", "[.gra
 
 TEST_CASE("aided by a Doppler log of 0.2 %, drift per distance depends on the grade") {
   // Ten runs of half an hour at 2 m/s on one course without fixes, after half a minute with them. The root mean square
-  // of ten strays by about 16 %, so a grade is told from the next, not to a digit.
+  // of ten strays by about 16 %, so a grade is distinguished from the next, not to a digit.
   const Mission m = mission(1800.0, 1e9, 2.0);
   const double distance_m = 2.0 * 1770.0;
   const auto drift = [&](const Grade& grade) {

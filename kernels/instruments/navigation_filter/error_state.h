@@ -8,7 +8,7 @@
 #include "kernels/instruments/inertial/imu.h"
 #include "kernels/instruments/inertial/strapdown.h"
 
-/// Where a vehicle is, from all that it carries: an inertial system corrected by whatever else has something to say.
+/// Navigation filter of a vehicle's instruments: an inertial system corrected by whatever else has something to say.
 namespace ensonify::navigation_filter {
 
 using frames::Vec3;
@@ -35,7 +35,7 @@ enum ErrorIndex : int {
 };
 using Covariance = Eigen::Matrix<double, kErrorCount, kErrorCount>;
 
-/// What the filter believes of its sensors: standard deviations, as in the sensors' own error models.
+/// Filter's model of its sensors: standard deviations, as in the sensors' own error models.
 struct FilterModel {
   inertial::ImuErrors imu;
   double fix_wander_horizontal_m = 0.0;  // Gauss-Markov errors of position fixes, each axis
@@ -59,7 +59,7 @@ struct FilterModel {
   double remembered_s = 0.0;  // fixes as old as this can be used
 };
 
-/// How wrong the first state may be: standard deviations, each axis.
+/// Errors of the first state: standard deviations, each axis.
 struct StartErrors {
   double position_m = 10.0;
   double height_m = 10.0;
@@ -68,7 +68,7 @@ struct StartErrors {
   double heading_rad = 0.05;
 };
 
-/// What a correction found. The normalised innovation squared is distributed as chi-square of as many degrees of
+/// Result of a correction. The normalised innovation squared is distributed as chi-square of as many degrees of
 /// freedom as there were numbers, if the filter and the sensor are as they say.
 struct Innovation {
   double normalised_squared = 0.0;
@@ -79,7 +79,7 @@ struct Innovation {
 /// inertial system's own; the filter keeps the covariance of 49 errors of it, of the sensors and of the water, and adds
 /// the estimated errors to the state at once, so that they are zero between corrections.
 ///
-/// Biases are believed to walk at random as fast as the sensors' Gauss-Markov biases start to, which is right for times
+/// Biases are assumed to walk at random as fast as the sensors' Gauss-Markov biases start to, which is right for times
 /// below their correlation time and careful beyond. Outliers beyond `gate` standard deviations are refused. Latitudes
 /// as for NavigationState.
 class NavigationFilter {
@@ -101,7 +101,7 @@ class NavigationFilter {
     // Standard deviations of what the place of who found the vehicle, its attitude and its array err by slowly.
     Vec3 carrier_sigma_ned_m = Vec3::Zero();
   };
-  /// Where the vehicle was `age_s` ago (>= 0). The fix is compared with the remembered estimate of that time, as all
+  /// Place of the vehicle `age_s` ago (>= 0). The fix is compared with the remembered estimate of that time, as all
   /// later corrections have moved it; errors of position are taken back by those of velocity. What is left out is age^2
   /// / 2 of the errors of acceleration: 4 cm for 0.1 degrees of tilt and 2 s. Older than is remembered: refused.
   Innovation correct_position(const Fix& fix, double age_s = 0.0);
@@ -123,10 +123,10 @@ class NavigationFilter {
   const Covariance& covariance() const { return covariance_; }
   Vec3 gyro_bias_radps() const { return gyro_bias_; }
   Vec3 force_bias_mps2() const { return force_bias_; }
-  /// Of the body against the turning Earth, along its axes, now: readings are means of intervals, so it is the last
-  /// one, corrected, and half of what it grew by since the one before.
+  /// Turn rate of the body against the turning Earth, along its axes, now: readings are means of intervals, so it is
+  /// the last one, corrected, and half of what it grew by since the one before.
   Vec3 turn_rate_radps() const;
-  /// How wrong place and velocity of another point of the body are, north, east, down: its place hangs on the attitude,
+  /// Errors of place and velocity of another point of the body, north, east, down: its place hangs on the attitude,
   /// its velocity on the turn rate as well.
   struct PointCovariance {
     Eigen::Matrix3d position_m2, velocity_m2ps2;
@@ -135,7 +135,7 @@ class NavigationFilter {
   Vec3 fix_error_ned_m() const { return fix_error_; }
   double log_scale() const { return log_scale_; }
   Vec3 current_ned_mps() const { return current_ned_; }  // of the tracked water; down is zero
-  /// What the compass reads too much at a heading.
+  /// Deviation of the compass at a heading.
   double compass_error_rad(double heading_rad) const;
 
   double gate = 6.0;

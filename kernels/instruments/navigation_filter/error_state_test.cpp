@@ -51,7 +51,7 @@ TEST_CASE("what the filter expects of each error alone is what it leads to, with
   }
 }
 
-TEST_CASE("crosstalk of the gyros tilts by what the vehicle has turned, however unevenly it turned") {
+TEST_CASE("gyro crosstalk tilts by the total turn, however uneven the turn") {
   // A turn by psi about the vertical with crosstalk m from z into x and into y: the tilts' integrals over the turning
   // axes are (sin psi, 1 - cos psi) m and (cos psi - 1, sin psi) m, so each level axis has the variance 2 (1 - cos psi)
   // m^2. Steered in jerks, as by an autopilot, at 100 readings a second: half of each tenth of a second at twice the
@@ -117,7 +117,7 @@ TEST_CASE("the turn rate is that of now, not the mean of the last reading's inte
   }
 }
 
-TEST_CASE("another point of the body is as wrong as the unit, the lever and the turn make it") {
+TEST_CASE("another body point errs as the unit, the lever arm and the turn make it") {
   // 3 m ahead of a unit that points north and turns, level, at 0.2 rad/s: the point goes east at 0.6 m/s. Each error
   // alone.
   const Vec3 lever(3, 0, 0);
@@ -163,7 +163,7 @@ TEST_CASE("another point of the body is as wrong as the unit, the lever and the 
 
 TEST_CASE("observations point the right way: what is measured exactly is taken over") {
   // The vehicle points north-east and up, rolled, its sensors off its origin. The estimate starts wrong in one
-  // respect, and is told the truth by the sensor that sees it.
+  // respect, and is given the truth by the sensor that sees it.
   const Vec3 lever(3, -1, 2);
   NavigationState truth{44 * kDegree, -63 * kDegree, -20.0};
   truth.velocity_ned_mps = {1.0, 2.0, -0.3};

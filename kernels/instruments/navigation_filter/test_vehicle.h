@@ -8,8 +8,8 @@
 #include "kernels/instruments/navigation_filter/error_state.h"
 
 // What tests of the filter share: grades of inertial units, a mission, and a vehicle on it that carries all kinds of
-// aids, each as wrong as the filter believes.
-namespace ensonify::navigation_filter::sailing {
+// aids, each as wrong as the filter assumes.
+namespace ensonify::navigation_filter::test_run {
 
 using inertial::Earth;
 using inertial::Inertial;
@@ -220,7 +220,7 @@ class Run {
   static NavigationFilter::Fix fix_at(const NavigationState& place, double sigma_m) {
     return {place.latitude_rad, place.longitude_rad, place.height_m, Vec3::Zero(), Vec3::Constant(sigma_m)};
   }
-  /// The ship tells where she found the vehicle.
+  /// The ship reports where she found the vehicle.
   void find(std::size_t n) {
     for (std::uint64_t axis = 0; axis < 3; ++axis) carrier_[axis].advance(2.0, carrier_stream_, n, axis);
     const Vec3 error =
@@ -253,4 +253,4 @@ class Run {
   Vec3 current_ned_mps_ = Vec3::Zero();
 };
 
-}  // namespace ensonify::navigation_filter::sailing
+}  // namespace ensonify::navigation_filter::test_run

@@ -42,15 +42,14 @@ TEST_CASE("heave of a swell has the gain and phase of the filter's transfer func
   }
 }
 
-TEST_CASE(
-    "at its corner a filter damped by 0.707 keeps 0.707 and leads by a quarter turn; swell far below passes whole") {
+TEST_CASE("at its corner a filter damped by 0.707 keeps 0.707 and leads by a quarter turn") {
   CHECK(heave_response({20, std::sqrt(0.5)}, 20.0).gain == Approx(std::sqrt(0.5)));
   CHECK(heave_response({20, std::sqrt(0.5)}, 20.0).phase_rad == Approx(kPi / 2));
   CHECK(heave_response({20, 0.7071}, 2.0).gain == Approx(1.0).margin(1e-3));
   CHECK(heave_response({20, 0.7071}, 200.0).gain == Approx(0.01).epsilon(0.02));  // (20 / 200)^2
 }
 
-TEST_CASE("squat, draught and tide are not in heave once the filter has forgotten how they came") {
+TEST_CASE("heave holds no squat, draught or tide once the filter has settled") {
   HeaveFilter squat({15.0, 0.7071}), tide({15.0, 0.7071});
   double after_squat = 0.0, greatest_tide = 0.0;
   for (double t = 0; t < 600; t += kStep_s) {
@@ -72,7 +71,7 @@ TEST_CASE("a wrong vertical acceleration leaves a / w^2, and a transient when it
   CHECK(std::abs(heave) < 1e-5);
 }
 
-TEST_CASE("after a turn heave is wrong by centimetres and recovers; aiding takes most of it away") {
+TEST_CASE("after a turn heave errs by centimetres and recovers; aiding removes most of it") {
   // 5 m/s round in 120 s: 0.26 m/s^2 across. Level leans by up to 0.0267 (1 - exp(-2)) rad.
   const auto greatest = [](double aided_share) {
     LevelError level({60.0, aided_share});
@@ -100,7 +99,7 @@ TEST_CASE("level leans outwards in a turn to starboard, by a / g in the end") {
   CHECK(lean == Approx(-std::atan(0.5 / 9.80665)).epsilon(1e-4));
 }
 
-TEST_CASE("delayed heave keeps swell beyond the corner's influence, without phase error, and no tide") {
+TEST_CASE("delayed heave keeps swell far above the corner, without phase error, and no tide") {
   const auto window = delayed_heave_window(25.0, 75.0, 0.2);
   const auto heave_of = [&](double period, double phase) {
     std::vector<double> heights(window.size());

@@ -15,7 +15,7 @@ struct Span {
 /// Whether t lies in any of the spans.
 bool within(const std::vector<Span>& spans, double t_s);
 
-/// When an instrument stamps what it measures.
+/// Moment at which an instrument stamps its measurement.
 enum class Stamping {
   kMeasurement,  // the moment that the value belongs to
   kOutput        // the moment that the message leaves, later by the latency; nothing says by how much
@@ -35,7 +35,7 @@ struct InstrumentClock {
   /// Shown less true at sim time t.
   double error_s(double t_s) const;
 
-  /// What is written on a value measured at t and sent `latency` later.
+  /// Stamp of a value measured at t and sent `latency` later.
   double stamp_s(double t_s, double latency_s, Stamping stamping) const;
 };
 

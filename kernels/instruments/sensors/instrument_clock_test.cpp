@@ -9,7 +9,7 @@ TEST_CASE("a free clock has its offset and drift, a locked one its residual") {
   CHECK(InstrumentClock{.offset_s = 0.5, .drift_ppm = 20, .residual_s = 1e-4}.error_s(1000) == Approx(1e-4));
 }
 
-TEST_CASE("when the pulse is lost the clock drifts from there, and is right again when it returns") {
+TEST_CASE("without the pulse the clock drifts from there; with it the clock is right again") {
   const InstrumentClock clock{.drift_ppm = 50, .unlocked = {{100, 200}, {200, 300}, {500, 600}}};
   CHECK(clock.error_s(99) == 0.0);
   CHECK(clock.error_s(150) == Approx(50e-6 * 50));

@@ -2,7 +2,7 @@
 
 namespace ensonify::sensors {
 
-/// How a motion sensor knows which way is down: it believes the mean specific force to be gravity. In a turn the mean
+/// Level of a motion sensor: it assumes the mean specific force to be gravity. In a turn the mean
 /// force leans outwards, and the sensor's level leans after it with its time constant; speed and heading wired in from
 /// outside let it take off most of the turn.
 struct LevelSettings {
@@ -12,7 +12,7 @@ struct LevelSettings {
   bool operator==(const LevelSettings&) const = default;
 };
 
-/// What a turn does to level, to roll and to vertical acceleration; zero on a straight course.
+/// Effect of a turn on level, roll and vertical acceleration; zero on a straight course.
 class LevelError {
  public:
   explicit LevelError(const LevelSettings& settings) : settings_(settings) {}

@@ -21,7 +21,7 @@ class RangeSensor {
  public:
   RangeSensor(const RangeErrors& errors, const random::Stream& stream);
 
-  /// dt after the sample before; `distance_m` is the true one along the beam, empty where there is nothing to hear.
+  /// dt after the sample before; `distance_m` is the true one along the beam, empty where there is nothing to receive.
   std::optional<double> measure(std::optional<double> distance_m, double dt_s);
 
  private:

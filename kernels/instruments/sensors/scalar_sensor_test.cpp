@@ -31,7 +31,7 @@ TEST_CASE("a wandering error forgets itself as exp(-lag / T)") {
   CHECK(product / kCount == Approx(std::exp(-0.5)).margin(0.03));
 }
 
-TEST_CASE("a lagging sensor follows a step exponentially and trails a ramp by rate times lag") {
+TEST_CASE("a lagging sensor follows a step exponentially, a ramp late by rate times lag") {
   ScalarSensor step({.lag_s = 2.0}, random::Stream(1, "l"));
   step.measure(0.0, 0.0);
   step.measure(1.0, 1e-9);

@@ -34,7 +34,7 @@ TEST_CASE("a place is as uncertain as stated, by angle and by range") {
   for (int i = 0; i < 3; ++i) CHECK(std::sqrt(squares[i] / kCount) == Approx(stated[i]).epsilon(0.05));
 }
 
-TEST_CASE("wrong sound speed stretches the range; what is too far or too wide does not answer") {
+TEST_CASE("wrong sound speed scales the range; no reply beyond range or opening angle") {
   const UsblErrors errors{.range_white_m = 0, .sound_speed_scale = 0.01, .bearing_white_rad = 0};
   CHECK(locate(errors, {0, 0, 100}, kStream, 1)->place_array_m.z() == Approx(101.0));
   CHECK(!locate(errors, {0, 0, 1001}, kStream, 1));

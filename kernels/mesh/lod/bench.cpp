@@ -102,7 +102,7 @@ class Clocks {
     processor_s_.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     state.SetIterationTime(wall_s_.back());
   }
-  void tell(benchmark::State& state) const {
+  void report(benchmark::State& state) const {
     state.counters["worst_ms"] = 1e3 * *std::ranges::max_element(wall_s_);
     state.counters["worst_cpu_ms"] = 1e3 * *std::ranges::max_element(processor_s_);
     double sum = 0.0;
@@ -132,7 +132,7 @@ void adapt(benchmark::State& state) {
     paged_over_held =
         std::min(paged_over_held, world.paged_triangles() / static_cast<double>(world.scene().triangles()));
   }
-  clocks.tell(state);
+  clocks.report(state);
   state.counters["paged_over_held"] = paged_over_held;
 }
 
@@ -150,7 +150,7 @@ struct Passed {
 };
 
 /// A quay wall of 250 m, its vertices row_m apart up the piles and 0.3 m along; the head 12 m off it, rolled towards
-/// it: half the fan meets the wall.
+/// it: half the fan intersects the wall.
 Passed wall(double row_m) {
   const progressive::SheetPileWall piles{.from_enu_m = {-125.0, 0.0}, .to_enu_m = {125.0, 0.0}, .row_m = row_m};
   return {progressive::mesh_of(piles, {1, "wall"}),
@@ -183,7 +183,7 @@ Eigen::AlignedBox3d inside(Eigen::AlignedBox3d box, double by_m) {
   return box;
 }
 
-/// Every ray of the main lobe must meet what it meets with the whole mesh there, to the bit, and every other one
+/// Every ray of the main lobe must hit what it hits with the whole mesh there, to the bit, and every other one
 /// something, but for those at the mesh's own edge.
 void check_rays(const Passed& passed, const trace::Scene& whole, const trace::Scene& scene,
                 const frames::HeadPose& head) {
@@ -203,11 +203,11 @@ void check_rays(const Passed& passed, const trace::Scene& whole, const trace::Sc
     main_lobe += main ? 1 : 0;
     const bool lost = !some[i].hit() && well_inside.contains(all[i].position_enu_m);
     if (!lost && (!main || (all[i].range_m == some[i].range_m && all[i].normal_enu == some[i].normal_enu))) continue;
-    std::fprintf(stderr, lost ? "a ray is lost\n" : "a ray of the main lobe meets another mesh\n");
+    std::fprintf(stderr, lost ? "a ray is lost\n" : "a ray of the main lobe hits another mesh\n");
     std::exit(1);
   }
   if (main_lobe > 1000) return;
-  std::fprintf(stderr, "hardly a ray meets the mesh\n");
+  std::fprintf(stderr, "hardly a ray hits the mesh\n");
   std::exit(1);
 }
 
@@ -228,7 +228,7 @@ void adapt_irregular(benchmark::State& state, const Passed& passed) {
         std::min(whole_over_held, static_cast<double>(whole.triangles()) / static_cast<double>(scene.triangles()));
     if (ping % 30 == 0) check_rays(passed, whole, scene, passed.at(ping));
   }
-  clocks.tell(state);
+  clocks.report(state);
   state.counters["triangles"] = static_cast<double>(passed.mesh.triangle.size());
   state.counters["whole_over_held"] = whole_over_held;
 }

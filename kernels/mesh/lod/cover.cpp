@@ -6,25 +6,25 @@
 namespace ensonify::lod {
 namespace {
 
-/// The greatest size of a block that a view meets. Smaller ones make more blocks, whose neighbours change as the view
-/// moves; of larger ones much is built that the view does not look at.
-constexpr std::int32_t kLargestMet = 1;
+/// The greatest size of a block that a view intersects. Smaller ones make more blocks, whose neighbours change as the
+/// view moves; of larger ones much is built that the view does not examine.
+constexpr std::int32_t kLargestInView = 1;
 
 }  // namespace
 
-struct Cover::Looked {
+struct Cover::PreparedView {
   PreparedFrustum frustum;
   std::int32_t level;
 };
 
 void Cover::choose(const Hierarchy& hierarchy, std::span<const View> wanted) {
   clear(hierarchy);
-  std::vector<Looked> views;
+  std::vector<PreparedView> views;
   for (const View& view : wanted) views.push_back({PreparedFrustum(view.frustum), view.level});
   for (std::int32_t row = 0; row < hierarchy.rows(kLargest); ++row) {
     for (std::int32_t column = 0; column < hierarchy.columns(kLargest); ++column) {
-      met_.resize(views.size());
-      std::iota(met_.begin(), met_.end(), std::size_t{0});
+      views_in_reach_.resize(views.size());
+      std::iota(views_in_reach_.begin(), views_in_reach_.end(), std::size_t{0});
       cover(hierarchy, views, 0, {kLargest, column, row});
     }
   }
@@ -47,22 +47,23 @@ void Cover::clear(const Hierarchy& hierarchy) {
   levels_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone);
 }
 
-/// The views that the block above has met are numbered in `met_`, from `first` on; those that this one meets, or may
-/// meet, are added for the blocks below it.
-void Cover::cover(const Hierarchy& hierarchy, std::span<const Looked> views, std::size_t first, const Block& block) {
+/// The views that the block above has hit are numbered in `views_in_reach_`, from `first` on; those that this one hits,
+/// or may hit, are added for the blocks below it.
+void Cover::cover(const Hierarchy& hierarchy, std::span<const PreparedView> views, std::size_t first,
+                  const Block& block) {
   if (hierarchy.empty(block)) return;
   const Sphere sphere = hierarchy.sphere(block);
-  const std::size_t end = met_.size();
+  const std::size_t end = views_in_reach_.size();
   std::int32_t level = kCoarsest;
   for (std::size_t i = first; i < end; ++i) {
-    const Looked& view = views[met_[i]];
+    const PreparedView& view = views[views_in_reach_[i]];
     const bool matters = view.level < level;
-    if (matters && !view.frustum.meets(sphere)) continue;
+    if (matters && !view.frustum.intersects(sphere)) continue;
     if (matters) level = view.level;
-    met_.push_back(met_[i]);
+    views_in_reach_.push_back(views_in_reach_[i]);
   }
   const std::int32_t size = block.size;
-  const std::int32_t largest = level == kCoarsest ? kLargest : kLargestMet;
+  const std::int32_t largest = level == kCoarsest ? kLargest : kLargestInView;
   if (size > 0 && (size > largest || !hierarchy.has_room({block, size}))) {
     for (const std::int32_t row : {2 * block.row, 2 * block.row + 1}) {
       for (const std::int32_t column : {2 * block.column, 2 * block.column + 1}) {
@@ -70,10 +71,10 @@ void Cover::cover(const Hierarchy& hierarchy, std::span<const Looked> views, std
         if (inside) cover(hierarchy, views, end, {size - 1, column, row});
       }
     }
-    met_.resize(end);
+    views_in_reach_.resize(end);
     return;
   }
-  met_.resize(end);
+  views_in_reach_.resize(end);
   while (!hierarchy.has_room({block, level})) --level;
   add({block, level});
 }

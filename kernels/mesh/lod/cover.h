@@ -11,7 +11,7 @@
 
 namespace ensonify::lod {
 
-/// Where the seabed matters, and the coarsest level that will do there.
+/// View of the seabed, and the coarsest level allowed there.
 struct View {
   Frustum frustum;
   std::int32_t level = 0;
@@ -20,7 +20,7 @@ struct View {
 };
 
 /// A tile covered by blocks, each post's surroundings once: as coarse as the views allow, and coarsest where nothing
-/// looks, save where a block has no room to be so. A function of the tile and the views.
+/// points, save where a block has no room to be so. A function of the tile and the views.
 class Cover {
  public:
   /// Blocks that are all holes are left out.
@@ -40,8 +40,8 @@ class Cover {
 
  private:
   void clear(const Hierarchy& hierarchy);
-  struct Looked;  // a view, prepared
-  void cover(const Hierarchy& hierarchy, std::span<const Looked> views, std::size_t first, const Block& block);
+  struct PreparedView;  // a view, prepared
+  void cover(const Hierarchy& hierarchy, std::span<const PreparedView> views, std::size_t first, const Block& block);
   void add(const Leaf& leaf);
   /// In levels_.
   std::size_t place(std::int32_t column, std::int32_t row) const {
@@ -51,7 +51,7 @@ class Cover {
   std::int32_t columns_ = 0, rows_ = 0;  // blocks of size 0
   std::vector<Leaf> leaves_;
   std::vector<std::int8_t> levels_;
-  std::vector<std::size_t> met_;  // views that may meet the blocks in work, of each from its first on
+  std::vector<std::size_t> views_in_reach_;  // views that may hit the blocks in work, of each from its first on
 };
 
 /// Covers around a tile; null: no tile there, or none whose edge posts are the same.

@@ -54,14 +54,14 @@ TEST_CASE("blocks cover a tile once, as finely as the views ask for") {
       for (int x = under.west; x < under.east; ++x) ++covered[std::size_t(y) * 1024 + std::size_t(x)];
     }
     for (const View& view : views) {
-      if (meets(view.frustum, hierarchy.sphere(leaf.block))) REQUIRE(leaf.level <= view.level);
+      if (intersects(view.frustum, hierarchy.sphere(leaf.block))) REQUIRE(leaf.level <= view.level);
     }
   }
   CHECK(std::ranges::all_of(covered, [](int times) { return times == 1; }));
   CHECK(levels.contains(0));
   CHECK(levels.contains(2));
   CHECK(*levels.rbegin() > 2);
-  CHECK(small_and_coarse > 0);          // beside what is looked at, as coarse as there is room
+  CHECK(small_and_coarse > 0);          // beside what is examined, as coarse as there is room
   CHECK(cover.level_over(6, 2) == 0);   // (100, 40) m
   CHECK(cover.level_over(18, 2) == 2);  // (300, 40) m
   CHECK(cover.level_over(32, 0) == Cover::kNone);
@@ -89,7 +89,7 @@ TEST_CASE("all at full detail is the largest blocks, save those of holes") {
   CHECK(cover.level_over(31, 0) == Cover::kNone);
 }
 
-TEST_CASE("a rim has all posts save between leaves that are both coarsest, in its own tile and the next") {
+TEST_CASE("a rim has all posts except between two coarsest leaves, in its tile and the next") {
   const Hierarchy hierarchy(flat(257, 257));  // 8 x 8 blocks
   Cover fine, coarse;
   fine.choose(hierarchy, std::vector{fan_at(64, 0)});
@@ -112,7 +112,7 @@ TEST_CASE("a rim has all posts save between leaves that are both coarsest, in it
   }
 }
 
-TEST_CASE("under a swath 50 m above posts of 0.1 m the mesh is less than a fiftieth of the paged tiles") {
+TEST_CASE("50 m above posts of 0.1 m a swath's mesh is under 1/50 of the paged tiles") {
   // One tile's relief, repeated over the 21 tiles that a pager holds within 170 m (three depths and 20 m).
   constexpr double kSide_m = 102.4;
   const double turn = 2.0 * std::numbers::pi / kSide_m;

@@ -117,17 +117,17 @@ PreparedFrustum::PreparedFrustum(const Frustum& frustum)
   middle_enu_ = std::cos(middle) * frustum.zero_enu + std::sin(middle) * frustum.side_enu;
 }
 
-bool PreparedFrustum::meets(const Sphere& sphere) const {
+bool PreparedFrustum::intersects(const Sphere& sphere) const {
   const Vec3 to_centre_m = sphere.centre_enu_m - frustum_.apex_enu_m;
   const double distance_m = to_centre_m.norm();
   if (distance_m - sphere.radius_m > frustum_.max_range_m) return false;
   if (distance_m <= sphere.radius_m) return true;
-  if (straight_) return straight_paths_meet(to_centre_m / distance_m, sphere.radius_m / distance_m);
-  return bent_paths_meet(to_centre_m, distance_m, sphere.radius_m);
+  if (straight_) return straight_paths_intersect(to_centre_m / distance_m, sphere.radius_m / distance_m);
+  return refracted_paths_intersect(to_centre_m, distance_m, sphere.radius_m);
 }
 
 /// By sines and cosines of sums of angles, for there are many spheres.
-bool PreparedFrustum::straight_paths_meet(const Vec3& direction, double around_sine) const {
+bool PreparedFrustum::straight_paths_intersect(const Vec3& direction, double around_sine) const {
   const double sine = direction.dot(frustum_.axis_enu), cosine = cosine_of(sine),
                around_cosine = cosine_of(around_sine);
   const double a = sine * around_cosine, b = cosine * around_sine;
@@ -140,7 +140,7 @@ bool PreparedFrustum::straight_paths_meet(const Vec3& direction, double around_s
   return all_about || direction.dot(middle_enu_) >= cosine * (half_cosine_ * about_cosine - half_sine_ * about_sine);
 }
 
-bool PreparedFrustum::bent_paths_meet(const Vec3& to_centre_m, double distance_m, double radius_m) const {
+bool PreparedFrustum::refracted_paths_intersect(const Vec3& to_centre_m, double distance_m, double radius_m) const {
   if (far_beside(frustum_, to_centre_m, distance_m, radius_m)) return false;
   const Swept swept = launched_towards(frustum_, to_centre_m, radius_m);
   const double around = swept.around_rad;

@@ -14,7 +14,7 @@ struct Water {
   bool operator==(const Water&) const = default;
 };
 
-/// Where the sound of a transmission goes: directions from one point, up to a length of path. A direction has the sine
+/// Frustum of a transmission: directions from one point, up to a length of path. A direction has the sine
 /// of its angle from the plane across `axis`, and an angle about the axis, 0 at `zero` and rising towards `side`; the
 /// three are unit vectors at right angles. Both are between limits; the angles may lie anywhere and span a full circle.
 struct Frustum {
@@ -39,11 +39,11 @@ class PreparedFrustum {
   /// but for the corners of the frustum. Of bent ones it is known that they keep their azimuth and that Snell's law
   /// holds between the speeds of `water`, so a path that ends at a place left the head within some interval of
   /// depression; all of it counts.
-  bool meets(const Sphere& sphere) const;
+  bool intersects(const Sphere& sphere) const;
 
  private:
-  bool straight_paths_meet(const frames::Vec3& direction, double around_sine) const;
-  bool bent_paths_meet(const frames::Vec3& to_centre_m, double distance_m, double radius_m) const;
+  bool straight_paths_intersect(const frames::Vec3& direction, double around_sine) const;
+  bool refracted_paths_intersect(const frames::Vec3& to_centre_m, double distance_m, double radius_m) const;
 
   Frustum frustum_;
   bool straight_;
@@ -53,6 +53,8 @@ class PreparedFrustum {
   double half_cosine_, half_sine_;
 };
 
-inline bool meets(const Frustum& frustum, const Sphere& sphere) { return PreparedFrustum(frustum).meets(sphere); }
+inline bool intersects(const Frustum& frustum, const Sphere& sphere) {
+  return PreparedFrustum(frustum).intersects(sphere);
+}
 
 }  // namespace ensonify::lod

@@ -55,8 +55,8 @@ Vec3 unit(std::uint64_t i, std::uint64_t k) {
 
 }  // namespace
 
-TEST_CASE("a sphere that a straight path of the frustum touches is met") {
-  int met = 0;
+TEST_CASE("a sphere that a straight path of the frustum touches intersects it") {
+  int hits = 0;
   constexpr int kTrials = 200'000;
   for (std::uint64_t i = 0; i < kTrials; ++i) {
     const Frustum f = some_frustum(i);
@@ -64,20 +64,20 @@ TEST_CASE("a sphere that a straight path of the frustum touches is met") {
     const double angle = std::lerp(f.low_angle_rad, f.high_angle_rad, draws.uniform(i, 9));
     const Vec3 place = f.apex_enu_m + f.max_range_m * draws.uniform(i, 10) * direction(f, sine, angle);
     const double radius = 0.01 + 30 * std::pow(draws.uniform(i, 11), 4.0);
-    met += meets(f, {place + 0.999 * radius * unit(i, 12), radius});
+    hits += intersects(f, {place + 0.999 * radius * unit(i, 12), radius});
   }
-  CHECK(met == kTrials);
+  CHECK(hits == kTrials);
 }
 
-TEST_CASE("few spheres are met that no path touches") {
-  int met = 0, touched = 0;
+TEST_CASE("few spheres intersect that no path touches") {
+  int hits = 0, touched = 0;
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     Frustum f = some_frustum(i);
     f.high_sine = std::max(f.high_sine, f.low_sine + 0.05);  // wide enough for tries to find
     f.high_angle_rad = std::max(f.high_angle_rad, f.low_angle_rad + 0.2);
     const Sphere sphere{f.apex_enu_m + 120 * draws.uniform(i, 8) * unit(i, 12), 1 + 4 * draws.uniform(i, 9)};
-    if (!meets(f, sphere)) continue;
-    ++met;
+    if (!intersects(f, sphere)) continue;
+    ++hits;
     bool inside = holds(f, sphere.centre_enu_m);
     for (std::uint64_t k = 0; k < 1000 && !inside; ++k) {
       const double part = std::cbrt(draws.uniform(i, 50, k));
@@ -86,14 +86,14 @@ TEST_CASE("few spheres are met that no path touches") {
     }
     touched += inside;
   }
-  REQUIRE(met > 1000);
-  // What is met for nothing lies at the frustum's corners, or touches by less than 1000 tries find.
-  CHECK(touched > 0.85 * met);
+  REQUIRE(hits > 1000);
+  // What is hit for nothing lies at the frustum's corners, or touches by less than 1000 tries find.
+  CHECK(touched > 0.85 * hits);
 }
 
-TEST_CASE("a place that a bent path of the frustum comes through is met") {
+TEST_CASE("a place on a refracted path of the frustum intersects it") {
   const auto summer = refraction::summer_thermocline();  // 1489.5 to 1522 m/s
-  int met = 0, bent_away = 0, places = 0;
+  int hits = 0, refracted_away = 0, places = 0;
   for (std::uint64_t i = 0; i < 40'000; ++i) {
     Frustum f = some_frustum(i);
     const double depth = 2 + 30 * draws.uniform(i, 8);
@@ -113,14 +113,14 @@ TEST_CASE("a place that a bent path of the frustum comes through is met") {
     const Vec3 place(f.apex_enu_m.x() + horizontal * start.x() / level,
                      f.apex_enu_m.y() + horizontal * start.y() / level, -end.depth_m);
     const Sphere sphere{place + 0.0499 * unit(i, 12), 0.05};
-    met += meets(f, sphere);
+    hits += intersects(f, sphere);
     Frustum straight = f;
     straight.water = {};
-    bent_away += !meets(straight, sphere);
+    refracted_away += !intersects(straight, sphere);
   }
   REQUIRE(places > 10'000);
-  CHECK(met == places);
-  CHECK(bent_away > 1000);  // straight paths do not do
+  CHECK(hits == places);
+  CHECK(refracted_away > 1000);  // straight paths do not do
 }
 
 TEST_CASE("bending costs a fan that hangs straight down nothing along its track") {
@@ -133,15 +133,15 @@ TEST_CASE("bending costs a fan that hangs straight down nothing along its track"
   fan.low_angle_rad = -1.13;
   fan.high_angle_rad = 1.13;
   fan.max_range_m = 150;
-  Frustum bent = fan;
-  bent.water = {1489.5, 1522.0, 1520.0};
+  Frustum refracted = fan;
+  refracted.water = {1489.5, 1522.0, 1520.0};
   for (double x = -100; x <= 100; x += 5) {
-    double straight_reach = 0, bent_reach = 0;
+    double straight_reach = 0, refracted_reach = 0;
     for (double y = 0; y < 30; y += 0.05) {
-      if (meets(fan, {{x, y, -50}, 2.0})) straight_reach = y;
-      if (meets(bent, {{x, y, -50}, 2.0})) bent_reach = y;
+      if (intersects(fan, {{x, y, -50}, 2.0})) straight_reach = y;
+      if (intersects(refracted, {{x, y, -50}, 2.0})) refracted_reach = y;
     }
-    CHECK(bent_reach >= straight_reach);
-    CHECK(bent_reach <= straight_reach + 0.9);  // most at 10 m from the head's track; less than half a radius
+    CHECK(refracted_reach >= straight_reach);
+    CHECK(refracted_reach <= straight_reach + 0.9);  // most at 10 m from the head's track; less than half a radius
   }
 }

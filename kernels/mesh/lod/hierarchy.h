@@ -36,7 +36,7 @@ class Hierarchy {
   /// Around all posts under the block: its lowest and its highest corner. Of a block that is not empty.
   std::array<terrain::Vec3, 2> box_enu_m(const Block& block) const;
   /// Around all posts under the block, so around what any level shows of them; 1 cm more than they need, for what
-  /// floats round and chords of bent rays leave out. Of a block that is not empty.
+  /// floats round and chords of refracted rays leave out. Of a block that is not empty.
   Sphere sphere(const Block& block) const;
 
   /// Whether a mesh can show the block so coarsely: with fewer than three cells to a side there is no room inside its

@@ -143,7 +143,7 @@ std::vector<std::int32_t> across(const std::vector<std::int32_t>& outer, const s
   return inner;
 }
 
-/// One grid for each block of size 0, whatever the size of the block: so a ray meets the same grids.
+/// One grid for each block of size 0, whatever the size of the block: so a ray hits the same grids.
 Patch all_posts(const Tile& tile, const Posts& posts, const Vec2& origin_enu_m) {
   Builder builder(tile, posts, origin_enu_m);
   for (std::int32_t south = posts.south; south < posts.north; south += kBlockCells) {

@@ -36,7 +36,7 @@ std::vector<Triangle> triangles_of(const Patch& patch) {
   return all;
 }
 
-/// Looks at a small cone from a place 20 m above.
+/// Examines a small cone from a place 20 m above.
 View spot(double x, double y, double half_rad, int level) {
   View view;
   view.level = level;
@@ -100,7 +100,7 @@ double plan_area_m2(const Triangle& t) {
 
 }  // namespace
 
-TEST_CASE("whatever the levels, every edge of a triangle is another's too, save at the end of the world") {
+TEST_CASE("at any levels every triangle edge is shared, except at the end of the world") {
   Sea sea;
   const random::Stream draws(3, "spots");
   for (std::uint64_t trial = 0; trial < 12; ++trial) {
@@ -169,7 +169,7 @@ TEST_CASE("no cell has a hole at a corner") {
   }
 }
 
-TEST_CASE("a hole in a coarse block's rim takes the cells that it is a corner of, and no more") {
+TEST_CASE("a hole in a coarse block's rim removes only the cells at that corner") {
   Sea sea;
   terrain::Tile& tile = sea.tiles[{0, 0}];
   tile.height_m[tile.post(16, 0)] = std::nanf("");

@@ -19,20 +19,20 @@ Vec2 place_after(const Motion& motion, double time_s) {
   return motion.position_enu_m + along * v + left * Vec2(-v.y(), v.x());
 }
 
-std::vector<Need> needs(const TileGrid& grid, const Box& terrain, const Motion& motion, const Outlook& outlook) {
-  if (!(outlook.step_s > 0.0 && outlook.ahead_s >= 0.0 && outlook.wide_margin_m >= outlook.margin_m)) {
+std::vector<Need> needs(const TileGrid& grid, const Box& terrain, const Motion& motion, const Horizon& horizon) {
+  if (!(horizon.step_s > 0.0 && horizon.ahead_s >= 0.0 && horizon.wide_margin_m >= horizon.margin_m)) {
     throw std::invalid_argument("an outlook needs step_s > 0, ahead_s >= 0 and wide_margin_m >= margin_m");
   }
   std::map<TileKey, Need> of_tile;
-  const auto looks = static_cast<int>(std::floor(outlook.ahead_s / outlook.step_s));
-  for (int look = 0; look <= looks; ++look) {
-    const double time_s = look * outlook.step_s;
+  const auto steps = static_cast<int>(std::floor(horizon.ahead_s / horizon.step_s));
+  for (int step = 0; step <= steps; ++step) {
+    const double time_s = step * horizon.step_s;
     const Vec2 place = place_after(motion, time_s);
-    for (const TileKey& key : tiles_near(grid, terrain, place, outlook.wide_margin_m)) {
+    for (const TileKey& key : tiles_near(grid, terrain, place, horizon.wide_margin_m)) {
       const double away_m = distance_m(box_of(grid, key), place);
       Need& need = of_tile.try_emplace(key, Need{key, std::numeric_limits<double>::infinity(), away_m}).first->second;
       need.distance_m = std::min(need.distance_m, away_m);
-      if (away_m <= outlook.margin_m) need.due_s = std::min(need.due_s, time_s);
+      if (away_m <= horizon.margin_m) need.due_s = std::min(need.due_s, time_s);
     }
   }
   std::vector<Need> all;

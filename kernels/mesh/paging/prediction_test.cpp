@@ -71,7 +71,7 @@ TEST_CASE("a vehicle at rest needs what is near it") {
 
 TEST_CASE("a circle needs the tiles around it however long it is followed") {
   const Motion circling{{50, 0}, {4, 0}, 4.0 / 30.0};  // radius 30 m around (50, 30); a turn takes 47 s
-  const Outlook once{50.0, 0.5, 60.0, 60.0}, long_time{1000.0, 0.5, 60.0, 60.0};
+  const Horizon once{50.0, 0.5, 60.0, 60.0}, long_time{1000.0, 0.5, 60.0, 60.0};
   CHECK(needs(kGrid, kTerrain, circling, once).size() == needs(kGrid, kTerrain, circling, long_time).size());
 }
 

@@ -15,7 +15,7 @@ std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastWanted& 
   };
   for (const TileKey& key : needed) add(key);
   std::vector<std::pair<std::int64_t, TileKey>> rest;
-  for (const auto& [key, look] : held) rest.emplace_back(-look, key);
+  for (const auto& [key, last_used] : held) rest.emplace_back(-last_used, key);
   std::ranges::sort(rest);
   for (const auto& [age, key] : rest) add(key);
   return keep;

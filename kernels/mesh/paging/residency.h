@@ -10,14 +10,14 @@
 
 namespace ensonify::paging {
 
-/// When tiles last lay within reach of the heads or were needed, in looks counted from the start.
+/// Last time that tiles lay within reach of the heads or were needed, in updates counted from the start.
 using LastWanted = std::map<TileKey, std::int64_t>;
 
 /// Which tiles memory is to hold now, at most `most`: those needed, in their order; then what it holds already, the
 /// last wanted first (the least recently wanted are given up first), equally old ones by key. In order of importance.
 std::vector<TileKey> to_hold(std::span<const TileKey> needed, const LastWanted& held, std::size_t most);
 
-/// What heads hold changes only at a distance: tiles nearer than `feed_m` are given to them, those beyond `release_m`
+/// Rule for tiles that heads hold: tiles nearer than `feed_m` are given to them, those beyond `release_m`
 /// taken away, and between the two all stays as it is, so that a vehicle at the border does not send tiles to and fro.
 struct Margins {
   double feed_m = 100.0;

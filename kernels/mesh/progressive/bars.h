@@ -8,7 +8,7 @@
 
 namespace ensonify::progressive {
 
-/// How often a bar stands, itself included, and how far one is from the one before it.
+/// Number of copies of a bar, itself included, and their spacing.
 struct Repeat {
   int count = 1;
   frames::Vec3 step_m = frames::Vec3::Zero();
@@ -21,7 +21,8 @@ struct Bar {
   frames::Vec3 from_m = frames::Vec3::Zero();
   frames::Vec3 to_m = frames::Vec3::Zero();
   double diameter_m = 0.0;  // of a round one; 0: `section_m`
-  /// Of one with corners. First how wide it is, level and across it, along x where it stands upright; then across both.
+  /// Section of a bar with corners. First how wide it is, level and across it, along x where it stands upright; then
+  /// across both.
   frames::Vec2 section_m = frames::Vec2::Zero();
   std::vector<Repeat> repeat;  // a row, a grid, a lattice
 };

@@ -11,7 +11,7 @@ using ensonify::frames::Vec3;
 
 namespace {
 
-/// By the divergence theorem: positive when all triangles look outwards.
+/// By the divergence theorem: positive when all triangles face outwards.
 double volume_m3(const TriangleMesh& mesh) {
   double sum = 0.0;
   const auto at = [&](std::uint32_t vertex) { return mesh.vertex_m[vertex].cast<double>().eval(); };

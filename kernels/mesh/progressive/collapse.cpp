@@ -11,7 +11,7 @@ namespace {
 using Surface = OpenMesh::TriMesh_ArrayKernelT<>;
 using Quadric = Eigen::Matrix4d;  // squared distances from planes: p^T Q p, p = (x, y, z, 1)
 
-/// OpenMesh tells the error stream of each triangle that it refuses; that is no news here.
+/// OpenMesh gives the error stream of each triangle that it refuses; that is no news here.
 class Quiet {
  public:
   Quiet() { ::omerr().disable(); }

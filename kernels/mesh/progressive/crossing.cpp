@@ -49,16 +49,16 @@ std::optional<double> first_crossing_m(const TriangleMesh& mesh, const Way& way)
       corner[i] = {from_start.dot(along), place.z()};
     }
     // Two sides at most have their ends on different sides of the plane, where on it counts as beyond it.
-    std::array<OnPlane, 3> met{};
+    std::array<OnPlane, 3> crossings{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if ((off_m[i] < 0.0) == (off_m[j] < 0.0)) continue;
       const double share = off_m[i] / (off_m[i] - off_m[j]);
-      met[count++] = {std::lerp(corner[i].along_m, corner[j].along_m, share),
-                      std::lerp(corner[i].z_m, corner[j].z_m, share)};
+      crossings[count++] = {std::lerp(corner[i].along_m, corner[j].along_m, share),
+                            std::lerp(corner[i].z_m, corner[j].z_m, share)};
     }
-    if (count == 2) first_m = std::min(first_m, least_along_m(met[0], met[1], length_m, least_z_m));
+    if (count == 2) first_m = std::min(first_m, least_along_m(crossings[0], crossings[1], length_m, least_z_m));
   }
   if (!std::isfinite(first_m)) return std::nullopt;
   return first_m;

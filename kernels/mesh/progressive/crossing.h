@@ -13,9 +13,10 @@ struct Way {
   double above_z_m = 0.0;
 };
 
-/// How far along a way (m) the surface first stands in it: crosses the upright plane over it at or above its height, at
-/// whatever height above. Empty when it does not. What comes within kSlack_m of the height does; a surface that only
-/// touches the way from the side, with an upright triangle along it, may or may not. Exact but for what floats round.
+/// Distance along a track (m) at which the surface first crosses it: cuts the upright plane over it at or above its
+/// height, at whatever height above. Empty when it does not. What comes within kSlack_m of the height does; a surface
+/// that only touches the way from the side, with an upright triangle along it, may or may not. Exact but for what
+/// floats round.
 std::optional<double> first_crossing_m(const TriangleMesh& mesh, const Way& way);
 
 }  // namespace ensonify::progressive

@@ -21,23 +21,23 @@ TriangleMesh slope() {
 
 }  // namespace
 
-TEST_CASE("a way meets a slope where its height is reached, and nothing below that") {
+TEST_CASE("a track crosses a slope where its height is reached, and nothing below that") {
   // z = -20 at y = -20 and 0 at y = 20; the way runs north from y = -50 along x = 101.3. The answer is slack wide: at
   // this slope 2 kSlack_m, and floats.
-  const auto met = [](double z_m) { return first_crossing_m(slope(), {{101.3, -50.0}, {101.3, 50.0}, z_m}); };
-  REQUIRE(met(-8.0));
-  CHECK(*met(-8.0) == Approx(50.0 + 2.0 * (-8.0 + 10.0)).margin(2.0 * kSlack_m + 1e-5));
-  REQUIRE(met(-15.0));
-  CHECK(*met(-15.0) == Approx(50.0 - 10.0).margin(2.0 * kSlack_m + 1e-5));
-  CHECK(*met(-30.0) == Approx(30.0).margin(1e-5));  // its edge
-  CHECK_FALSE(met(0.1));
+  const auto crossing = [](double z_m) { return first_crossing_m(slope(), {{101.3, -50.0}, {101.3, 50.0}, z_m}); };
+  REQUIRE(crossing(-8.0));
+  CHECK(*crossing(-8.0) == Approx(50.0 + 2.0 * (-8.0 + 10.0)).margin(2.0 * kSlack_m + 1e-5));
+  REQUIRE(crossing(-15.0));
+  CHECK(*crossing(-15.0) == Approx(50.0 - 10.0).margin(2.0 * kSlack_m + 1e-5));
+  CHECK(*crossing(-30.0) == Approx(30.0).margin(1e-5));  // its edge
+  CHECK_FALSE(crossing(0.1));
   // The other way round it is above all of it at once, from its upper edge on; half a way ends before it.
   CHECK(*first_crossing_m(slope(), {{101.3, 50.0}, {101.3, -50.0}, -8.0}) == Approx(30.0).margin(1e-5));
   CHECK_FALSE(first_crossing_m(slope(), {{101.3, -50.0}, {101.3, -10.0}, -8.0}));
   CHECK_FALSE(first_crossing_m(slope(), {{121.0, -50.0}, {121.0, 50.0}, -30.0}));  // beside it
 }
 
-TEST_CASE("a way through a wall is found wherever it goes through, above its foot and up to its top") {
+TEST_CASE("a crossing of a wall is found anywhere between its foot and its top") {
   const SheetPileWall wall{.from_enu_m = {-30.0, 20.0}, .to_enu_m = {30.0, 20.0}, .foot_depth_m = 12.0};
   const TriangleMesh mesh = mesh_of(wall, {1, "wall"});
   // The section is half its depth to either side, and the piles stand 15 mm out of line: four deviations.
@@ -45,9 +45,9 @@ TEST_CASE("a way through a wall is found wherever it goes through, above its foo
   for (int i = -100; i <= 100; ++i) {
     const double x = 0.29 * i;
     for (const double z_m : {0.0, -5.0, -40.0}) {  // its top; and what stands higher than a way is in it too
-      const auto met = first_crossing_m(mesh, {{x, -80.0}, {x, 80.0}, z_m});
-      REQUIRE(met);
-      CHECK(std::abs(*met - 100.0) < off_m);
+      const auto crossing = first_crossing_m(mesh, {{x, -80.0}, {x, 80.0}, z_m});
+      REQUIRE(crossing);
+      CHECK(std::abs(*crossing - 100.0) < off_m);
     }
     CHECK_FALSE(first_crossing_m(mesh, {{x, -80.0}, {x, 80.0}, 0.01}));
     CHECK_FALSE(first_crossing_m(mesh, {{x, -80.0}, {x, 19.0}, 0.0}));

@@ -19,14 +19,14 @@ bool too_far(const Split& split, double tolerance_m) {
   return tolerance_m <= 0.0 || static_cast<double>(split.deviation_m) > tolerance_m;
 }
 
-/// Whether a view can meet a triangle: by spheres around quarters of quarters of it, so that a long one beside a narrow
-/// view need not come back.
+/// Whether a view can intersect a triangle: by spheres around quarters of quarters of it, so that a long one beside a
+/// narrow view need not come back.
 bool stands_in(const lod::PreparedFrustum& frustum, const std::array<frames::Vec3, 3>& corner, int quarters) {
   Eigen::AlignedBox3d box;
   for (const frames::Vec3& place : corner) box.extend(place);
-  if (!frustum.meets({box.center(), 0.5 * box.diagonal().norm() + kSlack_m})) return false;
+  if (!frustum.intersects({box.center(), 0.5 * box.diagonal().norm() + kSlack_m})) return false;
   const auto& [a, b, c] = corner;
-  if (quarters == 0 || frustum.meets({(a + b + c) / 3.0, kSlack_m})) return true;
+  if (quarters == 0 || frustum.intersects({(a + b + c) / 3.0, kSlack_m})) return true;
   const frames::Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
   return stands_in(frustum, {a, ab, ca}, quarters - 1) || stands_in(frustum, {ab, b, bc}, quarters - 1) ||
          stands_in(frustum, {ca, bc, c}, quarters - 1) || stands_in(frustum, {ab, bc, ca}, quarters - 1);
@@ -50,13 +50,13 @@ double mean_edge_m(const TriangleMesh& mesh) {
 
 std::vector<View> views_of(std::span<const lod::View> views, double mean_edge_m) {
   constexpr double kTolerance = 0.1;  // mean edges, times 2^level
-  std::vector<View> looks;
+  std::vector<View> views_of_level;
   for (const lod::View& view : views)
-    looks.push_back({view.frustum, view.level == 0 ? 0.0 : std::ldexp(kTolerance * mean_edge_m, view.level)});
-  return looks;
+    views_of_level.push_back({view.frustum, view.level == 0 ? 0.0 : std::ldexp(kTolerance * mean_edge_m, view.level)});
+  return views_of_level;
 }
 
-struct Cut::Looked {
+struct Cut::PreparedView {
   lod::PreparedFrustum frustum;
   double tolerance_m;
   std::span<const std::int32_t> back;
@@ -103,8 +103,8 @@ void Cut::undo(const Hierarchy& hierarchy, std::int32_t split) {
   }
 }
 
-/// Down the tree, as far as views meet what lies below.
-void Cut::look(const Hierarchy& hierarchy, std::span<const Looked> views) {
+/// Down the tree, as far as views intersect what lies below.
+void Cut::undo_in_view(const Hierarchy& hierarchy, std::span<const PreparedView> views) {
   for (const std::int32_t s : all_undone_) {
     undone_[static_cast<std::size_t>(s)] = 0;
     becomes_[at(hierarchy, s).removed] = at(hierarchy, s).kept;
@@ -115,8 +115,8 @@ void Cut::look(const Hierarchy& hierarchy, std::span<const Looked> views) {
     const std::int32_t s = to_judge_[i];
     const Split& split = at(hierarchy, s);
     const lod::Sphere sphere = sphere_around(split.box_m, hierarchy.mesh.origin_enu_m);
-    if (std::none_of(views.begin(), views.end(), [&](const Looked& view) {
-          return too_far(split, view.tolerance_m) && view.frustum.meets(sphere);
+    if (std::none_of(views.begin(), views.end(), [&](const PreparedView& view) {
+          return too_far(split, view.tolerance_m) && view.frustum.intersects(sphere);
         }))
       continue;
     undo(hierarchy, s);
@@ -194,7 +194,7 @@ void Cut::gather(const Hierarchy& hierarchy) {
 
 /// A triangle that was moved may stand in a view though nothing of what it stands for does: its corners are asked back.
 /// False if none was away.
-bool Cut::settle(const Hierarchy& hierarchy, std::span<const Looked> views) {
+bool Cut::settle(const Hierarchy& hierarchy, std::span<const PreparedView> views) {
   const std::size_t count = to_settle_.size();
   stands_in_.assign(views.size() * count, 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPerTask), [&](const auto& range) {
@@ -241,11 +241,11 @@ void Cut::choose(const Hierarchy& hierarchy, std::span<const View> wanted) {
   std::erase_if(back_, [&](const auto& known) {
     return std::ranges::none_of(wanted, [&](const View& view) { return view.tolerance_m == known.first; });
   });
-  std::vector<Looked> views;
+  std::vector<PreparedView> views;
   for (const View& view : wanted) {
     views.push_back({lod::PreparedFrustum(view.frustum), view.tolerance_m, back_within(hierarchy, view.tolerance_m)});
   }
-  look(hierarchy, views);
+  undo_in_view(hierarchy, views);
   for (const std::uint32_t vertex : shown_known_) shown_[vertex] = kUnknown;
   shown_known_.clear();
   standing_.clear();

@@ -16,7 +16,7 @@ frames::Vec3 middle_of(const TriangleMesh& mesh, const Triangle& t) {
   return mesh.origin_enu_m + (mesh.vertex_m[t[0]] + mesh.vertex_m[t[1]] + mesh.vertex_m[t[2]]).cast<double>() / 3.0;
 }
 
-/// Heads above the quay, looking down its wall, and from the water towards it.
+/// Heads above the quay, pointing down its wall, and from the water towards it.
 std::vector<View> views_of_quay(double x) {
   View side = fan({x, -12.0, -2.0}, 0.0, 0.0, 30.0);
   side.frustum.axis_enu = frames::Vec3::UnitX();  // across the wall, from foot to deck
@@ -41,7 +41,7 @@ TEST_CASE("everything in view is the source, nothing in view the coarsest") {
   CHECK(cut.triangles().size() == quay.coarsest.size());
 }
 
-TEST_CASE("what meets a view of the main lobe is the source's own, and nothing else meets it") {
+TEST_CASE("a main lobe's view intersects the source's triangles and nothing else") {
   const Hierarchy quay = made_of(quay_wall(40.0));
   Cut cut(quay);
   for (const double x : {-8.0, 0.0, 11.0}) {
@@ -52,13 +52,14 @@ TEST_CASE("what meets a view of the main lobe is the source's own, and nothing e
     for (std::size_t i = 0; i < cut.triangles().size(); ++i) shown[cut.sources()[i]] = cut.triangles()[i];
     for (const View& view : views) {
       for (std::uint32_t t = 0; t < quay.mesh.triangle.size(); ++t) {
-        if (!lod::meets(view.frustum, {middle_of(quay.mesh, quay.mesh.triangle[t]), 0.0})) continue;
+        if (!lod::intersects(view.frustum, {middle_of(quay.mesh, quay.mesh.triangle[t]), 0.0})) continue;
         ++in_view;
         const auto own = shown.find(t);
         if (own == shown.end() || own->second != quay.mesh.triangle[t]) ++lost;
       }
       for (const auto& [source, triangle] : shown) {
-        if (triangle != quay.mesh.triangle[source] && lod::meets(view.frustum, {middle_of(quay.mesh, triangle), 0.0}))
+        if (triangle != quay.mesh.triangle[source] &&
+            lod::intersects(view.frustum, {middle_of(quay.mesh, triangle), 0.0}))
           ++foreign;
       }
     }
@@ -69,7 +70,7 @@ TEST_CASE("what meets a view of the main lobe is the source's own, and nothing e
   }
 }
 
-TEST_CASE("no cut has a crack: every edge of a closed surface is passed as often one way as the other") {
+TEST_CASE("no cut has a crack: each edge of a closed surface is used equally both ways") {
   const Hierarchy ball = made_of(bumpy_ball(80, 40));
   Cut cut(ball);
   for (int n = 0; n < 12; ++n) {
@@ -99,7 +100,7 @@ TEST_CASE("the mesh of a ping is a function of its views, however it was reached
                    wandering.triangles().end()));
 }
 
-TEST_CASE("a tolerance holds where a view looks") {
+TEST_CASE("a tolerance holds within a view") {
   const Hierarchy ball = made_of(bumpy_ball(80, 40));
   Cut cut(ball);
   std::size_t finer = ball.mesh.triangle.size() + 1;

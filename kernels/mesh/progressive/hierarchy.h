@@ -42,7 +42,7 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses);
 /// Vertices are rounded to float once more, boxes are those of the vertices as they then are.
 Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad);
 
-/// Why a hierarchy that came from elsewhere cannot be used; empty if nothing is wrong. Allowed is what hierarchy_of
+/// Fault of a hierarchy that came from elsewhere; empty if nothing is wrong. Allowed is what hierarchy_of
 /// makes: a mesh without fault, numbers of things that are there, parents before children.
 std::string fault_of(const Hierarchy& hierarchy);
 

@@ -26,12 +26,12 @@ struct TriangleMesh {
 /// Chords stay within 1 mm of their arcs, and coordinates are rounded by 0.13 mm (kernels/acoustics/trace/scene.h).
 constexpr double kSlack_m = 2e-3;
 
-/// Why a mesh cannot be used; empty if nothing is wrong. Allowed are finite vertices and triangles of three different
+/// Fault of a mesh; empty if nothing is wrong. Allowed are finite vertices and triangles of three different
 /// ones; a mesh of no triangles is as good as any.
 std::string fault_of(const TriangleMesh& mesh);
 
 /// Around a box, from its middle to its corners; kSlack_m more than it needs, for what floats round and the chords of
-/// bent rays leave out.
+/// refracted rays leave out.
 lod::Sphere sphere_around(const Eigen::AlignedBox3f& box_m, const frames::Vec3& origin_enu_m);
 
 }  // namespace ensonify::progressive

@@ -9,7 +9,7 @@
 
 namespace ensonify::progressive {
 
-/// Where a copy of a mesh stands: its origin's place, its y axis from north, its size.
+/// Pose of a copy of a mesh: its origin's place, its y axis from north, its size.
 struct Copy {
   frames::Vec3 position_enu_m = frames::Vec3::Zero();
   double heading_rad = 0.0;

@@ -51,7 +51,7 @@ TEST_CASE("copies stand where they are said, turned clockwise, in their size") {
   }
 }
 
-TEST_CASE("each copy is as fine as a head looks at it") {
+TEST_CASE("each copy is as fine as the head's view requires") {
   const Hierarchy one = ball();
   const Hierarchy both = copies_of(one, std::vector<Copy>{{{0, 0, 0}, 0.0, 1.0}, {{300, 0, 0}, 0.0, 1.0}});
   Cut cut(both);

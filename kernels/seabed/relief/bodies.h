@@ -37,8 +37,8 @@ struct Body {
   frames::Vec2 longer_axis_enu = frames::Vec2::UnitY();
 };
 
-/// Where bodies overlap, the one that departs most from the bottom is seen. Bodies of which a node of `mask` (the
-/// south-west one of the cell of about two largest radii in which they lie) says less than a random number do not
+/// Rule for bodies that overlap: the one that departs most from the bottom is seen. Bodies of which a node of `mask`
+/// (the south-west one of the cell of about two largest radii in which they lie) says less than a random number do not
 /// exist. At level k bodies are seen at its nodes, unless they are smaller in radius than the nodes are apart.
 class Bodies {
  public:

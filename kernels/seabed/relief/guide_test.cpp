@@ -43,7 +43,7 @@ TEST_CASE("the surface passes through the raster's values, at the edges too") {
   }
 }
 
-TEST_CASE("a wave of eight cells comes back within 0.1 %, and beyond the edge the edge goes on") {
+TEST_CASE("a wave of eight cells is kept within 0.1 %; beyond the edge the edge continues") {
   const auto wave = [](double x, double y) { return std::sin(2 * std::numbers::pi * (x + 10.0) / 32.0 + 0.3 * y / 4); };
   const Field surface = smooth_surface(raster_of(wave), 0.5);
   // A cubic spline's error for a wave of n cells is (2 pi / n)^4 / 720 of it or so: 5e-4 for 8.

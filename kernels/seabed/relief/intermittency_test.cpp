@@ -32,7 +32,7 @@ TEST_CASE("the fast exponential is the exponential") {
   CHECK(std::isfinite(exponential(1e9F)));
 }
 
-TEST_CASE("a cascade's mean square is 1 at every level, and its logarithm gains k2 ln 2 per octave") {
+TEST_CASE("a cascade has mean square 1 per level; its log variance gains k2 ln 2 an octave") {
   const double k2 = 0.2;
   for (const int level : {2, 4, 6}) {
     double square = 0.0, log = 0.0, log2 = 0.0;
@@ -60,7 +60,7 @@ TEST_CASE("a cascade's mean square is 1 at every level, and its logarithm gains 
   }
 }
 
-TEST_CASE("exponents grow with the intermittency as a lognormal cascade of some octaves lets them, and D stays") {
+TEST_CASE("exponents grow with intermittency as in a lognormal cascade, and D stays") {
   const double h = 0.625;
   constexpr double kOuter = 512.0;
   double plain_zeta_2 = 0.0;
@@ -88,7 +88,7 @@ TEST_CASE("exponents grow with the intermittency as a lognormal cascade of some 
   }
 }
 
-TEST_CASE("roughness follows slope in a cascade, and patches differ; in plain relief they do not") {
+TEST_CASE("in a cascade roughness follows slope and patches differ; in plain relief not") {
   const SpectralSurface surface({.rms_m = 1.0, .hurst = 0.625, .outer_scale_m = 512.0}, 1.0, 3, "rock");
   const LognormalCascade cascade({.intermittency = 0.3, .outer_scale_m = 512.0}, 1.0, 3, "rock");
   const auto plain = patchiness(square(surface, nullptr, 512)),

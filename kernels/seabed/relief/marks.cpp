@@ -108,7 +108,7 @@ std::vector<Vec2> line_of(const Mark& mark, int points) {
   return line;
 }
 
-bool meets(const Mark& mark, const Vec2& south_west_enu_m, const Vec2& north_east_enu_m) {
+bool intersects(const Mark& mark, const Vec2& south_west_enu_m, const Vec2& north_east_enu_m) {
   const Eigen::AlignedBox2d box(south_west_enu_m, north_east_enu_m);
   if (box.contains(mark.middle_enu_m)) return true;
   if (box.exteriorDistance(mark.middle_enu_m) > 0.5 * mark.length_m + mark.half_width_m) return false;

@@ -29,12 +29,12 @@ struct Mark {
 /// Height of a mark at a place, m; 0 beyond its berms.
 double height_at_m(const Mark& mark, const frames::Vec2& place_enu_m);
 
-/// Its middle line, `points` places from end to end: the ground truth for who looks for marks.
+/// Its middle line, `points` places from end to end: the ground truth for who searches for marks.
 std::vector<frames::Vec2> line_of(const Mark& mark, int points);
 
-/// Whether the furrow, without its berms, meets a rectangle: some place of it is at most half the furrow's width from
+/// Whether the furrow, without its berms, hits a rectangle: some place of it is at most half the furrow's width from
 /// the middle line, give or take a twentieth of that.
-bool meets(const Mark& mark, const frames::Vec2& south_west_enu_m, const frames::Vec2& north_east_enu_m);
+bool intersects(const Mark& mark, const frames::Vec2& south_west_enu_m, const frames::Vec2& north_east_enu_m);
 
 /// Trawl scars (furrows in pairs, one per door) and anchor drags (single ones), a Poisson process of tracks. Known
 /// of doors: 0.05-0.3 m deep, 1-4 m wide with berms, pairs 40-120 m apart, along contours.
@@ -53,8 +53,8 @@ struct MarkParameters {
   double spoil = 0.5;    // 0 to 1
 };
 
-/// Where marks cross, the one that departs most from the bottom is seen. At level k marks narrower than the nodes are
-/// apart are not seen.
+/// Rule for marks that cross: the one that departs most from the bottom is seen. At level k marks narrower than the
+/// nodes are apart are not seen.
 class Marks {
  public:
   Marks(const MarkParameters& parameters, double post_spacing_m, std::uint64_t seed, std::string_view name);

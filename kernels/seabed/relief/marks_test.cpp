@@ -26,7 +26,7 @@ TEST_CASE("across a furrow: its depth, its berms, and the share of the spoil") {
   }
 }
 
-TEST_CASE("along a furrow: its line is its deepest place, it turns to starboard, fades and ends") {
+TEST_CASE("a furrow is deepest on its line, turns to starboard, fades and ends") {
   const Mark mark{{0, 0}, Vec2(0, 1), 0.002, 400.0, 1.5, 0.2, 0.0};  // northward, radius 500 m
   const auto line = line_of(mark, 41);
   // After 200 m of arc: 0.4 rad.
@@ -57,28 +57,28 @@ TEST_CASE("trawl scars come in pairs, as many as asked for, and along their head
   CHECK(heading == Approx(1.0).margin(4 * 0.1 / std::sqrt(800.0)));
 }
 
-TEST_CASE("a furrow meets a rectangle where its middle line is within half its width of it") {
-  const auto meets_square = [](const Mark& mark) { return meets(mark, {0, 0}, {100, 100}); };
+TEST_CASE("a furrow intersects a rectangle within half its width of its middle line") {
+  const auto intersects_square = [](const Mark& mark) { return intersects(mark, {0, 0}, {100, 100}); };
   const auto northward = [](double east, double north) {
     return Mark{{east, north}, Vec2(0, 1), 0.0, 40.0, 2.0, 0.2, 0.5};
   };
-  CHECK(meets_square(northward(50, 50)));
-  CHECK(meets_square(northward(-1.9, 50)));  // beside it; its berm is 4 m wide
-  CHECK_FALSE(meets_square(northward(-2.1, 50)));
-  CHECK(meets_square(northward(50, -21.9)));  // its end
-  CHECK_FALSE(meets_square(northward(50, -22.1)));
+  CHECK(intersects_square(northward(50, 50)));
+  CHECK(intersects_square(northward(-1.9, 50)));  // beside it; its berm is 4 m wide
+  CHECK_FALSE(intersects_square(northward(-2.1, 50)));
+  CHECK(intersects_square(northward(50, -21.9)));  // its end
+  CHECK_FALSE(intersects_square(northward(50, -22.1)));
   // Past the south-western corner, on a line that falls by 45 degrees.
   const auto past_corner = [](double away_m) {
     const double aside = -away_m / std::sqrt(2.0);
     return Mark{{aside, aside}, Vec2(1, -1).normalized(), 0.0, 40.0, 2.0, 0.2, 0.5};
   };
-  CHECK(meets_square(past_corner(1.8)));
-  CHECK_FALSE(meets_square(past_corner(2.2)));
+  CHECK(intersects_square(past_corner(1.8)));
+  CHECK_FALSE(intersects_square(past_corner(2.2)));
   // Beside the eastern edge, arcs of radius 100 m that turn away from it: nearest is their middle, their ends are 12 m
   // off.
   const auto bulging = [](double east) { return Mark{{east, 50}, Vec2(0, 1), 0.01, 100.0, 2.0, 0.2, 0.5}; };
-  CHECK(meets_square(bulging(101.8)));
-  CHECK_FALSE(meets_square(bulging(102.2)));
+  CHECK(intersects_square(bulging(101.8)));
+  CHECK_FALSE(intersects_square(bulging(102.2)));
 }
 
 TEST_CASE("marks are the same in every window, and cover what their closed form does") {

@@ -8,7 +8,7 @@
 
 namespace ensonify::relief {
 
-/// Where a layer applies: fields of 0 (not) to 1 (wholly). Between, the smooth step 3 u^2 - 2 u^3.
+/// Masks of a layer: fields of 0 (not) to 1 (wholly). Between, the smooth step 3 u^2 - 2 u^3.
 
 /// 1 where the quantity lies between the limits, falling to 0 over `softness` (its unit) centred on each limit;
 /// softness 0 is a sharp border. An infinite limit is none.

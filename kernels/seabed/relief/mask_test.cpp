@@ -47,7 +47,7 @@ TEST_CASE("a band is sharp without softness and a smooth step with it") {
   CHECK_THROWS_AS(in_band(depth, {.low = 1.0, .high = 0.0}), std::invalid_argument);
 }
 
-TEST_CASE("slope and curvature of shapes with closed forms, seen at a level and at the posts") {
+TEST_CASE("slope and curvature equal the closed forms, at a level and at the posts") {
   const Field plane = field_of([](double x, double y) { return 0.3 * x - 0.4 * y; });
   const Field bowl = field_of([](double x, double y) { return 0.01 * (x * x + y * y); });
   for (const int level : {0, 3}) {
@@ -58,7 +58,7 @@ TEST_CASE("slope and curvature of shapes with closed forms, seen at a level and 
   CHECK(at(slope_of(bowl, kSpacing, 2), 40, 0) == Approx(0.4).epsilon(0.01));
 }
 
-TEST_CASE("a polygon is 1 inside, 0 outside, a half on its border; windows away from it need no look") {
+TEST_CASE("a polygon is 1 inside, 0 outside, 1/2 on its border; far windows are skipped") {
   const Field square = in_polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, 2.0, kSpacing);
   CHECK(at(square, 10, 10) == 1.0F);
   CHECK(at(square, 20, 10) == Approx(0.5));

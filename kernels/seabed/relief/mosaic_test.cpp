@@ -60,7 +60,7 @@ Seabed rock_and_sand(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("rock and sand together lie within what reefs and outcrops measure; fractional Brownian relief does not") {
+TEST_CASE("rock with sand has the statistics of reefs; fractional Brownian relief does not") {
   for (const std::uint64_t seed : {1, 2}) {
     const Measured mixed = measure(square(rock_and_sand(seed), 0.25));
     INFO("seed " << seed << ": K2 " << mixed.k2 << ", exponent " << mixed.exponent << ", patch "
@@ -108,7 +108,7 @@ TEST_CASE("coral: a multifractal with steep-sided plates lies within what a reef
   CHECK(coral.patches.slope_correlation < 0.75);
 }
 
-TEST_CASE("neighbouring tiles of a whole seabed share their edge to the bit, in heights and classes") {
+TEST_CASE("neighbouring tiles share their edge bit-equal, in heights and classes") {
   const Seabed seabed = rock_and_sand(5);
   const Window west{0, -128, 0, 129, 129}, east{0, 0, 0, 129, 129};
   std::vector<float> left(west.size()), right(east.size());

@@ -21,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
-TEST_CASE("exact relief, thinned eight times and rebuilt, has its spectrum again; the smooth surface alone has not") {
+TEST_CASE("relief thinned eight times regains its spectrum when restored, not when smoothed") {
   const int posts = 512, thin = 8;
   const Surface original = exact_fbm(0.625, posts, {21, "fbm"}, 0);
   Raster guide{posts / thin, posts / thin, 1.0 * thin, {0, 0}, {}};
@@ -74,7 +74,7 @@ TEST_CASE("dunes below a guide's cells come back with a layer of bedforms only, 
   Surface plain{448, 448, 1.0, std::vector<float>(inside.size())};
   rebuilt(inside, plain.height_m);
   Surface dunes_too = plain;
-  with_dunes(dunes_too.height_m, inside, 6);  // other dunes of the same kind: where crests are, no guide tells
+  with_dunes(dunes_too.height_m, inside, 6);  // other dunes of the same kind: where crests are, no guide gives
   const RadialSpectrum truth = radial_spectrum(original, 128);
   const double low = 2 * kPi / 12, high = 2 * kPi / 8.5;  // where the dunes live
   const double short_db = difference_db(radial_spectrum(plain, 128), truth, low, high);

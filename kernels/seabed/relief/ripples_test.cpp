@@ -21,7 +21,7 @@ std::vector<float> heights(const Ripples& ripples, const Window& window) {
 
 }  // namespace
 
-TEST_CASE("without disorder every wave has the height, the length and the lee side asked for") {
+TEST_CASE("without disorder every ripple has the set height, length and lee side") {
   for (const double lee : {0.5, 0.4, 0.32}) {
     const RippleParameters p{.wavelength_m = 2.0,
                              .height_m = 0.3,
@@ -36,7 +36,7 @@ TEST_CASE("without disorder every wave has the height, the length and the lee si
     INFO("lee " << lee);
     CHECK(*high - *low ==
           Approx(0.3).epsilon(
-              0.006));  // posts miss crest and trough by up to (pi / 40)^2 / 2 of a sine, more of a bent one
+              0.006));  // posts miss crest and trough by up to (pi / 40)^2 / 2 of a sine, more of a refracted one
     for (std::size_t i = 0; i + 40 < z.size(); ++i) CHECK(z[i + 40] == Approx(z[i]).margin(1e-5));
     // From the crest eastward to the next trough lies the lee.
     const auto crest = std::max_element(z.begin(), z.begin() + 80), trough = std::min_element(crest, z.end());

@@ -82,7 +82,7 @@ TEST_CASE("triangles between posts have the mean square slope of the closed form
   CHECK(facet_mean_square_slope(silt, 0.1) == Approx(2 * 11.17 * 5.18e-4 * std::pow(10.0, -0.75)).epsilon(0.005));
 }
 
-TEST_CASE("the exponent of the spectrum is 2 H + 2 within 0.1, less the estimator's bias on exact surfaces") {
+TEST_CASE("the spectrum's exponent is 2 H + 2 within 0.1, less the estimator's bias") {
   for (const double hurst : {0.3, 0.625, 0.9}) {
     double exponent = 0.0, exact = 0.0;
     const int surfaces = 6;
@@ -125,7 +125,7 @@ TEST_CASE("a coarser level shows the same surface without what it cannot hold") 
   CHECK(difference == Approx(expected).epsilon(0.2));
 }
 
-TEST_CASE("the lattice does not show: variance is the same on and between nodes, and in all directions") {
+TEST_CASE("variance is the same on and between lattice nodes, and in all directions") {
   // One octave alone is the worst case: noise at nodes 8 posts apart, seen at every post.
   const SpectralSurface surface({.rms_m = 1.0, .hurst = 1.0, .outer_scale_m = 60.0, .inner_scale_m = 25.0}, 1.0, 4,
                                 "even");

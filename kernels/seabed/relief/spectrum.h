@@ -35,7 +35,7 @@ double facet_mean_square_slope(const Spectrum& spectrum, double post_spacing_m);
 double strength(const Spectrum& spectrum);
 double rms_of_strength_m(double strength_si, double hurst, double outer_scale_m);
 
-/// How the variance is shared among splines of white noise, one per level of the lattice.
+/// Shares of the variance among splines of white noise, one per level of the lattice.
 ///
 /// W is an integral of Gaussians exp(-K^2 t) with weights t^H exp(-t Ko^2 - 1 / (4 Ki^2 t)) d ln t; their correlations
 /// are exp(-r^2 / 4 t). That of a quintic spline with nodes h apart, a B-spline of degree 11, is close to it for

@@ -17,7 +17,7 @@ TEST_CASE("with H = 1/2 the correlation is an exponential") {
     CHECK(structure_m2(spectrum, r) == Approx(2 * 0.09 * (1 - std::exp(-2 * kPi / 40 * r))).epsilon(1e-4));
 }
 
-TEST_CASE("without an inner scale the density is von Karman's, and its strength that of the power law") {
+TEST_CASE("without inner scale the density is von Karman's, with the power law's strength") {
   const Spectrum spectrum{.rms_m = 0.3, .hurst = 0.625, .outer_scale_m = 40.0};
   const double ko = 2 * kPi / 40;
   for (const double k : {0.0, 0.1, 3.0, 100.0}) {
@@ -37,7 +37,7 @@ TEST_CASE("at small distances D = C^2 r^2H with the structure constant of TR 940
         Approx(c2 * std::pow(0.1, 2 * h)).epsilon(0.005));  // the outer scale takes (Ko r)^0.75 = 0.4 %
 }
 
-TEST_CASE("the density's integral is the variance, with an inner scale too, and it cuts exponentially") {
+TEST_CASE("the density integrates to the variance; an inner scale cuts it exponentially") {
   const Spectrum spectrum{.rms_m = 0.3, .hurst = 0.4, .outer_scale_m = 50.0, .inner_scale_m = 2.0};
   double sum = 0.0;
   const double step = 1e-3;  // of ln K

@@ -6,7 +6,7 @@
 
 namespace ensonify::relief_statistics {
 
-/// How roughness differs from place to place: statistics of the rms about the best plane in patches of
+/// Patchiness of roughness: statistics of the rms about the best plane in patches of
 /// `patch_cells` x `patch_cells` posts, side by side; patches with holes are left out.
 struct Patchiness {
   int patches = 0;

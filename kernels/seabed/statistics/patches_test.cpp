@@ -9,7 +9,7 @@
 using namespace ensonify::relief_statistics;
 using ensonify::random::Stream;
 
-TEST_CASE("Sarle's coefficient is 1/3 for a Gaussian, 5/9 for a uniform law and 1 for two points") {
+TEST_CASE("Sarle's coefficient: 1/3 for a Gaussian, 5/9 for uniform, 1 for two points") {
   const Stream stream{1, "sarle"};
   std::vector<double> gaussian, uniform, two;
   for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("a chessboard of two roughnesses has the statistics of its two values"
   CHECK(p.slope_p95_deg == Approx(0.0).margin(1e-4));
 }
 
-TEST_CASE("the slope of patches is the slope of the plane, and a level surface has no statistics") {
+TEST_CASE("patches of a plane have its slope; a level surface has no statistics") {
   Surface surface{90, 90, 0.5, {}};
   for (int row = 0; row < 90; ++row) {
     for (int column = 0; column < 90; ++column)

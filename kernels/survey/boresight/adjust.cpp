@@ -65,7 +65,7 @@ class Adjustment {
   Found found() const { return {state_.head<kUnknowns>(), spread()}; }
 
  private:
-  /// The inverse covariance of all unknowns before anything was heard. What is not solved for gets a very large one.
+  /// The inverse covariance of all unknowns before anything was received. What is not solved for gets a very large one.
   Matrix priors() const {
     constexpr double kFixed = 1e24;
     Matrix prior = drift_.inverse_covariance();
@@ -183,15 +183,15 @@ class Adjustment {
     squares_ += planes_[cell].residual_m().squaredNorm();
     used_ += chosen_[cell].size();
     const Matrix products = weight(cell) * rows.transpose() * rows;
-    // A weight that is made of what it weighs tells less [LangeLittleTaylor1989].
-    const double free = freedom(cell), told = (kTypical + free) / (kTypical + free + 2.0);
+    // A weight that is made of what it weighs has less information [LangeLittleTaylor1989].
+    const double free = freedom(cell), information_share = (kTypical + free) / (kTypical + free + 2.0);
     const Eigen::Index last = rows.cols() - 1;
     for (Eigen::Index a = 0; a < last; ++a) {
       const Eigen::Index to = where[static_cast<std::size_t>(a)];
       gradient_[to] += products(a, last);
       for (Eigen::Index b = 0; b < last; ++b) {
         normal_(to, where[static_cast<std::size_t>(b)]) += products(a, b);
-        information_(to, where[static_cast<std::size_t>(b)]) += told * products(a, b);
+        information_(to, where[static_cast<std::size_t>(b)]) += information_share * products(a, b);
       }
     }
   }
@@ -211,7 +211,7 @@ class Adjustment {
 
   /// Adds a cell to the stretches of its lines. A sounding's error is what it would be off a plane that is laid without
   /// it and its like: noisy soundings at a cell's edge pull their plane after them.
-  void tell(std::size_t cell, const Matrix& inverse, std::vector<std::vector<Stretch>>& by_line) const {
+  void add_to_stretches(std::size_t cell, const Matrix& inverse, std::vector<std::vector<Stretch>>& by_line) const {
     const Members& members = chosen_[cell];
     const std::vector<Eigen::Index> where = unknowns_of_cell(members);
     Matrix rows = changes(members, planes_[cell], where);
@@ -237,13 +237,13 @@ class Adjustment {
   }
 
   /// How far the unknowns move with the errors of the soundings of each stretch of time (of unequal quality
-  /// [White1980], that err together [LiangZeger1986], told by what is left without them [MacKinnonWhite1985,
+  /// [White1980], that err together [LiangZeger1986], given by what is left without them [MacKinnonWhite1985,
   /// BellMcCaffrey2002]), and with the navigation's wander.
   Spread spread() const {
     const Matrix inverse =
         information_.llt().solve(Matrix::Identity(information_.rows(), static_cast<Eigen::Index>(kUnknowns)));
     std::vector<std::vector<Stretch>> by_line(lines_.size());
-    for (std::size_t n = 0; n < chosen_.size(); ++n) tell(n, inverse, by_line);
+    for (std::size_t n = 0; n < chosen_.size(); ++n) add_to_stretches(n, inverse, by_line);
     std::vector<std::vector<Drift::Pulls>> pulls(lines_.size());
     Spread spread;
     Unknowns fourth = Unknowns::Zero();
@@ -256,7 +256,7 @@ class Adjustment {
     }
     const Drift::Pulls wander = drift_.variances(pulls, settings_.together_s);
     spread.variance += wander.rowwise().sum();
-    // Each stretch tells its variance with one degree of freedom: the fourth power of a normal pull is thrice the
+    // Each stretch gives its variance with one degree of freedom: the fourth power of a normal pull is thrice the
     // square of its variance. What navigation states of an axis, with those of a deviation that is right to a share.
     const double stated = 0.5 / (kStatedRightTo * kStatedRightTo);  // [GUM2008, eq. G.3]
     const Unknowns unsure = fourth / 3.0 + wander.cwiseAbs2().rowwise().sum() / stated;
@@ -274,7 +274,7 @@ class Adjustment {
   const Drift drift_;
   Vector state_, gradient_;
   Matrix prior_, normal_;
-  Matrix information_;           // what the soundings tell of the unknowns, and the prior
+  Matrix information_;           // what the soundings indicates the unknowns, and the prior
   std::vector<Members> chosen_;  // by cell
   std::vector<Plane> planes_;    // likewise
   double typical_m2_ = 1.0;      // variance about a cell's plane

@@ -33,9 +33,9 @@ struct AdjustSettings {
   double piece_s = 10.0;         // pieces of a line, each of which may be shifted and turned
   double height_piece_s = 1.0;   // the same for heights
   double wander_s = 60.0;        // correlation time of those shifts (Gauss-Markov), of positions
-  double turn_wander_s = 600.0;  // and of attitudes: what lasts all through a survey looks like the mounting
+  double turn_wander_s = 600.0;  // and of attitudes: what lasts all through a survey appears as the mounting
   double together_s = 0.1;       // soundings of a line within such a stretch of time may err together: a ping
-  double angle_sd_rad = 7e-5;    // all angles across may be off together (0.004 degrees): looks like roll
+  double angle_sd_rad = 7e-5;    // all angles across may be off together (0.004 degrees): appears as roll
   double gate_sds = 4.0;         // soundings further off their cell's plane are left out
   std::array<bool, kUnknowns> solve = {true, true, true, true, true};  // the others stay zero
   int most_rounds = 30;
@@ -44,9 +44,9 @@ struct AdjustSettings {
 struct Adjusted {
   Offsets offsets;
   Unknowns sd = Unknowns::Zero();       // standard deviations; zero of what was not solved for
-  Unknowns half_95 = Unknowns::Zero();  // half widths of the 95 % intervals: 1.96 sd where many stretches of time tell,
-                                        // more where few do (a rock is passed in seconds)
-  double rms_before_m = 0.0;            // about the cells' planes
+  Unknowns half_95 = Unknowns::Zero();  // half widths of the 95 % intervals: 1.96 sd where many stretches of time
+                                        // contribute, more where few do (a rock is passed in seconds)
+  double rms_before_m = 0.0;  // about the cells' planes
   double rms_after_m = 0.0;
   std::size_t cells = 0;      // of the first laying
   std::size_t soundings = 0;  // used in it
@@ -65,7 +65,7 @@ struct Adjusted {
 /// How the squares lie beside the pings changes the answer, so it is done for several layings of them, and the answer
 /// is their mean; the intervals hold how they differ (mean_of).
 ///
-/// What the lines do not tell comes out with a wide deviation. Throws std::invalid_argument for
+/// What the lines do not state comes out with a wide deviation. Throws std::invalid_argument for
 /// fewer than two lines, settings that are not positive, places that are not finite, and when no cell has two lines.
 Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings);
 

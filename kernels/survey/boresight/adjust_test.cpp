@@ -15,7 +15,7 @@ TEST_CASE("without noise the offsets come back") {
   CHECK(found.rms_after_m < 0.2 * found.rms_before_m);  // of the rock within its cells
 }
 
-TEST_CASE("relief that no plane follows leaves the offsets within what a patch test is asked for") {
+TEST_CASE("relief that no plane fits leaves offsets within a patch test's tolerance") {
   // Sand of scenarios/patch_test (4 cm of relief), a third of RTK's and the gyro's errors, 5 mm of the ranges'. Of 60
   // such surveys 59, 60, 60, 59 and 56 are within the limits; of these six one may be outside in an unknown.
   Errors errors = kFogRtk;
@@ -31,7 +31,7 @@ TEST_CASE("relief that no plane follows leaves the offsets within what a patch t
   for (Eigen::Index k = 0; k < 5; ++k) CHECK(good[k] >= 5);
 }
 
-TEST_CASE("what the lines hardly tell comes with a wide interval") {
+TEST_CASE("what the lines hardly determine has a wide interval") {
   // To and fro over a level bottom: roll shows as ever, the position's latency does not.
   const std::vector<Course> courses = {{-100, 100, 0, 4}, {100, -100, 0, 4}};
   const Offsets truth{.position_latency_s = 0.1, .roll_rad = 0.5 * kDegree};
@@ -43,7 +43,7 @@ TEST_CASE("what the lines hardly tell comes with a wide interval") {
   CHECK(found.offsets.roll_rad == Approx(0.5 * kDegree).margin(3 * found.sd[2]));
 }
 
-TEST_CASE("four layings of the squares give the mean of what each gives, and an interval that holds how they differ") {
+TEST_CASE("four cell layings give their mean, and an interval that covers their spread") {
   const std::vector<Line> lines = survey_all(kPatchTest, with_relief(0.0425, 1), kTruth, kFogRtk, 1);
   AdjustSettings once = kCoarse, four = kCoarse;
   four.layings = 2;

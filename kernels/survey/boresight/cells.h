@@ -14,7 +14,7 @@ struct SoundingRef {
   std::uint32_t index = 0;
 };
 
-/// Where at least two lines saw the seabed: `members` holds the soundings, line by line.
+/// Cell with soundings of at least two lines: `members` holds the soundings, line by line.
 struct Cell {
   std::span<const SoundingRef> members;
 };

@@ -5,7 +5,7 @@
 using namespace ensonify::boresight;
 using namespace ensonify::boresight::testing;
 
-TEST_CASE("with a fibre-optic gyro and RTK the offsets are right, and the intervals hold the truth") {
+TEST_CASE("with FOG and RTK the offsets are right, and the intervals cover the truth") {
   constexpr int kSeeds = 100;
   int converged = 0;
   Unknowns covered = Unknowns::Zero(), good = Unknowns::Zero(), squares = Unknowns::Zero(), stated = Unknowns::Zero();

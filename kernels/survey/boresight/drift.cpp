@@ -45,7 +45,7 @@ Eigen::MatrixXd Drift::inverse_covariance() const {
       const Pieces& p = line[k];
       const double sd = std::max(p.sd, kKnown);
       for (Eigen::Index i = 0; i < p.count; ++i) {
-        // x = keep x_before + fresh: a piece tells of its neighbours, and through them of the rest.
+        // x = keep x_before + fresh: a piece indicates its neighbours, and through them of the rest.
         const double at_s = p.start_s + static_cast<double>(i) * p.length_s;
         const double keep = before >= 0 && at_s > before_s ? std::exp((before_s - at_s) / wander_s_[k]) : 0.0;
         const double fresh = 1.0 / (1.0 - keep * keep);

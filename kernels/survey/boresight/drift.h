@@ -8,7 +8,7 @@
 
 namespace ensonify::boresight {
 
-/// What the navigation of each line may be off, as unknowns behind the global ones: east, north, up, roll, pitch and
+/// Errors of each line's navigation, as unknowns behind the global ones: east, north, up, roll, pitch and
 /// heading, constant over pieces of time. Heights wander with every wave that heave misses, so theirs are short. A line
 /// goes on from where the one before it ended; lines that overlap in time are of different surveys.
 class Drift {
@@ -21,10 +21,11 @@ class Drift {
   Eigen::Index size() const { return size_; }  // of the state
   Columns columns(std::size_t line, double time_s) const;
 
-  /// Of a stationary first-order process through all lines, for each axis; zero for the global unknowns.
+  /// Inverse covariance of a stationary first-order process through all lines, for each axis; zero for the global
+  /// unknowns.
   Eigen::MatrixXd inverse_covariance() const;
 
-  /// How much each global unknown is pulled by an error of 1 of each axis, in a stretch of time.
+  /// Pull of an error of 1 of each axis on each global unknown, in a stretch of time.
   using Pulls = Eigen::Matrix<double, kUnknowns, kAxes>;
   /// Variances of what that process as it is, not in pieces, does to the global unknowns, for each axis; `pulls` by
   /// line and stretch.

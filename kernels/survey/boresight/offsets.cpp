@@ -19,8 +19,8 @@ Placed place(const Sounding& sounding, const Offsets& offsets) {
   const Quaternion since = turned_by(sounding.rate_enu_radps * offsets.attitude_latency_s);
   const Quaternion enu_from_body = since * sounding.enu_from_body;
 
-  const Vec3 heard_body = sounding.enu_from_body.conjugate() * (sounding.place_enu_m - sounding.head_enu_m);
-  const Vec3 away_body = mounting * heard_body;
+  const Vec3 measured_body = sounding.enu_from_body.conjugate() * (sounding.place_enu_m - sounding.head_enu_m);
+  const Vec3 away_body = mounting * measured_body;
   const Vec3 away_enu = enu_from_body * away_body;
   const Vec3 heave(0.0, 0.0, sounding.velocity_enu_mps.z()), course = sounding.velocity_enu_mps - heave;
 

@@ -20,7 +20,7 @@ struct Sounding {
   Vec3 rate_enu_radps = Vec3::Zero();    // of the body's turning
 };
 
-/// What the installation has wrong. Zero: nothing.
+/// Errors of the installation. Zero: none.
 struct Offsets {
   double position_latency_s = 0.0;  // age of east and north at their stamp: the vehicle was further on by v times this
   double attitude_latency_s = 0.0;  // age of an attitude and of heave at their stamp
@@ -29,7 +29,7 @@ struct Offsets {
   double yaw_rad = 0.0;             // clockwise from above, as rotations about the vehicle's axes
 };
 
-/// Where the sounding lies if the offsets are as given: moved on along the track and with heave, and turned about the
+/// Place of the sounding if the offsets are as given: moved on along the track and with heave, and turned about the
 /// head as one piece, by the vehicle's turning during the latency and by yaw, pitch and roll of the mounting. The
 /// head's own way when the mounting turns (lever arms) is not touched, nor is the ray bent anew: where sound is 10 m/s
 /// faster 30 m below, 1 degree at a beam of 60 degrees so misplaces by 6 mm, 3.5 degrees by 22 mm (closed form of the

@@ -19,7 +19,7 @@ Sounding heading_north(const Vec3& place) {
 
 }  // namespace
 
-TEST_CASE("roll turns a sounding about the track: 3.5 degrees at 60 degrees in 30 m are 3.23 m") {  // PHYSICS.md, 12
+TEST_CASE("roll rotates soundings about the track: 3.5 deg at 60 deg in 30 m are 3.23 m") {  // PHYSICS.md, 12
   const double x = 30.0 * std::tan(60 * kDegree), dr = 3.5 * kDegree;
   const Vec3 port = place(heading_north({-x, 0, -30}), {.roll_rad = dr}).place_enu_m;
   const Vec3 starboard = place(heading_north({x, 0, -30}), {.roll_rad = dr}).place_enu_m;
@@ -34,7 +34,7 @@ TEST_CASE("pitch, yaw and latency move a sounding along the track") {
   const double d = 0.5 * kDegree;
   const Vec3 nadir(0, 0, -30), outer(40, 0, -30);
   CHECK(place(heading_north(nadir), {.pitch_rad = d}).place_enu_m.y() ==
-        Approx(30.0 * std::sin(d)));  // bow up looks ahead
+        Approx(30.0 * std::sin(d)));  // bow up points ahead
   CHECK(place(heading_north(outer), {.yaw_rad = d}).place_enu_m.y() ==
         Approx(-40.0 * std::sin(d)));  // to starboard: aft there
   CHECK(place(heading_north(outer), {.position_latency_s = 0.2}).place_enu_m.y() == Approx(0.8));

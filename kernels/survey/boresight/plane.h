@@ -21,12 +21,12 @@ class Plane {
   double sigma_m() const { return sigma_m_; }             // about the plane; 0 of three soundings or fewer
   const Vector& residual_m() const { return residual_; }  // of each member, upwards
 
-  /// How a residual changes when its sounding moves to the east, to the north and up. The plane's slopes come from
-  /// noisy soundings: taken as they are, they would make a level bottom seem to tell shifts along the track. So they
+  /// Change of a residual when its sounding moves east, north and up. The plane's slopes come from
+  /// noisy soundings: taken as they are, they would make a level bottom seem to give shifts along the track. So they
   /// are reduced by what noise alone would give, twice its deviation or less counting as none.
   Eigen::RowVector3d across() const;
 
-  /// What a part of the residuals, members `from` to `from + count`, would be if the plane were laid without it.
+  /// Residuals of the members `from` to `from + count` if the plane were laid without them.
   Vector without_it(Eigen::Index from, Eigen::Index count) const;
 
   /// Takes what a plane can explain out of the columns of `m`.

@@ -11,7 +11,7 @@ struct Spread {
   Unknowns variance = Unknowns::Zero(), freedom = Unknowns::Zero();
 };
 
-/// What several layings of the squares over the same soundings found, each with its spread, as one: their mean. Its
+/// Mean of several layings of the squares over the same soundings, each with its spread. Its
 /// variance is that within a laying, in the mean, and (1 + 1/m) times that between them [Rubin1987, ch. 3]. That is too
 /// much rather than too little: a mean of m errs less than one laying, as far as layings differ.
 struct Found {

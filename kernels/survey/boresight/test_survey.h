@@ -121,11 +121,11 @@ inline Line survey(const Course& course, const Ground& ground, const Offsets& tr
     const Vec3 head = boat.at(t);
     const Quaternion true_head = boat.attitude(t, 0, 0) * mounting;
     const double then = t - truth.attitude_latency_s;
-    const Quaternion said =
+    const Quaternion stated =
         boat.attitude(then, errors.heading_rad * w[3][n] + errors.ping_heading_rad * stream.normal(12, n),
                       errors.level_rad * w[4][n] + errors.ping_level_rad * stream.normal(13, n));
-    const Vec3 said_at = boat.at(t - truth.position_latency_s) +
-                         Vec3(errors.position_m * w[0][n], errors.position_m * w[1][n], errors.height_m * w[2][n]);
+    const Vec3 reported_at = boat.at(t - truth.position_latency_s) +
+                             Vec3(errors.position_m * w[0][n], errors.position_m * w[1][n], errors.height_m * w[2][n]);
     for (std::size_t beam = 0; beam < 32; ++beam) {
       const double angle = (-60.0 + 120.0 * (static_cast<double>(beam) + 0.5) / 32) * kDegree;
       const Vec3 ray = true_head * Vec3(0, std::sin(angle), std::cos(angle));
@@ -134,13 +134,13 @@ inline Line survey(const Course& course, const Ground& ground, const Offsets& tr
         const Vec3 p = head + range * ray;
         range += (p.z() - ground(p.x(), p.y())) / -ray.z();
       }
-      const double heard = range + errors.range_m * stream.normal(10, n, beam);
+      const double received = range + errors.range_m * stream.normal(10, n, beam);
       const double from = angle + errors.angle_rad * stream.normal(11, n, beam);
-      const Vec3 away = said * Vec3(0, heard * std::sin(from), heard * std::cos(from));
+      const Vec3 away = stated * Vec3(0, received * std::sin(from), received * std::cos(from));
       line.soundings.push_back({.time_s = t,
-                                .place_enu_m = said_at + away,
-                                .head_enu_m = said_at,
-                                .enu_from_body = said,
+                                .place_enu_m = reported_at + away,
+                                .head_enu_m = reported_at,
+                                .enu_from_body = stated,
                                 .velocity_enu_mps = {boat.way(), 0, 0},
                                 .rate_enu_radps = boat.rate_enu(then)});
     }

@@ -25,15 +25,15 @@ Vec3 intersect_cones(const Vec3& transmit_axis, double sin_transmit, const Vec3&
   return in_plane + std::sqrt(1.0 - length2) * normal;
 }
 
-Vec3 place_sounding(const HeardSounding& heard, const refraction::SoundSpeedProfile& applied) {
-  const Vec3& d = heard.direction_level;
+Vec3 place_sounding(const MeasuredSounding& measured, const refraction::SoundSpeedProfile& applied) {
+  const Vec3& d = measured.direction_level;
   const double horizontal = std::hypot(d.x(), d.y());
-  const double cosine = horizontal * applied.speed_mps(heard.face_depth_m) / heard.face_speed_mps;
+  const double cosine = horizontal * applied.speed_mps(measured.face_depth_m) / measured.face_speed_mps;
   const double depression = std::copysign(std::acos(std::min(cosine, 1.0)), d.z());
   const refraction::PathEnd end =
-      refraction::path_at_time(applied, heard.face_depth_m, depression, 0.5 * heard.two_way_s);
+      refraction::path_at_time(applied, measured.face_depth_m, depression, 0.5 * measured.two_way_s);
   const double scale = horizontal > 0.0 ? end.horizontal_m / horizontal : 0.0;
-  return {scale * d.x(), scale * d.y(), end.depth_m - heard.face_depth_m};
+  return {scale * d.x(), scale * d.y(), end.depth_m - measured.face_depth_m};
 }
 
 }  // namespace ensonify::georeference

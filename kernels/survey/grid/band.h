@@ -8,7 +8,7 @@ namespace ensonify::survey_grid {
 
 using relief_statistics::Surface;
 
-/// How steeply the spectrum falls between two wave lengths, in cells: W ~ K^-exponent.
+/// Slope of the spectrum between two wave lengths, in cells: W ~ K^-exponent.
 struct Octave {
   double from_cells = 0.0, to_cells = 0.0;
   double exponent = 0.0;

@@ -11,7 +11,7 @@
 using namespace ensonify;
 using namespace ensonify::survey_grid;
 
-TEST_CASE("relief is believed down to Nyquist, a smoothed grid from where it is smooth") {
+TEST_CASE("relief is valid down to Nyquist, a smoothed grid's from where it is smooth") {
   auto surface = relief_statistics::exact_fbm(0.625, 512, random::Stream(2, "fbm"), 0);  // W ~ K^-3.25
   const auto own = band_of(surface);
   REQUIRE(own.octaves.size() == 4);
@@ -25,7 +25,7 @@ TEST_CASE("relief is believed down to Nyquist, a smoothed grid from where it is 
   CHECK(smooth.octaves[1].exponent - own.octaves[1].exponent == Approx(2.8).margin(0.6));
 }
 
-TEST_CASE("waves of the given length keep half their power, holes stay holes and levels stay levels") {
+TEST_CASE("waves of the cutoff length keep half their power; holes and levels stay") {
   const double cells = GENERATE(6.0, 10.0);
   Surface surface{120, 40, 1.0, {}};
   for (int i = 0; i < 120 * 40; ++i)

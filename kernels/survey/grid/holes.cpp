@@ -39,13 +39,13 @@ std::vector<float> squared_distances(const Surface& surface, const std::vector<s
     std::vector<int> lowest{0};        // columns whose parabolas make the envelope
     std::vector<double> from{-1e300};  // where each begins to be the lowest
     for (int q = 1; q < columns; ++q) {
-      const auto meets = [&](int p) {
+      const auto crosses_at = [&](int p) {
         return (height(q) - height(p) + static_cast<double>(q) * q - static_cast<double>(p) * p) / (2.0 * (q - p));
       };
-      double begins = meets(lowest.back());
+      double begins = crosses_at(lowest.back());
       while (begins <= from.back()) {
         lowest.pop_back(), from.pop_back();
-        begins = meets(lowest.back());
+        begins = crosses_at(lowest.back());
       }
       lowest.push_back(q), from.push_back(begins);
     }

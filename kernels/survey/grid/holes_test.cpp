@@ -25,7 +25,7 @@ Surface drawn(const std::vector<std::string>& rows) {
 
 }  // namespace
 
-TEST_CASE("holes are counted, those at the rim told apart, corners do not join them") {
+TEST_CASE("holes are counted, those at the rim apart, and corners do not join them") {
   const auto holes = holes_of(drawn({
       "#######..",
       "#...####.",

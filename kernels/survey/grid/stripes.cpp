@@ -172,7 +172,7 @@ double covariance(const Surface& out, const std::vector<std::pair<int, int>>& li
   return count > 0 ? sum / count : 0.0;
 }
 
-/// Distance across the stripes at which they look like themselves again: the first peak of their autocovariance, the
+/// Distance across the stripes at which they repeat themselves again: the first peak of their autocovariance, the
 /// highest within 8 cells, that is a third of the variance and lies behind a place where they are unlike themselves.
 double spacing(const Surface& out, const std::vector<std::pair<int, int>>& list, double along_rad) {
   constexpr int kFarthest = 2 * kReach, kAside = 8;

@@ -22,8 +22,8 @@ struct Stripes {
 /// 20,000 cells. One direction whose means vary four times as much as the median direction's makes stripes, if they add
 /// 1 mm or more; isotropic relief reaches 2.
 ///
-/// Sand ripples and dunes with long straight crests look the same and are found too: whether they are seabed is for the
-/// user to say. Nothing is found in fewer than 97 x 97 cells. Throws std::invalid_argument when sizes disagree.
+/// Sand ripples and dunes with long straight crests appear the same and are found too: whether they are seabed is for
+/// the user to say. Nothing is found in fewer than 97 x 97 cells. Throws std::invalid_argument when sizes disagree.
 Stripes stripes_of(const Surface& surface);
 
 /// Takes from each height the mean, along 128 cells of the stripes' direction, of what stands out of the surroundings.

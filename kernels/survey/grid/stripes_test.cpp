@@ -55,7 +55,7 @@ TEST_CASE("stripes are found with direction, spacing and size") {
   REQUIRE(stripes.found);
   CHECK(stripes.along_rad == Approx(kAlong_rad).margin(2.0 * std::numbers::pi / 180.0));  // one step of direction
   CHECK(stripes.spacing_spacings == Approx(kSpacing).margin(2.0));
-  CHECK(stripes.sd_m == Approx(kSd_m).epsilon(0.2));  // the relief's own part of that direction is not told apart
+  CHECK(stripes.sd_m == Approx(kSd_m).epsilon(0.2));  // the relief's own part of that direction is not distinguished
 }
 
 TEST_CASE("removed stripes leave the relief") {

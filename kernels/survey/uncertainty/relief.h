@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-/// What the seabed does inside footprints: a sounding tells the mean height over its footprint, not that of the point
+/// Relief inside footprints: a sounding gives the mean height over its footprint, not that of the point
 /// that it claims. How far the two differ is judged by the soundings' own profile.
 namespace ensonify::uncertainty {
 

@@ -94,7 +94,7 @@ TEST_CASE("a single step and points out of order: bends by hand") {
   CHECK(squared_bends_m2({}).empty());
 }
 
-TEST_CASE("bends of the means tell how far a mean is from the point in its middle, whatever the roughness") {
+TEST_CASE("curvature of the means gives a mean's offset from its midpoint at any roughness") {
   const double footprint_m = 3.0;
   struct Case {
     double hurst, aspect;

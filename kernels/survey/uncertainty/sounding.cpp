@@ -53,7 +53,7 @@ Matrix3 covariance_enu_m2(const Geometry& g, const Detected& detected, const Nav
   const double sonar_m = std::hypot(detected.range_sd_m, range_m * tan_vertical * detected.angle_sd_rad);
   Matrix3 sum = along(ray, sonar_m) + along(range_m * forward, s.along_rad);
 
-  // The seabed inside the footprint: its mean is heard on the beam's axis, too early or too late.
+  // The seabed inside the footprint: its mean is received on the beam's axis, too early or too late.
   sum += along(tan_vertical * level - up, detected.relief_sd_m);
 
   // Navigation.

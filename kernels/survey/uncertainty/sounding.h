@@ -5,7 +5,7 @@
 
 #include "kernels/base/frames/attitude.h"
 
-/// How uncertain a sounding is: what each source of error is stated to err by, propagated to its place
+/// Uncertainty of a sounding: what each source of error is stated to err by, propagated to its place
 /// [HareGodinMayer1995].
 namespace ensonify::uncertainty {
 
@@ -35,13 +35,13 @@ struct Sources {
   bool operator==(const Sources&) const = default;
 };
 
-/// What navigation says of its own errors: covariances, of the rotation as a small turn about east, north, up.
+/// Errors stated by navigation: covariances, of the rotation as a small turn about east, north, up.
 struct Navigation {
   Matrix3 position_enu_m2 = Matrix3::Zero();
   Matrix3 rotation_enu_rad2 = Matrix3::Zero();
 };
 
-/// What detection says of its own errors. The first two are errors of the range along the beam
+/// Errors stated by detection. The first two are errors of the range along the beam
 /// (kernels/acoustics/detect/bottom.h).
 struct Detected {
   double range_sd_m = 0.0;
@@ -49,7 +49,7 @@ struct Detected {
   double relief_sd_m = 0.0;  // height at the point less its mean over the footprint (relief.h)
 };
 
-/// Where the sounding lies as seen from its head, and how the head moves.
+/// Place of the sounding as seen from its head, and the head's motion.
 struct Geometry {
   Vec3 away_enu_m = {0.0, 0.0, -1.0};  // from the head to the sounding; not zero
   Vec3 lever_enu_m = Vec3::Zero();     // from the navigation's reference point to the head

@@ -25,7 +25,7 @@ double sd_up(const Geometry& g, const Sources& sources) {
   return std::sqrt(covariance_enu_m2(g, {}, {}, sources)(2, 2));
 }
 
-/// Where the instrument puts a sounding that it hears at this sine off its array, in water of 1500 m/s.
+/// Where the instrument puts a sounding that it receives at this sine off its array, in water of 1500 m/s.
 Vec3 placed(double sin_array, double roll_rad, double one_way_s, double face_mps, double cast_mps) {
   const double angle = std::asin(sin_array * face_mps / 1500.0) - roll_rad;
   const Vec3 level = georeference::place_sounding(

@@ -85,13 +85,13 @@ void survey(std::uint64_t seed, std::array<Share, 10>& by_angle) {
     const auto now = [&](std::uint64_t which) { return drawn.normal(100 + which, ping); };
     const frames::Pose truth = boat.pose(t);
     const frames::HeadPose head = frames::head_pose(truth, {lever, mounting});
-    frames::Pose said = boat.pose(t - old_attitude_s);
+    frames::Pose stated = boat.pose(t - old_attitude_s);
     const Vec3 turn(kLevel_rad * now(0), kLevel_rad * now(1), kHeading_rad * now(2));
-    said.enu_from_body = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * said.enu_from_body;
-    said.position_enu_m.head<2>() = boat.pose(t - old_position_s).position_enu_m.head<2>();
-    said.position_enu_m +=
+    stated.enu_from_body = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * stated.enu_from_body;
+    stated.position_enu_m.head<2>() = boat.pose(t - old_position_s).position_enu_m.head<2>();
+    stated.position_enu_m +=
         Vec3(kPosition_m * now(3), kPosition_m * now(4), kHeight_m * now(5) + s.heave_m * now(6) + off_m);
-    const frames::HeadPose believed = frames::head_pose(said, {kLever_m, frames::Quaternion::Identity()});
+    const frames::HeadPose estimated = frames::head_pose(stated, {kLever_m, frames::Quaternion::Identity()});
     for (std::uint64_t beam = 0; beam < kBeams; ++beam) {
       const double angle = (-65.0 + 130.0 * (static_cast<double>(beam) + 0.5) / kBeams) * kDegree;
       const double along = s.along_rad * drawn.normal(200, ping, beam);
@@ -102,19 +102,19 @@ void survey(std::uint64_t seed, std::array<Share, 10>& by_angle) {
       // What is heard: the sine across by delays in the true water, the time with what detection errs.
       const Detected sd = detected(angle);
       const double tan_vertical = std::hypot(ray.x(), ray.y()) / -ray.z();
-      const double heard_m =
+      const double measured_m =
           range_m + std::hypot(sd.range_sd_m, range_m * tan_vertical * sd.angle_sd_rad) * drawn.normal(201, ping, beam);
       const Vec3 direction = georeference::intersect_cones(
-          believed.enu_from_head * Vec3::UnitX(), 0.0, believed.enu_from_head * Vec3::UnitY(),
+          estimated.enu_from_head * Vec3::UnitX(), 0.0, estimated.enu_from_head * Vec3::UnitY(),
           std::cos(along) * std::sin(angle) * face_mps / kWater_mps, -Vec3::UnitZ());
       const frames::Quaternion enu_from_level = frames::enu_from_ned();
       const Vec3 away = enu_from_level * georeference::place_sounding({enu_from_level.conjugate() * direction,
-                                                                       2 * heard_m / kWater_mps, 0.0, face_mps},
+                                                                       2 * measured_m / kWater_mps, 0.0, face_mps},
                                                                       SoundSpeedProfile::uniform(cast_mps));
-      const Vec3 error = believed.position_enu_m + away - place;
+      const Vec3 error = estimated.position_enu_m + away - place;
       const Matrix3 predicted = covariance_enu_m2({.away_enu_m = away,
-                                                   .lever_enu_m = believed.position_enu_m - said.position_enu_m,
-                                                   .enu_from_head = believed.enu_from_head,
+                                                   .lever_enu_m = estimated.position_enu_m - stated.position_enu_m,
+                                                   .enu_from_head = estimated.enu_from_head,
                                                    .velocity_enu_mps = boat.velocity(t),
                                                    .rate_enu_radps = boat.rate(t),
                                                    .sound_speed_mps = face_mps},
@@ -129,7 +129,7 @@ void survey(std::uint64_t seed, std::array<Share, 10>& by_angle) {
 
 }  // namespace
 
-TEST_CASE("what is predicted covers 93 to 97 % of the true errors in every tenth of the swath") {
+TEST_CASE("predicted intervals cover 93 to 97 % of true errors in every tenth of the swath") {
   // 50 surveys. What a survey has wrong from beginning to end is drawn 50 times only: where it is half the variance,
   // the share of a tenth scatters by about 1 %.
   std::array<Share, 10> by_angle;

@@ -19,7 +19,7 @@ double outside_m(const Circle& circle, const Vec2& position_enu_m);
 /// d outside it ([Beard2012], ch. 10). Far away it points at the centre. gain > 0. At the centre itself: north.
 double circle_course_rad(const Circle& circle, const Vec2& position_enu_m, double gain);
 
-/// Angle about the centre that a move covers in the circle's sense, (-pi, pi]; summed over a flight it tells the turns
+/// Angle about the centre that a move covers in the circle's sense, (-pi, pi]; summed over a track it gives the turns
 /// made. 0 at the centre.
 double swept_rad(const Circle& circle, const Vec2& from_enu_m, const Vec2& to_enu_m);
 

@@ -8,8 +8,8 @@ using frames::Vec2;
 
 /// Learns how the water carries a vehicle, from its velocity over ground and its heading. Only what is across the
 /// heading counts: a vehicle makes no way sideways, and how fast it goes ahead through the water it need not know. On
-/// one heading the drift across it is learned with the time constant `settle_s`; headings that differ tell the rest.
-/// Sideslip in turns looks like drift: leave turns out.
+/// one heading the drift across it is learned with the time constant `settle_s`; headings that differ give the rest.
+/// Sideslip in turns appears as drift: leave turns out.
 Vec2 learn_drift(const Vec2& drift_enu_mps, const Vec2& velocity_enu_mps, double heading_rad, double dt_s,
                  double settle_s);
 

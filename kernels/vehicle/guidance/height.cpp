@@ -8,7 +8,7 @@ namespace {
 
 /// Where the highest bottom counts that will be reached within the time looked ahead.
 double bottom_ahead_m(const HeightRules& rules, const BottomTrack& track) {
-  return track.depth_m + std::min(0.0, track.rate_mps * rules.look_ahead_s);
+  return track.depth_m + std::min(0.0, track.rate_mps * rules.lookahead_s);
 }
 
 HeightOrder within(const HeightRules& rules, double wanted_m, double depth_m, double altitude_m) {

@@ -2,7 +2,7 @@
 
 namespace ensonify::guidance {
 
-/// The bottom under a vehicle as its altimeter tells it: depth, and how fast it rises or falls under way.
+/// The bottom under a vehicle as its altimeter gives it: depth, and how fast it rises or falls under way.
 struct BottomTrack {
   bool known = false;
   double depth_m = 0.0;   // below the water level
@@ -11,16 +11,16 @@ struct BottomTrack {
 
 /// The track after another reading, `dt_s` > 0 after the last one: own depth plus altitude, smoothed by the critically
 /// damped g-h filter of the time constant `settle_s` > 0. A bottom of constant slope is followed without lag. The first
-/// reading is believed at once.
+/// reading is accepted at once.
 BottomTrack track_bottom(const BottomTrack& track, double depth_m, double altitude_m, double dt_s, double settle_s);
 
-/// How deep to go.
+/// Rules for the depth to hold.
 struct HeightRules {
   double altitude_m = 5.0;        // wanted above the bottom
   double least_altitude_m = 2.0;  // obstacle floor: nearer than this the vehicle climbs first of all
   double least_depth_m = 0.0;     // not above this
   double greatest_depth_m = 1e4;  // not below this
-  double look_ahead_s = 0.0;      // where the bottom rises, be as high now as it takes then; a falling one is awaited
+  double lookahead_s = 0.0;       // where the bottom rises, be as high now as it takes then; a falling one is awaited
 };
 
 struct HeightOrder {

@@ -8,7 +8,7 @@
 using namespace ensonify;
 using namespace ensonify::guidance;
 
-TEST_CASE("a bottom of constant slope is tracked without lag, a step with the filter's time constant") {
+TEST_CASE("constant slope is tracked without lag, a step with the filter's time constant") {
   BottomTrack track;
   for (int i = 0; i <= 600; ++i) track = track_bottom(track, 10.0, 20.0 + 0.1 * 0.3 * i, 0.1, 2.0);
   CHECK(track.depth_m == Approx(48.0).epsilon(1e-9));
@@ -28,13 +28,13 @@ TEST_CASE("the order is the bottom less the altitude, within the depths allowed"
   CHECK_FALSE(follow_bottom(rules, {true, 20.0, 0.0}, 15.0, 5.0).too_low);
 }
 
-TEST_CASE("a rising bottom is met early, a falling one awaited") {
+TEST_CASE("the vehicle climbs early over a rising bottom, and waits over a falling one") {
   const HeightRules rules{5.0, 2.0, 0.0, 1e4, 10.0};
   CHECK(follow_bottom(rules, {true, 20.0, -0.2}, 15.0, 5.0).depth_m == Approx(13.0));
   CHECK(follow_bottom(rules, {true, 20.0, 0.2}, 15.0, 5.0).depth_m == 15.0);
 }
 
-TEST_CASE("below the obstacle floor the vehicle climbs, whatever it was told") {
+TEST_CASE("below the obstacle floor the vehicle climbs, whatever the command") {
   const HeightRules rules{5.0, 2.0, 0.0, 1e4, 0.0};
   const HeightOrder order = follow_bottom(rules, {true, 20.0, 0.0}, 18.5, 1.5);
   CHECK(order.too_low);

@@ -28,7 +28,7 @@ TEST_CASE("as far off as the lookahead the course leads back at 45 degrees") {
   CHECK(course_offset_rad(gains, 0.0, 0.0) == 0.0);
 }
 
-TEST_CASE("without the integral a current across leaves lookahead v / sqrt(U^2 - v^2), with it nothing") {
+TEST_CASE("a cross current leaves lookahead v / sqrt(U^2 - v^2), with the integral nothing") {
   LineGains gains = line_gains(2.0, 0.2, 20.0);
   Drifting with, without;
   LineGains none = gains;
@@ -42,7 +42,7 @@ TEST_CASE("without the integral a current across leaves lookahead v / sqrt(U^2 -
   CHECK(gains.integral_mps * with.integral_s == Approx(20.0 * 0.5 / std::sqrt(4.0 - 0.25)).epsilon(1e-4));
 }
 
-TEST_CASE("near the line the distance is the linear equation's: damping 1 gives (1 + w t) exp(-w t)") {
+TEST_CASE("near the line with damping 1 the distance decays as (1 + w t) exp(-w t)") {
   const double speed_mps = 2.0, lookahead_m = 20.0;
   const LineGains gains = line_gains(speed_mps, 0.0, lookahead_m, 1.0);
   CHECK(gains.integral_mps == Approx(0.5));
@@ -54,7 +54,7 @@ TEST_CASE("near the line the distance is the linear equation's: damping 1 gives 
   CHECK(vehicle.cross_track_m == Approx(0.1 * (1.0 - w * 20.0) * std::exp(-w * 20.0)).margin(2e-5));
 }
 
-TEST_CASE("the lookahead grows with speed and lag, and the integral stops where it would only wind up") {
+TEST_CASE("lookahead grows with speed and lag; the integral stops where it would wind up") {
   CHECK(line_gains(2.0, 0.2, 15.0).lookahead_m == 15.0);
   CHECK(line_gains(10.0, 0.2, 15.0).lookahead_m == Approx(20.0));
   const LineGains gains = line_gains(2.0, 0.2, 20.0);

@@ -11,14 +11,14 @@ using frames::Vec2;
 /// it obeys: the root of v^2 / (2 a) + v lag = d. distance_m >= 0, deceleration_mps2 > 0, lag_s >= 0.
 double stopping_speed_mps(double distance_m, double deceleration_mps2, double lag_s);
 
-/// How a vehicle that only goes ahead keeps its place: it turns towards where it should be and goes there, slower the
+/// Station keeping of a vehicle that only goes ahead: it turns towards where it should be and goes there, slower the
 /// nearer it is; within `watch_radius_m` it goes just fast enough to stand against the drift, bow upstream.
 struct StationRules {
   double watch_radius_m = 3.0;     // > 0
   double approach_ps = 0.2;        // speed over ground per metre outside the watch radius, > 0
   double fastest_mps = 1.0;        // through the water, > 0
   double deceleration_mps2 = 0.2;  // > 0
-  double lag_s = 0.5;              // from looking to obeying
+  double lag_s = 0.5;              // from measurement to obeying
 };
 
 struct Steering {
@@ -39,7 +39,7 @@ inline constexpr double kStream_mps = 0.1;
 runlines::Runline upstream_way(const StationRules& rules, double settle_m, const Vec2& place_enu_m,
                                const Vec2& drift_enu_mps);
 
-/// How a vehicle comes up that way and then stands in the stream: its heading leads back to the way within about
+/// Approach of a vehicle up that way, and its stand in the stream: its heading leads back to the way within about
 /// `lookahead_m`, its speed to the place along it. Upstream of the place it falls back, with steerage. A heading that
 /// never leaves upstream by much needs little turning, which a boat that stands over ground can do but slowly.
 Steering stem(const StationRules& rules, double lookahead_m, const runlines::Runline& way, const Vec2& position_enu_m,

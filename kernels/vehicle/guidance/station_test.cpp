@@ -8,7 +8,7 @@
 using namespace ensonify;
 using namespace ensonify::guidance;
 
-TEST_CASE("a vehicle told the stopping speed stops within the distance: v^2 / (2 a) + v lag = d") {
+TEST_CASE("at the stopping speed a vehicle stops within d = v^2 / (2 a) + v lag") {
   for (const double d : {0.0, 0.5, 10.0, 400.0}) {
     const double v = stopping_speed_mps(d, 0.2, 0.5);
     CHECK(v * v / 0.4 + 0.5 * v == Approx(d).margin(1e-9));
@@ -58,14 +58,13 @@ TEST_CASE("in a current the place is kept with the bow upstream") {
   CHECK(order.speed_mps == Approx(0.5));
 }
 
-TEST_CASE("the way up to a place in a stream begins as far downstream as it takes to line up and to stop") {
+TEST_CASE("a run upstream begins as far downstream as lining up and stopping take") {
   const auto way = upstream_way({3.0, 0.2, 2.0, 0.2, 0.5}, 30.0, {10, 20}, {0.3, 0.0});
   CHECK((way.start_enu_m - Vec2(10 + 11 + 30, 20)).norm() < 1e-9);  // v^2 / (2 a) + v lag = 11 m
   CHECK(way.end_enu_m == Vec2(10, 20));
 }
 
-TEST_CASE(
-    "a vehicle comes up a stream to its place without going beyond it, and stands there, wherever it comes from") {
+TEST_CASE("from anywhere a vehicle comes upstream to its station without overshoot") {
   const StationRules rules{3.0, 0.2, 2.0, 0.2, 0.5};
   const Vec2 current(0.0, -0.5);  // upstream is north
   for (const double off_m : {0.0, 5.0, -20.0}) {
@@ -83,7 +82,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("with nothing to do the heading stays, and a bow that points away turns at half speed at most") {
+TEST_CASE("without a task heading stays; a bow pointing away turns at half speed at most") {
   const StationRules rules;
   CHECK(keep_station(rules, {0, 0}, {1, 0}, 4.0, {0, 0}).heading_rad == 4.0);
   CHECK(keep_station(rules, {0, 0}, {1, 0}, 4.0, {0, 0}).speed_mps == 0.0);

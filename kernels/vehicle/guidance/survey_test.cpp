@@ -1,4 +1,4 @@
-// The laws together: five lines of 1 km in a current across them, flown by a vehicle that obeys within its limits.
+// The laws together: five lines of 1 km in a current across them, run by a vehicle that obeys within its limits.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -23,7 +23,7 @@ double percentile_95(std::vector<double> values) {
 }
 
 /// Distances from the line, of the disturbed vehicle, along all lines. Steers by the disturbed place and velocity.
-std::vector<double> fly(const std::vector<runlines::Runline>& lines, const Vec2& current, bool integral) {
+std::vector<double> run_line(const std::vector<runlines::Runline>& lines, const Vec2& current, bool integral) {
   constexpr double kSpeed_mps = 2.0, kStep_s = 0.1, kLag_s = 0.2, kRunIn_m = 60.0;
   motion::Limits limits;
   limits.turning_radius_m = 12.0;
@@ -80,8 +80,8 @@ std::vector<double> fly(const std::vector<runlines::Runline>& lines, const Vec2&
 
 TEST_CASE("five lines of 1 km in 0.5 m/s across, disturbed: 95 % of the way within 1 m") {
   const auto lines = runlines::lawnmower({0, 0}, 0.0, 1000.0, 40.0, 5);
-  const double held_m = percentile_95(fly(lines, {0.5, 0.0}, true));
-  const double left_m = percentile_95(fly(lines, {0.5, 0.0}, false));
+  const double held_m = percentile_95(run_line(lines, {0.5, 0.0}, true));
+  const double left_m = percentile_95(run_line(lines, {0.5, 0.0}, false));
   CAPTURE(held_m, left_m);
   CHECK(held_m < 1.0);
   CHECK(left_m > 4.0);  // the line of sight alone: lookahead v / sqrt(U^2 - v^2) = 4.65 m, less the waves

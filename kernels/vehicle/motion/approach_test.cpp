@@ -26,7 +26,7 @@ TEST_CASE("a short climb never reaches full speed: 2 sqrt(d/a) seconds") {
   CHECK(approach({}, -0.16, t_s + 1e-9, 0.5, 0.25).value == -0.16);
 }
 
-TEST_CASE("a climb past its target or away from it is braked, overshoots by v^2/2a and comes back") {
+TEST_CASE("a climb past or away from its target brakes, overshoots by v^2/2a and returns") {
   const Moving falling{0.0, -0.5, 0.0};
   const Moving lowest = approach(falling, 3.0, 2.0, 0.5, 0.25);
   CHECK(lowest.value == Approx(-0.5));

@@ -17,7 +17,7 @@ Current estuary() {
 
 }  // namespace
 
-TEST_CASE("the steady profile is met at its knots, half way between two at their mean, and constant beyond") {
+TEST_CASE("the steady profile passes its knots, midway their mean, and is constant beyond") {
   Current current = estuary();
   current.streams.clear();
   CHECK(current.velocity_enu_mps(0.0, 5.0) == Vec2(0.4, 0.0));
@@ -29,7 +29,7 @@ TEST_CASE("the steady profile is met at its knots, half way between two at their
   CHECK(Current{}.none());
 }
 
-TEST_CASE("between equal layers a profile stays within its knots, and a uniform shear is a straight line inside") {
+TEST_CASE("a profile stays within its knots between equal layers; uniform shear is linear") {
   Current layers, uniform;
   layers.profile = {{0, {0.5, -0.1}}, {10, {0.5, -0.1}}, {11, {0.1, 0.3}}, {50, {0.1, 0.3}}};
   uniform.profile = {{0, {0.0, 0.3}}, {5, {0.1, 0.2}}, {15, {0.3, 0.0}}, {25, {0.5, -0.2}}, {30, {0.6, -0.3}}};

@@ -8,7 +8,7 @@
 
 namespace ensonify::motion {
 
-/// How one axis is disturbed, in the axis' own unit (m or rad). Two parts: an oscillation whose frequency jitters about
+/// Disturbance of one axis, in the axis' own unit (m or rad). Two parts: an oscillation whose frequency jitters about
 /// its mean, and fractional Brownian motion that is pulled back to the axis.
 struct AxisDisturbance {
   double oscillation_sd = 0.0;  // standard deviation, >= 0

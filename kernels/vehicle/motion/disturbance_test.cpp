@@ -77,7 +77,7 @@ std::vector<Sea> seas(std::string_view preset, std::uint64_t count, double lengt
 }
 
 /// Where an axis has the most power, by Hann-windowed segments of five periods (its stated one) that overlap by half;
-/// looked for between 0.6 and 1.6 times that period's frequency.
+/// searched for between 0.6 and 1.6 times that period's frequency.
 double peak_period_s(const std::vector<Sea>& seas, Moving Excursion::*axis, double step_s, double stated_s) {
   const auto length = static_cast<std::size_t>(std::lround(5 * stated_s / step_s));
   double highest = 0.0, highest_hz = 0.0;
@@ -139,7 +139,7 @@ TEST_CASE("four hours of the research ship have her standard deviations and peak
 
 // What the multibeam test line's launch had [roll 1.7, pitch 0.8 degrees, heave 0.03 m]; periods are assumed. 10 % is
 // asked for.
-TEST_CASE("four hours of the survey launch have her standard deviations and the stated periods") {
+TEST_CASE("four hours of the survey launch have the stated deviations and periods") {
   const Disturbance sea(*disturbance_preset("survey_launch"), Stream{7, "sea"});
   std::vector<double> heave, pitch, roll;
   for (int i = 0; i < 4 * 3600 * 2; ++i) {
@@ -160,8 +160,8 @@ TEST_CASE("four hours of the survey launch have her standard deviations and the 
   CHECK(period_s(r, 20, kLines) == Approx(4.0).epsilon(0.05));
 }
 
-// The peak itself, of a spectrum as smooth as 20 segments tell of a record of ten minutes like the ship's.
-TEST_CASE("every axis of every preset has the highest power within 10 % of its stated period") {
+// The peak itself, of a spectrum as smooth as 20 segments indicates a record of ten minutes like the ship's.
+TEST_CASE("every axis of every preset peaks within 10 % of its stated period") {
   const struct {
     const char* preset;
     const char* axis;
@@ -190,7 +190,7 @@ TEST_CASE("every axis of every preset has the highest power within 10 % of its s
   }
 }
 
-// Few waves share a line of a spectrum, and a longer record of one sea has no more of them: so many seas are looked at.
+// Few waves share a line of a spectrum, and a longer record of one sea has no more of them: so many seas are examined.
 TEST_CASE("axes have the stated coherence with heave in the mean of many seas") {
   const struct {
     const char* preset;
@@ -256,7 +256,7 @@ TEST_CASE("the fractional part has the slope -(2H + 1) above its corner") {
 }
 
 TEST_CASE("an oscillation is confined to below the highest frequency") {
-  // With all waves below 0.5 Hz, samples at 1 Hz tell the motion between them: the mean of rate^2 is bounded.
+  // With all waves below 0.5 Hz, samples at 1 Hz give the motion between them: the mean of rate^2 is bounded.
   DisturbanceParameters p;
   p.roll = {.wander_sd = 1.0, .hurst = 0.05};
   p.highest_hz = 0.5;

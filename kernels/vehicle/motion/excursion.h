@@ -16,7 +16,7 @@ struct Moving {
   }
 };
 
-/// How far a body is from its mean pose. All zero: it is there.
+/// Excursion of a body from its mean pose. All zero: none.
 struct Excursion {
   Moving surge_m;      // along the mean body's forward axis
   Moving sway_m;       // along the mean body's starboard axis

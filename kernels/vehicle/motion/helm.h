@@ -5,12 +5,12 @@
 
 namespace ensonify::motion {
 
-/// How a vehicle's own controller makes heading, speed and depth of what its propellers and fins can do.
+/// Controller of a vehicle: heading, speed and depth by its propellers and fins.
 struct HelmParameters {
   enum class Depth {
     kNone,     // it floats
     kByHeave,  // thrusters push it up and down, and keep it level
-    kByPitch,  // it flies there, bow up or down
+    kByPitch,  // it goes there, bow up or down
   };
   double surge_ps = 0.5;  // how fast each error falls, 1/s, > 0
   double heading_ps = 0.3;
@@ -27,17 +27,17 @@ struct HelmParameters {
 /// A cascade per axis: the error asks for a rate, within its limit, and the rate's error for an acceleration four times
 /// as fast, which is critical damping. What force this takes follows from the body's own equations (the forces that act
 /// anyway are taken off), and is spread over propellers and fins by weighted least squares, each weighted by its own
-/// largest force. Told a speed beyond what its propellers make, a body goes as fast as it can and still holds heading
-/// and depth. It sees the true state: errors of the vehicle's sensors come in through what it is told to steer.
-/// Speed is through the water. Axes that nothing pushes stay as they are.
+/// largest force. Commanded a speed beyond what its propellers make, a body goes as fast as it can and still holds
+/// heading and depth. It sees the true state: errors of the vehicle's sensors come in through what it is commanded to
+/// steer. Speed is through the water. Axes that nothing pushes stay as they are.
 Eigen::VectorXd orders(const HelmParameters& helm, const Body& body, const BodyState& state, const Command& command,
                        const Surroundings& around);
 
 /// Highest speed through still water, level and straight ahead, at which all propellers together balance the drag.
 double top_speed_mps(const Body& body);
 
-/// Radius of the circle that a body goes round on in still water, told a speed and always a heading a quarter turn to
-/// starboard: integrated for two minutes.
+/// Radius of the circle that a body goes round on in still water, commanded a speed and always a heading a quarter turn
+/// to starboard: integrated for two minutes.
 double tightest_circle_m(const HelmParameters& helm, const Body& body, double speed_mps);
 
 }  // namespace ensonify::motion

@@ -54,7 +54,7 @@ struct CrossFlow {
   double coefficient = 0.0;  // of a strip, two-dimensional
 };
 
-/// What the water's surface does to a floating hull: springs for small motions about the waterline at rest.
+/// Forces of the water's surface on a floating hull: springs for small motions about the waterline at rest.
 struct Waterplane {
   double heave_npm = 0.0;  // rho g A
   double roll_nm = 0.0;    // rho g times the second moment of the area about its fore-and-aft axis, N m per rad
@@ -86,7 +86,7 @@ struct HydrodynamicParameters {
   std::size_t actuators() const { return propellers.size() + fins.size(); }
 };
 
-/// What is about the body: the same for all of it.
+/// Water about the body: the same for all of it.
 struct Surroundings {
   frames::Vec3 current_enu_mps = frames::Vec3::Zero();
   double water_level_m = 0.0;  // up from the world's zero; a floating body's reference point rests on it

@@ -73,7 +73,7 @@ TEST_CASE("without damping energy stays, with and without Munk's moments") {
   }
 }
 
-TEST_CASE("a floating hull without damping keeps its energy and heaves with its natural period") {
+TEST_CASE("an undamped floating hull keeps its energy and heaves at its natural period") {
   HydrodynamicParameters p = frictionless();
   p.waterplane = Waterplane{800.0, 60.0, 200.0};
   p.gravity_centre_body_m = {0, 0, 0.03};
@@ -202,7 +202,7 @@ TEST_CASE("revolutions give back the thrust they were asked for") {
   CHECK(revolutions_rps(propeller, 1e4, 1.5) == 30.0);
 }
 
-TEST_CASE("actuators follow their orders with their time constant and no further than they can") {
+TEST_CASE("actuators follow commands with their time constant, within their limits") {
   HydrodynamicParameters p = frictionless();
   Propeller propeller;
   propeller.ahead_ns2 = propeller.astern_ns2 = 1e-6;

@@ -26,12 +26,12 @@ double speed_rate_mps2(double speed_mps, double target_mps, const Limits& limits
 /// The speed from which on the turn rate limits a turn, not the radius.
 double limiting_speed_mps(const Limits& limits) { return limits.turn_rate_radps * limits.turning_radius_m; }
 
-/// When within dt the speed meets a speed that it has not now, or nothing.
-std::optional<double> time_of_speed(double speed_mps, double target_mps, double met_mps, double dt_s,
+/// When within dt the speed reaches a speed that it has not now, or nothing.
+std::optional<double> time_of_speed(double speed_mps, double target_mps, double passed_mps, double dt_s,
                                     const Limits& limits) {
-  const bool between = (met_mps - speed_mps) * (met_mps - target_mps) < 0.0 || met_mps == target_mps;
-  if (!between || met_mps == speed_mps) return std::nullopt;
-  const double t_s = (met_mps - speed_mps) / speed_rate_mps2(speed_mps, target_mps, limits);
+  const bool between = (passed_mps - speed_mps) * (passed_mps - target_mps) < 0.0 || passed_mps == target_mps;
+  if (!between || passed_mps == speed_mps) return std::nullopt;
+  const double t_s = (passed_mps - speed_mps) / speed_rate_mps2(speed_mps, target_mps, limits);
   return t_s < dt_s ? std::optional(t_s) : std::nullopt;
 }
 
@@ -78,8 +78,8 @@ State turn_at_rate(const State& state, const Command& command, double dt_s, cons
   return next;
 }
 
-/// East and north, heading and speed. Split where the speed meets the limiting speed, and for the faster turn also
-/// where it meets the commanded one, so that each part is of one kind.
+/// East and north, heading and speed. Split where the speed reaches the limiting speed, and for the faster turn also
+/// where it intersects the commanded one, so that each part is of one kind.
 State advance_level(const State& state, const Command& command, double dt_s, const Limits& limits) {
   const auto split = [&](double t_s, double speed_mps) {
     State part = advance_level(state, command, t_s, limits);

@@ -39,7 +39,8 @@ struct Ramp {
   double distance_m;
 };
 
-/// Speed after dt and the distance covered, accelerating uniformly until the target speed is met and holding it then.
+/// Speed after dt and the distance covered, accelerating uniformly until the target speed is reached and holding it
+/// then.
 Ramp speed_ramp(double speed_mps, double target_mps, double dt_s, const Limits& limits);
 
 /// Distance to a stop, v^2 / (2 a).

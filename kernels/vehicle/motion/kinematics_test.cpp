@@ -96,7 +96,7 @@ const Limits kLaunch{
 
 }  // namespace
 
-TEST_CASE("a turn with inertia takes pi/omega + omega/alpha, and its path is the integral of its heading") {
+TEST_CASE("a half turn takes pi/omega + omega/alpha, its path the integral of heading") {
   const double rate = 0.2, half_turn_s = kPi / rate + rate / 0.1;  // 4 m/s on 20 m
   const State start{Vec3(5, 7, 0), 0.0, 4.0};
   CHECK(advance(start, {kPi - 1e-9, 4.0, 0.0}, half_turn_s - 0.01, kLaunch).turn_radps == Approx(0.001).epsilon(1e-3));

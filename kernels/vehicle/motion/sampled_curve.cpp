@@ -14,7 +14,7 @@ bool SampledCurve::push(double t_s, double value) {
 }
 
 void SampledCurve::forget_before(double t_s) {
-  while (samples_.size() > 3 && samples_[2].t_s <= t_s) samples_.pop_front();  // one before the piece tells its slope
+  while (samples_.size() > 3 && samples_[2].t_s <= t_s) samples_.pop_front();  // one before the piece gives its slope
 }
 
 /// Of the parabola through a sample and its neighbours; at the ends that of the straight line.

@@ -16,7 +16,7 @@ TEST_CASE("a parabola is followed exactly, whatever the distances of its samples
   }
 }
 
-TEST_CASE("a swell sampled ten times a period is followed within 1 %, and rates are the values' derivatives") {
+TEST_CASE("a swell of ten samples a period is followed within 1 %, rates its derivatives") {
   constexpr double kOmega = 2.0 * 3.14159265358979;
   SampledCurve curve;
   for (int i = -3; i < 14; ++i) curve.push(0.1 * i, std::sin(kOmega * 0.1 * i));
@@ -43,7 +43,7 @@ TEST_CASE("value and rate do not jump at samples; outside it goes straight on") 
   CHECK(curve.at(-1.0).value == -1.0);
 }
 
-TEST_CASE("samples that are late, double or no numbers are refused; what is forgotten was not needed") {
+TEST_CASE("late, double or non-finite samples are refused; dropped ones were not needed") {
   SampledCurve curve;
   CHECK(curve.push(1.0, 2.0));
   CHECK(curve.at(3.0).value == 2.0);

@@ -4,7 +4,7 @@
 
 #include "kernels/base/frames/attitude.h"
 
-/// Where to steer: survey lines, the way along them, and the turns between them. Horizontal plane, ENU metres.
+/// Survey lines, the way along them, and the turns between them. Horizontal plane, ENU metres.
 namespace ensonify::runlines {
 
 using frames::Vec2;

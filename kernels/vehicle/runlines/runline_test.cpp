@@ -15,7 +15,7 @@ TEST_CASE("a place east of a line run to north lies to starboard") {
   CHECK((point_on(line, 110) - Vec2(10, 110)).norm() < 1e-12);
 }
 
-TEST_CASE("on the line the command is the line's heading; as far off as the lookahead it is 45 degrees") {
+TEST_CASE("on the line the command is its heading, one lookahead off it is 45 degrees") {
   const Runline line{{0, 0}, {100, 0}};
   CHECK(line_of_sight_heading_rad(line, {50, 0}, 20) == Approx(kPi / 2));
   CHECK(line_of_sight_heading_rad(line, {50, 20}, 20) == Approx(3 * kPi / 4));  // to port of it: turn to starboard

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostCells = 512;  // along the longer side of the search lattice
 
-/// The ground looked at along a heading: cell (ahead, aside) counts from the rear port corner.
+/// The ground examined along a heading: cell (ahead, aside) counts from the rear port corner.
 struct Lattice {
   Vec2 corner_enu_m;
   Vec2 forward, starboard;
@@ -31,7 +31,7 @@ struct Rectangle {
   double aside() const { return static_cast<double>(aside_last - aside_first); }
 };
 
-Lattice lattice_along(const HeightGrid& ground, const SurveyWish& wish, double heading) {
+Lattice lattice_along(const HeightGrid& ground, const SurveyRequest& request, double heading) {
   Lattice lattice;
   lattice.forward = {std::sin(heading), std::cos(heading)};
   lattice.starboard = {std::cos(heading), -std::sin(heading)};
@@ -52,9 +52,9 @@ Lattice lattice_along(const HeightGrid& ground, const SurveyWish& wish, double h
   for (std::size_t s = 0; s < lattice.aside; ++s) {
     for (std::size_t a = 0; a < lattice.ahead; ++a) {
       const Vec2 place = lattice.place_enu_m(static_cast<double>(a) + 0.5, static_cast<double>(s) + 0.5);
-      const double depth = wish.head_height_m - ground.nearest_height_m(place);
+      const double depth = request.head_height_m - ground.nearest_height_m(place);
       lattice.depth_m[s * lattice.ahead + a] =
-          depth >= wish.least_water_m ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN();
+          depth >= request.least_water_m ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return lattice;
@@ -72,7 +72,8 @@ double median_depth_m(const Lattice& lattice) {
 }
 
 /// The rectangle without holes of which a survey of at most `most_ahead` x `most_aside` cells can use most; among equal
-/// ones the largest. Every maximal rectangle is met once: for each row, runs of free cells are the bars of a histogram.
+/// ones the largest. Every maximal rectangle is found once: for each row, runs of free cells are the bars of a
+/// histogram.
 Rectangle best_rectangle(const Lattice& lattice, double most_ahead, double most_aside) {
   Rectangle best;
   double best_used = 0.0, best_area = 0.0;
@@ -134,35 +135,36 @@ struct Attempt {
   std::string why;
 };
 
-Attempt attempt(const HeightGrid& ground, const SurveyWish& wish, double heading, double end_room_m) {
-  const Lattice lattice = lattice_along(ground, wish, heading);
-  const double swath_per_depth = 2.0 * std::tan(0.5 * wish.swath_rad);
+Attempt attempt(const HeightGrid& ground, const SurveyRequest& request, double heading, double end_room_m) {
+  const Lattice lattice = lattice_along(ground, request, heading);
+  const double swath_per_depth = 2.0 * std::tan(0.5 * request.swath_rad);
   const auto spacing_over = [&](double depth_m) {
-    return wish.spacing_m.value_or(depth_m * swath_per_depth * (1.0 - wish.overlap));
+    return request.spacing_m.value_or(depth_m * swath_per_depth * (1.0 - request.overlap));
   };
   const double typical_m = median_depth_m(lattice);
-  const double most_ahead = (wish.longest_line_m + 2.0 * end_room_m) / lattice.cell_m;
+  const double most_ahead = (request.longest_line_m + 2.0 * end_room_m) / lattice.cell_m;
   const double most_aside =
-      ((wish.most_lines - 1) * spacing_over(typical_m) + typical_m * swath_per_depth) / lattice.cell_m;
+      ((request.most_lines - 1) * spacing_over(typical_m) + typical_m * swath_per_depth) / lattice.cell_m;
   const Rectangle free = best_rectangle(lattice, most_ahead, most_aside);
   const Rectangle used = middle_of(free, most_ahead, most_aside);
 
   Attempt result;
   if (free.ahead() == 0.0) {
-    result.why = "no part of the chart is known and more than " + text_m(wish.least_water_m) + " below the head";
+    result.why = "no part of the chart is known and more than " + text_m(request.least_water_m) + " below the head";
     return result;
   }
   const auto [least_m, greatest_m] = depth_range_m(lattice, used);
   const double swath_m = greatest_m * swath_per_depth;
   const double length_m = free.ahead() * lattice.cell_m, width_m = free.aside() * lattice.cell_m;
   const double spacing_m = spacing_over(least_m);
-  const double line_m = std::min(wish.longest_line_m, length_m - 2.0 * end_room_m);
+  const double line_m = std::min(request.longest_line_m, length_m - 2.0 * end_room_m);
   const int count =
-      width_m < swath_m ? 0 : std::min(wish.most_lines, 1 + static_cast<int>((width_m - swath_m) / spacing_m));
-  if (count == 0 || line_m < std::min(wish.shortest_line_m, wish.longest_line_m)) {
+      width_m < swath_m ? 0 : std::min(request.most_lines, 1 + static_cast<int>((width_m - swath_m) / spacing_m));
+  if (count == 0 || line_m < std::min(request.shortest_line_m, request.longest_line_m)) {
     result.why = "the largest area without holes is " + text_m(length_m) + " x " + text_m(width_m) +
-                 "; one line needs " + text_m(std::min(wish.shortest_line_m, wish.longest_line_m) + 2.0 * end_room_m) +
-                 " x " + text_m(swath_m) + " (swath at " + text_m(greatest_m) + " below the head)";
+                 "; one line needs " +
+                 text_m(std::min(request.shortest_line_m, request.longest_line_m) + 2.0 * end_room_m) + " x " +
+                 text_m(swath_m) + " (swath at " + text_m(greatest_m) + " below the head)";
     return result;
   }
   const Vec2 centre = lattice.place_enu_m(0.5 * static_cast<double>(free.ahead_first + free.ahead_last),
@@ -183,14 +185,14 @@ double HeightGrid::nearest_height_m(const Vec2& place) const {
   return height_m[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
 }
 
-SurveyPlan plan_survey(const HeightGrid& ground, const SurveyWish& wish) {
+SurveyPlan plan_survey(const HeightGrid& ground, const SurveyRequest& request) {
   std::vector<double> headings{0.5 * std::numbers::pi, 0.0};
-  if (wish.heading_rad) headings = {*wish.heading_rad};
+  if (request.heading_rad) headings = {*request.heading_rad};
   std::string why;
-  for (const double end_room_m : {std::max(wish.turn_room_m, wish.run_in_m), wish.run_in_m}) {
+  for (const double end_room_m : {std::max(request.turn_room_m, request.run_in_m), request.run_in_m}) {
     Attempt best;
     for (const double heading : headings) {
-      Attempt now = attempt(ground, wish, heading, end_room_m);
+      Attempt now = attempt(ground, request, heading, end_room_m);
       const auto worth = [](const Attempt& a) { return a.line_m * static_cast<double>(a.plan.lines.size()); };
       if (best.plan.lines.empty() || worth(now) > worth(best)) best = std::move(now);
     }

@@ -23,8 +23,8 @@ struct HeightGrid {
   double nearest_height_m(const Vec2& place_enu_m) const;
 };
 
-/// What a survey should look like.
-struct SurveyWish {
+/// Request for a survey.
+struct SurveyRequest {
   int most_lines = 5;
   double longest_line_m = 500.0;
   double shortest_line_m = 20.0;      // less is not worth a line
@@ -53,6 +53,6 @@ struct NoRoom : std::runtime_error {
 /// Parallel lines in the middle of the largest rectangle without holes, counted up to the size that the wish can use;
 /// every swath lies in that rectangle down to its greatest depth. Turn room is given up before the survey is. Throws
 /// NoRoom.
-SurveyPlan plan_survey(const HeightGrid& ground, const SurveyWish& wish);
+SurveyPlan plan_survey(const HeightGrid& ground, const SurveyRequest& request);
 
 }  // namespace ensonify::runlines

@@ -27,13 +27,13 @@ struct Ground {
   }
 };
 
-SurveyWish wish_of(int lines, double longest_m) {
-  SurveyWish wish;
-  wish.most_lines = lines;
-  wish.longest_line_m = longest_m;
-  wish.swath_rad = kPi / 2;  // as wide as twice the depth
-  wish.overlap = 0.25;
-  return wish;
+SurveyRequest request_of(int lines, double longest_m) {
+  SurveyRequest request;
+  request.most_lines = lines;
+  request.longest_line_m = longest_m;
+  request.swath_rad = kPi / 2;  // as wide as twice the depth
+  request.overlap = 0.25;
+  return request;
 }
 
 /// Every swath of the plan lies over known ground.
@@ -55,7 +55,7 @@ void check_covered(const HeightGrid& ground, const SurveyPlan& plan, double swat
 
 TEST_CASE("over a whole flat chart the lines lie in its middle, spaced by swath and overlap") {
   const Ground ground([](double, double) { return -20.0; });
-  const auto plan = plan_survey(ground.grid, wish_of(5, 400));
+  const auto plan = plan_survey(ground.grid, request_of(5, 400));
   REQUIRE(plan.lines.size() == 5);
   CHECK(plan.spacing_m == Approx(2 * 20 * 0.75));
   CHECK((point_on(plan.lines[2], 200)).norm() < 1e-6);
@@ -64,53 +64,53 @@ TEST_CASE("over a whole flat chart the lines lie in its middle, spaced by swath 
 
 TEST_CASE("lines run along the longer side when it matters") {
   const Ground ground([](double, double) { return -20.0; });
-  const auto plan = plan_survey(ground.grid, wish_of(2, 5000));
+  const auto plan = plan_survey(ground.grid, request_of(2, 5000));
   CHECK(std::abs(std::sin(heading_rad(plan.lines[0]))) == Approx(1.0));  // east or west
   CHECK(length_m(plan.lines[0]) == Approx(1010));
 }
 
 TEST_CASE("a hole in the middle pushes the survey into the larger side") {
   const Ground ground([](double x, double y) { return std::hypot(x - 100, y) < 60 ? kHole : -15.0; });
-  auto wish = wish_of(6, 300);
-  wish.heading_rad = 0.0;
-  const auto plan = plan_survey(ground.grid, wish);
+  auto request = request_of(6, 300);
+  request.heading_rad = 0.0;
+  const auto plan = plan_survey(ground.grid, request);
   CHECK(plan.lines.size() == 6);
   for (const auto& line : plan.lines) CHECK(line.start_enu_m.x() < 40);
-  check_covered(ground.grid, plan, wish.swath_rad);
+  check_covered(ground.grid, plan, request.swath_rad);
 }
 
 TEST_CASE("swaths stay over known ground at any heading, on a slope, in an odd-shaped chart") {
   const Ground ground(
       [](double x, double y) { return x * x / 250000 + y * y / 62500 < 1.0 ? -20.0 - 0.02 * x : kHole; });
   for (const double heading : {0.0, 0.4, 1.1, 2.5}) {
-    auto wish = wish_of(4, 250);
-    wish.heading_rad = heading;
-    const auto plan = plan_survey(ground.grid, wish);
+    auto request = request_of(4, 250);
+    request.heading_rad = heading;
+    const auto plan = plan_survey(ground.grid, request);
     CHECK(plan.lines.size() >= 2);
     CHECK(std::abs(std::sin(heading_rad(plan.lines[0]) - heading)) < 1e-9);
-    check_covered(ground.grid, plan, wish.swath_rad);
+    check_covered(ground.grid, plan, request.swath_rad);
   }
 }
 
 TEST_CASE("turn room is given up before the survey is, run-in never") {
   const Ground ground([](double x, double) { return std::abs(x) <= 200 ? -20.0 : kHole; });
-  auto wish = wish_of(1, 1000);
-  wish.heading_rad = kPi / 2;  // 410 m from edge to edge
-  wish.run_in_m = 30;
-  wish.turn_room_m = 80;
-  CHECK(length_m(plan_survey(ground.grid, wish).lines.at(0)) == Approx(410 - 160));
-  wish.turn_room_m = 200;
-  CHECK(length_m(plan_survey(ground.grid, wish).lines.at(0)) == Approx(410 - 60));
+  auto request = request_of(1, 1000);
+  request.heading_rad = kPi / 2;  // 410 m from edge to edge
+  request.run_in_m = 30;
+  request.turn_room_m = 80;
+  CHECK(length_m(plan_survey(ground.grid, request).lines.at(0)) == Approx(410 - 160));
+  request.turn_room_m = 200;
+  CHECK(length_m(plan_survey(ground.grid, request).lines.at(0)) == Approx(410 - 60));
 }
 
-TEST_CASE("land and shoals count as holes; no room is said with what there is and what it takes") {
+TEST_CASE("land and shoals count as holes; too little space states available and needed") {
   const Ground land([](double, double) { return 3.0; });
-  CHECK_THROWS_WITH(plan_survey(land.grid, wish_of(1, 100)),
+  CHECK_THROWS_WITH(plan_survey(land.grid, request_of(1, 100)),
                     "no part of the chart is known and more than 2 m below the head");
   const Ground pool([](double x, double y) { return std::abs(x) < 45 && std::abs(y) < 15 ? -30.0 : kHole; });
-  auto wish = wish_of(1, 100);
-  wish.heading_rad = kPi / 2;
+  auto request = request_of(1, 100);
+  request.heading_rad = kPi / 2;
   CHECK_THROWS_WITH(
-      plan_survey(pool.grid, wish),
+      plan_survey(pool.grid, request),
       "the largest area without holes is 90 m x 30 m; one line needs 20 m x 60 m (swath at 30 m below the head)");
 }

@@ -34,7 +34,7 @@ TEST_CASE("lines closer than two radii need a bulb of three arcs of known length
   check_arrives(turn, to);
 }
 
-TEST_CASE("every turn arrives, never bends tighter than its radius, and is no longer than a detour") {
+TEST_CASE("every turn arrives, never tighter than its radius nor longer than a detour") {
   const double radius = 10;
   for (int i = 0; i < 400; ++i) {
     const double a = i * 0.7391, b = i * 1.311, r = 0.2 * i;
@@ -53,7 +53,7 @@ TEST_CASE("every turn arrives, never bends tighter than its radius, and is no lo
   }
 }
 
-TEST_CASE("a vehicle that starts 3 m off follows a turn of twice its own radius and ends on it") {
+TEST_CASE("a vehicle 3 m off follows a turn of twice its radius and ends on it") {
   const Waypose to{{40, 0}, kPi};
   const Turn turn = shortest_turn({{0, 0}, 0}, to, 20);
   Vec2 position(-3, 0);

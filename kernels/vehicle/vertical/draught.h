@@ -2,7 +2,7 @@
 
 #include <vector>
 
-/// How deep a vessel floats.
+/// Draught of a vessel.
 namespace ensonify::vertical {
 
 /// A vessel's settlement and squat at one speed: how much deeper her reference point runs than at rest.
@@ -18,7 +18,7 @@ struct Loading {
   double rate_mps = 0.0;  // deeper with time; burnt fuel makes it negative
 };
 
-/// How much deeper than at rest and as first loaded, positive down, at a speed through the water and sim time t.
+/// Increase of depth over rest and first load, positive down, at a speed through the water and sim time t.
 double sinkage_m(const Loading& loading, double speed_mps, double t_s);
 
 /// Squat of a displacement vessel in open shallow water by Barrass, C_b v^2 / 100 with v in knots [Barrass2004]. For

@@ -8,8 +8,8 @@
 
 namespace ensonify::vertical {
 
-/// Where a vessel floats: on the tide, less the settlement of her speed, as the hull comes to it, and what her load
-/// changes. Without a loading it is the tide's own level, which a submerged vehicle rides.
+/// Height at which a vessel floats: on the tide, less the settlement of her speed, as the hull comes to it, and what
+/// her load changes. Without a loading it is the tide's own level, which a submerged vehicle rides.
 class Floating {
  public:
   /// Settled to its speed through the water at sim time `t_s`.

@@ -49,13 +49,13 @@ Level miss_after_600_s(Floating hull, double (*speed_at)(double)) {
 
 }  // namespace
 
-TEST_CASE("600 s of a vessel's vertical acceleration, asked for at 50 Hz, integrate to where she floats") {
+TEST_CASE("600 s of a vessel's vertical acceleration at 50 Hz integrate to where she floats") {
   const Level miss = miss_after_600_s(Floating(kTide, kLoading, speed_mps(0.0), 0.0), speed_mps);
   CHECK(std::abs(miss.height_m) < 1e-4);
   CHECK(std::abs(miss.rate_mps) < 1e-6);
 }
 
-TEST_CASE("so they do on a gauge's tide, begun on a reading or not, read each six minutes or each minute") {
+TEST_CASE("on a gauge's tide they integrate too, from any start, at readings of 1 or 6 min") {
   for (const double interval_s : {360.0, 60.0}) {
     for (const double begun_s : {0.0, 0.01, 123.4}) {  // between two values that are asked for; anywhere
       GaugeReadings readings;                          // to centimetres, which bends the level more than the tide does

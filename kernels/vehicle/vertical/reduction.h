@@ -2,7 +2,7 @@
 
 #include "kernels/vehicle/vertical/separation.h"
 
-/// Heights above chart datum as instruments tell them.
+/// Heights above chart datum as instruments give them.
 namespace ensonify::vertical {
 
 /// The three surfaces that heights refer to. World zero is chart datum.

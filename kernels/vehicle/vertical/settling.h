@@ -2,8 +2,8 @@
 
 namespace ensonify::vertical {
 
-/// How a hull comes to the settlement of its speed: like a critically damped mass on a spring, z'' = w^2 (u - z) - 2 w
-/// z' with w = 1/s (assumed; nine tenths of a sudden change after 4 s). So neither its velocity nor its acceleration
+/// Approach of a hull to the settlement of its speed: like a critically damped mass on a spring, z'' = w^2 (u - z) - 2
+/// w z' with w = 1/s (assumed; nine tenths of a sudden change after 4 s). So neither its velocity nor its acceleration
 /// has steps where a ramp of speed begins or ends, and each is the derivative of the one before. Exact for a u that
 /// changes uniformly within a step.
 class Settling {

@@ -8,7 +8,7 @@
 
 #include "kernels/vehicle/motion/sampled_curve.h"
 
-/// Where heights are counted from, and how high the water stands. World zero is chart datum; all heights are up.
+/// References of heights, and the water level. World zero is chart datum; all heights are up.
 namespace ensonify::vertical {
 
 /// A height that changes, and its derivatives.
@@ -38,7 +38,7 @@ struct HarmonicTide {
   std::vector<Constituent> constituents;
 };
 
-/// Levels that a gauge read; times rise. In between a motion::SampledCurve, which meets the readings: level and rate
+/// Levels that a gauge read; times rise. In between a motion::SampledCurve, through the readings: level and rate
 /// are continuous, and the acceleration is that of the piece. Before the first reading that one stands; behind the last
 /// the level comes to rest on it in the time of the last interval, and stands.
 struct GaugeReadings {

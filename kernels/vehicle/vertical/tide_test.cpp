@@ -96,7 +96,7 @@ TEST_CASE("rates are derivatives of levels, and accelerations of rates") {
   CHECK(Tide(0.7).at(5.0).acceleration_mps2 == 0.0);
 }
 
-TEST_CASE("a gauge's readings are met without a corner; the first stands before them and the last behind") {
+TEST_CASE("a gauge's readings are interpolated smoothly, constant before and after them") {
   const Tide tide(GaugeReadings{{{0.0, 1.0}, {600.0, 1.3}, {1200.0, 1.1}}});
   CHECK(tide.at(-10.0).height_m == 1.0);
   CHECK(tide.at(-10.0).rate_mps == 0.0);
@@ -117,7 +117,7 @@ TEST_CASE("a gauge's readings are met without a corner; the first stands before 
   CHECK_THROWS_WITH(Tide(GaugeReadings{{{0, 1}, {0, 2}}}), "tide: times of readings must rise");
 }
 
-TEST_CASE("a tide read every six minutes is followed within 0.01 mm, but in the first interval and the last") {
+TEST_CASE("a tide read every six minutes is followed within 0.01 mm but at the ends") {
   const Tide truth(HarmonicTide{2.0, {{radps("M2"), 1.5, 0.3}, {radps("S2"), 0.5, 1.0}}});
   GaugeReadings readings;
   for (double t = 0.0; t <= 86400.0; t += 360.0) readings.time_s_and_height_m.emplace_back(t, truth.at(t).height_m);

@@ -1,4 +1,4 @@
-// What a flat seabed looks like to an instrument that computes its soundings with wrong speeds, against closed forms.
+// What a flat seabed appears as to an instrument that computes its soundings with wrong speeds, against closed forms.
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -68,7 +68,7 @@ TEST_CASE("a wrong speed at the face of a level flat array leaves the soundings 
   }
 }
 
-TEST_CASE("tilted, or traced from the cast, a wrong speed at the face tilts beams as theory says") {
+TEST_CASE("tilted or with a cast, a wrong face speed tilts beams as theory predicts") {
   // With e = used / true - 1, a beam at angle a from the array's normal on an array rolled by r really points to
   // b = a + r with a smaller by e tan a. Traced from the wrong speed the angle is wrong by e (tan a - tan b), from the
   // cast by e tan a; the depth by -x times that. e = 1/1500, so second order is below 1 %.

@@ -12,7 +12,7 @@ constexpr double kVertical_rad = std::numbers::pi / 2;
 constexpr int kSteps = 220;  // a fourth of them halve a bracket of pi, to the last bit
 
 /// A path with the count of its turns.
-struct Journey {
+struct TracedPath {
   Path path;
   int turns = 0;
   double turning_depth_m = 0.0;
@@ -39,7 +39,7 @@ struct Journey {
   }
 };
 
-Journey start(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad) {
+TracedPath start(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad) {
   if (!std::isfinite(source_depth_m)) throw std::invalid_argument("the depth of a path's source must be finite");
   if (!(std::abs(depression_rad) <= kVertical_rad)) {
     throw std::invalid_argument("the depression of a launch must lie in -90..90 degrees");
@@ -56,22 +56,22 @@ void check_length(double value, const char* what) {
 
 /// Takes whole legs while measure(leg) fits into `left`, then the leg that uses the rest up.
 template <class Measure, class Last>
-void go(Journey& journey, double left, Measure measure, Last last) {
+void go(TracedPath& traced, double left, Measure measure, Last last) {
   while (left > 0.0) {
-    const Leg whole = journey.path.leg_within();
+    const Leg whole = traced.path.leg_within();
     const double size = whole.endless() ? left : measure(whole);
-    if (size >= left) return journey.take(last(left));
+    if (size >= left) return traced.take(last(left));
     left -= size;
-    journey.take(whole);
+    traced.take(whole);
   }
 }
 
-Journey over(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad, double horizontal_m) {
-  Journey journey = start(profile, source_depth_m, depression_rad);
+TracedPath over(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad, double horizontal_m) {
+  TracedPath traced = start(profile, source_depth_m, depression_rad);
   go(
-      journey, horizontal_m, [](const Leg& leg) { return leg.chord_m * leg.chord_cosine; },
-      [&](double left) { return journey.path.leg_of_horizontal(left); });
-  return journey;
+      traced, horizontal_m, [](const Leg& leg) { return leg.chord_m * leg.chord_cosine; },
+      [&](double left) { return traced.path.leg_of_horizontal(left); });
+  return traced;
 }
 
 }  // namespace
@@ -83,27 +83,27 @@ std::optional<PathEnd> path_to_depth(const SoundSpeedProfile& profile, double so
 
 std::optional<PathEnd> path_to_depth(const Path& from, double target_depth_m, int max_turns) {
   if (!std::isfinite(target_depth_m)) throw std::invalid_argument("the target depth of a path must be finite");
-  Journey journey{from};
-  const Path& path = journey.path;
-  if (path.at().length_m > 0.0 && path.at().depth_m == target_depth_m) return journey.end();
+  TracedPath traced{from};
+  const Path& path = traced.path;
+  if (path.at().length_m > 0.0 && path.at().depth_m == target_depth_m) return traced.end();
   do {
     const double depth = path.at().depth_m;
     const bool target_below = depth < target_depth_m || (depth == target_depth_m && !path.heads_down());
     const Leg leg = target_below ? path.leg_within(-std::numeric_limits<double>::infinity(), target_depth_m)
                                  : path.leg_within(target_depth_m);
-    if (leg.endless() || journey.turns + (leg.turns ? 1 : 0) > max_turns) return std::nullopt;
-    journey.take(leg);
+    if (leg.endless() || traced.turns + (leg.turns ? 1 : 0) > max_turns) return std::nullopt;
+    traced.take(leg);
   } while (path.at().depth_m != target_depth_m);
-  return journey.end();
+  return traced.end();
 }
 
 PathEnd path_at_time(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad, double time_s) {
   check_length(time_s, "travel time");
-  Journey journey = start(profile, source_depth_m, depression_rad);
+  TracedPath traced = start(profile, source_depth_m, depression_rad);
   go(
-      journey, time_s, [&](const Leg& leg) { return journey.path.time_of(leg); },
-      [&](double left) { return journey.path.leg_of_time(left); });
-  return journey.end();
+      traced, time_s, [&](const Leg& leg) { return traced.path.time_of(leg); },
+      [&](double left) { return traced.path.leg_of_time(left); });
+  return traced.end();
 }
 
 PathEnd path_at_horizontal(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad,
@@ -129,10 +129,10 @@ std::optional<Eigenray> eigenray(const SoundSpeedProfile& profile, double source
 
   double low = -kVertical_rad, high = kVertical_rad, launch = std::atan2(drop, horizontal_m);
   for (int step = 0; step < kSteps; ++step) {
-    const Journey journey = over(profile, source_depth_m, launch, horizontal_m);
-    const PathPoint& at = journey.path.at();
+    const TracedPath traced = over(profile, source_depth_m, launch, horizontal_m);
+    const PathPoint& at = traced.path.at();
     const double miss = (target_depth_m - at.depth_m) * at.cosine;  // across the path
-    if (std::abs(miss) <= close_enough) return Eigenray{launch, journey.end()};
+    if (std::abs(miss) <= close_enough) return Eigenray{launch, traced.end()};
     (miss > 0.0 ? low : high) = launch;
     launch += miss / at.width_m;
     if (step % 4 == 3 || !(launch > low && launch < high)) launch = 0.5 * (low + high);

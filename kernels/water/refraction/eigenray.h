@@ -7,7 +7,7 @@
 /// Whole paths: to a depth, for a time, over a distance, and between two points.
 namespace ensonify::refraction {
 
-/// What a whole path amounts to.
+/// Totals of a whole path.
 struct PathEnd {
   double horizontal_m = 0.0;
   double depth_m = 0.0;
@@ -29,11 +29,11 @@ std::optional<PathEnd> path_to_depth(const SoundSpeedProfile& profile, double so
 /// The same for a path that is already on its way. All but the turns is counted from its launch.
 std::optional<PathEnd> path_to_depth(const Path& from, double target_depth_m, int max_turns = 0);
 
-/// Where the path is after a time, however often it turns: what an instrument computes from a beam's angle at its face
+/// Point of the path after a time, however often it turns: what an instrument computes from a beam's angle at its face
 /// and half the two-way time, with the profile that it applies.
 PathEnd path_at_time(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad, double time_s);
 
-/// Where the path is at a horizontal distance. A vertical path has none: |depression| < pi/2.
+/// Point of the path at a horizontal distance. A vertical path has none: |depression| < pi/2.
 PathEnd path_at_horizontal(const SoundSpeedProfile& profile, double source_depth_m, double depression_rad,
                            double horizontal_m);
 

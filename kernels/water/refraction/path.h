@@ -66,8 +66,8 @@ class Path {
   bool heads_down() const { return at_.sine > 0.0 || (at_.sine == 0.0 && gradient_ < 0.0); }
 
   /// Area of the bundle across the path per steradian of launch; length^2 in uniform water.
-  /// At a caustic rays cross and the area vanishes. It is kept above kTubeFloor * length^2: no more than 20 dB louder
-  /// than without refraction, which diffraction ensures at any caustic that a sonar meets.
+  /// At a caustic rays cross and the area vanishes. It is kept above kTubeFloor * length^2: no more than 20 dB stronger
+  /// than without refraction, which diffraction ensures at any caustic that a sonar hits.
   double tube_m2() const { return tube_m2(at_); }
   /// The same at another place on this path.
   double tube_m2(const PathPoint& point) const {
@@ -91,7 +91,7 @@ class Path {
   /// Depth at which a leg that turns is horizontal.
   double turning_depth_m() const { return at_.depth_m + (1.0 / invariant_ - at_.speed_mps) / gradient_; }
 
-  /// What is there at the end of a leg within the layer.
+  /// State at the end of a leg within the layer.
   PathPoint end_of(const Leg& leg) const;
 
   /// Goes to the end of a leg.

@@ -12,14 +12,14 @@ namespace ensonify::refraction {
 /// The path depends on the launch depression alone, so one table serves all azimuths. It is indexed by the sine w of
 /// the depression at the fastest depth between source and level: the sines at every other depth are sqrt(a^2 + w^2) up
 /// to a factor, so that reach, time and length, times w, vary by little while w changes by a fraction of itself,
-/// however the profile looks and however near the path comes to turning. Each octave of w is cut into 16 equal
+/// whatever the profile and however near the path comes to turning. Each octave of w is cut into 16 equal
 /// intervals with one cubic each, whose values and slopes at the nodes are exact. Against exact arcs the table is right
 /// within 2e-7 of time and length, 2e-7 of the length in place across the path, and 0.0001 dB of the tube area (tests;
 /// docs/physics/refraction.md has the errors). It serves w from 1/64 (0.9 degrees above turning); flatter paths, those
 /// that turn and those that go up are computed leg by leg instead, exactly, at some 50 ns per layer.
 class PathTable {
  public:
-  /// Builds the table; memory of an earlier build is used again. level_m is the depth down to which rays meet nothing
+  /// Builds the table; memory of an earlier build is used again. level_m is the depth down to which rays hit nothing
   /// (the top of the geometry); a level not below the source makes a table without entries, from which every path is
   /// exact. Throws std::invalid_argument for depths that are not finite.
   void build(const SoundSpeedProfile& profile, double source_depth_m, double level_m);
@@ -32,7 +32,8 @@ class PathTable {
   /// a unit vector of components along depth and horizontal (>= 0). The table must outlive the path.
   Path path(double sine, double cosine) const;
 
-  /// Where a path launched at a depression first meets a depth, turning at most once. Empty when it does not.
+  /// First point at which a path launched at a depression reaches a depth, turning at most once. Empty when it does
+  /// not.
   std::optional<PathEnd> at(double depression_rad, double depth_m) const;
 
  private:

@@ -13,7 +13,7 @@ static Path launch(const SoundSpeedProfile& profile, double depth_m, double depr
   return Path(profile, depth_m, std::sin(depression_rad), std::cos(depression_rad));
 }
 
-TEST_CASE("in uniform water a path is straight and its bundle spreads with the square of the distance") {
+TEST_CASE("in uniform water a path is straight and spreads with the square of distance") {
   const auto profile = SoundSpeedProfile::uniform(1500);
   for (const double degrees : {-90.0, -30.0, 0.0, 15.0, 89.0, 90.0}) {
     Path path = launch(profile, 10, degrees * kDeg);

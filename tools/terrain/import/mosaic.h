@@ -9,7 +9,7 @@
 
 namespace ensonify::terrain_import {
 
-/// What one file gave to the whole.
+/// Contribution of one file to the whole.
 struct Share {
   double cell_m = 0.0;             // the shorter side of its cells in the world
   double surveyed_m2 = 0.0;        // its cells that hold a value

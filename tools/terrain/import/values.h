@@ -9,7 +9,7 @@
 
 namespace ensonify::terrain_import {
 
-/// How a file's values became elevations in metres, up.
+/// Conversion of a file's values to elevations in metres, up.
 struct ValueFacts {
   bool down = false;     // they were depths
   std::string down_why;  // who said so

@@ -25,7 +25,7 @@ struct Echoes {
   double noise_power = 0.0;
 };
 
-/// What a plane sends into a beam: all of it together has this mean energy. `draws` tells planes and beams apart.
+/// What a plane sends into a beam: all of it together has this mean energy. `draws` distinguishes planes and beams.
 void add_plane(const PlaneSurvey& survey, double energy, double sin_beam, const random::Stream& stream,
                std::uint64_t ping, std::uint64_t draws, std::vector<Scatterer>& scatterers) {
   const double reach = PlaneEcho::kReach / survey.length_in_waves;

@@ -24,9 +24,9 @@ struct PlaneSurvey {
   std::vector<float> sin_beams;
 };
 
-/// A ping as a receiver with two halves hears it. Scatterers lie evenly in sine within kReach of each beam's axis, each
-/// beam's its own; their mean power falls as 1 / R^2 (a level Lambert seabed, per sine). Scaled so that the mean energy
-/// of a beam's echo is the pulse length: 1 uPa^2 were it to come at once.
+/// A ping as a receiver with two halves receives it. Scatterers lie evenly in sine within kReach of each beam's axis,
+/// each beam's its own; their mean power falls as 1 / R^2 (a level Lambert seabed, per sine). Scaled so that the mean
+/// energy of a beam's echo is the pulse length: 1 uPa^2 were it to come at once.
 struct PlaneEcho {
   static constexpr double kReach = 3.0;  // lambda / L
   std::vector<float> amplitude_upa;
@@ -37,7 +37,7 @@ struct PlaneEcho {
   HalfApertures halves() const { return {positive_upa, negative_upa}; }
 };
 
-/// What a detector of this survey's instrument is told.
+/// Settings of this survey's detector.
 Settings settings_for(const PlaneSurvey& survey);
 
 /// Two-way time of the plane at the axis of a beam.

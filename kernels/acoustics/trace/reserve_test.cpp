@@ -1,4 +1,4 @@
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 
 #include <catch2/catch.hpp>
 #include <numeric>

@@ -14,7 +14,7 @@ using ensonify::refraction::PathTable;
 using ensonify::refraction::SoundSpeedProfile;
 constexpr double kDeg = std::numbers::pi / 180;
 
-/// Looking straight down with forward to north, 2 m below the surface.
+/// Pointing straight down with forward to north, 2 m below the surface.
 static const HeadPose kHead{{3.0, -4.0, -2.0}, ensonify::frames::enu_from_ned()};
 
 static Ray ray(double azimuth_rad, double depression_rad) {
@@ -54,25 +54,25 @@ static std::vector<Hit> trace(const Scene& scene, const SoundSpeedProfile& water
 TEST_CASE("in uniform water bent rays are straight rays") {
   const Scene scene = seabed(rolling);
   const auto rays = rays_of_all_sides(9, 90, 2000);
-  const auto bent = trace(scene, SoundSpeedProfile::uniform(1480), rays);
+  const auto refracted = trace(scene, SoundSpeedProfile::uniform(1480), rays);
   std::vector<Hit> straight;
   scene.trace(kHead, rays, 600, straight, 1480);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    REQUIRE(bent[i].hit() == straight[i].hit());
-    if (!bent[i].hit()) continue;
+    REQUIRE(refracted[i].hit() == straight[i].hit());
+    if (!refracted[i].hit()) continue;
     // A float of 500 m rounds by 15 um; at 9 degrees of grazing six times that along the seabed.
-    REQUIRE((bent[i].position_enu_m - straight[i].position_enu_m).norm() < 1e-3);
-    REQUIRE(bent[i].range_m == Approx(straight[i].range_m).epsilon(2e-6));
-    REQUIRE(bent[i].path_length_m == Approx(straight[i].path_length_m).epsilon(2e-6));
-    REQUIRE(bent[i].travel_time_s == Approx(straight[i].travel_time_s).epsilon(2e-6));
-    REQUIRE(bent[i].tube_m2 == Approx(straight[i].tube_m2).epsilon(3e-5));
-    REQUIRE(bent[i].sin_grazing == Approx(straight[i].sin_grazing).margin(1e-6));
-    REQUIRE((bent[i].arrival_enu - straight[i].arrival_enu).norm() < 1e-6F);
-    REQUIRE(bent[i].sediment == straight[i].sediment);
+    REQUIRE((refracted[i].position_enu_m - straight[i].position_enu_m).norm() < 1e-3);
+    REQUIRE(refracted[i].range_m == Approx(straight[i].range_m).epsilon(2e-6));
+    REQUIRE(refracted[i].path_length_m == Approx(straight[i].path_length_m).epsilon(2e-6));
+    REQUIRE(refracted[i].travel_time_s == Approx(straight[i].travel_time_s).epsilon(2e-6));
+    REQUIRE(refracted[i].tube_m2 == Approx(straight[i].tube_m2).epsilon(3e-5));
+    REQUIRE(refracted[i].sin_grazing == Approx(straight[i].sin_grazing).margin(1e-6));
+    REQUIRE((refracted[i].arrival_enu - straight[i].arrival_enu).norm() < 1e-6F);
+    REQUIRE(refracted[i].sediment == straight[i].sediment);
   }
 }
 
-TEST_CASE("through a thermocline rays end within 1 mm of the exact arcs, to 75 degrees and beyond") {
+TEST_CASE("through a thermocline rays end within 1 mm of exact arcs, beyond 75 degrees") {
   const auto water = ensonify::refraction::summer_thermocline();
   auto rays = rays_of_all_sides(12, 90, 1500);
   rays.push_back(ray(0.3, 15 * kDeg));
@@ -93,7 +93,7 @@ TEST_CASE("through a thermocline rays end within 1 mm of the exact arcs, to 75 d
   }
 }
 
-TEST_CASE("on relief, in a gradient to the bottom, every hit lies on its path and no ray slips through") {
+TEST_CASE("on relief in a gradient every hit lies on its path and no ray slips through") {
   const SoundSpeedProfile water({{0, 1530}, {70, 1490}, {76, 1481}, {90, 1475}});
   const auto rays = rays_of_all_sides(10, 80, 4000);
   const Scene scene = seabed(rolling);

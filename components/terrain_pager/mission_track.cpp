@@ -1,4 +1,4 @@
-#include "components/terrain_pager/mission_flight.h"
+#include "components/terrain_pager/mission_track.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace ensonify::pager {
 namespace {
 
 constexpr int kOrbitSides = 32;           // of a polygon for an orbit: within 0.5 % of its radius
-constexpr double kMostInRectangle = 1e4;  // places of an adaptive survey that are looked at
+constexpr double kMostInRectangle = 1e4;  // places of an adaptive survey that are examined
 constexpr double kFinest_m = 0.5;         // between lines over a small one
 
 /// How far the lowest head of a vehicle is below its reference point; 0 where all are above.
@@ -35,12 +35,12 @@ class Walk {
     altitude_m_ = mission.altitude_m;
   }
 
-  Flight flight() && {
+  MissionTrack track() && {
     round();
     const bool another_depth = depth_m_ != (mission_.altitude_m ? std::nullopt : std::optional(mission_.depth_m));
     if (mission_.repeat > 1 && another_depth) round();
-    if (mission_.adaptive) fly_all_of(*mission_.adaptive);
-    return std::move(flight_);
+    if (mission_.adaptive) follow_all_of(*mission_.adaptive);
+    return std::move(track_);
   }
 
  private:
@@ -52,7 +52,7 @@ class Walk {
     }
   }
 
-  void go(const FlyLine& line) {
+  void go(const FollowLine& line) {
     const auto& points = line.points_enu_m;
     const std::size_t last = points.size() - 1;
     const Vec2 before = runlines::extended({points[0], points[1]}, mission_.run_in_m, 0.0).start_enu_m;
@@ -67,7 +67,7 @@ class Walk {
   void go(const KeepPlace& keep) {
     if (keep.place_enu_m) visit({*keep.place_enu_m});
   }
-  void go(const FlyOrbit& orbit) {
+  void go(const FollowOrbit& orbit) {
     at_.clear();
     for (int i = 0; i < kOrbitSides; ++i) {
       const double bearing = 2.0 * std::numbers::pi * i / kOrbitSides;
@@ -84,10 +84,10 @@ class Walk {
   void go(const SetSonar&) {}
   void go(const SetMark&) {}
 
-  /// Lines all over the rectangle, for coverage alone decides where they are flown.
-  void fly_all_of(const AdaptivePlan& plan) {
+  /// Lines all over the rectangle, for coverage alone decides where they are run.
+  void follow_all_of(const AdaptivePlan& plan) {
     const double spacing_m = std::sqrt(plan.length_m * plan.width_m / kMostInRectangle);
-    const double further_m = std::max(mission_.run_in_m, mission_.run_out_m);  // they are flown either way
+    const double further_m = std::max(mission_.run_in_m, mission_.run_out_m);  // they are run either way
     const int count = static_cast<int>(std::ceil(plan.width_m / std::max(spacing_m, kFinest_m)));
     AdaptivePlan moved = plan;
     for (int i = 0; i <= count; ++i) {
@@ -100,11 +100,11 @@ class Walk {
 
   double reach_m() const { return depth_m_.value_or(0.0) + lowest_head_m_; }
   Leg& add(std::string key, const runlines::Runline& line) {
-    flight_.legs.push_back({line, reach_m(), altitude_m_, here_, std::move(key)});
-    return flight_.legs.back();
+    track_.legs.push_back({line, reach_m(), altitude_m_, here_, std::move(key)});
+    return track_.legs.back();
   }
   void visit(std::vector<Vec2> places) {
-    for (const Vec2& place : places) flight_.places.push_back({place, reach_m(), here_, "mission"});
+    for (const Vec2& place : places) track_.places.push_back({place, reach_m(), here_, "mission"});
     at_ = std::move(places);
   }
 
@@ -115,12 +115,12 @@ class Walk {
   std::optional<double> depth_m_, altitude_m_;
   ConfigPlace here_;
   int runlines_ = 0;
-  Flight flight_;
+  MissionTrack track_;
 };
 
 }  // namespace
 
-Flight flight_of(const TerrainPagerConfig& config) {
+MissionTrack track_of(const TerrainPagerConfig& config) {
   const MissionPlaces where = mission_places(config.scenario_file, config.scenario_text);
   const std::vector<runlines::Runline>& runlines = config.mission.runlines;
   std::vector<VisitedPlace> starts;
@@ -137,10 +137,10 @@ Flight flight_of(const TerrainPagerConfig& config) {
     starts.push_back({place.head<2>(), lowest_head_m(vehicle) + (vehicle.floats ? 0.0 : -place.z()),
                       where.start(vehicle.name), "vehicles." + vehicle.name + ".start"});
   }
-  Flight flight = Walk(config.mission, where, least_reach_m, from).flight();
-  flight.places.insert(flight.places.end(), starts.begin(), starts.end());
-  flight.lowest_water_m = lowest_water_m(config.tide, config.duration);
-  return flight;
+  MissionTrack track = Walk(config.mission, where, least_reach_m, from).track();
+  track.places.insert(track.places.end(), starts.begin(), starts.end());
+  track.lowest_water_m = lowest_water_m(config.tide, config.duration);
+  return track;
 }
 
 double lowest_water_m(const vertical::Tide& tide, std::optional<SimTime> duration) {

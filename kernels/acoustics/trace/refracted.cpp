@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "kernels/acoustics/trace/packet.h"
-#include "kernels/acoustics/trace/room.h"
+#include "kernels/acoustics/trace/reserve.h"
 #include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -110,9 +110,9 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   hit.path_length_m = static_cast<float>(end.length_m);
   hit.tube_m2 = static_cast<float>(lane.path.tube_m2(end));
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
-  hit.facet_m = packet.met[lane_index]->facet_m();
-  hit.tile = packet.met[lane_index]->number();
-  hit.sediment = packet.met[lane_index]->sediment_at(hit.position_enu_m.head<2>());
+  hit.facet_m = packet.part_hit[lane_index]->facet_m();
+  hit.tile = packet.part_hit[lane_index]->number();
+  hit.sediment = packet.part_hit[lane_index]->sediment_at(hit.position_enu_m.head<2>());
   return hit;
 }
 
@@ -174,7 +174,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
       for (std::size_t lane = 0; lane < count; ++lane) {
         if (!lanes[lane]) continue;
         Lane& ray = *lanes[lane];
-        if (packet.met[lane]) {
+        if (packet.part_hit[lane]) {
           hits[first + lane] = hit_of(packet, lane, ray, from[lane] + origin, head.position_enu_m);
         } else if (!ray.last) {
           ray.path.take(ray.leg);

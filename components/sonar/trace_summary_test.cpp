@@ -1,17 +1,18 @@
-#include "components/sonar/sight.h"
+#include "components/sonar/trace_summary.h"
 
 #include <catch2/catch.hpp>
 
 using namespace ensonify;
 
 TEST_CASE("a black image has a reason, in words") {
-  CHECK(why_black({.rays_that_hit = 9, .rays_in_lobe = 1, .range_m = 20.0, .altitude_m = 5.0}).empty());
-  CHECK(why_black({.range_m = 20.0, .altitude_m = 25.0}) == "the range of 20.0 m is below the altitude of 25.0 m");
-  CHECK(why_black({.range_m = 20.0}) ==
+  CHECK(no_echo_reason({.rays_that_hit = 9, .rays_in_lobe = 1, .range_m = 20.0, .altitude_m = 5.0}).empty());
+  CHECK(no_echo_reason({.range_m = 20.0, .altitude_m = 25.0}) == "the range of 20.0 m is below the altitude of 25.0 m");
+  CHECK(no_echo_reason({.range_m = 20.0}) ==
         "nothing within the range of 20.0 m, and no seabed below the head: the terrain has a hole");
-  CHECK(why_black({.rays_that_hit = 7, .range_m = 20.0, .altitude_m = 5.0}) ==
-        "nothing within the range of 20.0 m where the head looks (side lobes meet something): it looks over the seabed "
-        "5.0 m below, or is mounted or tilted the wrong way");
+  CHECK(
+      no_echo_reason({.rays_that_hit = 7, .range_m = 20.0, .altitude_m = 5.0}) ==
+      "nothing within the range of 20.0 m where the head points (side lobes hit something): it points over the seabed "
+      "5.0 m below, or is mounted or tilted the wrong way");
 }
 
 TEST_CASE("the altitude is measured straight down, however the head is turned") {

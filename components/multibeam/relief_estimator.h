@@ -7,10 +7,10 @@
 
 namespace ensonify {
 
-/// How far soundings are from the points that they claim, by place in the swath, judged by how the profiles of the last
+/// Distance of soundings from the points that they claim, by place in the swath, judged by how the profiles of the last
 /// pings bend from footprint to footprint. Places next to each other and pings before count as samples of one seabed,
 /// whose bends grow with the footprint.
-class ReliefWatch {
+class ReliefEstimator {
  public:
   struct Sounding {
     int place = 0;  // in the swath, ascending

@@ -13,8 +13,8 @@
 
 namespace ensonify {
 
-/// Where the vehicle believes itself to be.
-struct Believed {
+/// Estimated pose of the vehicle.
+struct EstimatedPose {
   frames::Quaternion enu_from_body = frames::enu_from_ned();
   std::optional<frames::Vec3> position_enu_m;  // of the body's origin; not before the first estimate
 };
@@ -25,7 +25,7 @@ struct Moment {
   double t_s;  // of the truth
   frames::MovingPose truth;
   const frames::LocalProjection& world;
-  const Believed& believed;
+  const EstimatedPose& estimated;
   Estimator* estimator;  // may be null
 
   inertial::NavigationState at(const frames::Mounting& mounting) const {
@@ -37,13 +37,13 @@ struct Moment {
   double stamp_s(const Instrument& i) const { return i.clock.stamp_s(t_s, i.latency_s, i.stamping); }
 };
 
-/// Messages that leave later than what they tell of was measured, in order of their times.
+/// Messages that leave later than what they describe was measured, in order of their times.
 class Outbox {
  public:
   void at(SimTime t, std::function<void()> send) { waiting_.emplace(t, std::move(send)); }
 
   /// After the instrument's latency, with the stamp that its clock gives to the true time with which the message comes:
-  /// that of what it tells of. `out` outlives this.
+  /// that of what it indicates. `out` outlives this.
   template <class Message>
   void publish(Ports::Out<Message>& out, Message message, const Instrument& instrument, SimTime now) {
     const double t_s = seconds(SimTime{message.stamp_ns});
@@ -69,8 +69,9 @@ class Outbox {
 
 /// An instrument, its model and its pace.
 template <class Config, class Sensor>
-struct Carried {
-  Carried(const Config& of, Sensor made) : config(of), sensor(std::move(made)), due(rate_of(of.instrument.rate_hz)) {}
+struct MountedInstrument {
+  MountedInstrument(const Config& of, Sensor made)
+      : config(of), sensor(std::move(made)), due(rate_of(of.instrument.rate_hz)) {}
 
   Config config;
   Sensor sensor;

@@ -1,11 +1,11 @@
-#include "components/autopilot/abort_watch.h"
+#include "components/autopilot/abort_monitor.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace ensonify {
 
-void AbortWatch::look(SimTime now, bool too_low) {
+void AbortMonitor::observe(SimTime now, bool too_low) {
   if (!too_low) {
     too_low_since_.reset();
   } else if (!too_low_since_) {
@@ -13,12 +13,12 @@ void AbortWatch::look(SimTime now, bool too_low) {
   }
 }
 
-void AbortWatch::go(SimTime now, std::optional<double> to_go_m, bool another_goal) {
+void AbortMonitor::go(SimTime now, std::optional<double> to_go_m, bool another_goal) {
   if (!to_go_m || another_goal) headway_.start_anew();
-  if (to_go_m) headway_.look(now, *to_go_m);
+  if (to_go_m) headway_.observe(now, *to_go_m);
 }
 
-std::string AbortWatch::why(SimTime now, const msg::Estimate& estimate) const {
+std::string AbortMonitor::why(SimTime now, const msg::Estimate& estimate) const {
   const auto& variance = estimate.position_covariance_enu_m2;
   const double sd_m = std::sqrt(std::max(variance[0], variance[4]));
   if (rules_.after_s && seconds(now) >= *rules_.after_s) return "it took longer than abort.after_s";

@@ -1,4 +1,4 @@
-#include "components/multibeam/relief_watch.h"
+#include "components/multibeam/relief_estimator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double share_of(double aspect) {
 
 }  // namespace
 
-void ReliefWatch::take(std::span<const Sounding> ping) {
+void ReliefEstimator::take(std::span<const Sounding> ping) {
   profile_.clear();
   for (const Sounding& sounding : ping) profile_.push_back(sounding.point);
   const std::vector<double> bends = uncertainty::squared_bends_m2(profile_);
@@ -47,8 +47,8 @@ void ReliefWatch::take(std::span<const Sounding> ping) {
   }
 }
 
-double ReliefWatch::sd_m(int place, double footprint_m, double aspect) const {
-  // Profiles end two footprints before the swath does: the places next to what is known tell of the rest. Now and then
+double ReliefEstimator::sd_m(int place, double footprint_m, double aspect) const {
+  // Profiles end two footprints before the swath does: the places next to what is known indicate the rest. Now and then
   // a profile reaches farther, where its last sounding lies far out, and then it bends more than others: places that
   // few pings know do not count.
   const int places = static_cast<int>(by_place_.size());

@@ -10,18 +10,18 @@
 
 namespace ensonify {
 
-/// Tells when a mission is to be given up: by its own rules, or because the vehicle comes no nearer to its goal.
-class AbortWatch {
+/// States when a mission is to be given up: by its own rules, or because the vehicle comes no nearer to its goal.
+class AbortMonitor {
  public:
   /// `patience_s` as Headway has it.
-  AbortWatch(const AbortRules& rules, double patience_s) : rules_(rules), headway_(patience_s) {}
+  AbortMonitor(const AbortRules& rules, double patience_s) : rules_(rules), headway_(patience_s) {}
 
   /// Whether the vehicle is below the obstacle floor now.
-  void look(SimTime now, bool too_low);
+  void observe(SimTime now, bool too_low);
   /// The way to the goal now; nothing: there is none to come nearer to.
   void go(SimTime now, std::optional<double> to_go_m, bool another_goal);
 
-  /// Why the mission is to be given up; empty: it is not.
+  /// Reason that the mission is to be given up; empty: it is not.
   std::string why(SimTime now, const msg::Estimate& estimate) const;
   bool held_up(SimTime now) const { return headway_.held_up(now); }
 

@@ -12,15 +12,15 @@ namespace ensonify {
 /// or below the seabed.
 std::optional<double> altitude_m(const trace::Scene& seabed, const frames::HeadPose& head);
 
-/// What a look met.
-struct Sight {
+/// Summary of a ping's trace.
+struct TraceSummary {
   int rays_that_hit = 0;             // anything within the range ...
   int rays_in_lobe = 0;              // ... and within 10 dB of the transmit axis
-  double range_m = 0.0;              // that was listened to
+  double range_m = 0.0;              // of reception
   std::optional<double> altitude_m;  // as above
 };
 
-/// Why the image of such a look can only be black, for health; "" when it need not be.
-std::string why_black(const Sight& sight);
+/// Reason, for health, that such a ping has no echo; "" when it need not be.
+std::string no_echo_reason(const TraceSummary& trace_summary);
 
 }  // namespace ensonify

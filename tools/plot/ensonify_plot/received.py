@@ -13,7 +13,7 @@ PULSES = {"cw": "CW", "cw_tapered": "tapered CW", "fm_up": "FM up", "fm_down": "
 
 
 @dataclass
-class Heard:
+class ReceivedPing:
     """One ping, ready to draw. Sample k of any beam stands at first_range_m + k step_m."""
 
     topic: str
@@ -40,11 +40,11 @@ class Heard:
 
     @property
     def end_m(self) -> float:
-        """Where listening ended."""
+        """Where reception ended."""
         return self.first_range_m + (self.power_upa2.shape[1] - 0.5) * self.step_m
 
     def vertical_rad(self) -> float | None:
-        """Head-frame angle that points straight down by the measured attitude; None if the ping does not tell its attitude."""
+        """Head-frame angle that points straight down by the measured attitude; None if the ping does not state its attitude."""
         attitude = self.ping.pose_enu_from_head
         return geometry.vertical_rad(attitude[0]) if attitude.ndim == 2 and len(attitude) else None
 
@@ -68,7 +68,7 @@ def process_of(topic: str) -> str:
     return topic.rsplit("/", 1)[0]
 
 
-def heard(topic: str, ping: ensonify.Ping) -> Heard:
+def received(topic: str, ping: ensonify.Ping) -> ReceivedPing:
     """Raises UserError for a ping that gives no picture: no samples, no sound at all, or not what ping/1 says."""
     who = f"ping {ping.ping} of {topic}"
     amplitude = np.asarray(ping.amplitude_upa if ping.amplitude_upa.size else ping.amplitude_count, np.float32)
@@ -83,7 +83,7 @@ def heard(topic: str, ping: ensonify.Ping) -> Heard:
     if not np.isfinite(amplitude).all():
         raise UserError(f"{who}: {np.count_nonzero(~np.isfinite(amplitude))} of {amplitude.size} amplitudes are not finite")
     half_speed = ping.sound_speed_mps / 2
-    made = Heard(topic, ping, np.square(amplitude), np.asarray(ping.beam_angle_rad, float), ping.first_sample_s * half_speed,
+    made = ReceivedPing(topic, ping, np.square(amplitude), np.asarray(ping.beam_angle_rad, float), ping.first_sample_s * half_speed,
                  ping.sample_period_s * half_speed)
     if not ping.amplitude_upa.size:
         in_force = Gain(ping.gain_spreading_db, ping.gain_absorption_dbpm).db(made.range_m) + ping.gain_offset_db
@@ -91,7 +91,7 @@ def heard(topic: str, ping: ensonify.Ping) -> Heard:
     return made
 
 
-def must_sound(who: str, power_upa2) -> None:
+def require_soundings(who: str, power_upa2) -> None:
     """A picture of nothing is refused, never drawn black. NaN values are gaps."""
     if not np.any(np.nan_to_num(power_upa2) > 0):
         raise UserError(f"{who}: all amplitudes are zero, there is nothing to draw; the head's health and log say why (range "
@@ -99,7 +99,7 @@ def must_sound(who: str, power_upa2) -> None:
 
 
 def of_kinds(kinds: tuple, guess: Callable[[str, ensonify.Ping], bool]) -> Callable[[str, ensonify.Ping], bool]:
-    """Fits the pings of these kinds of heads. Those that do not tell their kind are guessed."""
+    """Fits the pings of these kinds of heads. Those that do not state their kind are guessed."""
     return lambda topic, ping: ping.kind in kinds if ping.kind else guess(topic, ping)
 
 
@@ -142,10 +142,10 @@ def one_of_process(record: ensonify.Record, topic: str, message_type: type) -> s
     return same[0] if len(same) == 1 else None
 
 
-def soundings_of(record: ensonify.Record, heard_: Heard) -> ensonify.Soundings | None:
+def soundings_of(record: ensonify.Record, received_: ReceivedPing) -> ensonify.Soundings | None:
     """The soundings of the same ping, if they were recorded."""
-    topic = one_of_process(record, heard_.topic, ensonify.Soundings)
-    found = (m.content for m in record.messages(topic) if m.content.ping == heard_.ping.ping) if topic else iter(())
+    topic = one_of_process(record, received_.topic, ensonify.Soundings)
+    found = (m.content for m in record.messages(topic) if m.content.ping == received_.ping.ping) if topic else iter(())
     return next(found, None)
 
 
@@ -184,16 +184,16 @@ def place_of(record: ensonify.Record, topic: str, number: int | None, t_s: float
     return chosen
 
 
-def choose_ping(record: ensonify.Record, topic: str, number: int | None = None, t_s: float | None = None) -> Heard:
+def choose_ping(record: ensonify.Record, topic: str, number: int | None = None, t_s: float | None = None) -> ReceivedPing:
     """The ping of this number, or the first one at or after this time, or the one in the middle of the record."""
     chosen = place_of(record, topic, number, t_s, lambda count: count // 2)
     message = next(m for at, m in enumerate(record.messages(topic)) if at == chosen)
-    found = heard(topic, message.content)
-    must_sound(f"{record.file}: ping {found.ping.ping} of {topic}", found.power_upa2)
+    found = received(topic, message.content)
+    require_soundings(f"{record.file}: ping {found.ping.ping} of {topic}", found.power_upa2)
     return found
 
 
-def pings_in(record: ensonify.Record, topic: str, numbers: Span, times: Span) -> Iterator[Heard]:
+def pings_in(record: ensonify.Record, topic: str, numbers: Span, times: Span) -> Iterator[ReceivedPing]:
     """The pings of a span, in order. Raises UserError if there is none, or if time stands still between two."""
     seen, before_ns = [], None
     found = False
@@ -204,7 +204,7 @@ def pings_in(record: ensonify.Record, topic: str, numbers: Span, times: Span) ->
             if before_ns is not None and ping.stamp_ns <= before_ns:
                 raise UserError(f"{record.file}: ping {ping.ping} of {topic} does not come after the one before it in time")
             found, before_ns = True, ping.stamp_ns
-            yield heard(topic, ping)
+            yield received(topic, ping)
     if not found:
         raise UserError(f"{record.file}: no ping of {topic} lies in what was asked for; {_extent(seen)}")
 

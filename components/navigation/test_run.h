@@ -10,8 +10,8 @@
 #include "components/navigation/node.h"
 #include "components/runtime/testing/node_under_test.h"
 
-// What tests of instruments share: a configuration of a few sections, and a vehicle that sails in a circle.
-namespace ensonify::sailing {
+// What tests of instruments share: a configuration of a few sections, and a vehicle that moves in a circle.
+namespace ensonify::test_run {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
@@ -32,7 +32,7 @@ inline NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 
   return config;
 }
 
-/// What is left of a magnetic compass's deviation, as the grade says how much: the filter is told that, not which.
+/// What is left of a magnetic compass's deviation, as the grade says how much: the filter is given that, not which.
 inline std::string deviation(std::uint64_t seed) {
   const random::Stream drawn(seed, "deviation");
   std::string text = "deviation_deg: [";
@@ -62,8 +62,8 @@ msg::Pose circling(SimTime at, const Height& height) {
 inline constexpr auto kLevel = [](double) { return -1.0; };
 
 template <class Height>
-void sail(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
+void run_for(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
   for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", circling(i * 10_ms, height));
 }
 
-}  // namespace ensonify::sailing
+}  // namespace ensonify::test_run
