@@ -71,7 +71,7 @@ TEST_CASE("half an hour under water with FOG and a Doppler log, as graded, drift
   CHECK(rms_drift_percent(20, [](std::uint64_t) { return with_log("fog"); }) == Approx(0.18).margin(0.06));
 }
 
-TEST_CASE("the same of all grades, a hundred dives each, for docs/navigation/filter.md", "[.grades]") {
+TEST_CASE("the same of all grades, a hundred dives each, for docs/physics/instruments/filter.md", "[.grades]") {
   for (const std::string imu : {"rlg", "fog", "tactical"}) {
     std::cout << imu << ' ' << rms_drift_percent(100, [&](std::uint64_t) { return with_log(imu); }) << std::endl;
   }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// How sound bends in water whose speed of sound changes with depth (docs/physics/refraction.md).
+/// How sound bends in water whose speed of sound changes with depth (docs/physics/water/refraction.md).
 namespace ensonify::refraction {
 
 /// One sample of a sound speed cast.

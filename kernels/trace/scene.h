@@ -57,7 +57,7 @@ struct IrregularMesh {
   std::uint8_t sediment = 0;
 };
 
-/// How finely a scene shows its tiles (docs/seabed/level-of-detail.md).
+/// How finely a scene shows its tiles (docs/physics/mesh/level-of-detail.md).
 struct LevelOfDetail {
   bool enabled = false;         // by what is looked at; off: all tiles at full detail
   std::int32_t side_lobes = 2;  // level, 0..5: side lobes see every 2^level-th post

@@ -1,6 +1,6 @@
 """Message types, generated from messages/*.h by generate_messages.py: edit those, not this.
 
-Arrays are numpy arrays; received ones are read-only views. docs/messages.md is the reference.
+Arrays are numpy arrays; received ones are read-only views. docs/manual/messages.md is the reference.
 """
 from dataclasses import dataclass
 
@@ -1010,7 +1010,7 @@ class TileRelease(Message):
 
 @dataclass(eq=False)
 class Mesh(Message):
-    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits tell how to coarsen it (docs/seabed/irregular-meshes.md).
+    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits tell how to coarsen it (docs/physics/mesh/irregular-meshes.md).
 
     number [1]: by which it is released
     name: in the scenario
