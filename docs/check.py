@@ -40,25 +40,25 @@ ROT = (
 FORBIDDEN = [(re.compile(rf"\b(?:{bad})\b", re.I), f'say "{good}"') for bad, good in WORDS]
 FORBIDDEN += [(re.compile(bad, re.I), f"{what} goes out of date") for bad, what in ROT]
 
+LIST_ITEM = re.compile(r"\s{0,3}(?:[-*+]|\d+\.) ")
 # A full stop that ends no sentence.
 ABBREVIATION = re.compile(r"\b(?:e\.g|i\.e|etc|cf|vs|approx|Fig|Eq|No|al|St|Dr)\.$", re.I)
 
 
 def without_code(text):
-    """The page with fenced code, comments and indented formulas blanked; its lines keep their numbers."""
+    """The page with fenced code, comments and indented code blanked; its lines keep their numbers."""
     blank = lambda match: re.sub(r"[^\n]", "", match[0])
     text = re.sub(r"^ *(```|~~~).*?^ *\1[^\n]*", blank, text, flags=re.M | re.S)
     text = re.sub(r"<!--.*?-->", blank, text, flags=re.S)
-    return re.sub(r"^(?:    |\t)(?! *(?:[-*+]|\d+\.) ).*$", _blank_unless_in_list, text, flags=re.M)
-
-
-def _blank_unless_in_list(match):
-    """Four blanks begin a code block only after an empty line; inside a list they go on with its item."""
-    before = match.string[: match.start()].rstrip("\n")
-    after_empty_line = match.string[: match.start()].endswith("\n\n")
-    previous = before.rsplit("\n", 1)[-1]
-    in_list = re.match(r"\s*(?:[-*+]|\d+\.) |  ", previous)
-    return match[0] if in_list or not after_empty_line else ""
+    lines, in_list, in_code, after_empty = [], False, False, True
+    for line in text.split("\n"):
+        if line.strip():
+            indented = line.startswith(("    ", "\t"))
+            in_list = bool(LIST_ITEM.match(line)) or (in_list and (line.startswith("  ") or not after_empty))
+            in_code = indented and not in_list and (in_code or after_empty)
+        lines.append("" if in_code else line)
+        after_empty = not line.strip()
+    return "\n".join(lines)
 
 
 def plain(text):
@@ -146,7 +146,7 @@ def problems_of_prose(text):
         prose = plain(unit)
         for sentence in sentences(prose):
             if words(sentence) > LONGEST:
-                yield number, f"{words(sentence)} words: {' '.join(sentence.split()[:12])} ..."
+                yield number, f"{words(sentence)} words: {sentence}"
         for pattern, advice in FORBIDDEN:
             for bad in pattern.finditer(prose):
                 yield number, f'"{bad[0]}": {advice}'
