@@ -27,7 +27,7 @@ WORDS = (
     (r"believes?|believed", "estimates, assumes"),
     (r"(?:rays?|beams?|sound|paths?) (?:meets?|met)", "hits, reaches"),
     (r"(?:flies|flown|flying|flew|fly) (?:a |the |its |by )?(?:boats?|vessels?|ships?|lines?|missions?|surveys?)", "surveys, runs"),
-    (r"(?:looks?|looked|looking) (?:at|down|sideways|ahead|forward|along) (?:the )?(?:seabed|bottom|water|wall)", "insonifies"),
+    (r"(?:pistons?|heads?|sonars?|lobes?|fans?|arrays?|altimeters?|beams?) looks?", "points, insonifies"),
     (r"(?:is|are|be) sound(?=[.,;:)]| and| or)", "is valid"),
     (r"sidescan sees|head sees|heads see|beams? sees?", "insonifies, receives"),
 )
@@ -184,10 +184,10 @@ PLANTED = (
     (f"Short. {LONG[:40]}. {LONG[:60]}.", None), ("", None),
     (f"- {LONG[:90]}", None), (f"- {LONG[:90]}", None), ("", None),
     (f"| {LONG[:90]} | {LONG[:90]} |", None), (f"| {LONG} | x |", "38 words"), ("", None),
-    ("The sidescan hears a pinger.", "receives"), ("", None),
+    ("The sidescan hears a pinger.", "receives"), ("", None), ("The piston looks down.", "points"), ("", None),
     ("An autopilot flies a boat.", "surveys"), ("", None),
     ("The file is sound.", "valid"), ("", None), ("The speed of sound is what it is.", None), ("", None),
-    ("It takes 313 lines of C++.", "count of lines"), ("Seen on 2024-02-03.", None), ("", None),
+    ("It takes 313 lines of C++.", "count of lines"), ("", None),
     ("Seen on 2024-02-03.", "a date"), ("", None),
     ("```", None), (f"{LONG} hears [x](none.md)", None), ("```", None),
 )
@@ -203,11 +203,10 @@ def self_test():
             place, problem = text.split(": ", 1)
             found.setdefault(place, []).append(problem)
     expected = {f"page.md:{number}": part for number, (_, part) in enumerate(PLANTED, 1) if part}
-    expected_twice = {"page.md:28"}  # a paragraph is named by its first line: both of its offences stand there
     wrong = [f"not found: {place} ({part})" for place, part in expected.items()
              if not any(part in problem for problem in found.get(place, []))]
     wrong += [f"found by mistake: {place}: {problem}" for place, all_found in found.items() for problem in all_found
-              if place not in expected and place not in expected_twice]
+              if place not in expected]
     print("\n".join(wrong) or f"{len(expected)} planted offences found, nothing else")
     return 1 if wrong else 0
 
