@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/version.h"
 
 namespace {
@@ -37,7 +38,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},
     {"terrain", "seabeds on disk: build, info, verify, sample"},
-    {"doctor", "look for what is wrong with this machine or installation"},
+    {"doctor", "check this machine and installation"},
     {"patch", "the patch test of a multibeam, from a record of its lines"},
     {"plot", "pictures and summary of a survey"},
 };
@@ -64,7 +65,7 @@ Programs programs_in(const std::string& folder) {
 }
 
 void print_usage(const Programs& programs, std::FILE* to) {
-  fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help tells more)\n\n");
+  fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help says more)\n\n");
   for (const auto& [verb, what] : kKnownVerbs) {
     if (std::find(programs.verbs.begin(), programs.verbs.end(), verb) != programs.verbs.end()) {
       fmt::print(to, "  {:<10} {}\n", verb, what);
