@@ -1,5 +1,7 @@
 # The kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)  # what does not say COMPONENT development
+
 # ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ...)
 function(ensonify_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
@@ -11,8 +13,8 @@ function(ensonify_library name)
     target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
   endif()
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  if(folder MATCHES "^(kernels|messages)")
-    ensonify_export(${name} ${folder})
+  if(folder MATCHES "^(kernels|messages)" AND NOT folder MATCHES "/testing$")
+    ensonify_export(${name})
     if(folder MATCHES "^kernels")
       target_link_libraries(ensonify_kernels INTERFACE ${name})
     endif()
@@ -20,19 +22,15 @@ function(ensonify_library name)
 endfunction()
 
 # Makes a library one that other projects can link as ensonify::<short name> (InstallRules.cmake).
-function(ensonify_export name folder)
+function(ensonify_export name)
   string(REPLACE "ensonify_" "" short ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
   install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
-  if(folder)
-    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/ensonify/${folder} COMPONENT development
-            FILES_MATCHING PATTERN "*.h")
-  endif()
 endfunction()
 
 add_library(ensonify_kernels INTERFACE)  # all kernels at once
-ensonify_export(ensonify_settings "")
-ensonify_export(ensonify_kernels "")
+ensonify_export(ensonify_settings)
+ensonify_export(ensonify_kernels)
 
 # ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
 function(ensonify_program name)
