@@ -20,6 +20,7 @@ for picture in pictures:
     assert min(pixels.shape[:2]) > 200 and pixels.std() > 0.05, f"{picture}: {pixels.shape}, spread {pixels.std():.3f}"
 for name in summary["files"]:
     if name.endswith(".tif"):
-        minimum, maximum = gdal.Open(str(folder / name)).GetRasterBand(1).ComputeRasterMinMax()
+        raster = gdal.Open(str(folder / name))  # its bands do not keep it alive
+        minimum, maximum = raster.GetRasterBand(1).ComputeRasterMinMax()
         print(f"{name}: {minimum:.2f} to {maximum:.2f}")
 print(f"{len(pictures)} pictures, {len(summary['files'])} files")
