@@ -4,7 +4,7 @@
 #                 ensonify::messages, ensonify::kernels
 include(CMakePackageConfigHelpers)
 
-file(GLOB_RECURSE data RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS
+file(GLOB_RECURSE data RELATIVE ${CMAKE_SOURCE_DIR}
      scenarios/*.yaml scenarios/*.csv scenarios/*.obj scenarios/README.md launch/*.yaml launch/README.md)
 foreach(file IN LISTS data)
   get_filename_component(folder ${file} DIRECTORY)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Tries the packages of a folder on a bare Debian 12 in a chroot, as root: what a user would do, as an ordinary user.
-#   try.sh FOLDER      FOLDER: ensonify_*.deb, ensonify-dev_*.deb and ensonify-*.whl; FOLDER/chroot is made anew
+# Tries the packages of a folder on a bare Debian 12 in a chroot (as root or with sudo), as an ordinary user would.
+#   try.sh FOLDER      FOLDER: ensonify_*.deb, ensonify-dev_*.deb and ensonify-*.whl; FOLDER/chroot is left after a failure
 set -euo pipefail
-[ "$(id -u)" -eq 0 ] || { echo "try.sh: needs root for a chroot" >&2; exit 2; }
+[ "$(id -u)" -eq 0 ] || exec sudo "$0" "$@"
 [ "${ENSONIFY_TRY:-}" = inside ] || ENSONIFY_TRY=inside exec unshare --mount "$0" "$@"  # mounts end with this script
 
 source=$(dirname "$(readlink -f "$0")")
@@ -80,4 +80,6 @@ as_user 'cmake -G Ninja -S /tmp/consumer -B consumer >cmake.txt && cmake --build
 say "removing ensonify"
 in_chroot apt-get purge --quiet --quiet --yes ensonify >>"$packages/apt.log" 2>&1
 test ! -e "$root/usr/share/ensonify"
+umount --recursive "$root/dev" "$root/proc" "$root/tmp"
+rm -rf --one-file-system "$root"
 say "packages: all well"
