@@ -50,13 +50,13 @@ class Watched:
             run = subprocess.Popen([str(b.build / "bin" / "ensonify-run"), str(launch), "--free", "--out", out, *map(str, options)],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             while run.poll() is None:
-                self.look(run.pid)
+                self.sample(run.pid)
                 time.sleep(0.05)
             self.wall_s = time.monotonic() - began
             if run.returncode != 0:
                 raise RuntimeError(f"{launch}: exit {run.returncode}: {run.stderr.read()}")
 
-    def look(self, pid):
+    def sample(self, pid):
         try:
             for process in descendants(pid):
                 name = pathlib.Path(os.readlink(f"/proc/{process}/exe")).name
@@ -90,7 +90,7 @@ def bench_drive(b):
 
 
 def starts_s(b, survey):
-    """Wall time of a cold start and of a warm one, until all processes have ended again. Nobody looks on meanwhile."""
+    """Wall time of a cold start and of a warm one, until all processes have ended again. Nothing else runs meanwhile."""
     with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as folder:
         def took_s(seconds):
             began = time.monotonic()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Flies patch tests with acoustics and navigation's errors, each with a mounting and latencies of its own, and counts.
+"""Runs patch tests with acoustics and navigation's errors, each with a mounting and latencies of its own, and counts.
 
     bench/patch_bench.py [--build build/release] [--seeds 1-20] [--jobs 1] [--records FOLDER] [--json FILE]
 
@@ -44,8 +44,8 @@ def drawn(seed):
     return true, round(draw.uniform(1.8, 2.2), 3)
 
 
-def flown(build, seed, record):
-    """Leaves the record of a survey there; one that is there is not flown anew."""
+def surveyed(build, seed, record):
+    """Leaves the record of a survey there; one that is there is not run anew."""
     true, ping_rate_hz = drawn(seed)
     if record.exists():
         return
@@ -60,7 +60,7 @@ def survey(build, seed, records):
     """(error, half width of the stated interval) of each unknown, in units of its launch argument."""
     with tempfile.TemporaryDirectory(prefix="ensonify-bench-") as fresh:
         record = pathlib.Path(records or fresh) / f"{seed}.mcap"
-        flown(build, seed, record)
+        surveyed(build, seed, record)
         found = json.loads(run(build / "bin/ensonify-patch", record, "--json"))
     if not found["converged"]:
         print(f"seed {seed}: not converged", file=sys.stderr)
@@ -113,7 +113,7 @@ def main():
     parser.add_argument("--build", default="build/release", help="build folder (default: build/release)")
     parser.add_argument("--seeds", default="1-20", help="first and last (default 1-20)")
     parser.add_argument("--jobs", type=int, default=1, help="surveys at a time (default 1)")
-    parser.add_argument("--records", help="keep the records in this folder; those that are there are not flown anew")
+    parser.add_argument("--records", help="keep the records in this folder; those that are there are not run anew")
     parser.add_argument("--json", help="write errors, intervals and counts to this file, after each survey")
     options = parser.parse_args()
     build = (ROOT / options.build).resolve()

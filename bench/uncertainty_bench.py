@@ -103,7 +103,7 @@ def inside(surveys: list, stated: str) -> list:
 
 
 def bench_uncertainty(b):
-    """Errors inside TVU and THU by tenths of the beam angle. `--quick`: a tenth of the surveys, which tell nothing of what all of them
+    """Errors inside TVU and THU by tenths of the beam angle. `--quick`: a tenth of the surveys, which show nothing of what all of them
     have wrong from beginning to end: no target then."""
     run, count = b.build / "bin/ensonify-run", QUICK_SURVEYS if b.quick else SURVEYS
     surveys = [survey(run, seed, arguments) for seed, arguments in enumerate(drawn_errors(SURVEYS)[:count], start=1)]

@@ -25,11 +25,11 @@ def endpoint_of_clock():
 
 
 def endpoint_of_topic(clock):
-    asker = context.socket(zmq.DEALER)
-    asker.connect(clock)
+    query = context.socket(zmq.DEALER)
+    query.connect(clock)
     while True:
-        asker.send_json({"kind": "registry"})
-        for entry in asker.recv_json()["topics"]:
+        query.send_json({"kind": "registry"})
+        for entry in query.recv_json()["topics"]:
             if entry["topic"] == topic:
                 return entry[plane]
         time.sleep(0.002)

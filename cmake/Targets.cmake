@@ -2,18 +2,28 @@
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)  # what does not say COMPONENT development
 
+# The standard headers and Eigen are compiled once, for all units: half of what a unit would cost (docs/decisions).
+# Precompiling changes no result; every file still includes what it uses.
+file(WRITE ${CMAKE_BINARY_DIR}/generated/pch.cpp "")
+add_library(ensonify_pch STATIC ${CMAKE_BINARY_DIR}/generated/pch.cpp)
+target_link_libraries(ensonify_pch PUBLIC ensonify_settings PRIVATE Eigen3::Eigen)
+set(precompiled <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers>
+                <optional> <set> <span> <string> <string_view> <variant> <vector> <Eigen/Geometry>)
+target_precompile_headers(ensonify_pch PRIVATE ${precompiled})
+
 # ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ...)
 function(ensonify_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
+    target_precompile_headers(${name} REUSE_FROM ensonify_pch)
     target_link_libraries(${name} PUBLIC ensonify_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
   endif()
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  if(folder MATCHES "^(kernels|messages)" AND NOT folder MATCHES "/testing$")
+  if(folder MATCHES "^(kernels|messages)")
     ensonify_export(${name})
     if(folder MATCHES "^kernels")
       target_link_libraries(ensonify_kernels INTERFACE ${name})
@@ -28,6 +38,17 @@ function(ensonify_export name)
   install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
 endfunction()
 
+# ensonify_testing_library(NAME SOURCES ... DEPS ...): code that only tests and benchmarks use; in */testing, never installed.
+function(ensonify_testing_library name)
+  if(NOT (ENSONIFY_TESTS OR ENSONIFY_BENCH))
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_precompile_headers(${name} REUSE_FROM ensonify_pch)
+  target_link_libraries(${name} PUBLIC ensonify_settings ${ARG_DEPS})
+endfunction()
+
 add_library(ensonify_kernels INTERFACE)  # all kernels at once
 ensonify_export(ensonify_settings)
 ensonify_export(ensonify_kernels)
@@ -36,18 +57,20 @@ ensonify_export(ensonify_kernels)
 function(ensonify_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  target_precompile_headers(${name} REUSE_FROM ensonify_pch)
   target_link_libraries(${name} PRIVATE ensonify_settings ${ARG_DEPS})
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
 add_custom_target(sanitize_tests)  # every test labelled `sanitize`
 
-# Catch2's header is compiled once, for all tests.
+# And Catch2's, for all tests.
 if(ENSONIFY_TESTS)
   file(WRITE ${CMAKE_BINARY_DIR}/test_pch.cpp "")
   add_library(test_pch STATIC ${CMAKE_BINARY_DIR}/test_pch.cpp)
   target_link_libraries(test_pch PUBLIC ensonify_settings Catch2::Catch2WithMain)
-  target_precompile_headers(test_pch PUBLIC <catch2/catch.hpp>)
+  target_precompile_headers(test_pch PRIVATE ${precompiled} <catch2/catch.hpp>)
+  target_link_libraries(test_pch PRIVATE Eigen3::Eigen)
 endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.

@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-FOLDERS = ("kernels", "messages", "components", "launch", "tools", "tests", "bench", "examples")
+FOLDERS = ("kernels", "messages", "components", "scenarios", "launch", "tools", "tests", "bench", "examples")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 # Numeric libraries that kernels may use.
@@ -20,15 +20,48 @@ TEST_FRAMEWORK = re.compile(r"^catch2/")
 # Heavy libraries: (name, header pattern, where it may be included, what is allowed in words).
 HEAVY = (
     ("msgpack", r"^msgpack", r"^messages/.*\.cpp$", "messages/*.cpp"),
-    ("yaml-cpp", r"^yaml-cpp/", r"^components/runtime/config/", "components/runtime/config"),
+    ("yaml-cpp", r"^yaml-cpp/", r"^components/config/", "components/config"),
     ("ZeroMQ", r"^zmq", r"^(components/runtime/bus|bench|tests)/", "components/runtime/bus, bench, tests"),
-    ("Embree", r"^embree\d/", r"^kernels/trace/", "kernels/trace"),
-    ("OpenMesh", r"^OpenMesh/", r"^kernels/progressive/", "kernels/progressive"),
-    ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/runtime/terrain|components/terrain_pager|tools)/",
-     "components/runtime/terrain, components/terrain_pager, tools"),
-    ("OpenSSL", r"^openssl/", r"^components/runtime/tiles/", "components/runtime/tiles"),
+    ("Embree", r"^embree\d/", r"^kernels/acoustics/trace/", "kernels/acoustics/trace"),
+    ("OpenMesh", r"^OpenMesh/", r"^kernels/mesh/progressive/", "kernels/mesh/progressive"),
+    ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/terrain|components/terrain_pager|tools)/",
+     "components/terrain, components/terrain_pager, tools"),
+    ("OpenSSL", r"^openssl/", r"^components/terrain/tiles/", "components/terrain/tiles"),
     ("nlohmann/json", r"^nlohmann/json\.hpp", r"\.cpp$", ".cpp files (headers take <nlohmann/json_fwd.hpp>)"),
 )
+
+# What each room sees besides itself; the longest name that fits a file counts. Rooms named after a process (the last
+# line of components) see the shared rooms and never each other.
+KERNELS = ["kernels"]
+TALK = ["messages", "components/errors", "components/runtime"]
+FILES = ["components/errors", "components/config"]
+WORLD = FILES + ["scenarios", "messages"] + KERNELS
+SHARED = TALK + WORLD + ["components/record", "components/terrain", "components/sonar", "components/truth"]
+SEES = {
+    "kernels/base": [],
+    "kernels/water": ["kernels/base"],
+    "kernels/seabed": ["kernels/base"],
+    "kernels/mesh": ["kernels/base"],
+    "kernels/vehicle": ["kernels/base"],
+    "kernels/instruments": ["kernels/base"],
+    "kernels/acoustics": ["kernels/base", "kernels/water", "kernels/seabed", "kernels/mesh"],
+    "kernels/survey": ["kernels/base", "kernels/water", "kernels/seabed", "kernels/vehicle"],
+    "kernels": [],
+    "messages": [],
+    "components/errors": [],
+    "components/config": ["components/errors"],
+    "components/runtime": ["messages", "components/errors"],
+    "components/record": TALK,
+    "components/truth": TALK + KERNELS,
+    "components/terrain": WORLD,
+    "components/sonar": TALK + WORLD + ["components/terrain/mesh_message.h"],
+    "components": SHARED + ["launch/file", "launch/process"],
+    "scenarios": WORLD,
+    "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],
+    "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file"],
+    "launch": SHARED,
+    "tools": SHARED + ["launch"],
+}
 
 
 def is_test(path):
@@ -36,31 +69,27 @@ def is_test(path):
 
 
 def is_bench(path):
-    return path.endswith("/bench.cpp")
+    return path.endswith("bench.cpp")
 
 
 def visible_folders(path):
     """The folders whose headers the file may include; None: no restriction."""
     parts = path.split("/")
-    area = parts[0]
-    if area in ("tests", "bench", "examples"):
+    if parts[0] in ("tests", "bench", "examples"):
         return None
-    own = "/".join(parts[:2]) if area in ("components", "tools") and len(parts) > 2 else area
-    seen = {
-        "kernels": ["kernels"],
-        "messages": ["messages"],
-        "components": [own, "components/runtime", "messages", "kernels"],
-        "launch": [own, "components/runtime", "messages", "kernels"],
-        "tools": [own, "launch", "components/runtime", "messages", "kernels"],
-    }[area]
-    return seen + ["tests/support"] if is_test(path) or is_bench(path) else seen
+    room = max((r for r in SEES if path.startswith(r + "/")), key=len)
+    own = "/".join(parts[:2]) if room in ("components", "tools") and len(parts) > 2 else room
+    seen = [own] + SEES[room]
+    if is_test(path) or is_bench(path) or "/testing/" in path or parts[-1].startswith("test_"):
+        seen += ["tests/support"] + (["kernels"] if parts[0] == "kernels" else []) + (["scenarios"] if parts[0] == "launch" else [])
+    return seen
 
 
 def problem_of_project_include(root, path, target):
     if not (root / target).is_file() and not (root / f"{target}.in").is_file():  # configured by CMake
         return f'"{target}" does not exist (includes are written from the repository root)'
     seen = visible_folders(path)
-    if seen is not None and not any(target.startswith(folder + "/") for folder in seen):
+    if seen is not None and not any(target == folder or target.startswith(folder + "/") for folder in seen):
         return f'"{target}" is out of sight here; visible: {", ".join(seen)}'
     return None
 
@@ -101,10 +130,10 @@ def problems(root):
 # A small tree: path -> include lines, each with the words its problem must hold, or None when it is fine.
 PLANTED = {
     "kernels/a/a.h": [("<vector>", None), ("<Eigen/Core>", None), ('"messages/m.h"', "out of sight"),
-                      ("<sys/socket.h>", "numeric libraries only"), ("<embree3/rtcore.h>", "kernels/trace")],
+                      ("<sys/socket.h>", "numeric libraries only"), ("<embree3/rtcore.h>", "kernels/acoustics/trace")],
     "kernels/a/bench.cpp": [("<benchmark/benchmark.h>", None), ('"tests/support/s.h"', None)],
     "kernels/a/a_test.cpp": [("<catch2/catch.hpp>", None), ('"kernels/a/a.h"', None), ('"a.h"', "does not exist")],
-    "kernels/trace/t.cpp": [("<embree3/rtcore.h>", None)],
+    "kernels/acoustics/trace/t.cpp": [("<embree3/rtcore.h>", None)],
     "messages/m.h": [("<cstdint>", None), ("<msgpack.hpp>", "messages/*.cpp"), ('"kernels/a/a.h"', "out of sight")],
     "messages/m.cpp": [("<msgpack.hpp>", None), ('"messages/m.h"', None), ("<fmt/core.h>", "standard library only")],
     "components/runtime/bus/z.cpp": [("<zmq.h>", None), ('"messages/m.h"', None)],
@@ -116,7 +145,7 @@ PLANTED = {
     "components/terrain_pager/p.cpp": [("<gdal_priv.h>", None)],
     "tools/plot/p.cpp": [("<ogr_spatialref.h>", None), ('"launch/l.h"', None), ('"components/x/x.h"', "out of sight")],
     "launch/l.h": [("<vector>", None)],
-    "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/runtime/config"), ('"components/y/y.h"', "out of sight"),
+    "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/config"), ('"components/y/y.h"', "out of sight"),
                      ('"tools/plot/p.cpp"', "out of sight")],
     "tests/support/s.h": [('"components/x/x.h"', None), ('"kernels/a/a.h"', None)],
 }

@@ -21,7 +21,7 @@ UNITTEST = re.compile(r"^Ran (\d+) tests? in .*\n\n(?:OK|FAILED)(?: \((.*)\))?$"
 
 
 def cases(output):
-    """(cases, failed, skipped) as the program's output tells; a program without cases is (1, 0, 0)."""
+    """(cases, failed, skipped) as the program's output gives; a program without cases is (1, 0, 0)."""
     if found := UNITTEST.search(output):
         counts = dict(part.split("=") for part in (found[2] or "").split(", ") if part)
         failed, skipped = int(counts.get("failures", 0)) + int(counts.get("errors", 0)), int(counts.get("skipped", 0))

@@ -6,7 +6,7 @@
 It sees beam time series and the navigation estimate, nothing else: no soundings, no truth. From the first strong echo of
 each beam it makes points on the seabed, lays a plane through those of the last pings, and steers along the plane's contour
 towards the wanted depth. Parameters (`config:` in the launch file): depth_m, speed_mps, head_down_m (of the head, below the
-vehicle's reference point), and blind: true, which zeroes the pings before it looks at them: the control that shows that it
+vehicle's reference point), and blind: true, which zeroes the pings before it uses them: the control that shows that it
 needs them.
 """
 import collections

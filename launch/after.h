@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/runtime/config/launch_file.h"
 #include "launch/commands.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::launcher {
 

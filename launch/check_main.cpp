@@ -6,23 +6,24 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/config/launch_file.h"
-#include "components/runtime/terrain/layers_source.h"
+#include "components/config/data_paths.h"
 #include "components/runtime/version.h"
+#include "components/terrain/layers_source.h"
 #include "launch/check_ports.h"
+#include "launch/file/launch_file.h"
+#include "scenarios/world/world.h"
 
 namespace {
 
 using namespace ensonify;
 using namespace ensonify::launcher;
 
-/// Guides are read for it, so it is for launches whose pager reads them too: what it refuses has been told already.
-void append_uneven(const Launch& launch, std::vector<std::string>& warnings) {
+/// Guides are read for it, so it is for launches whose pager reads them too: what it refuses has been reported already.
+void append_uneven(const Launch& launch, const World& world, std::vector<std::string>& warnings) {
   const bool paged = std::ranges::any_of(
       launch.processes, [](const ProcessSpec& process) { return process.component == "terrain_pager"; });
-  if (!paged || !launch.has_scenario || launch.scenario.seabed.kind != Seabed::Kind::kLayers) return;
-  const source::LayersSource seabed(launch.scenario.seabed, launch.scenario.site.origin);
+  if (!paged || launch.scenario.path.empty() || world.seabed.kind != Seabed::Kind::kLayers) return;
+  const source::LayersSource seabed(world.seabed, world.site.origin);
   for (const auto& uneven : seabed.meshed_relief().uneven) warnings.push_back(text_of(uneven));
 }
 
@@ -31,14 +32,16 @@ int check(const LaunchOptions& options, bool as_json) {
   std::vector<std::string> warnings;
   std::size_t processes = 0;
   try {
-    const Launch launch = read_launch(options);
+    World world;
+    const Launch launch =
+        read_launch(options, [&](ConfigReader& from, const std::string& file) { world = read_world(from, file); });
     processes = launch.processes.size();
     const RunPlaces places{program_folder(), "", options.out};
     checked = check_ports(launch, places);
     for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places)})
       checked.problems.insert(checked.problems.end(), found.begin(), found.end());
     warnings = resolution_warnings(checked);
-    if (checked.problems.empty()) append_uneven(launch, warnings);
+    if (checked.problems.empty()) append_uneven(launch, world, warnings);
     for (const auto& name : checked.unknown) {
       warnings.push_back(name + ": its ports are not known before it runs, so the wiring was not checked");
     }

@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "components/runtime/launch_wiring.h"
 #include "components/runtime/protocol.h"
 #include "launch/child.h"
+#include "launch/process/launch_wiring.h"
 #include "launch/signals.h"
 
 namespace ensonify::launcher {
@@ -95,8 +95,8 @@ CheckedPorts check_ports(const Launch& launch, const RunPlaces& places) {
         continue;
       }
       if (native || answer.ended_with(kExitUserError)) {
-        const std::string said = answer.error.empty() ? answer.out : answer.error;
-        checked.problems.push_back(said.empty() ? process.name + ": --check failed without a word" : said);
+        const std::string stated = answer.error.empty() ? answer.out : answer.error;
+        checked.problems.push_back(stated.empty() ? process.name + ": --check failed without a word" : stated);
       } else {
         checked.unknown.push_back(process.name);
       }
@@ -112,7 +112,7 @@ std::vector<std::string> unpaged_mission_problems(const Launch& launch, const Ru
     return std::any_of(launch.processes.begin(), launch.processes.end(),
                        [&](const ProcessSpec& process) { return process.component == component; });
   };
-  if (!launch.has_scenario || !runs("autopilot") || runs("terrain_pager")) return {};
+  if (launch.scenario.path.empty() || !runs("autopilot") || runs("terrain_pager")) return {};
   Command command;
   command.argv = {places.program_folder + "/ensonify-terrain_pager", "--check-mission"};
   const auto arguments = to_arguments(launch.options);

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/launch_file.h"
 #include "components/runtime/wiring.h"
 #include "launch/commands.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::launcher {
 
-/// What the programs of a launch say about themselves when they are asked with --check.
+/// Answers of a launch's programs to --check.
 struct CheckedPorts {
   std::vector<Declaration> declarations;  // of those that could be asked, in the order of ranks
   std::vector<std::string> problems;      // what is wrong with files and arguments
@@ -20,15 +20,15 @@ struct CheckedPorts {
 /// is ended and counted as unknown.
 CheckedPorts check_ports(const Launch& launch, const RunPlaces& places);
 
-/// What the seabed has against the mission of a launch that flies one but runs no pager, which looks itself before time
+/// Objections of the seabed to the mission of a launch without a pager, which checks it itself before time
 /// starts.
 std::vector<std::string> unpaged_mission_problems(const Launch& launch, const RunPlaces& places);
 
-/// Wiring mistakes, each with its place. Nothing is said when some processes are unknown or could not tell their
+/// Wiring mistakes, each with its place. Nothing is said when some processes are unknown or could not report their
 /// ports, since those may be the publishers that seem to be missing.
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked);
 
-/// Where the terrain is too coarse for a head: its posts are farther apart than its finest footprint, the narrowest
+/// Warning of terrain too coarse for a head: its posts are farther apart than its finest footprint, the narrowest
 /// beam at the least depth. Names both.
 std::vector<std::string> resolution_warnings(const CheckedPorts& checked);
 

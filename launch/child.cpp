@@ -15,7 +15,7 @@
 #include <deque>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "launch/signals.h"
 
 extern char** environ;
@@ -94,7 +94,7 @@ int open_log(const std::string& file) {
   return fd;
 }
 
-/// The read end tells errno of a child that could not become its program; exec closes it silently.
+/// The read end gives errno of a child that could not become its program; exec closes it silently.
 int wait_for_exec(int read_fd) {
   int error = 0;
   ssize_t got = 0;
@@ -211,11 +211,11 @@ std::optional<Ending> end_within(Child& child, Signals& signals, std::chrono::mi
   bool killed = false;
   while (child.running()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
-    const bool heard = signals.wait(killed ? kEver : std::max(left, std::chrono::milliseconds(0)));
+    const bool ready = signals.wait(killed ? kEver : std::max(left, std::chrono::milliseconds(0)));
     // Between the wait and the reaping, nowhere else: a child whose signal is taken is reaped now, not waited for.
     const bool interrupted = signals.take().interrupts > 0;
     reap_into(child);
-    if (!heard || interrupted) {
+    if (!ready || interrupted) {
       child.send(SIGKILL);
       killed = true;
     }

@@ -14,7 +14,7 @@ namespace ensonify::launcher {
 
 class Signals;
 
-/// What to start.
+/// Command to start.
 struct Command {
   std::vector<std::string> argv;           // argv[0] is the path of the program
   std::map<std::string, std::string> env;  // added to our own environment
@@ -61,11 +61,12 @@ struct Reaped {
 };
 std::optional<Reaped> reap();
 
-/// Reaps all that have ended, and tells `child` if it is among them.
+/// Reaps all that have ended, and says whether `child` is among them.
 void reap_into(Child& child);
 
-/// Waits until `child` ends and says how. One of whose end nothing is heard within `patience`, or before an interrupt,
-/// is killed: nothing. `signals` has lived since before the child was started, and what it has heard already counts.
+/// Waits until `child` ends and says how. One of whose end nothing is received within `patience`, or before an
+/// interrupt, is killed: nothing. `signals` has lived since before the child was started, and what it has received
+/// already counts.
 std::optional<Ending> end_within(Child& child, Signals& signals, std::chrono::milliseconds patience);
 
 /// The last `lines` lines of a text file, without the line end of the last; "" when it cannot be read.

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::launcher {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "components/runtime/config/launch_file.h"
 #include "launch/child.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::launcher {
 
-/// Folders that every process of a run is told of.
+/// Folders that every process of a run gets.
 struct RunPlaces {
   std::string program_folder;  // where the ensonify-* programs are
   std::string run_dir;

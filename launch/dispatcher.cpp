@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/version.h"
 
 namespace {
@@ -38,7 +39,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"physics", "values of the acoustic models, as CSV or JSON"},
     {"plan", "surveys before they are run: lines, speed, sidescan, import"},
     {"terrain", "seabeds on disk: build, info, verify, sample"},
-    {"doctor", "look for what is wrong with this machine or installation"},
+    {"doctor", "check this machine and installation"},
     {"patch", "the patch test of a multibeam, from a record of its lines"},
     {"plot", "pictures and summary of a survey"},
 };
@@ -65,7 +66,7 @@ Programs programs_in(const std::string& folder) {
 }
 
 void print_usage(const Programs& programs, std::FILE* to) {
-  fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help tells more)\n\n");
+  fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help says more)\n\n");
   for (const auto& [verb, what] : kKnownVerbs) {
     if (std::find(programs.verbs.begin(), programs.verbs.end(), verb) != programs.verbs.end()) {
       fmt::print(to, "  {:<10} {}\n", verb, what);

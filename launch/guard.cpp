@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::launcher {
 namespace {
@@ -40,19 +40,19 @@ void end_groups(const std::set<pid_t>& groups) {
 /// Reads group ids (negative: forget it) until the pipe closes.
 [[noreturn]] void stand_guard(int read_fd, const std::string& run_dir) {
   std::set<pid_t> groups;
-  pid_t told = 0;
+  pid_t reported = 0;
   for (;;) {
-    const ssize_t got = ::read(read_fd, &told, sizeof told);
+    const ssize_t got = ::read(read_fd, &reported, sizeof reported);
     if (got < 0 && errno == EINTR) {
       continue;
     }
-    if (got != static_cast<ssize_t>(sizeof told)) {
+    if (got != static_cast<ssize_t>(sizeof reported)) {
       break;
     }
-    if (told == kAllIsWell) {
+    if (reported == kAllIsWell) {
       ::_exit(0);
     }
-    told > 0 ? void(groups.insert(told)) : void(groups.erase(-told));
+    reported > 0 ? void(groups.insert(reported)) : void(groups.erase(-reported));
   }
   end_groups(groups);
   std::error_code error;
@@ -88,15 +88,15 @@ Guard::Guard(const std::string& run_dir) {
 }
 
 Guard::~Guard() {
-  tell(kAllIsWell);
+  notify(kAllIsWell);
   ::close(write_fd_);
   ::waitpid(pid_, nullptr, 0);
 }
 
-void Guard::tell(pid_t value) const {
+void Guard::notify(pid_t value) const {
   [[maybe_unused]] const ssize_t written = ::write(write_fd_, &value, sizeof value);
 }
-void Guard::watch(pid_t group) { tell(group); }
-void Guard::forget(pid_t group) { tell(-group); }
+void Guard::watch(pid_t group) { notify(group); }
+void Guard::forget(pid_t group) { notify(-group); }
 
 }  // namespace ensonify::launcher

@@ -7,7 +7,7 @@
 namespace ensonify::launcher {
 
 /// Leaves nothing behind when the launcher is killed with SIGKILL: a process that holds the read end of a pipe. When
-/// the launcher is gone without having said so, it ends the process groups that it was told of (SIGTERM, a second later
+/// the launcher is gone without having said so, it ends the process groups registered with it (SIGTERM, a second later
 /// SIGKILL) and removes the run directory.
 class Guard {
  public:
@@ -23,7 +23,7 @@ class Guard {
   pid_t pid() const { return pid_; }
 
  private:
-  void tell(pid_t value) const;
+  void notify(pid_t value) const;
 
   pid_t pid_ = -1;
   int write_fd_ = -1;

@@ -132,13 +132,13 @@ TEST_CASE("how a process ended decides what it means") {
   CHECK(fault_of("agent", false, {4, 0})->code == 3);
 }
 
-TEST_CASE("of faults noticed together a death by signal tells most, then the clock") {
+TEST_CASE("of faults noticed together a death by signal is reported first, then the clock") {
   const Fault killed{kExitDied, "bow", "was killed by signal 9 (Killed)"};
   const Fault clock{kExitStall, "clock", "stalled"};
   const Fault follower{kExitDied, "auv", "died (exit code 3)"};
-  CHECK(most_telling({follower, clock, killed}).culprit == "bow");
-  CHECK(most_telling({follower, clock}).culprit == "clock");
-  CHECK(most_telling({follower}).culprit == "auv");
+  CHECK(most_significant({follower, clock, killed}).culprit == "bow");
+  CHECK(most_significant({follower, clock}).culprit == "clock");
+  CHECK(most_significant({follower}).culprit == "auv");
 }
 
 TEST_CASE("a child runs in its own group, writes its log and gets its environment") {
@@ -190,7 +190,7 @@ TEST_CASE("a child that cannot start says why") {
   CHECK_THROWS_WITH(Child(command), "/no/such/folder/x.log: cannot be written: No such file or directory");
 }
 
-TEST_CASE("when the launcher is killed its guard ends the children and removes the run directory") {
+TEST_CASE("a killed launcher's guard ends the children and removes the run directory") {
   const RuntimeFolder runtime;
   int alive[2], named[2];
   REQUIRE(::pipe2(alive, O_CLOEXEC) == 0);
@@ -317,7 +317,7 @@ TEST_CASE("results of expectations are read from what expect wrote") {
   CHECK_THROWS_AS(write_text("/dev/full", "x"), DataLost);
 }
 
-TEST_CASE("progress tells time, rate and what is left") {
+TEST_CASE("progress shows time, rate and what is left") {
   CHECK(progress_text(30, 3, 90, "RUNNING") == "t 30.0 s  10.0x real time  about 6 s left  RUNNING");
   CHECK(progress_text(30, 3, 3000, "RUNNING") == "t 30.0 s  10.0x real time  about 4 min 57 s left  RUNNING");
   CHECK(progress_text(30, 3, std::nullopt, "PAUSED") == "t 30.0 s  10.0x real time  PAUSED");
@@ -326,17 +326,17 @@ TEST_CASE("progress tells time, rate and what is left") {
 
 TEST_CASE("a mission's length gives the time that a run will take") {
   Launch launch;
-  CHECK_FALSE(expected_duration_s(launch).has_value());
-  launch.has_scenario = true;
-  launch.scenario.mission.speed_mps = 2;
-  launch.scenario.mission.run_in_m = 0;
-  launch.scenario.vehicles.resize(1);
-  launch.scenario.vehicles[0].limits.turning_radius_m = 10;
+  World world;
+  CHECK_FALSE(expected_duration_s(launch, world).has_value());
+  world.mission.speed_mps = 2;
+  world.mission.run_in_m = 0;
+  world.vehicles.resize(1);
+  world.vehicles[0].limits.turning_radius_m = 10;
   // Two lines of 100 m, 20 m apart, joined by a half circle of radius 10 m.
-  launch.scenario.mission.runlines = {{{0, 0}, {0, 100}}, {{20, 100}, {20, 0}}};
-  CHECK(*expected_duration_s(launch) == Approx((200 + 3.14159265 * 10) / 2));
+  world.mission.runlines = {{{0, 0}, {0, 100}}, {{20, 100}, {20, 0}}};
+  CHECK(*expected_duration_s(launch, world) == Approx((200 + 3.14159265 * 10) / 2));
   launch.duration = SimTime{5'000'000'000};
-  CHECK(*expected_duration_s(launch) == 5.0);
+  CHECK(*expected_duration_s(launch, world) == 5.0);
 }
 
 }  // namespace ensonify::launcher

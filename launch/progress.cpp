@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kernels/navigation/turn.h"
+#include "kernels/vehicle/runlines/turn.h"
 
 namespace ensonify::launcher {
 namespace {
@@ -23,23 +23,23 @@ std::string duration_text(double t_s) {
 
 }  // namespace
 
-std::optional<double> expected_duration_s(const Launch& launch) {
+std::optional<double> expected_duration_s(const Launch& launch, const World& world) {
   if (launch.duration) {
     return seconds(*launch.duration);
   }
-  const Mission& mission = launch.scenario.mission;
-  if (!launch.has_scenario || mission.runlines.empty() || launch.scenario.vehicles.empty()) {
+  const Mission& mission = world.mission;
+  if (mission.runlines.empty() || world.vehicles.empty()) {
     return std::nullopt;
   }
-  const double radius_m = launch.scenario.vehicles.front().limits.turning_radius_m;
+  const double radius_m = world.vehicles.front().limits.turning_radius_m;
   double length_m = 0.0;
   for (std::size_t i = 0; i < mission.runlines.size(); ++i) {
-    const auto line = navigation::extended(mission.runlines[i], mission.run_in_m, 0.0);
-    length_m += navigation::length_m(line);
+    const auto line = runlines::extended(mission.runlines[i], mission.run_in_m, 0.0);
+    length_m += runlines::length_m(line);
     if (i > 0) {
       const auto& last = mission.runlines[i - 1];
-      length_m += navigation::shortest_turn({last.end_enu_m, navigation::heading_rad(last)},
-                                            {line.start_enu_m, navigation::heading_rad(line)}, radius_m)
+      length_m += runlines::shortest_turn({last.end_enu_m, runlines::heading_rad(last)},
+                                          {line.start_enu_m, runlines::heading_rad(line)}, radius_m)
                       .length_m();
     }
   }

@@ -4,13 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "components/runtime/config/launch_file.h"
+#include "launch/file/launch_file.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify::launcher {
 
-/// How long the run will be in sim time: its hard end, else what its runlines take at mission speed with their turns;
+/// Length of the run in sim time: its hard end, else what its runlines take at mission speed with their turns;
 /// nothing when neither is known.
-std::optional<double> expected_duration_s(const Launch& launch);
+std::optional<double> expected_duration_s(const Launch& launch, const World& world);
 
 /// "t 123.4 s  12.3x real time  about 1 min 20 s left  RUNNING". Times in s; the rate is of the whole run.
 std::string progress_text(double sim_s, double wall_s, std::optional<double> duration_s, const std::string& state);

@@ -60,12 +60,12 @@ std::vector<Expectation> read_expectations(const std::string& file) {
 
 std::optional<ClockReport> read_clock_report(const std::string& out) {
   std::ifstream stream(out + "/clock.json");
-  const auto told = nlohmann::json::parse(stream, nullptr, false);
-  if (!told.is_object()) {
+  const auto reported = nlohmann::json::parse(stream, nullptr, false);
+  if (!reported.is_object()) {
     return std::nullopt;
   }
-  return ClockReport{told.value("sim_s", 0.0), told.value("exit_code", 0), told.value("culprit", ""),
-                     told.value("message", "")};
+  return ClockReport{reported.value("sim_s", 0.0), reported.value("exit_code", 0), reported.value("culprit", ""),
+                     reported.value("message", "")};
 }
 
 void remove_reports(const std::string& out) {

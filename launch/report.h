@@ -8,7 +8,7 @@
 
 namespace ensonify::launcher {
 
-/// What became of one process.
+/// Outcome of one process.
 struct ProcessReport {
   std::string name;
   std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED, STOPPED (by the launcher)
@@ -36,7 +36,7 @@ struct RunReport {
   std::vector<Expectation> expectations;
 };
 
-/// What `<out>/clock.json` says of a run, written by its clock or, with --in-process, by the process that had none.
+/// Contents of `<out>/clock.json`, written by its clock or, with --in-process, by the process that had none.
 struct ClockReport {
   double sim_s = 0.0;  // reached
   int exit_code = 0;

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/run_finder.h"
 
 namespace ensonify::launcher {

@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <set>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/config/launch_file.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/version.h"
 #include "launch/after.h"
 #include "launch/check_ports.h"
+#include "launch/file/launch_file.h"
 #include "launch/supervisor.h"
+#include "scenarios/world/world.h"
 
 namespace {
 
@@ -61,7 +62,7 @@ RunReport run_in_process(const Launch& launch) {
   } else if (report.code != kExitOk) {
     report.cause = Fault{report.code, "", "the run in one process failed"};
   }
-  if (const auto told = read_clock_report(launch.options.out)) report.sim_s = told->sim_s;
+  if (const auto reported = read_clock_report(launch.options.out)) report.sim_s = reported->sim_s;
   report.expectations = read_expectations(launch.options.out + "/expect.json");
   return report;
 }
@@ -113,7 +114,9 @@ int run(Options& options) {
   } else if (options.rate > 0.0) {
     options.launch.sets.push_back(fmt::format("clock.rate={}", options.rate));
   }
-  const Launch launch = read_launch(options.launch);
+  World world;
+  const Launch launch =
+      read_launch(options.launch, [&](ConfigReader& from, const std::string& file) { world = read_world(from, file); });
   const std::string& out = options.launch.out;
   if (const auto problems = unpaged_mission_problems(launch, {program_folder(), "", out}); !problems.empty()) {
     throw UserError(problems.front());
@@ -125,7 +128,7 @@ int run(Options& options) {
     }
     report = run_in_process(launch);
   } else {
-    Supervisor supervisor(launch, program_folder(), options.quiet || options.json);
+    Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json);
     report = supervisor.run();
   }
   write_text(out + "/run.json", json_text(report));

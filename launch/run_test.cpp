@@ -86,7 +86,7 @@ class Program {
     ::waitpid(child_.pid(), &status, 0);
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
   }
-  std::string said() const { return contents(log_); }
+  std::string stated() const { return contents(log_); }
 
  private:
   Command command(std::vector<std::string> words) const {
@@ -103,7 +103,7 @@ class Program {
 
 struct Result {
   int code = 0;
-  std::string said;
+  std::string stated;
 };
 
 Result run(const Workplace& place, std::vector<std::string> options = {}) {
@@ -111,7 +111,7 @@ Result run(const Workplace& place, std::vector<std::string> options = {}) {
   words.insert(words.end(), options.begin(), options.end());
   Program program(place, std::move(words));
   const int code = program.wait();
-  return {code, program.said()};
+  return {code, program.stated()};
 }
 
 /// Waits until `condition` holds; the test's time limit bounds it.
@@ -129,7 +129,7 @@ TEST_CASE("a run to its hard end is 0, leaves its results and nothing else") {
   place.two_stubs("duration_s: 3\n");
   const Result result = run(place, {"--junit", place.file("junit.xml")});
   CHECK(result.code == 0);
-  CHECK(result.said.find("3.0 s of sim time") != std::string::npos);
+  CHECK(result.stated.find("3.0 s of sim time") != std::string::npos);
   const auto report = nlohmann::json::parse(contents(place.file("out/run.json")));
   CHECK(report["exit_code"] == 0);
   CHECK(report["processes"].size() == 3);
@@ -141,7 +141,7 @@ TEST_CASE("a run to its hard end is 0, leaves its results and nothing else") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("a foreign program that fails ends the run with 3, one that refuses its arguments with 2") {
+TEST_CASE("a failing foreign program ends the run with 3, one that refuses arguments with 2") {
   const Workplace place;
   const auto with_foreign = [&](const std::string& script) {
     place.write("x.yaml", "ensonify: launch/1\nprocesses:\n  agent: {run: [sh, -c, '" + script + "']}\n" +
@@ -150,13 +150,13 @@ TEST_CASE("a foreign program that fails ends the run with 3, one that refuses it
   };
   const Result failed = with_foreign("echo it broke; exit 1");
   CHECK(failed.code == 3);
-  CHECK(failed.said.find("ensonify run: agent died (exit code 1): it broke") != std::string::npos);
+  CHECK(failed.stated.find("ensonify run: agent died (exit code 1): it broke") != std::string::npos);
   const Result refused = with_foreign("echo wrong words; exit 2");
   CHECK(refused.code == 2);
-  CHECK(refused.said.find("wrong words\nensonify run: agent refused") == 0);
+  CHECK(refused.stated.find("wrong words\nensonify run: agent refused") == 0);
   const Result left = with_foreign("exit 0");
   CHECK(left.code == 3);
-  CHECK(left.said.find("ensonify run: agent left before the end of the run") != std::string::npos);
+  CHECK(left.stated.find("ensonify run: agent left before the end of the run") != std::string::npos);
   CHECK(place.leftovers().empty());
 }
 
@@ -208,7 +208,7 @@ TEST_CASE("an external process is awaited and may be started by anybody") {
   place.write("x.yaml", text + "\nclock: {connect_timeout_s: 0.2}\n");
   const Result alone = run(place);
   CHECK(alone.code == 4);
-  CHECK(alone.said.find("no hello from: b") != std::string::npos);
+  CHECK(alone.stated.find("no hello from: b") != std::string::npos);
 }
 
 TEST_CASE("in one process a run has the same end, reports and steps") {
@@ -223,7 +223,7 @@ TEST_CASE("in one process a run has the same end, reports and steps") {
   const auto report = nlohmann::json::parse(contents(place.file("out/run.json")));
   CHECK(report.at("sim_s") == 1.0);
   CHECK(report.at("real_time_factor").get<double>() > 0.0);
-  CHECK(good.said.find("1.0 s of sim time in") != std::string::npos);
+  CHECK(good.stated.find("1.0 s of sim time in") != std::string::npos);
   CHECK(run(place, {"--in-process", "--set", "boat.bogus=1"}).code == 2);
   CHECK(nlohmann::json::parse(contents(place.file("out/run.json"))).at("sim_s") == 0.0);  // not of the run before
 }
@@ -236,16 +236,16 @@ TEST_CASE("steps after the run see the output folder, and the first that fails d
   CHECK(result.code == 5);
   CHECK(contents(place.file("out/after")) == "done");
   CHECK_FALSE(fs::exists(place.file("out/never")));
-  CHECK(result.said.find("after: `sh -c exit 5` ended with exit code 5") != std::string::npos);
+  CHECK(result.stated.find("after: `sh -c exit 5` ended with exit code 5") != std::string::npos);
 }
 
-TEST_CASE("with --json standard output holds the result alone, whatever the steps after the run print") {
+TEST_CASE("with --json standard output is the result alone, whatever later steps print") {
   const Workplace place;
   place.two_stubs("duration_s: 0.5\nafter: [[sh, -c, 'echo step taken']]\n");
   Program program(place, {"ensonify-run", place.file("x.yaml"), "--out", place.file("out"), "--json"}, "said",
                   "errors");
   CHECK(program.wait() == 0);
-  CHECK(nlohmann::json::parse(program.said()).at("exit_code") == 0);
+  CHECK(nlohmann::json::parse(program.stated()).at("exit_code") == 0);
   CHECK(contents(place.file("errors")).find("step taken") != std::string::npos);
 }
 
@@ -253,10 +253,10 @@ TEST_CASE("the dispatcher finds the nearest verb") {
   const Workplace place;
   Program program(place, {"ensonify", "rnu"});
   CHECK(program.wait() == 2);
-  CHECK(program.said().find("ensonify: there is no rnu; did you mean run?") == 0);
+  CHECK(program.stated().find("ensonify: there is no rnu; did you mean run?") == 0);
   Program help(place, {"ensonify", "--help"});
   CHECK(help.wait() == 0);
-  CHECK(help.said().find("Usage: ensonify VERB") == 0);
+  CHECK(help.stated().find("Usage: ensonify VERB") == 0);
 }
 
 TEST_CASE("check asks every program for its ports and checks the wiring") {
@@ -264,7 +264,7 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   const auto check = [&] {
     Program program(place, {"ensonify-check", place.file("x.yaml")});
     const int code = program.wait();
-    return std::to_string(code) + " " + program.said();
+    return std::to_string(code) + " " + program.stated();
   };
   place.two_stubs();
   CHECK(check() == "0 " + place.file("x.yaml") + ": 2 processes, sound");
@@ -277,14 +277,14 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("the launch files of the project are sound, and posts too coarse for a head and uneven classes are told") {
+TEST_CASE("shipped launch files are valid; coarse posts and uneven classes are reported") {
   const Workplace place;
   const std::string source = std::getenv("ENSONIFY_SOURCE");
   const auto check = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "ensonify-check");
     Program program(place, std::move(words));
     const int code = program.wait();
-    return std::to_string(code) + " " + program.said();
+    return std::to_string(code) + " " + program.stated();
   };
   const std::string demo = source + "/launch/demo.yaml";
   CHECK(check({demo}) == "0 " + demo + ": 7 processes, sound");

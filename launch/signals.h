@@ -13,7 +13,7 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// What has arrived since the last call.
+  /// Bytes that have arrived since the last call.
   struct Arrived {
     bool child = false;
     int interrupts = 0;

@@ -36,11 +36,11 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-Supervisor::Supervisor(const Launch& launch, const std::string& program_folder, bool quiet)
+Supervisor::Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet)
     : launch_(launch),
       guard_(run_dir_.path()),
       places_{program_folder, run_dir_.path(), launch.options.out},
-      progress_(quiet, expected_duration_s(launch)) {}
+      progress_(quiet, expected_duration_s(launch, world)) {}
 
 RunReport Supervisor::run() {
   began_ = steady_clock::now();
@@ -86,7 +86,7 @@ void Supervisor::start_clock() {
   while (clock().child->running() && interrupts_ == 0) {
     if (std::ifstream stream(file); stream) {
       std::getline(stream, clock_endpoint_);
-      asker_ = std::make_unique<bus::Asker>(clock_endpoint_);
+      query_ = std::make_unique<bus::ClockQuery>(clock_endpoint_);
       last_answer_ = steady_clock::now();
       return;
     }
@@ -129,10 +129,10 @@ void Supervisor::take_signals() {
   const auto now = steady_clock::now();
   interrupts_ += arrived.interrupts;
   verdict_.interrupted();
-  if (interrupts_ == 1 && asker_ && clock().child->running()) {
+  if (interrupts_ == 1 && query_ && clock().child->running()) {
     progress_.finish();
     fmt::print(stderr, "ensonify run: stopping in order; press Ctrl-C again to stop at once\n");
-    asker_->ask(R"({"kind":"stop"})", kAnswerPatience);
+    query_->ask(R"({"kind":"stop"})", kAnswerPatience);
     begin(Ending::kAsked, now, kGraceAfterStop);
   } else {
     begin(Ending::kTerminated, now, kGraceAfterFault);
@@ -184,11 +184,11 @@ void Supervisor::on_clock_ended(Member& member) {
   const auto now = steady_clock::now();
   const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
   member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
-  if (const auto told = read_clock_report(places_.out)) {
-    sim_s_ = told->sim_s;
-    if (fault && told->exit_code == fault->code) {
-      fault->culprit = told->culprit.empty() ? fault->culprit : told->culprit;
-      fault->message = told->message.empty() ? fault->message : told->message;
+  if (const auto reported = read_clock_report(places_.out)) {
+    sim_s_ = reported->sim_s;
+    if (fault && reported->exit_code == fault->code) {
+      fault->culprit = reported->culprit.empty() ? fault->culprit : reported->culprit;
+      fault->message = reported->message.empty() ? fault->message : reported->message;
     }
   }
   if (fault && !by_us && fault->code != kExitInterrupted) {
@@ -206,7 +206,7 @@ void Supervisor::on_clock_ended(Member& member) {
 }
 
 void Supervisor::judge() {
-  const Fault fault = most_telling(noticed_);
+  const Fault fault = most_significant(noticed_);
   noticed_.clear();
   if (!ended_as_expected(fault.culprit)) {
     verdict_.fault(fault);
@@ -289,7 +289,7 @@ void Supervisor::on_time(WallTime now) {
       begin(Ending::kKilled, now, kGraceAfterFault);
     }
   }
-  if (ending_ == Ending::kNo && asker_) {
+  if (ending_ == Ending::kNo && query_) {
     ask_clock(now);
     check_leavers(now);
     respawn(now);
@@ -302,7 +302,7 @@ void Supervisor::ask_clock(WallTime now) {
     return;
   }
   last_asked_ = now;
-  if (const auto answer = asker_->ask(R"({"kind":"status"})", kAnswerPatience)) {
+  if (const auto answer = query_->ask(R"({"kind":"status"})", kAnswerPatience)) {
     last_answer_ = now;
     read_status(*answer);
     return;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "components/runtime/bus/router.h"
-#include "components/runtime/config/launch_file.h"
 #include "launch/child.h"
 #include "launch/commands.h"
+#include "launch/file/launch_file.h"
 #include "launch/guard.h"
 #include "launch/progress.h"
 #include "launch/report.h"
@@ -23,7 +23,7 @@ namespace ensonify::launcher {
 /// ended, Ctrl-C) and five times a second asks the clock how far it is.
 class Supervisor {
  public:
-  Supervisor(const Launch& launch, const std::string& program_folder, bool quiet);
+  Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet);
 
   /// Runs the launch to its end; nothing that it started is left. Throws UserError for what cannot be started.
   RunReport run();
@@ -42,7 +42,7 @@ class Supervisor {
     std::optional<WallTime> respawn_at;
   };
 
-  /// How the run is being ended; each step has a deadline after which the next begins.
+  /// Ending of the run; each step has a deadline after which the next begins.
   enum class Ending { kNo, kAsked, kTerminated, kKilled };
 
   void start_clock();
@@ -77,7 +77,7 @@ class Supervisor {
   RunPlaces places_;
   Progress progress_;
   std::vector<Member> members_;  // the clock first
-  std::unique_ptr<bus::Asker> asker_;
+  std::unique_ptr<bus::ClockQuery> query_;
   std::string clock_endpoint_;
   Verdict verdict_;
   std::vector<Expectation> exits_;  // of the launch file's `exit:` entries

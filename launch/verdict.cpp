@@ -37,15 +37,15 @@ std::optional<Fault> fault_of(const std::string& process, bool native, const End
   if (code == kExitOk) {
     return std::nullopt;
   }
-  const bool told = native ? (code >= kExitUserError && code <= kExitDiffer) || (code == 1 && process == "expect")
-                           : code == kExitUserError || code == kExitDataLost;
+  const bool reported = native ? (code >= kExitUserError && code <= kExitDiffer) || (code == 1 && process == "expect")
+                               : code == kExitUserError || code == kExitDataLost;
   static const char* const kMeanings[] = {"",        "assertions failed", "refused its files or arguments", "died",
                                           "stalled", "lost data",         "found runs that differ"};
-  const std::string meaning = told ? kMeanings[code] : "died";
-  return Fault{told ? code : int{kExitDied}, process, meaning + " (" + text_of(ending) + ")"};
+  const std::string meaning = reported ? kMeanings[code] : "died";
+  return Fault{reported ? code : int{kExitDied}, process, meaning + " (" + text_of(ending) + ")"};
 }
 
-Fault most_telling(const std::vector<Fault>& faults) {
+Fault most_significant(const std::vector<Fault>& faults) {
   const auto weight = [](const Fault& fault) {
     return fault.message.starts_with("was killed by signal") ? 0 : fault.culprit == "clock" ? 1 : 2;
   };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::launcher {
 
@@ -25,7 +25,7 @@ class Verdict {
 
   int code() const;
   bool ended() const { return first_.has_value(); }
-  /// What decided; nothing when all went well.
+  /// Fault that decided; nothing when all went well.
   std::optional<Fault> cause() const;
 
  private:
@@ -33,7 +33,7 @@ class Verdict {
   std::optional<Fault> failed_;
 };
 
-/// How a child ended.
+/// Ending of a child.
 struct Ending {
   int exit_code = 0;  // when signal is 0
   int signal = 0;
@@ -42,12 +42,12 @@ struct Ending {
 /// "exit code 3", "signal 9 (Killed)".
 std::string text_of(const Ending& ending);
 
-/// What an ending means. Native programs speak our exit codes; of a foreign one 2 and 5 are taken at their word, every
+/// Meaning of an ending. Native programs speak our exit codes; of a foreign one 2 and 5 are taken at their word, every
 /// other failure (an uncaught exception exits with 1) is a death. `expect` alone may say 1, `assertions failed`.
 std::optional<Fault> fault_of(const std::string& process, bool native, const Ending& ending);
 
 /// The fault that the others followed from, when several were noticed at once: a death by signal, then the clock's
 /// word, then the first in the list. Precondition: not empty.
-Fault most_telling(const std::vector<Fault>& faults);
+Fault most_significant(const std::vector<Fault>& faults);
 
 }  // namespace ensonify::launcher

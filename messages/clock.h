@@ -6,7 +6,7 @@
 
 namespace ensonify::msg {
 
-/// What one participant has cost the run in wall time.
+/// Cost of one participant in wall time.
 struct Pace {
   std::string name;
   std::int64_t grants = 0;

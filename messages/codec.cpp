@@ -145,12 +145,12 @@ class Builder : public msgpack::null_visitor {
     if (error_.empty()) error_ = what;
   }
 
-  /// Room for the elements announced, if they are few: more is not believed until its bytes are there.
+  /// Room for the elements announced, if they are few: more is not accepted until its bytes are there.
   template <class Container>
   static Value with_room(std::uint32_t count) {
-    constexpr std::uint32_t kBelieved = 16;
+    constexpr std::uint32_t kReserved = 16;
     Container container;
-    container.reserve(std::min(count, kBelieved));
+    container.reserve(std::min(count, kReserved));
     return {std::move(container)};
   }
 

@@ -19,7 +19,7 @@ void note_allocation(void* memory) {
 }
 }  // namespace
 
-// Not inlined: g++ 12 would see free() meet a new that it takes for the library's.
+// Not inlined: g++ 12 would see free() get a new that it takes for the library's.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(size);
   if (!memory) throw std::bad_alloc();
@@ -37,7 +37,7 @@ using namespace std::string_literals;
 
 namespace {
 
-/// Bytes allocated at most while the message is looked at.
+/// Bytes allocated at most while the message is examined.
 std::size_t cost(const std::string& map) {
   const Body body{Buffer::own(map), {}};
   const std::size_t before = in_use;

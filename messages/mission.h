@@ -25,7 +25,7 @@ struct Mark {
 
 struct NextLine {
   static constexpr const char* kType = "next_line/1";
-  static constexpr const char* kAbout = "The line that an adaptive survey is to fly next.";
+  static constexpr const char* kAbout = "The line that an adaptive survey is to run next.";
   std::int64_t stamp_ns = 0;
   std::int64_t number = 0;
   bool done = false;
@@ -36,7 +36,7 @@ struct NextLine {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the decision, sim time", self.stamp_ns);
     visit("number", "1", "index of the line in the survey, the first is 0 and known beforehand", self.number);
-    visit("done", "", "whether nothing is left to fly; the line means nothing then", self.done);
+    visit("done", "", "whether nothing is left to run; the line means nothing then", self.done);
     visit("start_enu_m", "m", "where to begin it: east, north", self.start_enu_m);
     visit("end_enu_m", "m", "where to end it", self.end_enu_m);
   }
@@ -61,14 +61,14 @@ struct Coverage {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of validity, sim time", self.stamp_ns);
-    visit("lines", "1", "number of lines flown", self.lines);
+    visit("lines", "1", "number of lines run", self.lines);
     visit("corner_enu_m", "m", "the rectangle's rear port corner: east, north", self.corner_enu_m);
     visit("heading_grid_rad", "rad", "forward along the rectangle, clockwise from grid north", self.heading_grid_rad);
     visit("cell_m", "m", "side of a cell", self.cell_m);
     visit("needed", "1", "accepted soundings that a covered cell has at least", self.needed);
     visit("covered", "1", "share of the cells that are covered", self.covered);
     visit("overlapped", "1", "redundancy: how often a covered cell was covered, by lines, on average", self.overlapped);
-    visit("track_m", "m", "length of all lines flown, without turns", self.track_m);
+    visit("track_m", "m", "length of all lines run, without turns", self.track_m);
     visit("elapsed_s", "s", "from the first sounding to the last", self.elapsed_s);
     visit("soundings", "1", "accepted soundings of each cell (starboard x forward), as far as it can count",
           self.soundings);

@@ -68,7 +68,7 @@ struct MissionState {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the state, sim time", self.stamp_ns);
     visit("state", "", "run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done", self.state);
-    visit("line", "1", "index of the runline being flown, -1 before the first", self.line);
+    visit("line", "1", "index of the runline being run, -1 before the first", self.line);
     visit("line_count", "1", "number of runlines in the mission", self.line_count);
     visit("cross_track_m", "m", "estimated distance right of the runline, positive to starboard", self.cross_track_m);
     visit("distance_to_go_m", "m", "distance to the end of the runline", self.distance_to_go_m);

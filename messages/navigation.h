@@ -48,9 +48,9 @@ struct Position {
     visit("longitude_deg", "deg", "longitude of the same point, WGS 84, positive east", self.longitude_deg);
     visit("sigma_horizontal_m", "m", "stated standard deviation, each horizontal axis", self.sigma_horizontal_m);
     visit("sigma_vertical_m", "m", "stated standard deviation, up", self.sigma_vertical_m);
-    visit("quality", "1", "as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told",
+    visit("quality", "1", "as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given",
           self.quality);
-    visit("hdop", "1", "horizontal dilution of precision; 0 not told", self.hdop);
+    visit("hdop", "1", "horizontal dilution of precision; 0 not given", self.hdop);
     visit("height_above_geoid_m", "m", "of the body origin, as in NMEA's GGA", self.height_above_geoid_m);
     visit("geoid_above_ellipsoid_m", "m", "undulation at the same place, WGS 84, as in NMEA's GGA",
           self.geoid_above_ellipsoid_m);
@@ -89,7 +89,7 @@ struct Estimate {
     visit("enu_from_body", "1", "estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU",
           self.enu_from_body);
     visit("velocity_enu_mps", "m/s", "estimated velocity of the body origin", self.velocity_enu_mps);
-    visit("position_covariance_enu_m2", "m2", "covariance of the position's error, row by row; all zero: not told",
+    visit("position_covariance_enu_m2", "m2", "covariance of the position's error, row by row; all zero: not given",
           self.position_covariance_enu_m2);
     visit("velocity_covariance_enu_m2ps2", "m2/s2", "the same of the velocity", self.velocity_covariance_enu_m2ps2);
     visit("rotation_covariance_enu_rad2", "rad2",
@@ -185,7 +185,7 @@ struct Depth {
 
 struct Altitude {
   static constexpr const char* kType = "altitude/1";
-  static constexpr const char* kAbout = "What an altimeter hears of the bottom.";
+  static constexpr const char* kAbout = "What an altimeter measures: distance to the bottom.";
   std::int64_t stamp_ns = 0;
   bool valid = false;
   double range_m = 0.0;
@@ -233,7 +233,7 @@ struct Ctd {
     visit("depth_m", "m", "of the probe below the water level", self.depth_m);
     visit("temperature_degc", "degC", "of the water", self.temperature_degc);
     visit("salinity_psu", "psu", "of the water, practical salinity", self.salinity_psu);
-    visit("sound_speed_mps", "m/s", "reckoned from the three before", self.sound_speed_mps);
+    visit("sound_speed_mps", "m/s", "computed from the three before", self.sound_speed_mps);
   }
 };
 
@@ -250,7 +250,7 @@ struct UsblFix {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time that the place belongs to, by the instrument's clock", self.stamp_ns);
-    visit("valid", "", "whether the transponder was heard; else the rest is zero", self.valid);
+    visit("valid", "", "whether the transponder replied; else the rest is zero", self.valid);
     visit("range_m", "m", "from array to transponder, by the sound speed that the system uses", self.range_m);
     visit("place_body_m", "m", "transponder less array, along the carrier's body axes as mounting was measured",
           self.place_body_m);

@@ -9,7 +9,7 @@
 
 namespace ensonify::msg {
 
-/// What a field of a message is, read off the structs: the source of JSON Schemas, of the reference page and of
+/// Description of a message's field, read off the structs: the source of JSON Schemas, of the reference page and of
 /// `ensonify describe`.
 struct FieldInfo {
   enum class Kind { boolean, integer, number, text, array, fixed_list, list, map };

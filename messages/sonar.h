@@ -87,7 +87,7 @@ struct AppliedSettings {
   }
 };
 
-/// Where the head was, as the instrument knows it: the navigation estimate and the measured mounting. Never the truth.
+/// Track of the head, as the instrument knows it: the navigation estimate and the measured mounting. Never the truth.
 /// In a message it stands beside its other fields.
 struct HeadTrack {
   Array<double> pose_time_s;
@@ -127,7 +127,7 @@ struct Ping {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of transmission, sim time", self.stamp_ns);
     visit("ping", "1", "ping number of this head, from 0", self.ping);
-    visit("kind", "", "of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not told",
+    visit("kind", "", "of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not given",
           self.kind);
     visit("sample_period_s", "s", "time between samples", self.sample_period_s);
     visit("first_sample_s", "s", "time of the first sample after transmission", self.first_sample_s);
@@ -156,7 +156,7 @@ struct Ping {
 struct BottomTrack {
   static constexpr const char* kType = "bottom_track/1";
   static constexpr const char* kAbout =
-      "Where a head hears the bottom first, by its own echoes: what a slant range is corrected with. Never the truth.";
+      "The first bottom return of a head, by its own echoes: what a slant range is corrected with. Never the truth.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   bool valid = false;
@@ -183,7 +183,7 @@ struct BottomTrack {
 
 struct Transmit {
   static constexpr const char* kType = "transmit/1";
-  static constexpr const char* kAbout = "A head transmitted: other heads may hear it.";
+  static constexpr const char* kAbout = "A head transmitted: other heads may receive it.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   double frequency_hz = 0.0;
@@ -201,11 +201,11 @@ struct Transmit {
     visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
-    visit("next_ns", "ns", "when the head means to transmit next, sim time; 0: it does not know", self.next_ns);
+    visit("next_ns", "ns", "when the head intends to transmit next, sim time; 0: unknown", self.next_ns);
   }
 };
 
-/// What a setting of a command holds that is to stay as it is.
+/// Value of a command's setting that is to stay as it is.
 inline constexpr double kUnchanged = std::numeric_limits<double>::quiet_NaN();
 
 struct SonarSettings {
@@ -226,7 +226,7 @@ struct SonarSettings {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the command, sim time", self.stamp_ns);
-    visit("range_m", "m", "range to listen to; 0: the head chooses, where it can", self.range_m);
+    visit("range_m", "m", "range of reception; 0: the head chooses, where it can", self.range_m);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
     visit("pulse_length_s", "s", "pulse length; 0: the head chooses, where it can", self.pulse_length_s);
     visit("gain_spreading_db", "dB", "S of the gain S log10(R) + 2 A R + O at range R in m", self.gain_spreading_db);

@@ -9,7 +9,7 @@ namespace ensonify::msg {
 /// Bits of Soundings::flags.
 enum SoundingFlag : std::uint8_t {
   kWeak = 1,       // below the detection threshold
-  kCutOff = 2,     // the echo goes on where listening ended
+  kCutOff = 2,     // the echo goes on where reception ended
   kOutOfGate = 4,  // outside the operator's depth or range gate
   kUncertain = 8,  // predicted uncertainty beyond what is accepted
   kSideLobe = 16,  // taken for the side lobe of another beam
@@ -65,13 +65,13 @@ struct Soundings {
           self.range_sd_m);
     visit("angle_sd_rad", "rad", "predicted standard deviation of the angle, sonar only; empty: not predicted",
           self.angle_sd_rad);
-    visit("window_s", "s", "length of the window that the detection used; empty: not told", self.window_s);
+    visit("window_s", "s", "length of the window that the detection used; empty: not given", self.window_s);
     visit("kind", "1", "1 by amplitude, 2 by phase (of a blend, the one that weighs more), 0 neither; empty: 1",
           self.kind);
     visit(
         "flags", "1",
         "why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side "
-        "lobe; empty: not told",
+        "lobe; empty: not given",
         self.flags);
     visit("valid", "1",
           "1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured",
@@ -80,9 +80,9 @@ struct Soundings {
           "sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting",
           self.position_enu_m);
     visit("tvu_m", "m",
-          "predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not told",
+          "predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not given",
           self.tvu_m);
-    visit("thu_m", "m", "the same of the horizontal error, as a radius; empty: not told", self.thu_m);
+    visit("thu_m", "m", "the same of the horizontal error, as a radius; empty: not given", self.thu_m);
     AppliedSettings::fields(self.applied, visit);
     HeadTrack::fields(self.track, visit);
   }
@@ -91,7 +91,7 @@ struct Soundings {
 struct Snippets {
   static constexpr const char* kType = "snippets/1";
   static constexpr const char* kAbout =
-      "The amplitudes around each detection, uncorrected: as the receiver heard them, no law taken out.";
+      "The amplitudes around each detection, uncorrected: as received, no law taken out.";
   std::int64_t stamp_ns = 0;
   std::int64_t ping = 0;
   double sample_period_s = 0.0;

@@ -55,7 +55,7 @@ struct Mesh {
   static constexpr const char* kAbout =
       "A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it "
       "needs "
-      "the vertices and triangles alone; the splits tell how to coarsen it (docs/seabed/irregular-meshes.md).";
+      "the vertices and triangles alone; the splits say how to coarsen it (docs/seabed/irregular-meshes.md).";
   std::int64_t number = 0;
   std::string name;
   std::int64_t sediment = 0;
@@ -103,7 +103,7 @@ struct MeshRelease {
 struct Chart {
   static constexpr const char* kType = "chart/1";
   static constexpr const char* kAbout =
-      "What is known of the terrain as a whole, as a chart would tell: mission planning may use it.";
+      "What is known of the terrain as a whole, as on a chart: mission planning may use it.";
   double origin_latitude_deg = 0.0;
   double origin_longitude_deg = 0.0;
   double west_m = 0.0;

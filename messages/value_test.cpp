@@ -41,7 +41,7 @@ TEST_CASE("values are compared by their bits") {
   CHECK(to_value(Array<float>({2, 3})) != to_value(Array<float>({3, 2})));
 }
 
-TEST_CASE("JSON shows short arrays whole, long ones by their range, and numbers that JSON lacks as text") {
+TEST_CASE("JSON shows short arrays whole, long ones by range, non-finite numbers as text") {
   CHECK(to_json(to_value(Array<float>::of({1.0F, NAN}))) == R"([1,"nan"])");
   CHECK(to_json(to_value(Array<std::uint8_t>({4, 5}))) == R"({"dtype":"u1","shape":[4,5],"min":0,"max":0})");
   CHECK(to_json(Value{INFINITY}) == R"("inf")");

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes what the shipped scenarios measure and how they look, by hand, when one of them changes.
+"""Writes what the shipped scenarios measure and their pictures, by hand, when one of them changes.
 
     scenarios/measure.py build/dev/bin [NAME ...]
 

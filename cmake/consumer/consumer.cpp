@@ -1,7 +1,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "kernels/frames/local_projection.h"
+#include "kernels/base/frames/local_projection.h"
 #include "kernels/water/sound_speed.h"
 #include "messages/codec.h"
 #include "messages/motion.h"

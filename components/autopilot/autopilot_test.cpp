@@ -4,20 +4,20 @@
 #include <set>
 
 #include "components/autopilot/test_loop.h"
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/default_yaml.h"
+#include "components/config/config_error.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
 
 TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles.resize(1);
-  scenario.mission.steps = steps_of({{{0, 0}, {0, 100}}});
-  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", scenario) == "");
+  World world;
+  world.vehicles.resize(1);
+  world.mission.steps = steps_of({{{0, 0}, {0, 100}}});
+  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", world) == "");
 }
 
-TEST_CASE("lines are flown in order, whole, within a hand of their track, and then the run ends") {
+TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the run ends") {
   for (const double spacing_m : {8.0, 20.0, 24.0, 40.0}) {  // below, at and above two turning radii
     const AutopilotConfig config = three_lines(spacing_m);
     Loop loop(config, start_of(config.plan, config.plan.mission.runlines));
@@ -71,7 +71,7 @@ TEST_CASE("a vehicle that starts elsewhere and at rest finds the first line") {
   CHECK(loop.autopilot.finished());
 }
 
-TEST_CASE("on a line the commanded speed is the mission's, in turns its fraction, and zero when done") {
+TEST_CASE("commanded speed is the mission's on a line, a fraction in turns, zero when done") {
   AutopilotConfig config = three_lines(30.0);
   config.turn_speed_fraction = 0.5;
   Loop loop(config, start_of(config.plan, config.plan.mission.runlines));
@@ -115,7 +115,7 @@ TEST_CASE("lines over a chart are planned when it arrives, or refused with the r
       Catch::Contains("bay.yaml") && Catch::Contains("mission.auto: no room for a survey: no part of the chart"));
 }
 
-TEST_CASE("in a current lines are held against it, and run-outs are flown") {
+TEST_CASE("in a current lines are held against it, and run-outs are run") {
   AutopilotConfig config = three_lines(40.0);
   config.plan.mission.run_in_m = 40.0;
   config.plan.mission.run_out_m = 10.0;
@@ -131,8 +131,8 @@ TEST_CASE("in a current lines are held against it, and run-outs are flown") {
   CHECK(states == std::set<std::string>{"run_in", "on_line", "run_out", "turn", "done"});
 }
 
-TEST_CASE("a line of several pieces is flown round its bends, and the circuit as often as told") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 150}, {100, 150}, {150, 250}}}});
+TEST_CASE("a line of several legs is followed round its bends, a circuit as often as set") {
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 150}, {100, 150}, {150, 250}}}});
   config.plan.mission.repeat = 2;
   Loop loop(config, kUnderWay);
   double worst_m = 0.0;
@@ -152,12 +152,12 @@ TEST_CASE("a line of several pieces is flown round its bends, and the circuit as
   CHECK(loop.autopilot.finished());
 }
 
-TEST_CASE("an inspection passes on a heading, stops and stays, orbits, sets the sonar and marks") {
+TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and marks") {
   SetSonar sonar;
   sonar.head = "bow";
   sonar.range_m = 30.0;
   Loop loop(steps({PassPlace{{60, 100}, 1.5}, sonar, KeepPlace{Vec2(150, 100), 20.0, 3.0}, SetMark{"wreck"},
-                   FlyOrbit{{150, 150}, 25.0, 1.25, true}}),
+                   FollowOrbit{{150, 150}, 25.0, 1.25, true}}),
             kUnderWay);
   std::vector<std::string> states;
   std::optional<motion::State> passed;
@@ -194,9 +194,9 @@ TEST_CASE("an inspection passes on a heading, stops and stays, orbits, sets the 
   CHECK(std::hypot(marks[0].position_enu_m[0] - 150, marks[0].position_enu_m[1] - 100) < 4.5);
 }
 
-TEST_CASE("in a current a place counts as kept from the way up the stream, a wait from where it begins") {
+TEST_CASE("in a current a station is kept from the run upstream on, a wait from its start") {
   const auto run = [](const KeepPlace& keep) {
-    Loop loop(steps({FlyLine{{{0, 20}, {0, 200}}}, keep}), {{0, 0, 0}, 0.0, 2.0, 0.0}, {0.0, 0.5});  // from astern
+    Loop loop(steps({FollowLine{{{0, 20}, {0, 200}}}, keep}), {{0, 0, 0}, 0.0, 2.0, 0.0}, {0.0, 0.5});  // from astern
     int turns = 0;
     double kept_s = 0.0, farthest_m = 0.0;
     const Vec2 place(0, 300);
@@ -229,7 +229,7 @@ TEST_CASE("a turn that leads past a place does not count as keeping it") {
 }
 
 TEST_CASE("a vehicle waits where its last step has left it") {
-  Loop loop(steps({FlyLine{{{0, 20}, {0, 80}}}, KeepPlace{.for_s = 20.0, .within_m = 3.0}}), kUnderWay);
+  Loop loop(steps({FollowLine{{{0, 20}, {0, 80}}}, KeepPlace{.for_s = 20.0, .within_m = 3.0}}), kUnderWay);
   double begun_s = 0.0, ended_s = 0.0, farthest_m = 0.0;
   loop.run_until(300_s, [&](const msg::MissionState& mission, const motion::State& vehicle) {
     if (mission.state != "keep") return;
@@ -244,8 +244,8 @@ TEST_CASE("a vehicle waits where its last step has left it") {
         7.0);  // 4 m to come to rest from 2 m/s, half a period and the command's delay, and no turning back
 }
 
-TEST_CASE("an adaptive survey waits for each next line and ends when told") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 100}}}});
+TEST_CASE("an adaptive survey waits for each next line and ends on command") {
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 100}}}});
   config.plan.mission.adaptive = AdaptivePlan{};
   Loop loop(config, kUnderWay);
   int waited = 0;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "components/runtime/mission/auto_plan.h"
+#include "scenarios/world/auto_plan.h"
 
 namespace ensonify {
 
@@ -19,7 +19,7 @@ struct AutopilotConfig {
   // From the scenario.
   MissionPlan plan;
 
-  static AutopilotConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static AutopilotConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const AutopilotConfig& other) const {
     return command_rate_hz == other.command_rate_hz && lookahead_radii == other.lookahead_radii &&

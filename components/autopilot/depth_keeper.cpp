@@ -5,10 +5,10 @@
 namespace ensonify {
 namespace {
 
-constexpr SimTime kBelieved = std::chrono::seconds(10);
+constexpr SimTime kBottomValid = std::chrono::seconds(10);
 constexpr double kSettle_s = 2.0;  // of the bottom's track: ten readings of an altimeter at 5 Hz
 
-bool says_depth(const Mission& mission) {
+bool gives_depth(const Mission& mission) {
   const auto goes = [](const MissionStep& step) {
     const auto* go = std::get_if<GoAt>(&step);
     return go != nullptr && (go->depth_m || go->altitude_m);
@@ -29,13 +29,13 @@ bool needs_altimeter(const Mission& mission) {
 }
 
 DepthKeeper::DepthKeeper(const Mission& mission, double climb_mps)
-    : steers_(says_depth(mission)),
+    : steers_(gives_depth(mission)),
       mission_depth_m_(mission.depth_m),
       depth_m_(mission.depth_m),
       above_m_(mission.altitude_m) {
   rules_.least_altitude_m = mission.least_altitude_m;
-  // Time for the way that the floor leaves, at the fastest climb: what rises steadily is met in time.
-  rules_.look_ahead_s = 5.0 + 0.5 * mission.least_altitude_m / climb_mps;
+  // Time for the way that the floor leaves, at the fastest climb: what rises steadily is cleared in time.
+  rules_.lookahead_s = 5.0 + 0.5 * mission.least_altitude_m / climb_mps;
 }
 
 void DepthKeeper::go_at(const GoAt& order) {
@@ -46,22 +46,22 @@ void DepthKeeper::go_at(const GoAt& order) {
   if (order.altitude_m) above_m_ = order.altitude_m;
 }
 
-bool DepthKeeper::heard_lately(SimTime now) const { return bottom_.known && now - heard_at_ <= kBelieved; }
+bool DepthKeeper::has_recent_bottom(SimTime now) const { return bottom_.known && now - bottom_at_ <= kBottomValid; }
 
-bool DepthKeeper::deaf(SimTime now) const {
-  return (above_m_ || rules_.least_altitude_m > 0.0) && now - heard_at_ > kBelieved;
+bool DepthKeeper::bottom_lost(SimTime now) const {
+  return (above_m_ || rules_.least_altitude_m > 0.0) && now - bottom_at_ > kBottomValid;
 }
 
-void DepthKeeper::heard(SimTime at, double altitude_m, double depth_m) {
-  if (bottom_.known && at <= heard_at_) return;
-  if (!heard_lately(at)) bottom_ = {};
-  bottom_ = guidance::track_bottom(bottom_, depth_m, altitude_m, seconds(at - heard_at_), kSettle_s);
+void DepthKeeper::take_altitude(SimTime at, double altitude_m, double depth_m) {
+  if (bottom_.known && at <= bottom_at_) return;
+  if (!has_recent_bottom(at)) bottom_ = {};
+  bottom_ = guidance::track_bottom(bottom_, depth_m, altitude_m, seconds(at - bottom_at_), kSettle_s);
   altitude_m_ = altitude_m;
-  heard_at_ = at;
+  bottom_at_ = at;
 }
 
 guidance::HeightOrder DepthKeeper::order(SimTime now, double depth_m) const {
-  const bool knows = heard_lately(now);
+  const bool knows = has_recent_bottom(now);
   const guidance::BottomTrack bottom = knows ? bottom_ : guidance::BottomTrack{};
   if (!above_m_) return guidance::hold_depth(rules_, bottom, depth_m_, depth_m, altitude_m_);
   if (!knows) return {bottom_.known ? std::min(mission_depth_m_, depth_m) : mission_depth_m_, false};

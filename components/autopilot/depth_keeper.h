@@ -2,17 +2,17 @@
 
 #include <optional>
 
-#include "components/runtime/config/scenario_mission.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/guidance/height.h"
+#include "kernels/vehicle/guidance/height.h"
+#include "scenarios/world/mission.h"
 
 namespace ensonify {
 
-/// Whether a mission is nowhere flown as it says without an altimeter: it follows the bottom, or has an obstacle floor.
+/// Whether a mission is nowhere run as it says without an altimeter: it follows the bottom, or has an obstacle floor.
 bool needs_altimeter(const Mission& mission);
 
-/// How deep to go: at a depth, or above the bottom that the altimeter hears, and never nearer to it than the mission's
-/// obstacle floor. An altimeter that hears nothing for 10 s is no longer believed: an altitude is given up for the
+/// Depth to hold: a depth, or above the bottom that the altimeter measures, and never nearer to it than the mission's
+/// obstacle floor. An altimeter that measures nothing for 10 s is no longer valid: an altitude is given up for the
 /// mission's depth, or for the present depth where that is shallower.
 class DepthKeeper {
  public:
@@ -21,16 +21,16 @@ class DepthKeeper {
   /// Whether depth is steered at all. A mission that says nothing of depths leaves a vehicle where it is.
   bool steers() const { return steers_; }
   void go_at(const GoAt& order);
-  /// An altitude or an obstacle floor is to be kept, and no bottom is heard to keep it from.
-  bool deaf(SimTime now) const;
+  /// An altitude or an obstacle floor is to be kept, and no bottom is detected to keep it from.
+  bool bottom_lost(SimTime now) const;
 
   /// A reading of the altimeter, turned to the vertical, at an own depth.
-  void heard(SimTime at, double altitude_m, double depth_m);
-  /// What to hold at an own depth. Only when steers().
+  void take_altitude(SimTime at, double altitude_m, double depth_m);
+  /// Order to hold at an own depth. Only when steers().
   guidance::HeightOrder order(SimTime now, double depth_m) const;
 
  private:
-  bool heard_lately(SimTime now) const;
+  bool has_recent_bottom(SimTime now) const;
 
   bool steers_;
   double mission_depth_m_, depth_m_;
@@ -38,7 +38,7 @@ class DepthKeeper {
   guidance::HeightRules rules_;
   guidance::BottomTrack bottom_;
   double altitude_m_ = 0.0;
-  SimTime heard_at_{};
+  SimTime bottom_at_{};
 };
 
 }  // namespace ensonify

@@ -6,7 +6,7 @@
 
 namespace ensonify {
 
-/// Tells whether a vehicle still comes nearer to where it should go. One that meets a current as fast as itself does
+/// Whether a vehicle still comes nearer to where it should go. One that faces a current as fast as itself does
 /// not, and would be under way for ever.
 class Headway {
  public:
@@ -16,7 +16,7 @@ class Headway {
   /// Another goal, or nothing to go to.
   void start_anew() { nearest_m_.reset(); }
   /// The way to go now. A way that had to be begun again counts from the nearest that the vehicle ever was.
-  void look(SimTime now, double to_go_m);
+  void observe(SimTime now, double to_go_m);
 
   bool held_up(SimTime now) const { return none_for(now, 0.1 * patience_s_); }
   bool lost(SimTime now) const { return none_for(now, patience_s_); }

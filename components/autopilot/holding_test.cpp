@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "components/autopilot/test_loop.h"
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
 
-TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where it is too low") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 600}}}});
+TEST_CASE("a vehicle follows the bottom by altimeter, and climbs first where it is too low") {
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 600}}}});
   config.plan.mission.depth_m = 10.0;
   config.plan.mission.altitude_m = 5.0;
   config.plan.mission.least_altitude_m = 2.0;
@@ -29,7 +29,7 @@ TEST_CASE("a vehicle follows the bottom by its altimeter and climbs first where 
 }
 
 TEST_CASE("a mission's depth is held from any start, and nothing that floats has one") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 200}}}});
   config.plan.mission.depth_m = 6.0;
   Loop loop(config, {{0, 0, -1}, 0.0, 2.0, 0.0});
   double up_m = 0.0;
@@ -37,19 +37,19 @@ TEST_CASE("a mission's depth is held from any start, and nothing that floats has
                  [&](const msg::MissionState&, const motion::State& vehicle) { up_m = vehicle.position_enu_m.z(); });
   CHECK(up_m == Approx(-6.0).margin(1e-6));
 
-  Scenario scenario;  // one vehicle dives, but it is the other that is flown
-  scenario.vehicles.resize(2);
-  scenario.vehicles[0].name = "auv";
-  scenario.vehicles[1].name = "boat";
-  scenario.vehicles[1].floats.emplace();
-  scenario.mission = config.plan.mission;
+  World world;  // one vehicle dives, but it is the other that is steered
+  world.vehicles.resize(2);
+  world.vehicles[0].name = "auv";
+  world.vehicles[1].name = "boat";
+  world.vehicles[1].floats.emplace();
+  world.mission = config.plan.mission;
   auto from = ConfigReader::from_text("vehicle: boat", "pilot.yaml");
-  AutopilotConfig::read(from, scenario, "pilot");
+  AutopilotConfig::read(from, world, "pilot");
   CHECK_THROWS_WITH(from.finish(), "pilot.yaml:1:1: the mission's depth_m needs a vehicle that dives; boat floats");
 }
 
 TEST_CASE("a mission that takes too long is given up at the surface") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 5000}}}});
   config.plan.mission.depth_m = 10.0;
   config.plan.mission.abort.after_s = 100.0;
   Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
@@ -61,7 +61,7 @@ TEST_CASE("a mission that takes too long is given up at the surface") {
 }
 
 TEST_CASE("a mission whose place becomes too uncertain is given up then") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 5000}}}});
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 5000}}}});
   config.plan.mission.abort.position_sd_m = 2.0;
   Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
   loop.uncertain_after = 50_s;
@@ -73,47 +73,47 @@ TEST_CASE("a mission whose place becomes too uncertain is given up then") {
   CHECK(health.back().message == "mission given up: the place is less certain than abort.position_sd_m");
 }
 
-TEST_CASE("a mission is given up when its vehicle is below the obstacle floor for too long, and not before") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 200}}}});
+TEST_CASE("a mission is aborted after too long below the obstacle floor, and not before") {
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 200}}}});
   config.plan.mission.depth_m = 10.0;
   config.plan.mission.least_altitude_m = 4.0;
-  const auto flown = [&](double too_low_s) {
+  const auto final_state = [&](double too_low_s) {
     config.plan.mission.abort.too_low_s = too_low_s;
     Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
     loop.bottom = [](double north_m) { return north_m < 100.0 ? 20.0 : 12.0; };  // a step of 8 m: 2 m are missing
     return states_of(loop, 600_s).back();
   };
   // 2 m at 0.5 m/s are 4 s, and the climb takes some more to begin.
-  CHECK(flown(3.0) == "abort");
-  CHECK(flown(15.0) == "done");
+  CHECK(final_state(3.0) == "abort");
+  CHECK(final_state(15.0) == "done");
 }
 
-TEST_CASE("without a bottom to keep it from, an altitude or an obstacle floor is told as not kept") {
-  AutopilotConfig config = steps({FlyLine{{{0, 20}, {0, 100}}}});
-  const auto healths = [&](double heard_until_m) {
+TEST_CASE("without a bottom, altitude and obstacle floor are reported as not kept") {
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 100}}}});
+  const auto healths = [&](double detected_until_m) {
     Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
-    loop.bottom = [=](double north_m) { return north_m < heard_until_m ? 20.0 : std::nan(""); };
+    loop.bottom = [=](double north_m) { return north_m < detected_until_m ? 20.0 : std::nan(""); };
     states_of(loop, 600_s);
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (const auto& health : loop.autopilot.step_until<msg::Health>("health", loop.now()))
-      told.push_back(health.state + " " + health.message);
-    return told;
+      reported.push_back(health.state + " " + health.message);
+    return reported;
   };
-  const std::vector<std::string> deaf = {
-      "degraded no bottom heard for 10 s: neither altitude_m nor least_altitude_m is kept"};
+  const std::vector<std::string> bottom_lost = {
+      "degraded no bottom detected for 10 s: neither altitude_m nor least_altitude_m is kept"};
   config.plan.mission.depth_m = 5.0;
   CHECK(healths(0.0).empty());  // neither is wanted
   config.plan.mission.least_altitude_m = 3.0;
   CHECK(healths(1000.0).empty());
-  CHECK(healths(0.0) == deaf);
-  CHECK(healths(40.0) == deaf);
+  CHECK(healths(0.0) == bottom_lost);
+  CHECK(healths(40.0) == bottom_lost);
   config.plan.mission.least_altitude_m = 0.0;
   config.plan.mission.altitude_m = 6.0;
-  CHECK(healths(0.0) == deaf);
+  CHECK(healths(0.0) == bottom_lost);
 }
 
-TEST_CASE("an altimeter is needed by missions that follow the bottom or have an obstacle floor") {
-  Mission mission = steps({FlyLine{{{0, 20}, {0, 100}}}}).plan.mission;
+TEST_CASE("missions that follow the bottom or have an obstacle floor need an altimeter") {
+  Mission mission = steps({FollowLine{{{0, 20}, {0, 100}}}}).plan.mission;
   mission.depth_m = 5.0;
   mission.abort.after_s = 100.0;
   CHECK_FALSE(needs_altimeter(mission));
@@ -124,11 +124,11 @@ TEST_CASE("an altimeter is needed by missions that follow the bottom or have an 
   CHECK(needs_altimeter(mission));
 }
 
-TEST_CASE("a current stronger than the vehicle is told, and the mission given up when nothing comes nearer") {
+TEST_CASE("a current stronger than the vehicle is reported, and the mission is aborted") {
   // Against the line it is carried back, across it off to the side while it still makes way along the line.
   for (const Vec2& current : {Vec2(0.0, -2.5), Vec2(4.0, 0.0)}) {
     AutopilotConfig config = three_lines(30.0);
-    config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.0, 2000, 30, 1);
+    config.plan.mission.runlines = runlines::lawnmower({0, 0}, 0.0, 2000, 30, 1);
     config.plan.mission.steps = steps_of(config.plan.mission.runlines);
     config.patience_s = 120.0;
     Loop loop(config, start_of(config.plan, config.plan.mission.runlines), current);

@@ -39,16 +39,16 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
 
 SimTime AutopilotNode::step(SimTime now) {
   if (!commands_due_.due(now)) return commands_due_.next();
-  if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(runlines(config_.plan, *chart_)));
+  if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(planned_lines(config_.plan, *chart_)));
   if (pilot_ && estimate_) {
-    if (altitude_) pilot_->hear(*altitude_);
+    if (altitude_) pilot_->take_altitude(*altitude_);
     altitude_.reset();
     pilot_->update(now, *estimate_);
     commands_.send(pilot_->command(now));
     missions_.send(pilot_->mission_state(now));
     for (const auto& [head, settings] : pilot_->take_settings()) settings_.at(head).send(settings);
     for (const msg::Mark& mark : pilot_->take_marks()) marks_->send(mark);
-    tell_health(now);
+    report_health(now);
     if (pilot_->ended() && !finished_) {
       finished_ = true;
       if (!pilot_->given_up().empty()) log::event(ports_, "gave_up", "why=\"{}\"", pilot_->given_up());
@@ -58,13 +58,13 @@ SimTime AutopilotNode::step(SimTime now) {
   return commands_due_.next();
 }
 
-void AutopilotNode::tell_health(SimTime now) {
+void AutopilotNode::report_health(SimTime now) {
   if (!pilot_->given_up().empty()) return ports_.health("failed", "mission given up: " + pilot_->given_up());
   if (pilot_->held_up(now))
     return ports_.health("degraded",
                          "no metre nearer to the goal in a tenth of patience_s: a current as fast as the vehicle?");
-  if (pilot_->deaf(now))
-    return ports_.health("degraded", "no bottom heard for 10 s: neither altitude_m nor least_altitude_m is kept");
+  if (pilot_->bottom_lost(now))
+    return ports_.health("degraded", "no bottom detected for 10 s: neither altitude_m nor least_altitude_m is kept");
   ports_.health("ok", "");
 }
 

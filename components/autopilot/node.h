@@ -20,14 +20,14 @@ class AutopilotNode {
   SimTime step(SimTime now);
 
  private:
-  void tell_health(SimTime now);
+  void report_health(SimTime now);
 
   AutopilotConfig config_;
   Ports& ports_;
   Periodic commands_due_;
   std::optional<msg::Estimate> estimate_;
   std::optional<msg::Chart> chart_;
-  std::optional<msg::Altitude> altitude_;  // heard since the last command
+  std::optional<msg::Altitude> altitude_;  // received since the last command
   std::optional<Pilot> pilot_;             // empty until the lines are known
   bool finished_ = false;
   Ports::Out<msg::Guidance> commands_;

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "components/runtime/assert.h"
-#include "kernels/guidance/drift.h"
+#include "components/errors/assert.h"
+#include "kernels/vehicle/guidance/drift.h"
 
 namespace ensonify {
 namespace {
@@ -48,10 +48,10 @@ Pilot::Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps)
       station_(limits_, kLag_s, drift_settle_s_, period_s_),
       speed_mps_(mission_.speed_mps),
       depth_(mission_, limits_.vertical_speed_mps),
-      abort_watch_(mission_.abort, config.patience_s) {
+      abort_monitor_(mission_.abort, config.patience_s) {
   ENSONIFY_ASSERT(!steps_.empty(), "a pilot needs a step");
   const auto lines = std::count_if(steps_.begin(), steps_.end(),
-                                   [](const MissionStep& step) { return std::holds_alternative<FlyLine>(step); });
+                                   [](const MissionStep& step) { return std::holds_alternative<FollowLine>(step); });
   line_count_ = mission_.repeat * static_cast<std::int64_t>(lines);
 }
 
@@ -71,7 +71,7 @@ void Pilot::begin_step(SimTime now) {
   }
 }
 
-void Pilot::begin(const FlyLine& line, SimTime) {
+void Pilot::begin(const FollowLine& line, SimTime) {
   pieces_.clear();
   for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
     pieces_.push_back({line.points_enu_m[i - 1], line.points_enu_m[i]});
@@ -82,7 +82,7 @@ void Pilot::begin(const FlyLine& line, SimTime) {
 }
 
 void Pilot::begin(const PassPlace& pass, SimTime) {
-  const navigation::Vec2 way = pass.place_enu_m - here_.waypose.position_enu_m;
+  const runlines::Vec2 way = pass.place_enu_m - here_.waypose.position_enu_m;
   const double towards_rad = way.norm() > 0.0 ? std::atan2(way.x(), way.y()) : here_.waypose.heading_rad;
   state_ = State::kPass;
   head_for({pass.place_enu_m, pass.heading_rad.value_or(towards_rad)});
@@ -91,13 +91,13 @@ void Pilot::begin(const PassPlace& pass, SimTime) {
 void Pilot::begin(const KeepPlace& keep, SimTime) {
   state_ = State::kKeep;
   const double heading_rad = here_.waypose.heading_rad, rest_m = motion::stopping_distance_m(here_.speed_mps, limits_);
-  const navigation::Vec2 at_rest =
-      here_.waypose.position_enu_m + rest_m * navigation::Vec2(std::sin(heading_rad), std::cos(heading_rad));
+  const runlines::Vec2 at_rest =
+      here_.waypose.position_enu_m + rest_m * runlines::Vec2(std::sin(heading_rad), std::cos(heading_rad));
   station_.begin(keep, at_rest);  // where it is: without turning back
   approaching_ = false;
 }
 
-void Pilot::begin(const FlyOrbit& orbit, SimTime) {
+void Pilot::begin(const FollowOrbit& orbit, SimTime) {
   state_ = State::kOrbit;
   circle_ = {orbit.centre_enu_m, orbit.radius_m, orbit.clockwise};
   to_sweep_rad_ = 2.0 * std::numbers::pi * orbit.turns;
@@ -136,7 +136,7 @@ void Pilot::await_line() {
   const auto& start = offered_->start_enu_m;
   const auto& end = offered_->end_enu_m;
   ++line_count_;
-  begin(FlyLine{{{start[0], start[1]}, {end[0], end[1]}}}, {});
+  begin(FollowLine{{{start[0], start[1]}, {end[0], end[1]}}}, {});
 }
 
 // --- lines and turns ------------------------------------------------------------------------------------------------
@@ -156,8 +156,8 @@ double Pilot::planned_radius_m() const {
 
 /// Before the line, close to its extension and pointing along it: guidance along the line does the rest.
 bool Pilot::lined_up() const {
-  const auto at = navigation::line_position(line(), here_.waypose.position_enu_m);
-  const double off_rad = frames::wrap_pi(here_.waypose.heading_rad - navigation::heading_rad(line()));
+  const auto at = runlines::line_position(line(), here_.waypose.position_enu_m);
+  const double off_rad = frames::wrap_pi(here_.waypose.heading_rad - runlines::heading_rad(line()));
   return std::abs(off_rad) < kLinedUp_rad && std::abs(at.cross_track_m) < 0.5 * limits_.turning_radius_m &&
          at.along_m < 1.0 && at.along_m > -mission_.run_in_m - 5.0 * limits_.turning_radius_m;
 }
@@ -169,20 +169,20 @@ void Pilot::head_for_line() {
     return;
   }
   state_ = State::kTurn;
-  head_for({navigation::extended(line(), mission_.run_in_m, 0.0).start_enu_m, navigation::heading_rad(line())});
+  head_for({runlines::extended(line(), mission_.run_in_m, 0.0).start_enu_m, runlines::heading_rad(line())});
 }
 
-void Pilot::head_for(const navigation::Waypose& goal) {
+void Pilot::head_for(const runlines::Waypose& goal) {
   goal_ = goal;
-  turn_ = navigation::shortest_turn(here_.waypose, goal, planned_radius_m());
+  turn_ = runlines::shortest_turn(here_.waypose, goal, planned_radius_m());
   along_turn_m_ = 0.0;
 }
 
 /// Moves on along the turn; true at its end. A vehicle that has lost the path takes a new one from where it is.
-bool Pilot::turn_flown() {
+bool Pilot::turn_done() {
   const double step_m = std::max(0.25, here_.speed_mps * kLag_s);
-  const navigation::Vec2& place = here_.waypose.position_enu_m;
-  along_turn_m_ = navigation::nearest_along_m(turn_, place, along_turn_m_, 10.0 * step_m);
+  const runlines::Vec2& place = here_.waypose.position_enu_m;
+  along_turn_m_ = runlines::nearest_along_m(turn_, place, along_turn_m_, 10.0 * step_m);
   if (along_turn_m_ > turn_.length_m() - step_m) return true;
   if ((turn_.at(along_turn_m_).position_enu_m - place).norm() > 2.0 * planned_radius_m()) {
     if (state_ == State::kTurn) {
@@ -198,28 +198,28 @@ bool Pilot::turn_flown() {
 double Pilot::switch_before_end_m() const {
   if (piece_ + 1 == pieces_.size()) return 0.0;
   const double bend_rad =
-      std::abs(frames::wrap_pi(navigation::heading_rad(pieces_[piece_ + 1]) - navigation::heading_rad(line())));
+      std::abs(frames::wrap_pi(runlines::heading_rad(pieces_[piece_ + 1]) - runlines::heading_rad(line())));
   constexpr double kSharpest_rad = 2.0;  // sharper bends are overshot: the circle would begin before the piece does
   return planned_radius_m() * std::tan(0.5 * std::min(bend_rad, kSharpest_rad));
 }
 
 double Pilot::to_go_m(double along_m) const {
-  double to_go_m = navigation::length_m(line()) - along_m;
-  for (std::size_t i = piece_ + 1; i < pieces_.size(); ++i) to_go_m += navigation::length_m(pieces_[i]);
+  double to_go_m = runlines::length_m(line()) - along_m;
+  for (std::size_t i = piece_ + 1; i < pieces_.size(); ++i) to_go_m += runlines::length_m(pieces_[i]);
   return to_go_m;
 }
 
 void Pilot::follow_line(SimTime now) {
-  const auto at = [&] { return navigation::line_position(line(), here_.waypose.position_enu_m); };
+  const auto at = [&] { return runlines::line_position(line(), here_.waypose.position_enu_m); };
   integral_s_ = guidance::next_integral_s(gains(), at().cross_track_m, integral_s_, period_s_);
   if (state_ == State::kRunIn && at().along_m >= 0.0) state_ = State::kOnLine;
   while (state_ == State::kOnLine && piece_ + 1 < pieces_.size() &&
-         at().along_m >= navigation::length_m(line()) - switch_before_end_m()) {
+         at().along_m >= runlines::length_m(line()) - switch_before_end_m()) {
     ++piece_;
     integral_s_ = 0.0;
   }
-  if (state_ == State::kOnLine && at().along_m >= navigation::length_m(line())) state_ = State::kRunOut;
-  if (state_ == State::kRunOut && at().along_m >= navigation::length_m(line()) + mission_.run_out_m) begin_step(now);
+  if (state_ == State::kOnLine && at().along_m >= runlines::length_m(line())) state_ = State::kRunOut;
+  if (state_ == State::kRunOut && at().along_m >= runlines::length_m(line()) + mission_.run_out_m) begin_step(now);
 }
 
 // --- stations -------------------------------------------------------------------------------------------------------
@@ -230,7 +230,7 @@ void Pilot::keep_place(SimTime now) {
     approaching_ = begin.has_value();
     if (begin) head_for(*begin);
   }
-  if (approaching_) approaching_ = !turn_flown();
+  if (approaching_) approaching_ = !turn_done();
   if (station_.kept(now, here_.waypose.position_enu_m, approaching_)) begin_step(now);
 }
 
@@ -240,15 +240,16 @@ bool Pilot::holds_line() const {
   return state_ == State::kRunIn || state_ == State::kOnLine || state_ == State::kRunOut || state_ == State::kAwaitLine;
 }
 
-void Pilot::look(SimTime now, const msg::Estimate& estimate) {
+void Pilot::observe(SimTime now, const msg::Estimate& estimate) {
   const auto attitude = frames::attitude_of(frames::quaternion_of(estimate.enu_from_body));
-  const navigation::Vec2 velocity(estimate.velocity_enu_mps[0], estimate.velocity_enu_mps[1]);
-  const navigation::Vec2 place(estimate.position_enu_m[0], estimate.position_enu_m[1]);
+  const runlines::Vec2 velocity(estimate.velocity_enu_mps[0], estimate.velocity_enu_mps[1]);
+  const runlines::Vec2 place(estimate.position_enu_m[0], estimate.position_enu_m[1]);
   if (state_ == State::kOrbit && std::abs(guidance::outside_m(circle_, place)) < kOnCircle * circle_.radius_m) {
     to_sweep_rad_ -= guidance::swept_rad(circle_, here_.waypose.position_enu_m, place);
   }
   if (begun_) {
-    station_.look(velocity, attitude.heading_rad, command(now).speed_mps, holds_line() || (keeps() && !approaching_));
+    station_.observe(velocity, attitude.heading_rad, command(now).speed_mps,
+                     holds_line() || (keeps() && !approaching_));
   }
   position_enu_m_ = estimate.position_enu_m;
   cosine_of_tilt_ = std::cos(attitude.roll_rad) * std::cos(attitude.pitch_rad);
@@ -257,7 +258,7 @@ void Pilot::look(SimTime now, const msg::Estimate& estimate) {
     drift_enu_mps_ = guidance::learn_drift(drift_enu_mps_, velocity, attitude.heading_rad, period_s_, drift_settle_s_);
   }
   if (depth_.steers()) height_ = depth_.order(now, here_.depth_m);
-  abort_watch_.look(now, height_.too_low);
+  abort_monitor_.observe(now, height_.too_low);
 }
 
 /// What headway shortens: off the line counts too, for a vehicle may be carried past it sideways.
@@ -270,30 +271,30 @@ std::optional<double> Pilot::way_to_go_m() const {
     default: break;
   }
   if (keeps() && approaching_)
-    return turn_.length_m() - along_turn_m_ + navigation::length_m(station_.way_up(speed_mps_));
+    return turn_.length_m() - along_turn_m_ + runlines::length_m(station_.way_up(speed_mps_));
   if (keeps() && station_.arrived()) return std::nullopt;
-  const msg::MissionState told = mission_state({});
-  return told.distance_to_go_m + std::abs(told.cross_track_m);
+  const msg::MissionState reported = mission_state({});
+  return reported.distance_to_go_m + std::abs(reported.cross_track_m);
 }
 
-void Pilot::hear(const msg::Altitude& altitude) {
+void Pilot::take_altitude(const msg::Altitude& altitude) {
   if (begun_ && altitude.valid) {
-    depth_.heard(SimTime{altitude.stamp_ns}, altitude.range_m * cosine_of_tilt_, here_.depth_m);
+    depth_.take_altitude(SimTime{altitude.stamp_ns}, altitude.range_m * cosine_of_tilt_, here_.depth_m);
   }
 }
 
 void Pilot::update(SimTime now, const msg::Estimate& estimate) {
-  look(now, estimate);
+  observe(now, estimate);
   if (!std::exchange(begun_, true)) begin_step(now);
-  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = abort_watch_.why(now, estimate);
+  if (state_ != State::kDone && state_ != State::kAbort) given_up_ = abort_monitor_.why(now, estimate);
   if (!given_up_.empty()) state_ = State::kAbort;
   const auto goal = std::tuple(state_, step_, round_, piece_);
   switch (state_) {
     case State::kTurn:
-      if (turn_flown()) state_ = State::kRunIn;
+      if (turn_done()) state_ = State::kRunIn;
       break;
     case State::kPass:
-      if (turn_flown()) begin_step(now);
+      if (turn_done()) begin_step(now);
       break;
     case State::kKeep: keep_place(now); break;
     case State::kOrbit:
@@ -303,7 +304,7 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
     default: break;
   }
   if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
-  abort_watch_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
+  abort_monitor_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
 }
 
 bool Pilot::ended() const {
@@ -316,14 +317,14 @@ double Pilot::heading_for_rad(double course_rad, double speed_mps) const {
 
 /// Heading and speed of each state.
 msg::Guidance Pilot::steer() const {
-  const navigation::Vec2& place = here_.waypose.position_enu_m;
+  const runlines::Vec2& place = here_.waypose.position_enu_m;
   msg::Guidance guidance;
   guidance.heading_grid_rad = frames::wrap_two_pi(here_.waypose.heading_rad);
   guidance.speed_mps = speed_mps_;
   switch (keeps() && approaching_ ? State::kTurn : state_) {
     case State::kTurn:
     case State::kPass: {  // steer as the path will bend when the command takes effect
-      const double course_rad = navigation::follow_heading_rad(turn_, place, along_turn_m_, gains().lookahead_m) +
+      const double course_rad = runlines::follow_heading_rad(turn_, place, along_turn_m_, gains().lookahead_m) +
                                 turn_.at(along_turn_m_ + here_.speed_mps * kLag_s).heading_rad -
                                 turn_.at(along_turn_m_).heading_rad;
       guidance.speed_mps = turn_speed_mps();
@@ -334,9 +335,9 @@ msg::Guidance Pilot::steer() const {
     case State::kOnLine:
     case State::kRunOut:
     case State::kAwaitLine: {
-      const double off_m = navigation::line_position(line(), place).cross_track_m;
+      const double off_m = runlines::line_position(line(), place).cross_track_m;
       const double course_rad =
-          navigation::heading_rad(line()) + guidance::course_offset_rad(gains(), off_m, integral_s_);
+          runlines::heading_rad(line()) + guidance::course_offset_rad(gains(), off_m, integral_s_);
       guidance.heading_grid_rad = heading_for_rad(course_rad, speed_mps_);
       break;
     }
@@ -356,7 +357,7 @@ msg::Guidance Pilot::steer() const {
       if (ended()) guidance.speed_mps = 0.0;
       break;
     case State::kDone:
-      if (!pieces_.empty()) guidance.heading_grid_rad = navigation::heading_rad(line());
+      if (!pieces_.empty()) guidance.heading_grid_rad = runlines::heading_rad(line());
       guidance.speed_mps = 0.0;
       break;
   }
@@ -372,7 +373,7 @@ msg::Guidance Pilot::command(SimTime now) const {
 }
 
 msg::MissionState Pilot::mission_state(SimTime now) const {
-  const navigation::Vec2& place = here_.waypose.position_enu_m;
+  const runlines::Vec2& place = here_.waypose.position_enu_m;
   msg::MissionState mission;
   mission.stamp_ns = now.count();
   mission.state = name_of(state_);
@@ -386,7 +387,7 @@ msg::MissionState Pilot::mission_state(SimTime now) const {
   } else if (state_ == State::kPass) {
     mission.distance_to_go_m = turn_.length_m() - along_turn_m_;
   } else if (!pieces_.empty()) {
-    const auto at = navigation::line_position(line(), place);
+    const auto at = runlines::line_position(line(), place);
     mission.cross_track_m = at.cross_track_m;
     mission.distance_to_go_m = to_go_m(at.along_m);
   }

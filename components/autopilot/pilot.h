@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "components/autopilot/abort_watch.h"
+#include "components/autopilot/abort_monitor.h"
 #include "components/autopilot/config.h"
 #include "components/autopilot/depth_keeper.h"
 #include "components/autopilot/station_keeper.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/guidance/circle.h"
-#include "kernels/guidance/line.h"
-#include "kernels/navigation/turn.h"
+#include "kernels/vehicle/guidance/circle.h"
+#include "kernels/vehicle/guidance/line.h"
+#include "kernels/vehicle/runlines/turn.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -22,7 +22,7 @@
 
 namespace ensonify {
 
-/// Flies a mission's steps in order by what navigation estimates. Each line is reached by the shortest way that the
+/// Runs a mission's steps in order by what navigation estimates. Each line is reached by the shortest way that the
 /// turning circle allows, ending at the run-in; lines are held by integral line-of-sight guidance on a course that the
 /// drift learned so far makes good.
 class Pilot {
@@ -31,72 +31,73 @@ class Pilot {
 
   Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps);
 
-  void hear(const msg::Altitude& altitude);
-  /// The line that an adaptive survey is to fly next; taken when its number is the one awaited.
+  void take_altitude(const msg::Altitude& altitude);
+  /// The line that an adaptive survey is to run next; taken when its number is the one awaited.
   void offer(const msg::NextLine& line) { offered_ = line; }
 
-  /// Looks where the vehicle is and moves on through the states; then command() and mission_state() tell the outcome.
+  /// Evaluates where the vehicle is and moves on through the states; then command() and mission_state() give the
+  /// outcome.
   void update(SimTime now, const msg::Estimate& estimate);
 
   State state() const { return state_; }
   /// Nothing is left to do: the mission is done, or given up with the vehicle at the surface.
   bool ended() const;
-  /// Why the mission has been given up; empty: it has not.
+  /// Reason that the mission has been given up; empty: it has not.
   const std::string& given_up() const { return given_up_; }
   /// Whether the goal has not come nearer for a tenth of the patience.
-  bool held_up(SimTime now) const { return abort_watch_.held_up(now); }
-  /// Whether no bottom has been heard of late that an altitude or the obstacle floor could be kept from.
-  bool deaf(SimTime now) const { return depth_.deaf(now); }
+  bool held_up(SimTime now) const { return abort_monitor_.held_up(now); }
+  /// Whether no bottom has been detected of late that an altitude or the obstacle floor could be kept from.
+  bool bottom_lost(SimTime now) const { return depth_.bottom_lost(now); }
   msg::Guidance command(SimTime now) const;
   msg::MissionState mission_state(SimTime now) const;
 
-  /// What steps asked for since the last call: settings by head, and marks.
+  /// Requests of steps since the last call: settings by head, and marks.
   std::vector<std::pair<std::string, msg::SonarSettings>> take_settings() { return std::exchange(settings_, {}); }
   std::vector<msg::Mark> take_marks() { return std::exchange(marks_, {}); }
 
  private:
   struct Place {
-    navigation::Waypose waypose;
+    runlines::Waypose waypose;
     double speed_mps = 0.0;  // over ground
     double depth_m = 0.0;
   };
 
   // --- steps
   void begin_step(SimTime now);
-  void begin(const FlyLine& line, SimTime now);
+  void begin(const FollowLine& line, SimTime now);
   void begin(const PassPlace& pass, SimTime now);
   void begin(const KeepPlace& keep, SimTime now);
-  void begin(const FlyOrbit& orbit, SimTime now);
+  void begin(const FollowOrbit& orbit, SimTime now);
   void begin(const GoAt& go, SimTime now);
   void begin(const SetSonar& sonar, SimTime now);
   void begin(const SetMark& mark, SimTime now);
   void await_line();
 
   // --- lines and turns
-  const navigation::Runline& line() const { return pieces_[piece_]; }
+  const runlines::Runline& line() const { return pieces_[piece_]; }
   double to_go_m(double along_m) const;
   bool lined_up() const;
   void head_for_line();
-  void head_for(const navigation::Waypose& goal);
-  bool turn_flown();
+  void head_for(const runlines::Waypose& goal);
+  bool turn_done();
   void follow_line(SimTime now);
   void keep_place(SimTime now);
   double switch_before_end_m() const;
 
   // --- steering
-  void look(SimTime now, const msg::Estimate& estimate);
+  void observe(SimTime now, const msg::Estimate& estimate);
   std::optional<double> way_to_go_m() const;
   guidance::LineGains gains() const;
   bool holds_line() const;
   bool keeps() const { return state_ == State::kKeep; }
-  /// How the water carries the vehicle, as far as the state has use for it.
-  const navigation::Vec2& drift() const { return keeps() ? station_.current_enu_mps() : drift_enu_mps_; }
+  /// Motion of the water about the vehicle, as far as the state needs it.
+  const runlines::Vec2& drift() const { return keeps() ? station_.current_enu_mps() : drift_enu_mps_; }
   double planned_radius_m() const;
   double turn_speed_mps() const { return speed_mps_ * turn_speed_fraction_; }
   double heading_for_rad(double course_rad, double speed_mps) const;
   msg::Guidance steer() const;
 
-  // What is to be flown.
+  // What is to be run.
   Mission mission_;
   motion::Limits limits_;
   double lookahead_radii_, turn_margin_, turn_speed_fraction_, drift_settle_s_, period_s_;
@@ -108,14 +109,14 @@ class Pilot {
   // Where the vehicle is in it.
   State state_ = State::kTurn;
   bool begun_ = false;
-  std::int64_t line_ = -1;  // number of the line flown or headed for
-  std::vector<navigation::Runline> pieces_;
+  std::int64_t line_ = -1;  // number of the line run or headed for
+  std::vector<runlines::Runline> pieces_;
   std::size_t piece_ = 0;
-  navigation::Turn turn_;
-  navigation::Waypose goal_;
+  runlines::Turn turn_;
+  runlines::Waypose goal_;
   double along_turn_m_ = 0.0;
   StationKeeper station_;
-  bool approaching_ = false;  // a station: the turn before the last way to it is flown
+  bool approaching_ = false;  // a station: the turn before the last way to it is run
   guidance::Circle circle_;
   double to_sweep_rad_ = 0.0;
   std::optional<msg::NextLine> offered_;
@@ -124,11 +125,11 @@ class Pilot {
   Place here_;
   double speed_mps_;
   double integral_s_ = 0.0;
-  navigation::Vec2 drift_enu_mps_ = navigation::Vec2::Zero();
+  runlines::Vec2 drift_enu_mps_ = runlines::Vec2::Zero();
   double cosine_of_tilt_ = 1.0;
   DepthKeeper depth_;
   guidance::HeightOrder height_;
-  AbortWatch abort_watch_;
+  AbortMonitor abort_monitor_;
   std::string given_up_;
 
   std::vector<std::pair<std::string, msg::SonarSettings>> settings_;

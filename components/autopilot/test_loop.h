@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "components/autopilot/node.h"
-#include "components/runtime/testing.h"
-#include "kernels/motion/kinematics.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "kernels/vehicle/motion/kinematics.h"
 
 /// What tests of the autopilot share: three lines, and a loop with a vehicle.
 namespace ensonify::piloted {
 
-using navigation::Vec2;
+using runlines::Vec2;
 
 inline AutopilotConfig three_lines(double spacing_m) {
   AutopilotConfig config;
@@ -22,7 +22,7 @@ inline AutopilotConfig three_lines(double spacing_m) {
   config.plan.limits = {.acceleration_mps2 = 0.5, .deceleration_mps2 = 0.5, .turning_radius_m = 10};
   config.plan.mission.speed_mps = 2.0;
   config.plan.mission.run_in_m = 15.0;
-  config.plan.mission.runlines = navigation::lawnmower({0, 0}, 0.3, 150, spacing_m, 3);
+  config.plan.mission.runlines = runlines::lawnmower({0, 0}, 0.3, 150, spacing_m, 3);
   config.plan.mission.steps = steps_of(config.plan.mission.runlines);
   return config;
 }
@@ -67,7 +67,7 @@ class Loop {
   }
 
   NodeUnderTest<AutopilotNode> autopilot;
-  std::function<double(double north_m)> bottom;  // depth, NaN: not heard; given: an altimeter is carried
+  std::function<double(double north_m)> bottom;  // depth, NaN: not received; given: an altimeter is carried
   std::optional<SimTime> uncertain_after;        // the place to the north is known within 0.5 m, and then within 3 m
   SimTime now() const { return now_; }
 

@@ -9,7 +9,7 @@
 
 namespace ensonify::clock {
 
-/// What each participant has cost in wall time, and how often the run was late because of it.
+/// Cost of each participant in wall time, and number of times the run was late by it.
 struct Account {
   std::string name;
   std::int64_t pid = 0;

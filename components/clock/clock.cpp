@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/launch_wiring.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
+#include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
 
@@ -68,7 +68,7 @@ void Clock::on_message(const bus::Router::Message& message) {
     else if (kind == "proven") on_proven(message.from, message.text);
     else if (kind == "failed") on_failed(message.from, message.text);
     else if (kind == "bye") {
-      if (const auto rank = registry_.rank_of(message.from); rank && *rank < said_bye_.size()) said_bye_[*rank] = true;
+      if (const auto rank = registry_.rank_of(message.from); rank && *rank < left_.size()) left_[*rank] = true;
     } else {
       on_request(message.from, kind, message.text);
     }
@@ -96,14 +96,14 @@ void Clock::gather() {
       log::line("clock", SimTime{0}, "refused", problem);
       all += (all.empty() ? "" : "\n") + problem;
     }
-    tell_all(protocol::encode_refused(problems));
+    send_to_all(protocol::encode_refused(problems));
     fail(kExitUserError, "", all);
     return;
   }
   conductor_ = make_conductor(registry_.graph(), registry_.declarations(), launch_);
   published_.assign(registry_.graph().topics.size(), 0);
   inputs_.resize(registry_.size());
-  said_bye_.resize(registry_.size());
+  left_.resize(registry_.size());
   for (const Graph::Edge& edge : registry_.graph().edges) {
     std::vector<std::uint32_t>& topics = inputs_[edge.to];
     const auto topic = static_cast<std::uint32_t>(edge.topic);
@@ -127,7 +127,7 @@ void Clock::on_proven(const std::string& from, const std::string& text) {
 
 void Clock::start() {
   phase_ = Phase::kRunning;
-  run_began_ = last_progress_ = health_told_ = steady_clock::now();
+  run_began_ = last_progress_ = health_reported_ = steady_clock::now();
   log::line("clock", SimTime{0}, "go",
             fmt::format("processes={} edges={} connect_s={:.4f}", registry_.size(), registry_.graph().edges.size(),
                         std::chrono::duration<double>(run_began_ - phase_began_).count()));
@@ -201,10 +201,10 @@ void Clock::on_time(WallTime now) {
     case Phase::kRunning:
       hand_out();
       if (phase_ == Phase::kRunning) watch_progress(now);
-      if (phase_ == Phase::kRunning && now - health_told_ >= kHealthEvery) tell_health(now);
+      if (phase_ == Phase::kRunning && now - health_reported_ >= kHealthEvery) report_health(now);
       return;
     case Phase::kEnding:
-      if (std::all_of(said_bye_.begin(), said_bye_.end(), [](bool bye) { return bye; }) || now >= *next_alarm()) {
+      if (std::all_of(left_.begin(), left_.end(), [](bool bye) { return bye; }) || now >= *next_alarm()) {
         phase_ = Phase::kOver;
       }
       return;
@@ -252,14 +252,14 @@ void Clock::end(int code) {
   run_ended_ = phase_began_ = steady_clock::now();
   // Those who failed, stall or never joined cannot be waited for.
   phase_ = code == 0 ? Phase::kEnding : Phase::kOver;
-  tell_all(fmt::format(R"({{"kind":"end","code":{}}})", code));
+  send_to_all(fmt::format(R"({{"kind":"end","code":{}}})", code));
   if (code == 0) {
     log::line("clock", std::min(conductor_->now(), conductor_->end()), "end",
               fmt::format("wall_s={:.3f}", std::chrono::duration<double>(run_ended_ - run_began_).count()));
   }
 }
 
-void Clock::tell_all(const std::string& text) {
+void Clock::send_to_all(const std::string& text) {
   for (const protocol::Hello& hello : registry_.hellos()) {
     if (!hello.declaration.process.empty()) router_.send(hello.declaration.process, text);
   }

@@ -39,10 +39,10 @@ class Clock {
   void start();
   void hand_out();
   void watch_progress(WallTime now);
-  void tell_health(WallTime now);
+  void report_health(WallTime now);
   void fail(int code, const std::string& culprit, const std::string& message);
   void end(int code);
-  void tell_all(const std::string& text);
+  void send_to_all(const std::string& text);
 
   std::string name_stalled() const;
   void dump_stall() const;
@@ -63,14 +63,14 @@ class Clock {
   WallTime run_began_{};
   WallTime run_ended_{};
   WallTime last_progress_{};
-  WallTime health_told_{};
-  SimTime health_told_at_{0};  // sim time reached then
+  WallTime health_reported_{};
+  SimTime health_reported_at_{0};  // sim time reached then
   std::uint64_t health_count_ = 0;
   int stall_stage_ = 0;
   std::vector<Account> accounts_;
   std::vector<std::vector<std::uint32_t>> inputs_;  // topic ids that each participant reads
   std::vector<std::uint64_t> published_;            // per topic, as of the last DONE
-  std::vector<bool> said_bye_;
+  std::vector<bool> left_;
   std::uint64_t slips_ = 0;
   SimTime slipped_{0};
   int exit_code_ = 0;

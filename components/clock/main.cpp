@@ -4,16 +4,17 @@
 #include <fstream>
 
 #include "components/clock/clock.h"
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
-#include "components/runtime/run.h"
 #include "components/runtime/tool.h"
+#include "launch/process/run.h"
 
 namespace {
 
 using namespace ensonify;
 
-/// Tells everybody where the clock is. Renamed into place, so that whoever sees the file sees all of it.
+/// Publishes to all where the clock is. Renamed into place, so that whoever sees the file sees all of it.
 void write_endpoint(const std::filesystem::path& run_dir, const std::string& endpoint) {
   const std::filesystem::path unfinished = run_dir / "clock.endpoint.new";
   std::ofstream(unfinished) << endpoint;

@@ -19,10 +19,11 @@ class Pacer {
 
   /// The cap at a wall time: kNever when free running.
   SimTime cap(WallTime now) const;
-  /// When the cap reaches `t`; nothing when it never does by itself (paused) or there is no need to wait (free).
+  /// Time at which the cap reaches `t`; nothing when it never does by itself (paused) or there is no need to wait
+  /// (free).
   std::optional<WallTime> when(SimTime t) const;
 
-  /// How late the run is at sim time `reached`, in sim time; zero when free or paused.
+  /// Lateness of the run at sim time `reached`, in sim time; zero when free or paused.
   SimTime lateness(SimTime reached, WallTime now) const;
   /// Beyond `slip_after` the origin moves so that the run is on time again; returns by how much (zero: it did not).
   SimTime slip(SimTime reached, WallTime now);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "components/runtime/launch_wiring.h"
+#include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
 
 Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)), places_(process_places(launch)) {
   for (const ProcessSpec& process : launch.processes) {
-    if (!process.observer) names_.push_back(process.name);  // observers look on; they are no part of the run
+    if (!process.observer) names_.push_back(process.name);  // observers are no part of the run
   }
   joined_.resize(names_.size());
   has_joined_.resize(names_.size());

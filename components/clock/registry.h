@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/launch_file.h"
 #include "components/runtime/protocol.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify::clock {
 
-/// Who is in the run, checked as a whole before time starts. One address to know for everybody.
+/// Participants of the run, checked as a whole before time starts. One address to know for everybody.
 class Registry {
  public:
   explicit Registry(const Launch& launch);

@@ -1,4 +1,4 @@
-// What the clock tells people: stall reports, status, registry, the report of a finished run.
+// What the clock gives people: stall reports, status, registry, the report of a finished run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/clock/clock.h"
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify::clock {
@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using std::chrono::steady_clock;
 
-/// R running, S sleeping, T stopped, Z dead...; ? when the system does not tell. Linux /proc/<pid>/stat, third field.
+/// R running, S sleeping, T stopped, Z dead...; ? when the system does not state. Linux /proc/<pid>/stat, third field.
 char process_state(std::int64_t pid) {
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -177,7 +177,7 @@ msg::ClockHealth Clock::health(WallTime now) const {
   health.state = s.state;
   health.wall_s = s.wall_s;
   health.rate = s.rate.value_or(0.0);
-  health.rate_factor = seconds(s.reached - health_told_at_) / elapsed_s(health_told_, now);
+  health.rate_factor = seconds(s.reached - health_reported_at_) / elapsed_s(health_reported_, now);
   health.lateness_s = seconds(pacer_.lateness(s.reached, now));
   health.slips = static_cast<std::int64_t>(s.slips);
   health.slip_s = seconds(s.slipped);
@@ -189,8 +189,8 @@ msg::ClockHealth Clock::health(WallTime now) const {
   return health;
 }
 
-/// Told to viewers only. Its topic has no edge: it is in no WELCOME, so no participant can read or record it.
-void Clock::tell_health(WallTime now) {
+/// Published to viewers only. Its topic has no edge: it is in no WELCOME, so no participant can read or record it.
+void Clock::report_health(WallTime now) {
   const msg::ClockHealth report = health(now);
   msg::Packet packet;
   packet.topic = kHealthTopic;
@@ -203,8 +203,8 @@ void Clock::tell_health(WallTime now) {
   packet.envelope.seq = health_count_++;
   packet.envelope.t_sim_ns = report.stamp_ns;
   router_.publish_live(packet);
-  health_told_ = now;
-  health_told_at_ = SimTime{report.stamp_ns};
+  health_reported_ = now;
+  health_reported_at_ = SimTime{report.stamp_ns};
 }
 
 void Clock::on_request(const std::string& from, const std::string& kind, const std::string& text) {

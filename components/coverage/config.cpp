@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/own_vehicle.h"
+#include "components/config/config_reader.h"
+#include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
 namespace {
@@ -14,14 +14,14 @@ constexpr double kMostCells = 32e6;
 
 }  // namespace
 
-CoverageConfig CoverageConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+CoverageConfig CoverageConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   CoverageConfig config;
   from.optional("rate_hz", config.rate_hz, 1, 10);
   from.optional("head_depth_m", config.head_depth_m, -10, 11000);
   from.optional("cost_per_day", config.cost_per_day, 0, 1e12);
   from.optional("cube_step_m", config.cube_step_m, 0.01, 100);
-  const Vehicle vehicle = own_vehicle(from, scenario, process);
-  const Mission& mission = scenario.mission;
+  const Vehicle vehicle = own_vehicle(from, world, process);
+  const Mission& mission = world.mission;
   if (!mission.adaptive) {
     from.problem("", "needs a mission that is adaptive: it says which rectangle is to be covered");
     return config;

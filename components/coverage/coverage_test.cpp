@@ -4,32 +4,32 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "components/config/config_error.h"
 #include "components/coverage/node.h"
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
 namespace {
 
 /// A rectangle of 1000 x 60 m on a plane from 10 m in the west to 40 m in the east, surveyed northwards and back.
-Scenario slope() {
-  Scenario scenario;
+World slope() {
+  World world;
   AdaptivePlan plan;
   plan.centre_enu_m = {500, 30};
   plan.length_m = 60;
   plan.width_m = 1000;
   plan.first_line_m = 15;
   plan.soundings = 4;
-  scenario.mission.adaptive = plan;
-  scenario.vehicles = {{"boat"}};
-  return scenario;
+  world.mission.adaptive = plan;
+  world.vehicles = {{"boat"}};
+  return world;
 }
 
-CoverageConfig config_of(const Scenario& scenario) {
+CoverageConfig config_of(const World& world) {
   ConfigReader from = ConfigReader::from_text("{}", "coverage.yaml");
-  return CoverageConfig::read(from, scenario, "coverage");
+  return CoverageConfig::read(from, world, "coverage");
 }
 
 double depth_m(double east_m) { return 10.0 + 0.03 * east_m; }
@@ -63,11 +63,11 @@ TEST_CASE("coverage/default.yaml lists every parameter with its default") {
 
 TEST_CASE("a mission that is not adaptive has nothing to cover") {
   ConfigReader from = ConfigReader::from_text("{}", "coverage.yaml");
-  CoverageConfig::read(from, Scenario{}, "coverage");
+  CoverageConfig::read(from, World{}, "coverage");
   CHECK_THROWS_WITH(from.finish(), Catch::Contains("needs a mission that is adaptive"));
 }
 
-TEST_CASE("line after line is laid where coverage ends, until all is covered; the report says what was saved") {
+TEST_CASE("lines are laid where coverage ends until all is covered; savings are reported") {
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_coverage_test";
   std::filesystem::create_directories(folder);
   NodeUnderTest<CoverageNode> coverage(config_of(slope()), "test", folder);
@@ -108,7 +108,7 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
   CHECK(report.find("\"holes\": 0") != std::string::npos);
   CHECK(report.find("\"lines_for_holes\": 0") != std::string::npos);
   // Pings 1 m apart, beams up to 4 x 40 m x 1 degree / cos^2 = 2.8 m: 4 soundings take two of each, but for the rows
-  // at the rectangle's ends no more than 2 x 2.8 m and the two cells that are not told.
+  // at the rectangle's ends no more than 2 x 2.8 m and the two cells that are not given.
   const auto cube = nlohmann::json::parse(report)["cube_m"];
   CHECK(cube["everywhere"].get<double>() > 2.0);
   CHECK(cube["everywhere"].get<double>() < 6.1);
@@ -129,14 +129,14 @@ TEST_CASE("line after line is laid where coverage ends, until all is covered; th
 
 TEST_CASE("an order holds when soundings, coverage and feature search all do") {
   // One sounding is enough; pings 0.5 m apart, beams up to 12 m x 1 degree / cos^2 = 0.84 m: one on every cube of 2 m
-  // less the two cells that are not told.
+  // less the two cells that are not given.
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_order_test";
   std::filesystem::create_directories(folder);
-  Scenario scenario = slope();
-  scenario.mission.adaptive->centre_enu_m = {20, 30};
-  scenario.mission.adaptive->width_m = 20;
-  scenario.mission.adaptive->soundings = 1;
-  NodeUnderTest<CoverageNode> coverage(config_of(scenario), "test", folder);
+  World world = slope();
+  world.mission.adaptive->centre_enu_m = {20, 30};
+  world.mission.adaptive->width_m = 20;
+  world.mission.adaptive->soundings = 1;
+  NodeUnderTest<CoverageNode> coverage(config_of(world), "test", folder);
   SimTime t{0};
   const auto report = [&](double from_m, double to_m) {
     for (double north_m = from_m; north_m < to_m; north_m += 0.5, t += 100_ms) {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {
@@ -166,7 +166,7 @@ nlohmann::ordered_json CoverageNode::uncertainty_report() const {
 }
 
 /// Whether the survey holds what an order asks for, and each part of it: soundings certain enough, every cell covered,
-/// every cube found that the order asks for at its depth. A survey whose soundings tell no uncertainty does not.
+/// every cube found that the order asks for at its depth. A survey whose soundings give no uncertainty does not.
 nlohmann::ordered_json CoverageNode::order_report(const survey::SurveyOrder& order, std::size_t certain,
                                                   double shallowest_m) const {
   const auto cube_m = [&](double across_m, double along_m) {

@@ -46,10 +46,10 @@ class CoverageNode {
   survey::Coverage covered_;
   survey::CubeSearch cubes_;
   double across_m_;         // of the last line
-  std::int64_t lines_ = 0;  // flown
-  int hole_lines_ = 0;      // of them, flown for holes
+  std::int64_t lines_ = 0;  // run
+  int hole_lines_ = 0;      // of them, run for holes
   bool filling_ = false;
-  std::vector<float> tvu_m_, thu_m_;                    // of accepted soundings, where they are told
+  std::vector<float> tvu_m_, thu_m_;                    // of accepted soundings, where they are given
   std::size_t in_special_order_ = 0, in_order_1a_ = 0;  // of them
   std::optional<std::int64_t> awaited_;                 // the line after which the pilot waits
   std::optional<std::int64_t> first_ns_, last_ns_;

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/ranged_pulse.h"
-#include "components/runtime/head/tone_shape.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/ranged_pulse.h"
+#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kMostSamples = 600'000;  // 2.4 MB of ping
 
 }  // namespace
 
-EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+EchosounderConfig EchosounderConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   EchosounderConfig c;
   from.optional("frequency_hz", c.frequency_hz, 20e3, 1e6);
   from.optional_choice("face", c.face, {{"circular", Face::kCircular}, {"square", Face::kSquare}});
@@ -28,9 +28,9 @@ EchosounderConfig EchosounderConfig::read(ConfigReader& from, const Scenario& sc
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   from.optional("least_range_m", c.least_range_m, kLeastColumn_m, 2000);
-  read_head(from, scenario, process, kFastest_hz, c);
+  read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
-  const double samples = c.listening_s(c.start()) / c.sample_period_s();
+  const double samples = c.reception_s(c.start()) / c.sample_period_s();
   if (samples > kMostSamples) {
     from.problem("range_m", "makes " + std::to_string(std::llround(samples)) + " samples; at most " +
                                 std::to_string(kMostSamples) + " are allowed: shorten it or lower samples_per_pulse");

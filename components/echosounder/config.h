@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "components/runtime/head/head_config.h"
+#include "components/sonar/head_config.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// A single-beam echosounder: one piston that looks along the head's z axis, sends a tone and listens.
+/// A single-beam echosounder: one piston that points along the head's z axis, sends a tone and receives.
 struct EchosounderConfig : HeadConfig {
   enum class Face { kCircular, kSquare };
 
@@ -28,7 +28,7 @@ struct EchosounderConfig : HeadConfig {
     gain_spreading_db = 20.0;
     gain_absorption_dbpm = 0.05;
   }
-  static EchosounderConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static EchosounderConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const EchosounderConfig& other) const;
 
@@ -36,7 +36,7 @@ struct EchosounderConfig : HeadConfig {
   HeadSettings start() const;
   SettingLimits limits() const;
   double sample_period_s() const { return pulse_length_s / samples_per_pulse; }
-  double listening_s(const HeadSettings& settings) const {
+  double reception_s(const HeadSettings& settings) const {
     return 2.0 * settings.range_m / sound_speed_mps + settings.pulse_length_s;
   }
 

@@ -4,17 +4,17 @@
 #include <numbers>
 
 #include "components/echosounder/node.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
-#include "components/runtime/head/test_mesh.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
-#include "components/runtime/testing.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/test_config.h"
+#include "components/sonar/test_mesh.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -55,8 +55,8 @@ struct Survey {
     sounder.give("tile", tile);
     bottom = sounder.step_until<msg::BottomTrack>("bottom", 450_ms);
     pings = sounder.step_until<msg::Ping>("ping", 450_ms);
-    const auto told = sounder.step_until<msg::Health>("health", 1500_ms);
-    if (!told.empty()) health = told.back().state + ": " + told.back().message;
+    const auto reported = sounder.step_until<msg::Health>("health", 1500_ms);
+    if (!reported.empty()) health = reported.back().state + ": " + reported.back().message;
   }
 };
 
@@ -70,7 +70,7 @@ TEST_CASE("echosounder/default.yaml lists every parameter with its default") {
   CHECK(default_yaml_fault<EchosounderConfig>("echosounder", world_with("echosounder")) == "");
 }
 
-TEST_CASE("the depth below the piston is found to a sample, also when the boat rolls within the beam") {
+TEST_CASE("depth below the piston is right to a sample, also with roll within the beam") {
   const EchosounderConfig config = over_lambert();
   const double sample_m = 750.0 * config.sample_period_s();
   for (const double roll_deg : {0.0, 3.0}) {
@@ -99,42 +99,42 @@ TEST_CASE("a mesh above the seabed is the bottom while the head holds it") {
     sounder.give("pose", pose);
   }
   sounder.give("tile", flat());
-  const auto loudest_m = [&](SimTime until) {  // of the newest ping: the track does not follow such a leap at once
+  const auto strongest_m = [&](SimTime until) {  // of the newest ping: the track does not follow such a leap at once
     const auto pings = sounder.step_until<msg::Ping>("ping", until);
     REQUIRE(!pings.empty());
     const auto samples = pings.back().amplitude_upa.flat();
-    const auto loudest = std::max_element(samples.begin(), samples.end()) - samples.begin();
-    return 750.0 * config.sample_period_s() * static_cast<double>(loudest);
+    const auto strongest = std::max_element(samples.begin(), samples.end()) - samples.begin();
+    return 750.0 * config.sample_period_s() * static_cast<double>(strongest);
   };
   // Within 4 degrees the bottom is 0.05 m farther than straight below; the pulse is 0.075 m long.
   const double margin_m = 0.05 + 750.0 * config.pulse_length_s;
-  CHECK(loudest_m(450_ms) == Approx(20.0).margin(margin_m));
+  CHECK(strongest_m(450_ms) == Approx(20.0).margin(margin_m));
   sounder.give_at("mesh", 460_ms, table_of(60.0, -12.0));
-  CHECK(loudest_m(950_ms) == Approx(10.0).margin(margin_m));
+  CHECK(strongest_m(950_ms) == Approx(10.0).margin(margin_m));
   sounder.give_at("mesh_release", 960_ms, msg::MeshRelease{0});
-  CHECK(loudest_m(1450_ms) == Approx(20.0).margin(margin_m));
+  CHECK(strongest_m(1450_ms) == Approx(20.0).margin(margin_m));
 }
 
-TEST_CASE("what tiles tell of their facets is counted as if the scenario said it") {
+TEST_CASE("facet slopes stated by tiles count as those of the scenario") {
   const seabed::SedimentParameters silt = *seabed::sediment_of("medium silt");
-  const auto heard = [&](const seabed::Scatterer& sediment, const std::vector<double>& told) {
+  const auto received = [&](const seabed::Scatterer& sediment, const std::vector<double>& reported) {
     EchosounderConfig config = over_lambert();
     config.world.seabed.sediments = {{0, sediment}};
     msg::Tile tile = flat();
-    tile.facet_mean_square_slope = msg::Array<double>::of(told);
+    tile.facet_mean_square_slope = msg::Array<double>::of(reported);
     return Survey(config, tile).pings;
   };
   constexpr double kSquare = 0.002;
-  const auto told = heard(silt, {kSquare}), said = heard(seabed::MeshedSediment{silt, kSquare}, {}),
-             plane = heard(silt, {});
-  REQUIRE(told.size() == 4);
-  for (std::size_t i = 0; i < told.size(); ++i) {  // the first ping too
-    CHECK(told[i].amplitude_upa == said[i].amplitude_upa);
-    CHECK_FALSE(told[i].amplitude_upa == plane[i].amplitude_upa);
+  const auto reported = received(silt, {kSquare}), stated = received(seabed::MeshedSediment{silt, kSquare}, {}),
+             plane = received(silt, {});
+  REQUIRE(reported.size() == 4);
+  for (std::size_t i = 0; i < reported.size(); ++i) {  // the first ping too
+    CHECK(reported[i].amplitude_upa == stated[i].amplitude_upa);
+    CHECK_FALSE(reported[i].amplitude_upa == plane[i].amplitude_upa);
   }
 }
 
-TEST_CASE("the energy of the bottom echo is that of the area integral, for both faces, of a tapered tone too") {
+TEST_CASE("bottom echo energy equals the area integral, of both faces and tapered tones") {
   // Sum of p^2 dt = SL tau R^-4 sigma |b|^2 dA over the beam, on a flat seabed dA = H^2 dOmega / cos^3 of the angle
   // from the vertical. The rays' strata leave some 0.1 dB.
   using Face = EchosounderConfig::Face;
@@ -174,19 +174,19 @@ TEST_CASE("the energy of the bottom echo is that of the area integral, for both 
   }
 }
 
-TEST_CASE("the surface overhead is heard through the back of the piston only") {
+TEST_CASE("the surface overhead is received through the back of the piston only") {
   // EL = SL - 20 log L - alpha L - losses [Lurton2010]: up 2 m from a calm surface and down again, 40 dB less each way.
   EchosounderConfig config = over_lambert();
   config.effects.noise = false;
   const Survey survey(config, flat());
   const auto& amplitude = survey.pings.at(0).amplitude_upa;
   const auto last = static_cast<std::size_t>(2.0 * 10.0 / 1500.0 / config.sample_period_s());  // 10 m, above the bed
-  const float loudest = *std::max_element(&amplitude[0], &amplitude[last]);
-  CHECK(20.0 * std::log10(static_cast<double>(loudest)) ==
+  const float strongest = *std::max_element(&amplitude[0], &amplitude[last]);
+  CHECK(20.0 * std::log10(static_cast<double>(strongest)) ==
         Approx(215.0 - 20.0 * std::log10(4.0) - 0.05 * 4.0 - 80.0).margin(0.1));  // a steady tone's level is exact
 }
 
-TEST_CASE("the surface overhead is not the bottom, however long the pulse and however many its samples") {
+TEST_CASE("the surface overhead is never taken for the bottom, at any pulse length") {
   // Up 2 m and down again it stands 75 dB over the noise, for one pulse: the bottom, 20 m below, answers for longer.
   for (const double pulse_s : {100e-6, 1e-3}) {
     for (const double samples : {2.0, 20.0}) {
@@ -218,9 +218,9 @@ TEST_CASE("a pulse that a command makes longer is judged by its own length") {
   }
   HeadSettings settings = config.start();
   settings.pulse_length_s = 2e-3;  // 40 samples, 1.5 m
-  const auto heard = head.listen({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene());
-  CHECK(heard.bottom.valid);
-  CHECK(heard.bottom.altitude_m == Approx(20.0).margin(1.1 * 750.0 * config.sample_period_s()));
+  const auto received = head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene());
+  CHECK(received.bottom.valid);
+  CHECK(received.bottom.altitude_m == Approx(20.0).margin(1.1 * 750.0 * config.sample_period_s()));
 }
 
 TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {
@@ -237,7 +237,7 @@ TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {
   }
 }
 
-TEST_CASE("a range that makes more samples than a ping holds is refused with what is allowed") {
+TEST_CASE("a range of more samples than a ping holds is refused with what is allowed") {
   CHECK(problems_of<EchosounderConfig>("pulse_length_s: 1.0e-5\nsamples_per_pulse: 20\nrange_m: 300\n") ==
         "head.yaml:3:10: range_m: makes 800020 samples; at most 600000 are allowed: shorten it or lower "
         "samples_per_pulse");

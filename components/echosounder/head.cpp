@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {
@@ -85,31 +85,31 @@ EchosounderHead::EchosounderHead(const EchosounderConfig& config)
       echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)),
       bottom_(bottom_of(config)) {}
 
-EchosounderHead::Heard EchosounderHead::listen(const Shot& shot, const HeadSettings& settings,
-                                               const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                                          const frames::PoseHistory& vehicle, trace::Scene& seabed) {
   Emission emission;
-  emission.shot = shot;
+  emission.event = event;
   emission.source_level_db = settings.source_level_db;
-  emission.listening_s = config_.listening_s(settings);
+  emission.reception_s = config_.reception_s(settings);
   emission.sample_period_s = config_.sample_period_s();
-  head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
+  head_poses(vehicle, config_.mounting.actual, event.transmit, from_seconds(emission.reception_s), poses_);
   const echo::Pulse pulse = echo::tapered_pulse(settings.pulse_length_s, config_.tapered_fraction);
-  echo::Image& image = echoes_.listen(emission, pulse, poses_, seabed);
+  echo::Image& image = echoes_.receive_echoes(emission, pulse, poses_, seabed);
 
-  Heard heard;
+  Received received;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  heard.bottom = bottom_.find(image, sampling, pulse, config_.sound_speed_mps);
-  heard.bottom.stamp_ns = heard.ping.stamp_ns = shot.transmit.count();
-  heard.bottom.ping = heard.ping.ping = shot.ping;
-  heard.ping.kind = "echosounder";
-  heard.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
-  fill(heard.ping.applied, settings);
-  heard.ping.applied.frequency_hz = config_.frequency_hz;
-  fill_shape(false, config_.tapered_fraction, heard.ping.applied);
-  heard.ping.applied.transmit_beamwidth_rad = heard.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
-  heard.ping.applied.sound_speed_mps = config_.sound_speed_mps;
-  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);
-  return heard;
+  received.bottom = bottom_.find(image, sampling, pulse, config_.sound_speed_mps);
+  received.bottom.stamp_ns = received.ping.stamp_ns = event.transmit.count();
+  received.bottom.ping = received.ping.ping = event.ping;
+  received.ping.kind = "echosounder";
+  received.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
+  fill(received.ping.applied, settings);
+  received.ping.applied.frequency_hz = config_.frequency_hz;
+  fill_shape(false, config_.tapered_fraction, received.ping.applied);
+  received.ping.applied.transmit_beamwidth_rad = received.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
+  received.ping.applied.sound_speed_mps = config_.sound_speed_mps;
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, received.ping);
+  return received;
 }
 
 }  // namespace ensonify

@@ -3,27 +3,27 @@
 #include <vector>
 
 #include "components/echosounder/config.h"
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/bottom_finder.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/bottom_finder.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
 
-/// What the piston hears of a ping, and where the instrument finds the bottom in it. The acoustics use the true motion,
-/// mounting and water; the bottom only what was heard.
+/// Echoes of a ping at the piston, and the bottom that the instrument finds in them. The acoustics use the true motion,
+/// mounting and water; the bottom only what was received.
 class EchosounderHead {
  public:
   explicit EchosounderHead(const EchosounderConfig& config);
 
-  struct Heard {
+  struct Received {
     msg::Ping ping;  // without a track
     msg::BottomTrack bottom;
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
-  Heard listen(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& vehicle,
-               trace::Scene& seabed);
+  Received receive_echoes(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& vehicle,
+                          trace::Scene& seabed);
 
-  /// How many rays of the last ping met the seabed within its range.
+  /// Number of rays of the last ping that hit the seabed within its range.
   int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
 
  private:

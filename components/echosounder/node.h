@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/echosounder/head.h"
-#include "components/runtime/head/single_channel.h"
+#include "components/sonar/single_channel.h"
 
 namespace ensonify {
 

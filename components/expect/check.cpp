@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 
 namespace ensonify::expect {
 namespace {
@@ -106,7 +106,7 @@ class MeanRate : public OneTopic {
   Verdict judge(SimTime end) override {
     if (!matcher_.seen()) return failed(end, matcher_.silence());
     const double span_s = seconds(end - first_), expected = span_s * e_.hz;
-    if (expected < 2.0) return failed(end, fmt::format("{} s are too short to tell a rate of {} Hz", span_s, e_.hz));
+    if (expected < 2.0) return failed(end, fmt::format("{} s are too short for a rate of {} Hz", span_s, e_.hz));
     const double hz = static_cast<double>(count_) / span_s;
     if (std::abs(static_cast<double>(count_) - expected) <= e_.tolerance * expected + 1.0) {
       return passed(end, fmt::format("{:.4g} Hz", hz));

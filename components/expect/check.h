@@ -11,7 +11,7 @@
 
 namespace ensonify::expect {
 
-/// A message as checks look at it. Its content is decoded when somebody asks, once.
+/// A message as checks examine it. Its content is decoded when somebody asks, once.
 class Observation {
  public:
   explicit Observation(const msg::Packet& packet) : packet_(packet) {}
@@ -30,7 +30,7 @@ class Observation {
   mutable std::optional<msg::Value> value_;
 };
 
-/// What became of an expectation. `t` is when it failed, or when it could no longer fail.
+/// Outcome of an expectation. `t` is when it failed, or when it could no longer fail.
 struct Verdict {
   bool ok = false;
   SimTime t{0};
@@ -46,9 +46,9 @@ class Check {
   /// The run has ended.
   virtual Verdict close(SimTime end) = 0;
 
-  /// What it watches; patterns are allowed.
+  /// Topics that it watches; patterns are allowed.
   virtual std::vector<std::string> topics() const = 0;
-  /// Fields that it looks for: (topic, path, place in the user's file).
+  /// Fields that it searches for: (topic, path, place in the user's file).
   struct Field {
     std::string topic, path;
     ConfigPlace place;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scalars.h"
+#include "components/config/config_reader.h"
+#include "components/config/scalars.h"
 
 namespace ensonify::expect {
 namespace {

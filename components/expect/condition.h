@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "components/config/config_error.h"
 #include "components/expect/field.h"
-#include "components/runtime/config/config_error.h"
 
 namespace ensonify {
 class ConfigReader;

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 namespace ensonify {
 namespace {
@@ -125,7 +125,7 @@ std::optional<Expectation> read_expectation(ConfigReader& from) {
 
 std::string Messages::text() const { return where ? topic + " with " + where->text() : topic; }
 
-ExpectConfig ExpectConfig::read(ConfigReader& from, const Scenario&, const std::string&) {
+ExpectConfig ExpectConfig::read(ConfigReader& from) {
   ExpectConfig config;
   std::map<std::string, int> names;
   auto items = from.list("expect");

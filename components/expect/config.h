@@ -9,7 +9,6 @@
 namespace ensonify {
 
 class ConfigReader;
-struct Scenario;
 
 /// Messages that an expectation is about.
 struct Messages {
@@ -43,7 +42,7 @@ struct Expectation {
 struct ExpectConfig {
   std::vector<Expectation> expectations;
 
-  static ExpectConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static ExpectConfig read(ConfigReader& from);
 };
 
 }  // namespace ensonify

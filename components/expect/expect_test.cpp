@@ -8,14 +8,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "components/config/config_reader.h"
+#include "components/errors/exit_error.h"
 #include "components/expect/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/writer.h"
-#include "components/runtime/testing.h"
+#include "components/record/writer.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
+#include "scenarios/world/world.h"
 
 using namespace ensonify;
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ namespace {
 
 ExpectConfig config_of(const std::string& list) {
   auto from = ConfigReader::from_text("expect:\n" + list, "run.yaml");
-  const auto config = ExpectConfig::read(from, Scenario{}, "expect");
+  const auto config = ExpectConfig::read(from, World{}, "expect");
   from.finish();
   return config;
 }
@@ -130,7 +130,7 @@ TEST_CASE("rate counts silence at the end") {
   check_fails("rate: {topic: bow/soundings, hz: 2, tolerance: 0.1}", 10,
               "10 messages in 10.000 s are 1 Hz; 2 Hz within 10 % were expected");
   check_fails("rate: {topic: auv/pose, hz: 2}", 10, "there was no message on auv/pose");
-  check_fails("rate: {topic: bow/soundings, hz: 0.01}", 10, "10 s are too short to tell a rate of 0.01 Hz");
+  check_fails("rate: {topic: bow/soundings, hz: 0.01}", 10, "10 s are too short for a rate of 0.01 Hz");
 }
 
 TEST_CASE("bounds on fields, array elements and reductions") {
@@ -237,7 +237,7 @@ TEST_CASE("same_as compares time, number and bytes with a record") {
   CHECK(exit_code == 6);
 }
 
-TEST_CASE("a misspelt field is told when the wiring is known, with its place") {
+TEST_CASE("a misspelt field is reported when the wiring is known, with its place") {
   NodeUnderTest<ExpectNode> node(
       config_of("- bounds: {topic: auv/pose, field: positon_enu_m.2, max: 0}\n"
                 "- never: {topic: auv/pose, where: {field: position_enu_m.3, above: 0}}\n"
@@ -251,7 +251,7 @@ TEST_CASE("a misspelt field is told when the wiring is known, with its place") {
       "nonzero, size (pose/1)");
 }
 
-TEST_CASE("mistakes in the list are told with their places") {
+TEST_CASE("mistakes in the list are reported with their places") {
   CHECK(problem("- cuont: {topic: a/b}\n") ==
         "run.yaml:2:3: expect[0]: says nothing; give one of count, rate, bounds, eventually, never, order, no_gap, "
         "same_as, exit\n"
@@ -268,7 +268,7 @@ TEST_CASE("mistakes in the list are told with their places") {
 
 TEST_CASE("expect/default.yaml shows every kind but the one that needs a file") {
   auto from = ConfigReader::from_file(std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/expect/default.yaml");
-  const auto config = ExpectConfig::read(from, Scenario{}, "expect");
+  const auto config = ExpectConfig::read(from, World{}, "expect");
   from.finish();
   CHECK(config.expectations.size() == 7);
   CHECK(config.expectations[0].name == "most pings have most of their beams");

@@ -8,7 +8,8 @@
 #include <cstring>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
+#include "components/errors/nearest_name.h"
 
 namespace ensonify::expect {
 namespace {

@@ -19,7 +19,7 @@ using Scalar = std::variant<double, std::string>;
 /// min, max and mean.
 std::optional<Scalar> value_at(const msg::Value& message, const std::string& path);
 
-/// Why no message of this type can have a single value at the path; "" if one can.
+/// Reason that no message of this type has a single value at the path; "" if one can.
 std::string path_fault(const msg::TypeInfo& type, const std::string& path);
 
 /// As people read it: 3.5, "done".

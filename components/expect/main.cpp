@@ -1,4 +1,4 @@
 #include "components/expect/node.h"
-#include "components/runtime/run.h"
+#include "launch/process/run.h"
 
 int main(int argc, char** argv) { return ensonify::run<ensonify::ExpectNode>(argc, argv); }

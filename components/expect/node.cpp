@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {
@@ -31,12 +31,12 @@ ExpectNode::ExpectNode(const Config& config, Ports& ports) : ports_(ports), even
   });
 }
 
-/// The wiring is known now, so a misspelt field can be told before it passes for one that never appeared.
+/// The wiring is known now, so a misspelt field can be reported before it passes for one that never appeared.
 void ExpectNode::check_fields() const {
   std::vector<ConfigProblem> problems;
   for (const Feed& feed : ports_.feeds()) {
     const msg::TypeInfo* type = msg::find_type(feed.type);
-    if (!type) continue;  // of a foreign program: its messages will tell
+    if (!type) continue;  // of a foreign program: its messages will show
     for (const Watch& watch : watches_) {
       for (const auto& field : watch.check->fields()) {
         if (field.topic != feed.topic) continue;

@@ -20,7 +20,7 @@ class ExpectNode {
 
   SimTime step(SimTime now);
   void finish_run();
-  /// 0 all met; 1 one failed; 6 only comparisons with records failed.
+  /// 0 all held; 1 one failed; 6 only comparisons with records failed.
   int exit_code() const { return exit_code_; }
 
  private:

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "components/expect/check.h"
-#include "components/runtime/record/reader.h"
+#include "components/record/reader.h"
 
 namespace ensonify::expect {
 namespace {
@@ -88,7 +88,7 @@ class SameAs : public Check {
 
   void fail(SimTime t, std::string message) { failed_ = Verdict{false, t, std::move(message)}; }
 
-  /// The next message of a topic, read on until there is one; messages of other topics met on the way wait.
+  /// The next message of a topic, read on until there is one; messages of other topics on the way wait.
   const Recorded* next_of(const std::string& topic) {
     auto& waiting = topics_.at(topic).waiting;
     record::RecordedMessage message;

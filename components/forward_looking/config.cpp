@@ -1,7 +1,7 @@
 #include "components/forward_looking/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/line_shading.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/line_shading.h"
 
 namespace ensonify {
 namespace {
@@ -41,13 +41,12 @@ void read_ranges(ConfigReader& from, ForwardLookingConfig& c) {
 
 }  // namespace
 
-ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const Scenario& scenario,
-                                                const std::string& process) {
+ForwardLookingConfig ForwardLookingConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   ForwardLookingConfig c;
   read_faces(from, c);
   read_transmission(from, c);
   read_ranges(from, c);
-  read_head(from, scenario, process, kFastest_hz, c);
+  read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
   return c;
 }

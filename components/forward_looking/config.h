@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "components/runtime/head/head_config.h"
-#include "components/runtime/head/ranged_pulse.h"
-#include "kernels/array/shading.h"
+#include "components/sonar/head_config.h"
+#include "components/sonar/ranged_pulse.h"
+#include "kernels/acoustics/array/shading.h"
 
 namespace ensonify {
 
@@ -31,7 +31,7 @@ struct ForwardLookingConfig : HeadConfig {
     gain_absorption_dbpm = 0.2;
     quality = 0.25;
   }
-  static ForwardLookingConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static ForwardLookingConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const ForwardLookingConfig& other) const;
 

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
+#include "components/sonar/test_config.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 

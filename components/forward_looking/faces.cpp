@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 
 namespace ensonify {
 namespace {

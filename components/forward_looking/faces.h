@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 
 #include "components/forward_looking/config.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/pattern_table.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 
-/// How the faces of a forward-looking head weigh directions (unit vectors, head frame): what is not the receive
+/// Directivity of the faces of a forward-looking head (unit vectors, head frame): what is not the receive
 /// array's beams.
 ///
 /// In elevation both faces are uniform lines across the tilted axis. In azimuth the transmission falls as a power of

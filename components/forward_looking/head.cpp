@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/patch.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/beam_layout.h"
-#include "kernels/array/line.h"
-#include "kernels/array/near_field.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/patch.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/beam_layout.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/near_field.h"
 
 namespace ensonify {
 namespace {
@@ -36,7 +36,7 @@ double wavelength_m(const ForwardLookingConfig& config) {
   return true_profile(config.world).speed_mps(config.world.mission.depth_m) / config.frequency_hz;
 }
 
-/// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams hear.
+/// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams receive.
 trace::TransmitVolume volume_of(const ForwardLookingConfig& config) {
   const double tall = array::length_in_waves_for(std::min(config.transmit_vertical_rad, config.receive_vertical_rad));
   const double axis = std::sin(config.tilt_rad), half = 0.5 * config.aperture_rad;
@@ -73,8 +73,8 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
     volume_directions_ = echo::directions_of_cells(
         receiver_,
         [this](const Eigen::Vector3f& direction) {
-          const double heard = static_cast<double>(faces_.element_amplitude(direction));
-          return faces_.transmitted_power(direction) * heard * heard;
+          const double received = static_cast<double>(faces_.element_amplitude(direction));
+          return faces_.transmitted_power(direction) * received * received;
         },
         kVolumeStep_rad);
   }
@@ -86,33 +86,34 @@ double ForwardLookingHead::near_field_m() const {
 
 void ForwardLookingHead::prepare(const HeadSettings& settings) {
   const RangedPulse ranged = pulse_for(settings);
-  if (listening_ && listening_->ranged == ranged) return;
+  if (design_ && design_->ranged == ranged) return;
   const echo::Pulse pulse = echo_pulse(config_.pulse, ranged);
   const echo::SampledPulse sampled(pulse, ranged.sampling.period_s);
   const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
-  listening_.emplace(
-      Listening{ranged, pulse, sampled, sampled.squared(),
-                echo::Scatterers(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
-                trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
-                                       {config_.world.seed, stream_of(config_, "rays")})});
+  design_.emplace(
+      PingDesign{ranged, pulse, sampled, sampled.squared(),
+                 echo::Scatterers(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                 trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
+                                        {config_.world.seed, stream_of(config_, "rays")})});
 }
 
-msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                                     const frames::PoseHistory& truth, trace::Scene& seabed) {
+msg::Ping ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                             double known_sound_speed_mps, const frames::PoseHistory& truth,
+                                             trace::Scene& seabed) {
   prepare(settings);
-  const RangedPulse& ranged = listening_->ranged;
-  head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
-  arrivals_.move(poses_, seconds(shot.transmit));
-  look(seabed);
+  const RangedPulse& ranged = design_->ranged;
+  head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
+  arrivals_.move(poses_, seconds(event.transmit));
+  insonify(seabed);
   point_beams(known_sound_speed_mps);
-  arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
-  const auto& arrivals = arrivals_.add_interference(shot.foreign, listening_->pulse);
-  form_beams(arrivals, background(shot, settings.source_level_db));
-  sight_ = arrivals_.sight(settings.range_m, seabed);
+  arrivals_.receive_echoes(settings.source_level_db, design_->scatterers, rays_, hits_);
+  const auto& arrivals = arrivals_.add_interference(event.interfering, design_->pulse);
+  form_beams(arrivals, background(event, settings.source_level_db));
+  trace_summary_ = arrivals_.trace_summary(settings.range_m, seabed);
 
   msg::Ping ping;
-  ping.stamp_ns = shot.transmit.count();
-  ping.ping = shot.ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
   ping.kind = "forward_looking";
   ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, images_[0], ping);
@@ -127,11 +128,11 @@ msg::Ping ForwardLookingHead::listen(const Shot& shot, const HeadSettings& setti
   return ping;
 }
 
-void ForwardLookingHead::look(trace::Scene& seabed) {
-  const auto& sampling = listening_->ranged.sampling;
+void ForwardLookingHead::insonify(trace::Scene& seabed) {
+  const auto& sampling = design_->ranged.sampling;
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * sampling.count * sampling.period_s;
-  arrivals_.look(seabed, listening_->rays, reach_m, rays_, hits_);
+  arrivals_.insonify(seabed, design_->rays, reach_m, rays_, hits_);
 }
 
 /// Delays are made for the sound speed that the head knows; the true one turns its beams.
@@ -143,10 +144,10 @@ void ForwardLookingHead::point_beams(double known_sound_speed_mps) {
   }
 }
 
-echo::Background ForwardLookingHead::background(const Shot& shot, double source_level_db) {
-  const echo::Pulse& pulse = listening_->pulse;
+echo::Background ForwardLookingHead::background(const PingEvent& event, double source_level_db) {
+  const echo::Pulse& pulse = design_->pulse;
   echo::Background background;
-  background.ping = static_cast<std::uint64_t>(shot.ping);
+  background.ping = static_cast<std::uint64_t>(event.ping);
   if (config_.effects.noise) {
     background.isotropic_upa2 =
         power_of(arrivals_.environment().noise_level_db()) * pulse.noise_bandwidth_hz * noise_share_;
@@ -156,7 +157,7 @@ echo::Background ForwardLookingHead::background(const Shot& shot, double source_
   }
   if (arrivals_.water_scatters()) {
     background.volume_upa2 =
-        arrivals_.reverberation_upa2(source_level_db, volume_directions_, pulse, listening_->ranged.sampling);
+        arrivals_.reverberation_upa2(source_level_db, volume_directions_, pulse, design_->ranged.sampling);
     background.volume = &volume_;
   }
   return background;
@@ -166,15 +167,15 @@ echo::Background ForwardLookingHead::background(const Shot& shot, double source_
 void ForwardLookingHead::form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background) {
   arrivals_.gains([this](const echo::Arrival& arrival) { return faces_.element_amplitude(arrival.direction_head); },
                   gain_);
-  const echo::Sampling& sampling = listening_->ranged.sampling;
+  const echo::Sampling& sampling = design_->ranged.sampling;
   const std::vector<std::vector<float>> weights{weights_};
   if (config_.effects.speckle) {
-    receiver_.form({arrivals, gain_, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
+    receiver_.form({arrivals, gain_, design_->sampled, sampling, background}, sin_beams_, weights, images_);
     return;
   }
   const std::vector<std::vector<float>> power{echo::power_weights(weights_)};
-  power_receiver_->form({arrivals, gain_, listening_->squared, sampling, {}}, sin_beams_, power, mean_square_);
-  receiver_.form({{}, {}, listening_->sampled, sampling, background}, sin_beams_, weights, images_);
+  power_receiver_->form({arrivals, gain_, design_->squared, sampling, {}}, sin_beams_, power, mean_square_);
+  receiver_.form({{}, {}, design_->sampled, sampling, background}, sin_beams_, weights, images_);
   const auto& mean_square = mean_square_[0].envelope_upa;
   auto& envelope = images_[0].envelope_upa;
   for (std::size_t i = 0; i < envelope.size(); ++i) envelope[i] += std::sqrt(std::max(0.0F, mean_square[i].real()));

@@ -4,19 +4,19 @@
 #include <vector>
 
 #include "components/forward_looking/faces.h"
-#include "components/runtime/head/arrivals.h"
-#include "components/runtime/head/shot.h"
-#include "kernels/echo/line_receiver.h"
-#include "kernels/echo/scatterer.h"
-#include "kernels/echo/volume.h"
-#include "kernels/random/stream.h"
-#include "kernels/trace/ray_distribution.h"
+#include "components/sonar/arrivals.h"
+#include "components/sonar/ping_event.h"
+#include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/volume.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/base/random/stream.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
 
-/// The acoustics of a forward-looking head: what its beams hear. Uses the true motion, the actual mounting and the true
-/// water, as the sea does; steering and range use the sound speed that the head knows.
+/// The acoustics of a forward-looking head: what its beams receive. Uses the true motion, the actual mounting and the
+/// true water, as the sea does; steering and range use the sound speed that the head knows.
 class ForwardLookingHead {
  public:
   explicit ForwardLookingHead(const ForwardLookingConfig& config);
@@ -24,12 +24,12 @@ class ForwardLookingHead {
   ForwardLookingHead& operator=(const ForwardLookingHead&) = delete;
 
   /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
-  /// listens, and the tiles. The track is left to the caller.
-  msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                   const frames::PoseHistory& truth, trace::Scene& seabed);
+  /// receives, and the tiles. The track is left to the caller.
+  msg::Ping receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
+                           const frames::PoseHistory& truth, trace::Scene& seabed);
 
-  /// What the last ping met.
-  const Sight& sight() const { return sight_; }
+  /// Summary of the last ping's hits.
+  const TraceSummary& trace_summary() const { return trace_summary_; }
 
   RangedPulse pulse_for(const HeadSettings& settings) const {
     return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
@@ -37,12 +37,12 @@ class ForwardLookingHead {
   std::size_t max_ping_bytes() const;
   /// Beam axes, azimuth from the head's x axis, positive to starboard.
   const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
-  /// Where the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
+  /// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
   double near_field_m() const;
 
  private:
-  /// What a pulse and its samples need, for the next pings with the same.
-  struct Listening {
+  /// Design of a pulse and its samples, for the next pings with the same.
+  struct PingDesign {
     RangedPulse ranged;
     echo::Pulse pulse;
     echo::SampledPulse sampled, squared;
@@ -51,9 +51,9 @@ class ForwardLookingHead {
   };
 
   void prepare(const HeadSettings& settings);
-  void look(trace::Scene& seabed);
+  void insonify(trace::Scene& seabed);
   void point_beams(double known_sound_speed_mps);
-  echo::Background background(const Shot& shot, double source_level_db);
+  echo::Background background(const PingEvent& event, double source_level_db);
   void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);
 
   ForwardLookingConfig config_;
@@ -67,7 +67,7 @@ class ForwardLookingHead {
   std::optional<echo::LineReceiver> power_receiver_;       // without speckle
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
   double noise_share_;
-  std::optional<Listening> listening_;
+  std::optional<PingDesign> design_;
 
   // Of the last ping.
   std::vector<frames::HeadPose> poses_;
@@ -75,7 +75,7 @@ class ForwardLookingHead {
   std::vector<trace::Hit> hits_;
   std::vector<float> gain_, sin_beams_;
   std::vector<echo::Image> images_, mean_square_;  // one each
-  Sight sight_;
+  TraceSummary trace_summary_;
 };
 
 }  // namespace ensonify

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 
 using namespace ensonify;
@@ -37,7 +37,7 @@ trace::Scene scene_of(const std::function<double(double, double)>& height_m) {
   return scene;
 }
 
-/// 10 m deep, looking north.
+/// 10 m deep, pointing north.
 frames::PoseHistory at_rest() {
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
@@ -46,7 +46,7 @@ frames::PoseHistory at_rest() {
 
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene& scene) {
   ForwardLookingHead head(config);
-  return head.listen({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene);
+  return head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene);
 }
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene&& scene) { return ping_of(config, scene); }
 
@@ -75,8 +75,7 @@ double db(double ratio) { return 10.0 * std::log10(ratio); }
 
 }  // namespace
 
-TEST_CASE(
-    "a sphere's echo has the level of the sonar equation, in its beam and at its range; side lobes stand beside") {
+TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at its range") {
   // TS -20 dB at 20 m, 40 degrees to starboard and 6 degrees down, by the kernel's scatterer and the head's faces.
   const ForwardLookingConfig config = quiet();
   const double wavelength_m = kSpeed_mps / config.frequency_hz, R = 20.0, ts_db = -20.0;
@@ -172,7 +171,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   }
 }
 
-TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its shorter effective length") {
+TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective length") {
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;
   config.range_m = 30.0;
@@ -194,7 +193,7 @@ TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its sh
   }
 }
 
-TEST_CASE("a block stands at its azimuth and range, and throws a shadow as long as geometry says") {
+TEST_CASE("a block is at its azimuth and range, and its shadow has the length of geometry") {
   // 5 m of altitude. North of the head a wall 1 m high, its top 2 m long.
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;
@@ -270,13 +269,13 @@ TEST_CASE("a pillar is brightest in the beam and at the range where it stands") 
 
 TEST_CASE("one effect switched off leaves the draws of the others alone") {
   // Each random part alone in the image, the speckle of a seabed and what an empty sea sounds like: it must stay the
-  // same bits whatever else is switched off. What it is heard through (faces, weights, for echoes the water's loss) is
-  // no draw.
+  // same bits whatever else is switched off. What it is received through (faces, weights, for echoes the water's loss)
+  // is no draw.
   struct Part {
     const char* name;
     bool Effects::*of;
     bool seabed;
-    std::vector<bool Effects::*> heard_through;
+    std::vector<bool Effects::*> received_through;
   };
   const std::vector<Part> parts{
       {"speckle", &Effects::speckle, true, {&Effects::directivity, &Effects::side_lobes, &Effects::absorption}},
@@ -324,7 +323,8 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
       INFO(part.name << " without " << name);
       Effects without = on;
       without.*off = false;
-      const bool its_own = off == part.of || std::count(part.heard_through.begin(), part.heard_through.end(), off) > 0;
+      const bool its_own =
+          off == part.of || std::count(part.received_through.begin(), part.received_through.end(), off) > 0;
       CHECK((image(without, 1) == whole) != its_own);
     }
   }
@@ -332,7 +332,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
 
 namespace {
 
-/// Of what is heard from one side only: few beams, no speckle.
+/// Of what is received from one side only: few beams, no speckle.
 ForwardLookingConfig of_one_side() {
   ForwardLookingConfig config = quiet();
   config.effects.speckle = false;
@@ -349,7 +349,7 @@ trace::Scene seabed_to_starboard() {
 
 }  // namespace
 
-TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams hear less beside them") {
+TEST_CASE("a shaded array of equal beamwidth is longer, and has lower side lobes") {
   ForwardLookingConfig config = of_one_side();
   trace::Scene scene = seabed_to_starboard();
   const msg::Ping uniform = ping_of(config, scene);
@@ -362,7 +362,7 @@ TEST_CASE("a shaded array is longer than a uniform one as wide, and its beams he
   CHECK(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)) == Approx(0.0).margin(0.5));
 }
 
-TEST_CASE("without directivity outer beams hear more; without side lobes the far side of a wall goes dark") {
+TEST_CASE("no directivity raises outer beams; no side lobes empty a wall's far side") {
   ForwardLookingConfig config = of_one_side();
   trace::Scene scene = seabed_to_starboard();
   const msg::Ping full = ping_of(config, scene);
@@ -391,7 +391,7 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
   ForwardLookingHead head(config);
   trace::Scene scene = scene_of(pillar);
   const auto seen_deg = [&](double known_mps) {
-    const msg::Ping ping = head.listen({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene);
+    const msg::Ping ping = head.receive_echoes({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene);
     const auto all = ping.amplitude_upa.flat();
     const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -64,7 +64,7 @@ std::string health_at(const ForwardLookingConfig& config, double height_m) {
 
 }  // namespace
 
-TEST_CASE("a ping is an image of beams by samples, with where the instrument believes it was") {
+TEST_CASE("a ping is an image of beams by samples, with the instrument's estimated poses") {
   Head head(small());
   give_motion(head, -10.0, 500_ms);
   head.give("tile", flat_tile(-15.0));
@@ -100,7 +100,7 @@ TEST_CASE("a head that can only see black says why") {
   config.range_m = 20.0;
   config.tilt_rad = -40.0 * ForwardLookingConfig::kDegree;
   CHECK_THAT(health_at(config, -5.0), Catch::StartsWith("degraded: nothing within the range of 20.0 m where the head "
-                                                        "looks (side lobes meet something): it looks over the seabed "
+                                                        "points (side lobes hit something): it points over the seabed "
                                                         "10.0 m below"));
   CHECK(health_at(config, 2.0) == "degraded: the head is 2.0 m above the water");
   Head blind(config);
@@ -121,12 +121,12 @@ TEST_CASE("on a tide the water is where it stands, not at chart datum") {
   CHECK(health_at(config, -2.0) == "degraded: the head is 1.0 m above the water");
 }
 
-TEST_CASE("a command changes range and rate from the next ping on; what cannot be is clamped") {
+TEST_CASE("a command changes range and rate from the next ping on, clamped to the limits") {
   Head head(small());
   give_motion(head, -10.0, 2_s);
   head.give("tile", flat_tile(-15.0));
   msg::SonarSettings wanted;
-  wanted.stamp_ns = 0;  // heard at 100 ms
+  wanted.stamp_ns = 0;  // received at 100 ms
   wanted.range_m = 60.0;
   wanted.ping_rate_hz = 5.0;
   wanted.source_level_db = 300.0;
@@ -171,15 +171,15 @@ TEST_CASE("the ping interval obeys 2 R / c plus dead time, always") {
   Head head(config);
   give_motion(head, -10.0, 1_s);
   head.give("tile", flat_tile(-15.0));
-  const auto shots = head.step_until<msg::Transmit>("transmit", 900_ms);
-  REQUIRE(shots.size() > 5);
-  for (std::size_t i = 1; i < shots.size(); ++i) {
-    CHECK(shots[i].stamp_ns - shots[i - 1].stamp_ns >= 108'000'000);
-    CHECK(shots[i].stamp_ns - shots[i - 1].stamp_ns < 109'000'000);
+  const auto transmissions = head.step_until<msg::Transmit>("transmit", 900_ms);
+  REQUIRE(transmissions.size() > 5);
+  for (std::size_t i = 1; i < transmissions.size(); ++i) {
+    CHECK(transmissions[i].stamp_ns - transmissions[i - 1].stamp_ns >= 108'000'000);
+    CHECK(transmissions[i].stamp_ns - transmissions[i - 1].stamp_ns < 109'000'000);
   }
 }
 
-TEST_CASE("the probe at the face is believed") {
+TEST_CASE("the probe's sound speed at the face is applied") {
   Head head(small());
   give_motion(head, -10.0, 300_ms);
   head.give("tile", flat_tile(-15.0));

@@ -5,7 +5,7 @@
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/test_head.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/sonar/tile_set.h"
 
 namespace {
 
@@ -24,7 +24,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace ensonify;
 
-TEST_CASE("after the first ping, listening allocates nothing") {
+TEST_CASE("after the first ping, receiving allocates nothing") {
   msg::Tile tile;
   tile.origin_east_m = tile.origin_north_m = -64.0;
   tile.spacing_m = 0.5;
@@ -48,10 +48,11 @@ TEST_CASE("after the first ping, listening allocates nothing") {
   const HeadSettings settings = config.start();
   MultibeamHead head(config);
   const int before_anything = allocations;
-  head.listen({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+  head.receive_echoes({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   CHECK(allocations > before_anything);  // the count works
-  head.listen({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+  head.receive_echoes({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   const int before = allocations;
-  for (int ping = 2; ping < 12; ++ping) head.listen({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+  for (int ping = 2; ping < 12; ++ping)
+    head.receive_echoes({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
   CHECK(allocations - before == 0);
 }

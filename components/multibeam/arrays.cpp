@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/array/line.h"
-#include "kernels/array/sectors.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/sectors.h"
 
 namespace ensonify {
 namespace {

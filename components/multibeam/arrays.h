@@ -4,8 +4,8 @@
 
 #include "components/multibeam/config.h"
 #include "components/multibeam/steering.h"
-#include "kernels/array/line_array.h"
-#include "kernels/array/pattern_table.h"
+#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 
@@ -22,7 +22,7 @@ ReceiveLine receive_line(const MultibeamConfig& config);
 /// The transmit line. Both lines are as long as their shading asks for, to have the beam widths that are configured at
 /// the head's frequency.
 array::LineArray transmit_line(const MultibeamConfig& config);
-/// Of the transmit line, at a frequency.
+/// First null of the transmit line, as a sine, at a frequency.
 double transmit_null(const MultibeamConfig& config, double frequency_hz);
 
 /// Lengths, in wavelengths at a frequency, of the uniform lines that would have the same widths at -3 dB ...
@@ -35,8 +35,8 @@ struct AreaLengths {
 };
 AreaLengths area_lengths(const MultibeamConfig& config, double frequency_hz);
 
-/// Where a sector's sound goes, in the head's frame: the transmit line's beam along x; across-track everywhere or
-/// between the sector's edges; less behind the face.
+/// Pattern of a sector's transmission, in the head's frame: the transmit line's beam along x; across-track everywhere
+/// or between the sector's edges; less behind the face.
 class SectorPattern {
  public:
   /// Sine over which an edge falls, from full to nothing; half way it is at -6 dB.
@@ -53,7 +53,7 @@ class SectorPattern {
   float element_amplitude(const Eigen::Vector3f& direction_head) const {
     return direction_head.z() < 0.0F ? behind_ : 1.0F;
   }
-  /// Power of isotropic noise in an element, over that of one that hears all around.
+  /// Power of isotropic noise in an element, over that of one that receives all around.
   double noise_share() const { return 0.5 * (1.0 + static_cast<double>(behind_) * static_cast<double>(behind_)); }
 
  private:

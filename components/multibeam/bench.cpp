@@ -7,7 +7,7 @@
 #include "components/multibeam/head.h"
 #include "components/multibeam/soundings.h"
 #include "components/multibeam/test_head.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/sonar/tile_set.h"
 
 using namespace ensonify;
 
@@ -51,15 +51,15 @@ void one_ping(benchmark::State& state) {
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
-  Shot shot{0, SimTime{0}, 75.0};
-  head.listen(shot, settings, steering, truth, tiles.scene());
-  const int rays = head.sight(shot.range_m, tiles.scene()).rays_that_hit;
+  PingEvent event{0, SimTime{0}, 75.0};
+  head.receive_echoes(event, settings, steering, truth, tiles.scene());
+  const int rays = head.trace_summary(event.range_m, tiles.scene()).rays_that_hit;
   if (rays < 20000) throw std::runtime_error("the rays miss the seabed");
   state.counters["rays"] = rays;
   for (auto _ : state) {
-    ++shot.ping;
+    ++event.ping;
     benchmark::DoNotOptimize(
-        head.listen(shot, settings, steering, truth, tiles.scene()).front().image.amplitude_upa.data());
+        head.receive_echoes(event, settings, steering, truth, tiles.scene()).front().image.amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)
@@ -82,12 +82,12 @@ void detections(benchmark::State& state) {
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
-  const Shot shot{0, SimTime{0}, 75.0};
-  const auto& heard = head.listen(shot, settings, steering, truth, tiles.scene());
+  const PingEvent event{0, SimTime{0}, 75.0};
+  const auto& received = head.receive_echoes(event, settings, steering, truth, tiles.scene());
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        maker.make(shot, settings, steering, heard, truth, config.uncertainty.untold()).valid.data());
-  if (maker.heard().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
+        maker.make(event, settings, steering, received, truth, config.uncertainty.unstated()).valid.data());
+  if (maker.bottoms().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "components/multibeam/test_survey.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/refraction/eigenray.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/water/refraction/eigenray.h"
 
 // What the whole head finds of a seabed that is known: depths, strengths, and where it finds none.
 
@@ -14,8 +14,9 @@ TEST_CASE("on a flat bottom depths are unbiased from nadir to the edge of the sw
   const auto soundings = survey(shallow(), {}, 3_s);
   REQUIRE(soundings.size() == 29);
   for (const auto& s : soundings) CHECK(valid_count(s) == 256);
-  // Phase detection (kernels/detect): under 0.05 % of depth to 60 degrees, 0.15 % to 70. The head rests, so its pings
-  // share one speckle, and a mean is good to sd / sqrt(60 beams) only. Amplitude alone would scatter by 4 cm outside.
+  // Phase detection (kernels/acoustics/detect): under 0.05 % of depth to 60 degrees, 0.15 % to 70. The head rests, so
+  // its pings share one speckle, and a mean is good to sd / sqrt(60 beams) only. Amplitude alone would scatter by 4 cm
+  // outside.
   for (const auto& [from, to, bias_m, sd_m] :
        {std::array{0.0, 15.0, 0.01, 0.025}, {15.0, 45.0, 0.01, 0.015}, {45.0, 65.0, 0.015, 0.015}}) {
     const Spread error = depth_error(soundings, from, to);
@@ -34,7 +35,7 @@ WaterProfile warm_over_cold() {
 
 }  // namespace
 
-TEST_CASE("where sound bends, soundings lie on the flat bottom if the profile is known") {
+TEST_CASE("in refracting water soundings lie on the flat bottom if the profile is known") {
   auto config = shallow();
   config.world.water.profile = warm_over_cold();
   const auto soundings = survey(config, {}, 2_s);
@@ -59,11 +60,11 @@ TEST_CASE("a wrong applied profile bends a flat seabed as theory says") {
     return ray->travel_time_s * 1530.0 * std::sin(depression) - 20.0;
   };
   REQUIRE(error(60.0) - error(10.0) < -0.5);  // the outer swath curls up by that
-  const auto bent = survey(config, {}, 1_s);
+  const auto refracted = survey(config, {}, 1_s);
   config.world.water.applied = {};
   const auto right = survey(config, {}, 1_s);  // the same echoes: what detection errs cancels
   for (const auto& [from, to] : {std::pair{38.0, 42.0}, {53.0, 57.0}, {60.0, 64.0}}) {
-    const double found = depth_error(bent, from, to).mean - depth_error(right, from, to).mean;
+    const double found = depth_error(refracted, from, to).mean - depth_error(right, from, to).mean;
     INFO(from << " to " << to << " deg: " << found << " m");
     CHECK(found == Approx(error(0.5 * (from + to))).epsilon(0.05));
   }
@@ -80,12 +81,13 @@ TEST_CASE("outer beams are detected by phase, about the nadir amplitude has its 
   }
   REQUIRE(nadir > 90);
   REQUIRE(outer > 700);
-  // In much less noise than kernels/detect is tested in phase gains there too, and speckle decides which of the two.
+  // In much less noise than kernels/acoustics/detect is tested in phase gains there too, and speckle decides which of
+  // the two.
   CHECK(nadir_by_amplitude > 0.2 * nadir);
   CHECK(outer_by_phase > 0.95 * outer);
 }
 
-TEST_CASE("the predicted standard deviations tell the scatter of depths") {
+TEST_CASE("predicted standard deviations equal the scatter of depths") {
   const auto soundings = survey(shallow(), {.speed_mps = 3.0}, 3_s);
   for (const auto& [from, to] : {std::pair{15.0, 40.0}, {40.0, 62.0}}) {
     double squares = 0.0;
@@ -100,7 +102,7 @@ TEST_CASE("the predicted standard deviations tell the scatter of depths") {
         squares += std::pow(range_sd_m * std::cos(angle), 2), ++n;
       }
     }
-    // As kernels/detect promises for a plane: within a factor of 1.5.
+    // As kernels/acoustics/detect promises for a plane: within a factor of 1.5.
     const double ratio = depth_error(soundings, from, to).sd / std::sqrt(squares / n);
     INFO(from << " to " << to << " deg: " << ratio << " of the prediction, " << n << " soundings");
     CHECK(ratio < 1.5);
@@ -179,7 +181,7 @@ TEST_CASE("beams beyond the range give no sounding, not the sidelobes of those w
   }
 }
 
-TEST_CASE("on a flat bottom the phase passes zero where the beam's axis meets it, and grows outward with time") {
+TEST_CASE("on a flat bottom the phase is zero on the beam's axis and grows with time") {
   MultibeamConfig config = shallow();
   config.phase_every = 1;
   Head head(config);
@@ -204,7 +206,7 @@ TEST_CASE("on a flat bottom the phase passes zero where the beam's axis meets it
   CHECK((later - at) / n == Approx(0.45).margin(0.2));
 }
 
-TEST_CASE("high density has more soundings than beams, equally spaced on the seabed, as right as the beams are") {
+TEST_CASE("high density gives more soundings than beams, equally spaced and as accurate") {
   MultibeamConfig config = shallow();
   config.beams = 128;
   config.spacing = MultibeamConfig::Spacing::kHighDensity;
@@ -232,7 +234,7 @@ TEST_CASE("high density has more soundings than beams, equally spaced on the sea
   }
 }
 
-TEST_CASE("a beam over the top of a wall detects both the wall and the seabed behind, if it may") {
+TEST_CASE("a beam over a wall's top detects wall and seabed where several detections may be") {
   MultibeamConfig config = shallow();
   config.detections_per_beam = 3;
   Head head(config);

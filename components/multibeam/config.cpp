@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/line_shading.h"
-#include "components/runtime/head/tone_shape.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/line_shading.h"
+#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kFastest_hz = 100.0;
 constexpr double kMostSamples = 20000;  // per beam: 20 MB of ping with 256 beams
 constexpr double kLongestPulse_s = 10e-3;
 constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
-constexpr double kChirpTail = 2.0;   // inverse bandwidths after a point's echo in which it is still heard
+constexpr double kChirpTail = 2.0;   // inverse bandwidths after a point's echo in which it is still received
 constexpr double kNarrowestSwath_rad = 1.0 * MultibeamConfig::kDegree;
 constexpr double kWidestSwath_rad = 170.0 * MultibeamConfig::kDegree;
 constexpr int kMostSoundings = 2048;
@@ -138,7 +138,7 @@ void check(ConfigReader& from, const MultibeamConfig& c) {
 
 }  // namespace
 
-MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+MultibeamConfig MultibeamConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   MultibeamConfig c;
   read_array(from, c);
   read_sectors(from, c);
@@ -146,13 +146,13 @@ MultibeamConfig MultibeamConfig::read(ConfigReader& from, const Scenario& scenar
   read_receiver(from, c);
   read_uncertainty(from, c.uncertainty);
 
-  read_head(from, scenario, process, kFastest_hz, c);
-  c.sound_speed_mps = applied_profile(scenario).speed_mps(scenario.mission.depth_m);
+  read_head(from, world, process, kFastest_hz, c);
+  c.sound_speed_mps = applied_profile(world).speed_mps(world.mission.depth_m);
   check(from, c);
   return c;
 }
 
-uncertainty::Navigation MultibeamParameters::Uncertainty::untold() const {
+uncertainty::Navigation MultibeamParameters::Uncertainty::unstated() const {
   uncertainty::Navigation navigation;
   navigation.position_enu_m2.diagonal() << position_m * position_m, position_m * position_m, height_m * height_m;
   navigation.rotation_enu_rad2.diagonal() << level_rad * level_rad, level_rad * level_rad, heading_rad * heading_rad;
@@ -198,7 +198,7 @@ double MultibeamConfig::last_start_s(double of_range_m) const {
   return delay_s + 2.0 * of_range_m / sound_speed_mps;
 }
 
-double MultibeamConfig::listening_s(double of_range_m, double of_pulse_length_s) const {
+double MultibeamConfig::reception_s(double of_range_m, double of_pulse_length_s) const {
   return last_start_s(of_range_m) + of_pulse_length_s;
 }
 
@@ -207,8 +207,8 @@ int MultibeamConfig::samples(double of_range_m, double of_pulse_length_s) const 
   return static_cast<int>(std::ceil((last_start_s(of_range_m) + tail_s) * sample_rate_hz));
 }
 
-double MultibeamConfig::longest_listening_s() const {
-  return listening_s(range_m, std::max(pulse_length_s, kLongestPulse_s));
+double MultibeamConfig::longest_reception_s() const {
+  return reception_s(range_m, std::max(pulse_length_s, kLongestPulse_s));
 }
 
 int MultibeamConfig::most_samples() const { return samples(range_m, std::max(pulse_length_s, kLongestPulse_s)); }

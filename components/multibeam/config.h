@@ -3,16 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/head_config.h"
-#include "kernels/array/shading.h"
-#include "kernels/echo/pulse.h"
-#include "kernels/uncertainty/sounding.h"
+#include "components/sonar/head_config.h"
+#include "kernels/acoustics/array/shading.h"
+#include "kernels/acoustics/echo/pulse.h"
+#include "kernels/survey/uncertainty/sounding.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// What default.yaml lists besides the parameters of all heads.
+/// Parameters of default.yaml besides those of all heads.
 struct MultibeamParameters {
   enum class Spacing { kEquiangle, kEquidistant, kHighDensity };
 
@@ -36,7 +36,7 @@ struct MultibeamParameters {
     bool operator==(const Image&) const = default;
   };
 
-  /// What goes into the stated uncertainty of soundings, besides what detection and estimate say of their own errors.
+  /// Terms of the stated uncertainty of soundings besides the errors of detection and estimate.
   struct Uncertainty {
     uncertainty::Sources sources{.cast_mps = 0.3,
                                  .face_mps = 0.05,
@@ -47,13 +47,13 @@ struct MultibeamParameters {
                                  .position_latency_s = 0.005,
                                  .attitude_latency_s = 0.0005,
                                  .along_rad = 0.1 * kDegree};
-    // Of an estimate that does not tell.
+    // Of an estimate that does not state.
     double position_m = 0.02;  // each horizontal axis
     double height_m = 0.02;
     double level_rad = 0.02 * kDegree;
     double heading_rad = 0.05 * kDegree;
 
-    uncertainty::Navigation untold() const;
+    uncertainty::Navigation unstated() const;
     bool operator==(const Uncertainty&) const = default;
   };
 
@@ -67,9 +67,9 @@ struct MultibeamParameters {
   int detections_per_beam = 1;                    // at most
   double transmit_beamwidth_rad = 1.0 * kDegree;  // along-track, one-way, -3 dB
   double receive_beamwidth_rad = 1.0 * kDegree;   // across-track at nadir
-  // Of both lines, at these widths. With a uniform receive line the outermost beams hear the nadir's echo through its
-  // side lobes louder than their own in some 60 m of water; with a uniform transmit line soundings of a level seabed
-  // are too deep by what comes from far fore and aft (docs/physics/detection.md).
+  // Of both lines, at these widths. With a uniform receive line the outermost beams receive the nadir's echo through
+  // its side lobes stronger than their own in some 60 m of water; with a uniform transmit line soundings of a level
+  // seabed are too deep by what comes from far fore and aft (docs/physics/detection.md).
   array::Shading transmit_shading{array::Shading::Window::kTaylor, 30.0, 4};
   array::Shading receive_shading{array::Shading::Window::kTaylor, 30.0, 4};
   double back_loss_db = 40.0;           // one-way, behind the face
@@ -88,7 +88,7 @@ struct MultibeamParameters {
   double heading_mean_s = 20.0;                  // time constant of that mean
   double attitude_latency_s = 0.0;               // of the motion sensor
   bool auto_range = true;                        // else range_m, to start with
-  double range_m = 200.0;                        // the longest range that is listened to
+  double range_m = 200.0;                        // the longest range of reception
   double sample_rate_hz = 20e3;                  // of the complex envelope, at least two for what a pulse resolves
   double detection_threshold_db = 13.0;          // signal to noise ratio of a sounding, at least
   double least_range_m = 2.0;                    // nearer, nothing is taken for the seabed
@@ -112,7 +112,7 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
     gain_absorption_dbpm = 0.07;
     quality = 0.25;
   }
-  static MultibeamConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static MultibeamConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// Parameters only.
   bool operator==(const MultibeamConfig& other) const {
     return same_parameters(*this, other) && MultibeamParameters::operator==(other);
@@ -125,15 +125,16 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
   /// The sectors as given, or the one that a head without sectors has.
   std::vector<Sector> all_sectors() const;
 
-  /// What the receiver's filter makes of the echo of one point.
+  /// Echo of one point behind the receiver's filter.
   echo::Pulse pulse(double of_length_s) const;
-  /// Of a point's echo: of a tone its length, of a chirp 1 / bandwidth. Range resolution is half of it times c.
+  /// Duration of a point's echo: of a tone its length, of a chirp 1 / bandwidth. Range resolution is half of it times
+  /// c.
   double resolved_s(double of_pulse_length_s) const { return chirp ? 1.0 / bandwidth_hz : of_pulse_length_s; }
   /// From transmission to the end of the last echo.
-  double listening_s(double of_range_m, double of_pulse_length_s) const;
+  double reception_s(double of_range_m, double of_pulse_length_s) const;
   int samples(double of_range_m, double of_pulse_length_s) const;
   /// With the longest range and pulse that can be set.
-  double longest_listening_s() const;
+  double longest_reception_s() const;
   int most_samples() const;
 
  private:

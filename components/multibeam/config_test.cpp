@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
+#include "components/sonar/test_config.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -40,7 +40,7 @@ TEST_CASE("sectors take the head's frequency where they name none") {
   REQUIRE(config.sectors.size() == 2);
   CHECK(config.sectors[0].frequency_hz == 200e3);
   CHECK(config.sectors[1].frequency_hz == 210e3);
-  CHECK(config.listening_s(75.0, 1e-4) == Approx(0.002 + 150.0 / config.sound_speed_mps + 1e-4));
+  CHECK(config.reception_s(75.0, 1e-4) == Approx(0.002 + 150.0 / config.sound_speed_mps + 1e-4));
   CHECK(problems_of<MultibeamConfig>("sectors: [{tilt_deg: 30}]").find("30 is outside [-20, 20]") != std::string::npos);
   CHECK(problems_of<MultibeamConfig>("spacing: high_density\nsoundings: 100").find("100 are fewer than the beams") !=
         std::string::npos);
@@ -53,9 +53,9 @@ TEST_CASE("a head that no vehicle carries is refused") {
 }
 
 TEST_CASE("the profile that the instrument applies turns range into time") {
-  Scenario scenario = world_with("bow");
-  scenario.water.profile.sound_speed_mps = 1520.0;
-  scenario.water.applied.sound_speed_mps = 1490.0;
+  World world = world_with("bow");
+  world.water.profile.sound_speed_mps = 1520.0;
+  world.water.applied.sound_speed_mps = 1490.0;
   auto from = ConfigReader::from_text("{}", "head.yaml");
-  CHECK(MultibeamConfig::read(from, scenario, "bow").sound_speed_mps == 1490.0);
+  CHECK(MultibeamConfig::read(from, world, "bow").sound_speed_mps == 1490.0);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/head/tone_shape.h"
+#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 
@@ -13,17 +13,19 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config) {
   for (std::size_t sector = 0; sector < config.all_sectors().size(); ++sector) sectors_.emplace_back(config, sector);
 }
 
-const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot, const HeadSettings& settings,
-                                                               const Steering& steering,
-                                                               const frames::PoseHistory& truth, trace::Scene& seabed) {
+const std::vector<MultibeamHead::Received>& MultibeamHead::receive_echoes(const PingEvent& event,
+                                                                          const HeadSettings& settings,
+                                                                          const Steering& steering,
+                                                                          const frames::PoseHistory& truth,
+                                                                          trace::Scene& seabed) {
   if (!amplitude_upa_ || amplitude_upa_.use_count() > 1) amplitude_upa_ = std::make_shared<std::vector<float>>();
-  const auto samples = static_cast<std::size_t>(config_.samples(shot.range_m, settings.pulse_length_s));
+  const auto samples = static_cast<std::size_t>(config_.samples(event.range_m, settings.pulse_length_s));
   amplitude_upa_->resize(samples * steering.sin_beams.size());
-  heard_.clear();
-  for (SectorEchoes& sector : sectors_) sector.send(shot, settings, steering, truth, seabed);
+  received_.clear();
+  for (SectorEchoes& sector : sectors_) sector.send(event, settings, steering, truth, seabed);
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     SectorEchoes& sector = sectors_[i];
-    sector.hear(shot, settings, sectors_);
+    sector.beamform(event, settings, sectors_);
     const echo::Image& whole = sector.whole();
     const auto rows = std::span(*amplitude_upa_)
                           .subspan(samples * static_cast<std::size_t>(steering.sectors[i].first_beam),
@@ -37,35 +39,35 @@ const std::vector<MultibeamHead::Heard>& MultibeamHead::listen(const Shot& shot,
     const echo::Pulse& pulse = sector.pulse();
     const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
     const double start_s = sector.sampling().start_s + (0.5 * echo_s - middle_s);
-    heard_.push_back({{whole.beams, whole.samples, start_s, sector.sampling().period_s, rows},
-                      {sector.starboard().envelope_upa, sector.port().envelope_upa},
-                      echo_s,
-                      middle_s});
+    received_.push_back({{whole.beams, whole.samples, start_s, sector.sampling().period_s, rows},
+                         {sector.starboard().envelope_upa, sector.port().envelope_upa},
+                         echo_s,
+                         middle_s});
   }
-  return heard_;
+  return received_;
 }
 
-Sight MultibeamHead::sight(double range_m, const trace::Scene& seabed) const {
-  Sight all = sectors_.front().sight(range_m, seabed);
+TraceSummary MultibeamHead::trace_summary(double range_m, const trace::Scene& seabed) const {
+  TraceSummary all = sectors_.front().trace_summary(range_m, seabed);
   for (std::size_t i = 1; i < sectors_.size(); ++i) {
-    const Sight sight = sectors_[i].sight(range_m, seabed);
-    all.rays_that_hit += sight.rays_that_hit;
-    all.rays_in_lobe += sight.rays_in_lobe;
+    const TraceSummary trace_summary = sectors_[i].trace_summary(range_m, seabed);
+    all.rays_that_hit += trace_summary.rays_that_hit;
+    all.rays_in_lobe += trace_summary.rays_in_lobe;
   }
   return all;
 }
 
-msg::Ping MultibeamHead::ping_message(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+msg::Ping MultibeamHead::ping_message(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
                                       bool phase) const {
   msg::Ping ping;
-  ping.stamp_ns = shot.transmit.count();
-  ping.ping = shot.ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
   ping.kind = "multibeam";
   ping.beam_angle_rad = msg::Array<float>::of(steering.beam_angle_rad);
   if (steering.sectors.size() > 1) ping.beam_sector = msg::Array<std::uint8_t>::of(steering.beam_sector);
-  ping.applied = applied(shot, settings, steering);
+  ping.applied = applied(event, settings, steering);
   const echo::Sampling sampling{0.0, 1.0 / config_.sample_rate_hz,
-                                config_.samples(shot.range_m, settings.pulse_length_s)};
+                                config_.samples(event.range_m, settings.pulse_length_s)};
   echo::TvgLaw gain = tvg_of(settings, steering.sound_speed_mps);
   gain.spreading_db = ping.applied.gain_spreading_db;
   gain.absorption_dbpm = ping.applied.gain_absorption_dbpm;
@@ -81,8 +83,8 @@ msg::Ping MultibeamHead::ping_message(const Shot& shot, const HeadSettings& sett
 std::shared_ptr<std::vector<float>> MultibeamHead::phase_rad() const {
   auto phase = std::make_shared<std::vector<float>>(amplitude_upa_->size());
   std::size_t first = 0;
-  for (const Heard& heard : heard_) {
-    const auto& halves = heard.halves;
+  for (const Received& received : received_) {
+    const auto& halves = received.halves;
     tbb::parallel_for(std::size_t{0}, halves.positive_upa.size(), [&](std::size_t i) {
       (*phase)[first + i] = std::arg(halves.positive_upa[i] * std::conj(halves.negative_upa[i]));
     });
@@ -91,12 +93,12 @@ std::shared_ptr<std::vector<float>> MultibeamHead::phase_rad() const {
   return phase;
 }
 
-msg::AppliedSettings MultibeamHead::applied(const Shot& shot, const HeadSettings& settings,
+msg::AppliedSettings MultibeamHead::applied(const PingEvent& event, const HeadSettings& settings,
                                             const Steering& steering) const {
   msg::AppliedSettings applied;
   fill(applied, settings);
   if (!config_.effects.tvg) applied.gain_spreading_db = applied.gain_absorption_dbpm = 0.0;
-  applied.range_m = shot.range_m;
+  applied.range_m = event.range_m;
   applied.frequency_hz = config_.frequency_hz;
   fill_shape(config_.chirp, config_.tapered_fraction, applied);
   applied.bandwidth_hz = config_.bandwidth_hz;

@@ -7,16 +7,16 @@
 #include "components/multibeam/config.h"
 #include "components/multibeam/sector_echoes.h"
 #include "components/multibeam/steering.h"
-#include "components/runtime/head/shot.h"
-#include "components/runtime/head/sight.h"
-#include "kernels/detect/bottom.h"
-#include "kernels/frames/pose.h"
-#include "kernels/trace/scene.h"
+#include "components/sonar/ping_event.h"
+#include "components/sonar/trace_summary.h"
+#include "kernels/acoustics/detect/bottom.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
 
-/// The acoustics of a Mills-cross head: what its beams hear. What the instrument makes of it is in soundings.h.
+/// The acoustics of a Mills-cross head: what its beams receive. What the instrument makes of it is in soundings.h.
 class MultibeamHead {
  public:
   explicit MultibeamHead(const MultibeamConfig& config);
@@ -24,28 +24,30 @@ class MultibeamHead {
   MultibeamHead& operator=(const MultibeamHead&) = delete;
 
   /// Beams of one sector against time after that sector's transmission, as all of the receive line and as each half of
-  /// it hears them: before gain and converter.
+  /// it receives them: before gain and converter.
   /// A point's echo counts as a rectangle of its energy, echo_s long about its middle. The times of the image's samples
   /// are such that this rectangle begins at the point's arrival. The middle comes middle_s after it: half a tone's
   /// length, 0 of a chirp, whose peak stands there.
-  struct Heard {
+  struct Received {
     detect::Amplitudes image;
     detect::HalfApertures halves;
     double echo_s = 0.0, middle_s = 0.0;
   };
   /// One entry per sector; valid until the next call. A function of shot, settings, steering, poses and tiles. `truth`
   /// has a pose.
-  const std::vector<Heard>& listen(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                                   const frames::PoseHistory& truth, trace::Scene& seabed);
+  const std::vector<Received>& receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                              const Steering& steering, const frames::PoseHistory& truth,
+                                              trace::Scene& seabed);
 
-  /// What the last ping met.
-  Sight sight(double range_m, const trace::Scene& seabed) const;
+  /// Summary of the last ping's hits.
+  TraceSummary trace_summary(double range_m, const trace::Scene& seabed) const;
 
   /// The last ping as a message, without a track; amplitudes without a converter are shared with it. The phase costs
   /// time and is left out unless asked for, or without speckle, when there is none.
-  msg::Ping ping_message(const Shot& shot, const HeadSettings& settings, const Steering& steering, bool phase) const;
+  msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                         bool phase) const;
   /// The settings that a ping was made with.
-  msg::AppliedSettings applied(const Shot& shot, const HeadSettings& settings, const Steering& steering) const;
+  msg::AppliedSettings applied(const PingEvent& event, const HeadSettings& settings, const Steering& steering) const;
   std::size_t max_ping_bytes() const;
 
  private:
@@ -53,7 +55,7 @@ class MultibeamHead {
 
   MultibeamConfig config_;
   std::deque<SectorEchoes> sectors_;
-  std::vector<Heard> heard_;
+  std::vector<Received> received_;
   std::vector<float> part_;                            // amplitudes of a sector
   std::shared_ptr<std::vector<float>> amplitude_upa_;  // of all beams; a new one while messages still hold the last
 };

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "components/multibeam/test_head.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
 
 using namespace ensonify;
 
@@ -44,25 +44,25 @@ trace::Scene& seabed() {
   return tiles.scene();
 }
 
-struct Listened {
+struct Received {
   Field starboard;
   std::vector<float> amplitude_upa;
   msg::Ping ping;
 };
 
-Listened listened(const MultibeamConfig& config, bool phase = false) {
+Received received(const MultibeamConfig& config, bool phase = false) {
   MultibeamHead head(config);
-  const Shot shot{7, SimTime{0}, 45.0};
+  const PingEvent event{7, SimTime{0}, 45.0};
   const Steering steering = steer(config, config.swath_rad, {});
-  const auto& heard = head.listen(shot, config.start(), steering, moving(), seabed());
-  Listened result;
-  for (const auto& sector : heard) {
+  const auto& echoes = head.receive_echoes(event, config.start(), steering, moving(), seabed());
+  Received result;
+  for (const auto& sector : echoes) {
     const auto half = sector.halves.positive_upa;
     result.starboard.insert(result.starboard.end(), half.begin(), half.end());
     const auto amplitude = sector.image.amplitude_upa;
     result.amplitude_upa.insert(result.amplitude_upa.end(), amplitude.begin(), amplitude.end());
   }
-  result.ping = head.ping_message(shot, config.start(), steering, phase);
+  result.ping = head.ping_message(event, config.start(), steering, phase);
   return result;
 }
 
@@ -82,7 +82,7 @@ Field difference(const Field& a, const Field& b) {
 
 TEST_CASE("one effect switched off leaves the draws of the others alone") {
   const MultibeamConfig all = small();
-  const Field whole = listened(all).starboard;
+  const Field whole = received(all).starboard;
   const std::pair<const char*, bool Effects::*> switches[] = {{"refraction", &Effects::refraction},
                                                               {"absorption", &Effects::absorption},
                                                               {"noise", &Effects::noise},
@@ -94,10 +94,10 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
   const auto without = [&](bool Effects::*one, bool Effects::*other) {
     MultibeamConfig config = all;
     config.effects.*one = config.effects.*other = false;
-    return listened(config).starboard;
+    return received(config).starboard;
   };
   // What noise (or the volume) adds to the field is the same with any other effect off, to the rounding of its sum with
-  // louder echoes: 2^-24 of the loudest, through two transforms.
+  // stronger echoes: 2^-24 of the strongest, through two transforms.
   for (const auto added : {&Effects::noise, &Effects::volume}) {
     const Field part = difference(whole, without(added, added));
     CHECK(largest(part) > 1e-4F * largest(whole));
@@ -116,7 +116,7 @@ TEST_CASE("switches change what they name") {
     MultibeamConfig config = all;
     config.effects.noise = config.effects.volume = false;
     change(config);
-    return listened(config).amplitude_upa;
+    return received(config).amplitude_upa;
   };
   const auto as_is = amplitudes([](MultibeamConfig&) {});
   CHECK(amplitudes([](MultibeamConfig&) {}) == as_is);
@@ -129,13 +129,13 @@ TEST_CASE("switches change what they name") {
   }
 }
 
-TEST_CASE("in calm water the surface answers after 2 d / c; with multipath off, or in waves, it does not") {
+TEST_CASE("calm surface echoes arrive after 2 d / c; none with multipath off or in waves") {
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = false;
   config.back_loss_db = 10.0;
   const auto at_surface = [&](double above_m = 2.0) {
-    const Listened heard = listened(config);
-    const auto row = heard.ping.amplitude_upa.row(16);
+    const Received echoes = received(config);
+    const auto row = echoes.ping.amplitude_upa.row(16);
     const auto k = static_cast<std::size_t>(2.0 * above_m / 1500.0 * config.sample_rate_hz) + 1;
     return static_cast<double>(row[k]);
   };
@@ -158,9 +158,9 @@ TEST_CASE("in calm water the surface answers after 2 d / c; with multipath off, 
 
 TEST_CASE("counts are amplitudes with the operator's gain, to half a step, and saturate") {
   MultibeamConfig config = small();
-  const Listened plain = listened(config);
+  const Received plain = received(config);
   config.converter = {8, 3e8};
-  const Listened counted = listened(config);
+  const Received counted = received(config);
   CHECK(counted.amplitude_upa == plain.amplitude_upa);  // detection sees amplitudes before the converter
   const msg::Ping& ping = counted.ping;
   REQUIRE(ping.amplitude_upa.size() == 0);
@@ -176,25 +176,25 @@ TEST_CASE("counts are amplitudes with the operator's gain, to half a step, and s
   }
   CHECK(saturated > 0);
   config.effects.tvg = false;
-  CHECK(listened(config).ping.applied.gain_spreading_db == 0.0);
+  CHECK(received(config).ping.applied.gain_spreading_db == 0.0);
 }
 
 TEST_CASE("the phase of a ping is that between the halves; without speckle there is none") {
   MultibeamConfig config = small();
-  const Listened heard = listened(config, true);
-  REQUIRE(heard.ping.phase_rad.size() == heard.amplitude_upa.size());
-  for (const float phase : heard.ping.phase_rad.flat()) REQUIRE(std::abs(phase) <= 3.1416F);
-  CHECK(listened(config).ping.phase_rad.size() == 0);
+  const Received echoes = received(config, true);
+  REQUIRE(echoes.ping.phase_rad.size() == echoes.amplitude_upa.size());
+  for (const float phase : echoes.ping.phase_rad.flat()) REQUIRE(std::abs(phase) <= 3.1416F);
+  CHECK(received(config).ping.phase_rad.size() == 0);
   config.effects.speckle = false;
-  CHECK(listened(config, true).ping.phase_rad.size() == 0);
+  CHECK(received(config, true).ping.phase_rad.size() == 0);
 }
 
-TEST_CASE("each sector is sent at its own time and frequency, and heard by its own beams") {
+TEST_CASE("each sector is sent at its own time and frequency, and received by its own beams") {
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = config.effects.multipath = false;
   config.sectors = {{.frequency_hz = 280e3}, {.frequency_hz = 300e3, .delay_s = 4e-3}, {.frequency_hz = 320e3}};
-  const Listened heard = listened(config);
-  const msg::Ping& ping = heard.ping;
+  const Received echoes = received(config);
+  const msg::Ping& ping = echoes.ping;
   REQUIRE(ping.beam_sector.size() == 32);
   CHECK(ping.beam_sector[0] == 0);
   CHECK(ping.beam_sector[16] == 1);
@@ -203,22 +203,22 @@ TEST_CASE("each sector is sent at its own time and frequency, and heard by its o
   CHECK(ping.applied.sectors[1].delay_s == 4e-3);
   CHECK(ping.applied.sectors[2].frequency_hz == 320e3);
 
-  // The nadir beam hears the seabed 20 m below (0.3 m of relief) later by the delay.
+  // The nadir beam receives the seabed 20 m below (0.3 m of relief) later by the delay.
   const auto row = ping.amplitude_upa.row(16);
   const float strongest = *std::max_element(row.begin(), row.end());
   const auto first = std::find_if(row.begin(), row.end(), [&](float a) { return a > 0.2F * strongest; });
   CHECK(static_cast<double>(first - row.begin()) * ping.sample_period_s == Approx(0.004 + 0.0267).margin(0.0006));
 }
 
-TEST_CASE("where two sectors meet each is sent with half its amplitude") {
+TEST_CASE("where two sectors join each is sent with half its amplitude") {
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = config.effects.multipath = config.effects.speckle = false;
   config.effects.interference = false;
   config.quality = 0.5;
-  const Listened one = listened(config);
+  const Received one = received(config);
   config.sectors = {{.share = 10.0, .frequency_hz = 300e3}, {.share = 21.0, .frequency_hz = 300e3}};
-  const Listened two = listened(config);
-  const auto energy = [](const Listened& of, std::size_t beam) {
+  const Received two = received(config);
+  const auto energy = [](const Received& of, std::size_t beam) {
     double sum = 0.0;
     for (const float a : of.ping.amplitude_upa.row(beam)) sum += static_cast<double>(a) * a;
     return sum;
@@ -234,7 +234,7 @@ TEST_CASE("where two sectors meet each is sent with half its amplitude") {
   CHECK(edge_db > -6.5);
 }
 
-TEST_CASE("a sector hears the others as its filter lets them through") {
+TEST_CASE("a sector receives the others as its filter passes them") {
   MultibeamConfig config = small();
   config.effects.noise = config.effects.volume = config.effects.multipath = false;
   const auto cross_talk = [&](double frequency_hz, double rejection_db) {
@@ -242,20 +242,20 @@ TEST_CASE("a sector hears the others as its filter lets them through") {
     config.sector_rejection_db = rejection_db;
     MultibeamConfig apart = config;
     apart.effects.interference = false;
-    return difference(listened(config).starboard, listened(apart).starboard);
+    return difference(received(config).starboard, received(apart).starboard);
   };
-  // Beside the band: by the rejection, to the rounding of fields that are some hundred times louder.
+  // Beside the band: by the rejection, to the rounding of fields that are some hundred times stronger.
   const Field weaker = cross_talk(330e3, 40.0), loud = cross_talk(330e3, 20.0);
   REQUIRE(largest(loud) > 0.0F);
   Field scaled = weaker;
   for (auto& value : scaled) value *= 10.0F;
   CHECK(largest(difference(scaled, loud)) < 1e-3F * largest(loud));
 
-  // In the band: where both are sent alike, the beam hears the bottom again 4 ms later.
+  // In the band: where both are sent alike, the beam detects the bottom again 4 ms later.
   config.effects.speckle = false;
   config.sectors = {{.share = 10.0, .frequency_hz = 300e3}, {.share = 21.0, .frequency_hz = 300e3, .delay_s = 4e-3}};
   const auto again_db = [&] {
-    const msg::Ping ping = listened(config).ping;
+    const msg::Ping ping = received(config).ping;
     const auto energy = [&](double from_s) {  // of the beam on the edge, 23 degrees to port, and its 3.5 ms of bottom
       double sum = 0.0;
       for (double t = from_s; t < from_s + 3.5e-3; t += ping.sample_period_s) {

@@ -7,7 +7,7 @@
 
 using namespace ensonify;
 
-TEST_CASE("motion during the ping does not disturb depths when the navigation is right, nor does the second echo") {
+TEST_CASE("with true navigation, motion during the ping and second echoes keep depths right") {
   auto config = shallow();
   const Track track{.speed_mps = 3.0, .roll_rad = 0.1, .heave_m = 0.5, .depth_m = 1.0};
   const Spread port_and_starboard = depth_error(survey(config, track, 5_s), 0.0, 60.0);
@@ -31,12 +31,13 @@ TEST_CASE("a 1 m error in the measured lever arm shows as 1 m in the soundings")
 
 namespace {
 
-/// How far the swath is turned: by what the soundings of a beam near either edge tell, and by theory.
+/// How far the swath is turned: by what the soundings of a beam near either edge give, and by theory.
 struct EdgeRoll {
   double found_rad, theory_rad;
 };
 
-/// Of each ping whose edges are heard, when the beams were steered against the roll of `latency_s` before transmission.
+/// Of each ping whose edges are received, when the beams were steered against the roll of `latency_s` before
+/// transmission.
 std::vector<EdgeRoll> edge_rolls(const std::vector<msg::Soundings>& pings, double roll_rad, double latency_s) {
   std::vector<EdgeRoll> rolls;
   for (const auto& s : pings) {
@@ -55,7 +56,7 @@ std::vector<EdgeRoll> edge_rolls(const std::vector<msg::Soundings>& pings, doubl
 
 }  // namespace
 
-TEST_CASE("with ten degrees of roll the swath stays where it was steered, by what the motion sensor knew") {
+TEST_CASE("with ten degrees of roll the swath stays where the motion sensor steered it") {
   auto config = shallow();
   config.range_m = 80.0;
   const double roll = 10.0 * MultibeamConfig::kDegree;
@@ -79,7 +80,7 @@ TEST_CASE("with ten degrees of roll the swath stays where it was steered, by wha
   for (const auto& s : survey(config, track, 3_s)) {
     const double roll_now = roll * std::sin(1.3 * static_cast<double>(s.stamp_ns) * 1e-9);
     if (roll_now < 0.9 * roll) continue;
-    ++pings;  // the port edge looks up by as much: to 74 degrees at least, if it hears anything
+    ++pings;  // the port edge points up by as much: to 74 degrees at least, if it receives anything
     const double edge_rad = std::atan2(s.position_enu_m(0, 0), -s.position_enu_m(0, 2));
     turned += s.valid[0] == 0 || edge_rad < -73.0 * MultibeamConfig::kDegree;
   }
@@ -89,7 +90,7 @@ TEST_CASE("with ten degrees of roll the swath stays where it was steered, by wha
 
 namespace {
 
-/// Soundings with a probe at the face that tells 1 % more than 1500 m/s, and with none, of a head turned to starboard.
+/// Soundings with a probe at the face that gives 1 % more than 1500 m/s, and with none, of a head turned to starboard.
 std::array<std::vector<msg::Soundings>, 2> wrong_probe_and_none(double mounted_rad) {
   auto config = shallow();
   config.swath_rad = 90.0 * MultibeamConfig::kDegree;
@@ -121,7 +122,7 @@ double mean_depth_error(const std::vector<msg::Soundings>& pings, double from_de
 
 }  // namespace
 
-TEST_CASE("a wrong probe leaves the soundings of a level flat array right, for Snell's invariant is") {
+TEST_CASE("a wrong probe leaves a level flat array's soundings right by Snell's invariant") {
   const auto [wrong, none] = wrong_probe_and_none(0.0);
   CHECK(wrong.back().applied.sound_speed_mps == 1515.0);
   CHECK(none.back().applied.sound_speed_mps == Approx(1500.0));
@@ -132,13 +133,13 @@ TEST_CASE("a wrong probe leaves the soundings of a level flat array right, for S
 }
 
 TEST_CASE("a wrong probe bends the swath of a tilted array as theory says") {
-  const double tilt = -20.0 * MultibeamConfig::kDegree;  // about the bow: looks to starboard
+  const double tilt = -20.0 * MultibeamConfig::kDegree;  // about the bow: points to starboard
   const auto [wrong, none] = wrong_probe_and_none(tilt);
   for (const double beam_deg : {25.0, 35.0}) {
     const double beam = beam_deg * MultibeamConfig::kDegree;
-    // Where it really points, and where it is believed to; then at the refracted angle in the water of 1500 m/s.
-    const double pointed = std::asin(std::sin(beam) * 1500.0 / 1515.0) - tilt, believed = beam - tilt;
-    const double traced = std::asin(std::sin(believed) * 1500.0 / 1515.0);
+    // Where it really points, and where it is assumed to; then at the refracted angle in the water of 1500 m/s.
+    const double pointed = std::asin(std::sin(beam) * 1500.0 / 1515.0) - tilt, estimated = beam - tilt;
+    const double traced = std::asin(std::sin(estimated) * 1500.0 / 1515.0);
     const double theory = 20.0 / std::cos(pointed) * std::cos(traced) - 20.0;
     const double found = mean_depth_error(wrong, beam_deg - 2.0, beam_deg + 2.0) -
                          mean_depth_error(none, beam_deg - 2.0, beam_deg + 2.0);
@@ -155,7 +156,7 @@ TEST_CASE("soundings never use the truth: an estimate 5 m off moves them by 5 m"
   const auto a = survey(shallow(), right, 1_s), b = survey(shallow(), off, 1_s);
   REQUIRE(a.size() == b.size());
   for (std::size_t ping = 0; ping < a.size(); ++ping) {
-    CHECK(a[ping].travel_time_s == b[ping].travel_time_s);  // what is heard is the same
+    CHECK(a[ping].travel_time_s == b[ping].travel_time_s);  // what is received is the same
     for (std::size_t beam = 0; beam < 256; ++beam) {
       REQUIRE(b[ping].position_enu_m(beam, 0) - a[ping].position_enu_m(beam, 0) == Approx(3.0).margin(1e-9));
       REQUIRE(b[ping].position_enu_m(beam, 1) - a[ping].position_enu_m(beam, 1) == Approx(-4.0).margin(1e-9));
@@ -168,7 +169,7 @@ TEST_CASE("with yaw stabilised the fans of sectors stay across the mean heading"
   config.sectors = {{.frequency_hz = 290e3}, {.frequency_hz = 300e3}, {.frequency_hz = 310e3}};
   config.heading_mean_s = 1000.0;
   const double yaw = 5.0 * MultibeamConfig::kDegree;
-  // A vehicle that was told to head north for long, and now heads 5 degrees to starboard of it.
+  // A vehicle that was commanded to head north for long, and now heads 5 degrees to starboard of it.
   const auto along_m = [&](bool stabilised) {
     config.yaw_stabilised = stabilised;
     Head head(config);

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/multibeam/snippets.h"
-#include "components/runtime/head/environment.h"
-#include "components/runtime/head/head_motion.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/head_motion.h"
 
 namespace ensonify {
 namespace {
@@ -14,8 +14,8 @@ HeadInputs::Start start_of(const MultibeamConfig& config) {
   start.mounting = config.mounting;
   start.tide = config.world.vertical.tide;
   start.lod = config.lod;
-  start.lod.looks = static_cast<std::int32_t>(config.all_sectors().size());
-  start.longest_ping = from_seconds(config.longest_listening_s() + config.processing_latency_s);
+  start.lod.adaptations_per_ping = static_cast<std::int32_t>(config.all_sectors().size());
+  start.longest_ping = from_seconds(config.longest_reception_s() + config.processing_latency_s);
   start.probe = true;
   start.channels = {{"", config.start(), config.limits()}};
   return start;
@@ -27,7 +27,7 @@ std::size_t most_entries(const MultibeamConfig& config) {
 }
 
 std::size_t soundings_bytes(const MultibeamConfig& config) {
-  const auto poses = static_cast<std::size_t>(config.longest_listening_s() / seconds(kTrackPeriod)) + 3;  // 8 numbers
+  const auto poses = static_cast<std::size_t>(config.longest_reception_s() / seconds(kTrackPeriod)) + 3;  // 8 numbers
   return most_entries(config) * 88 + poses * 64 + 8192;
 }
 
@@ -73,82 +73,83 @@ void MultibeamNode::transmit(SimTime now) {
   HeadSettings settings = inputs_.settings_at_ping();
   follow_range(settings);
   if (settings.auto_range) settings.range_m = range_.range_m();
-  const SimTime listening = from_seconds(config_.listening_s(settings.range_m, settings.pulse_length_s));
+  const SimTime reception = from_seconds(config_.reception_s(settings.range_m, settings.pulse_length_s));
   std::vector<Transmission> sectors;
   for (const auto& sector : config_.all_sectors()) {
     sectors.push_back({.frequency_hz = sector.frequency_hz,
                        .pulse_length_s = settings.pulse_length_s,
-                       .listening = listening,
+                       .reception = reception,
                        .settings = settings,
                        .bandwidth_hz = config_.bandwidth_hz,
                        .delay = from_seconds(sector.delay_s)});
   }
   cycle_.transmit(now, std::move(sectors));
-  steerings_.push_back(steer(config_, settings.swath_rad, belief(now)));
+  steerings_.push_back(steer(config_, settings.swath_rad, steering_inputs(now)));
 }
 
-/// A swath of another width looks for its edges anew.
+/// A swath of another width searches for its edges anew.
 void MultibeamNode::follow_range(const HeadSettings& settings) {
   if (settings.swath_rad == swath_of_range_rad_) return;
   swath_of_range_rad_ = settings.swath_rad;
   range_ = AutoRange(config_.range_m, 0.5 * settings.swath_rad, config_.beams);
 }
 
-/// Until the probe tells, the head takes the applied profile's speed at the depth where it believes to be.
-Belief MultibeamNode::belief(SimTime now) const {
-  Belief belief;
-  belief.vehicle = attitude_;
-  belief.mean_heading_rad = heading_.mean_rad();
+/// Until the probe reports, the head takes the applied profile's speed at the depth where it estimates to be.
+SteeringInputs MultibeamNode::steering_inputs(SimTime now) const {
+  SteeringInputs steering_inputs;
+  steering_inputs.vehicle = attitude_;
+  steering_inputs.mean_heading_rad = heading_.mean_rad();
   if (const auto probe = inputs_.probe_mps()) {
-    belief.sound_speed_mps = *probe;
-    return belief;
+    steering_inputs.sound_speed_mps = *probe;
+    return steering_inputs;
   }
   const auto body = inputs_.estimate().at(now.count(), frames::PoseHistory::Outside::kNearest);
-  belief.sound_speed_mps = applied_.speed_mps(
+  steering_inputs.sound_speed_mps = applied_.speed_mps(
       body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z() : config_.world.mission.depth_m);
-  return belief;
+  return steering_inputs;
 }
 
 void MultibeamNode::publish(const PingUnderWay& ping) {
   const Steering steering = std::move(steerings_.front());
   steerings_.pop_front();
   const Transmission& sent = ping.channels.front();
-  const Shot shot = ping.shot();
-  const auto& heard = head_.listen(shot, sent.settings, steering, inputs_.truth(), inputs_.seabed());
+  const PingEvent event = ping.event();
+  const auto& received = head_.receive_echoes(event, sent.settings, steering, inputs_.truth(), inputs_.seabed());
 
-  const auto every = [&](int n) { return n > 0 && shot.ping % n == 0; };
+  const auto every = [&](int n) { return n > 0 && event.ping % n == 0; };
   const bool whole = sent.settings.mode == "water_column", phase = whole || every(config_.phase_every);
   if (phase || every(config_.amplitude_every)) {
-    msg::Ping message = head_.ping_message(shot, sent.settings, steering, phase);
-    inputs_.fill_track(message.track, ping.transmit, sent.listening);
+    msg::Ping message = head_.ping_message(event, sent.settings, steering, phase);
+    inputs_.fill_track(message.track, ping.transmit, sent.reception);
     ping_out_.send(message);
   }
-  msg::Soundings soundings = soundings_.make(shot, sent.settings, steering, heard, inputs_.estimate(),
-                                             inputs_.navigation_errors().value_or(config_.uncertainty.untold()));
-  soundings.applied = head_.applied(shot, sent.settings, steering);
-  inputs_.fill_track(soundings.track, ping.transmit, sent.listening);
+  msg::Soundings soundings = soundings_.make(event, sent.settings, steering, received, inputs_.estimate(),
+                                             inputs_.navigation_errors().value_or(config_.uncertainty.unstated()));
+  soundings.applied = head_.applied(event, sent.settings, steering);
+  inputs_.fill_track(soundings.track, ping.transmit, sent.reception);
   soundings_out_.send(soundings);
-  publish_images(sent.settings, steering, heard, soundings);
-  range_.update(soundings_.heard(), shot.range_m);
-  cycle_.published(trouble(head_.sight(shot.range_m, inputs_.seabed())));
+  publish_images(sent.settings, steering, received, soundings);
+  range_.update(soundings_.bottoms(), event.range_m);
+  cycle_.published(trouble(head_.trace_summary(event.range_m, inputs_.seabed())));
 }
 
 void MultibeamNode::publish_images(const HeadSettings& settings, const Steering& steering,
-                                   const std::vector<MultibeamHead::Heard>& heard, const msg::Soundings& soundings) {
+                                   const std::vector<MultibeamHead::Received>& received,
+                                   const msg::Soundings& soundings) {
   if (!snippets_out_ && !image_out_) return;
-  msg::Snippets snippets = snippets_of(heard, steering, soundings_.echoes(), soundings);
+  msg::Snippets snippets = snippets_of(received, steering, soundings_.echoes(), soundings);
   snippets.applied = soundings.applied;
   if (snippets_out_) snippets_out_->send(snippets);
   if (!image_out_) return;
-  msg::SeabedImage image = seabed_image_of(config_, settings, steering, heard.front(), lines_, snippets, soundings);
+  msg::SeabedImage image = seabed_image_of(config_, settings, steering, received.front(), lines_, snippets, soundings);
   image.applied = soundings.applied;
   image_out_->send(image);
 }
 
-std::string MultibeamNode::trouble(const Sight& sight) const {
-  const std::string why = why_black(sight);
+std::string MultibeamNode::trouble(const TraceSummary& trace_summary) const {
+  const std::string why = no_echo_reason(trace_summary);
   if (!why.empty() || inputs_.estimate().empty()) return why;
-  return soundings_.heard().empty() ? "no beam detects the seabed" : "";
+  return soundings_.bottoms().empty() ? "no beam detects the seabed" : "";
 }
 
 }  // namespace ensonify

@@ -7,10 +7,10 @@
 #include "components/multibeam/head.h"
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
-#include "components/runtime/head/auto_range.h"
-#include "components/runtime/head/head_inputs.h"
-#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
+#include "components/sonar/auto_range.h"
+#include "components/sonar/head_inputs.h"
+#include "components/sonar/ping_cycle.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
@@ -28,12 +28,12 @@ class MultibeamNode {
 
  private:
   void transmit(SimTime now);
-  Belief belief(SimTime now) const;
+  SteeringInputs steering_inputs(SimTime now) const;
   void publish(const PingUnderWay& ping);
   void publish_images(const HeadSettings& settings, const Steering& steering,
-                      const std::vector<MultibeamHead::Heard>& heard, const msg::Soundings& soundings);
+                      const std::vector<MultibeamHead::Received>& received, const msg::Soundings& soundings);
   void follow_range(const HeadSettings& settings);
-  std::string trouble(const Sight& sight) const;
+  std::string trouble(const TraceSummary& trace_summary) const;
 
   Config config_;
   AreaLengths lines_;  // at the head's frequency
@@ -44,7 +44,7 @@ class MultibeamNode {
   PingCycle cycle_;
   AutoRange range_;
   double swath_of_range_rad_;                 // that range_ knows
-  std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor told
+  std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor given
   HeadingMean heading_;
   std::deque<Steering> steerings_;  // of the pings under way
   Ports::Out<msg::Ping> ping_out_;

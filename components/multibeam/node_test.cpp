@@ -5,7 +5,7 @@
 
 #include "components/multibeam/test_survey.h"
 
-// When the node pings, what it is told meanwhile, and what it says of itself.
+// When the node pings, what it is given meanwhile, and what it says of itself.
 
 using namespace ensonify;
 
@@ -77,10 +77,11 @@ TEST_CASE("the ping interval obeys 2 R / c plus dead time, always") {
   Head head(config);
   give_motion(head, {}, 2_s);
   head.give("tile", flat_tile(-20.0));
-  const auto shots = head.step_until<msg::Transmit>("transmit", 2_s);
-  REQUIRE(shots.size() > 10);
+  const auto transmissions = head.step_until<msg::Transmit>("transmit", 2_s);
+  REQUIRE(transmissions.size() > 10);
   const std::int64_t least_ns = from_seconds(2 * 120.0 / 1500.0 + config.pulse_length_s + 0.004).count();
-  for (std::size_t i = 1; i < shots.size(); ++i) CHECK(shots[i].stamp_ns - shots[i - 1].stamp_ns == least_ns);
+  for (std::size_t i = 1; i < transmissions.size(); ++i)
+    CHECK(transmissions[i].stamp_ns - transmissions[i - 1].stamp_ns == least_ns);
 }
 
 TEST_CASE("auto range starts at the longest and settles beyond the swath's edge") {
@@ -111,7 +112,7 @@ TEST_CASE("a ping is published at its last echo plus the processing latency") {
 }
 
 TEST_CASE("the same ping twice has the same bytes, another seed has others") {
-  const auto heard = [](std::uint64_t seed) {
+  const auto received = [](std::uint64_t seed) {
     auto config = shallow();
     config.world.seed = seed;
     Head head(config);
@@ -119,7 +120,7 @@ TEST_CASE("the same ping twice has the same bytes, another seed has others") {
     head.give("tile", flat_tile(-20.0));
     return head.step_until<msg::Ping>("ping", 300_ms);
   };
-  const auto a = heard(1), b = heard(1), other = heard(2);
+  const auto a = received(1), b = received(1), other = received(2);
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].amplitude_upa == b[i].amplitude_upa);
   CHECK_FALSE(a[0].amplitude_upa == other[0].amplitude_upa);
@@ -146,7 +147,8 @@ TEST_CASE("commands change the next ping: range, power, pulse, gain, swath, rate
   REQUIRE(pings.size() > 5);
   CHECK(pings[0].stamp_ns == 0);
   CHECK(pings[0].phase_rad.size() == 0);
-  CHECK(pings[1].stamp_ns == (1100_ms).count());  // heard 100 ms later, from the next ping on: every one in this mode
+  CHECK(pings[1].stamp_ns ==
+        (1100_ms).count());  // received 100 ms later, from the next ping on: every one in this mode
   const msg::AppliedSettings& applied = pings[1].applied;
   CHECK(applied.range_m == 50.0);
   CHECK(applied.source_level_db == 205.0);
@@ -195,20 +197,20 @@ TEST_CASE("sectors of several frequencies, one after the other, see one flat sea
   }
 }
 
-TEST_CASE("each sector's transmission is told with its own time and frequency, the earliest first") {
+TEST_CASE("each sector's transmission is published with its time and frequency, in order") {
   MultibeamConfig config = shallow();
   config.sectors = {
       {.frequency_hz = 280e3, .delay_s = 1e-3}, {.frequency_hz = 300e3, .delay_s = 2e-3}, {.frequency_hz = 320e3}};
   Head head(config);
   give_motion(head, {}, 300_ms);
   head.give("tile", flat_tile(-20.0));
-  const auto told = head.step_until<msg::Transmit>("transmit", 250_ms);
-  REQUIRE(told.size() == 9);
+  const auto reported = head.step_until<msg::Transmit>("transmit", 250_ms);
+  REQUIRE(reported.size() == 9);
   const double frequencies_hz[] = {320e3, 280e3, 300e3};
-  for (std::size_t i = 0; i < told.size(); ++i) {
+  for (std::size_t i = 0; i < reported.size(); ++i) {
     const auto ping = static_cast<std::int64_t>(i / 3);
-    CHECK(told[i].ping == ping);
-    CHECK(told[i].frequency_hz == frequencies_hz[i % 3]);
-    CHECK(told[i].stamp_ns == ping * 100'000'000 + static_cast<std::int64_t>(i % 3) * 1'000'000);
+    CHECK(reported[i].ping == ping);
+    CHECK(reported[i].frequency_hz == frequencies_hz[i % 3]);
+    CHECK(reported[i].stamp_ns == ping * 100'000'000 + static_cast<std::int64_t>(i % 3) * 1'000'000);
   }
 }

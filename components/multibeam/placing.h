@@ -1,14 +1,14 @@
 #pragma once
 
-#include "kernels/frames/pose.h"
-#include "kernels/refraction/profile.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/water/refraction/profile.h"
 
 namespace ensonify {
 
-/// What the instrument knows of one echo: its believed poses at transmission and at reception, the sines that it
+/// Instrument's data of one echo: its estimated poses at transmission and at reception, the sines that it
 /// steered its lines to (from the planes across the head's x axis at transmission, across y at reception), the speed of
 /// sound that it steered with, and the two-way time.
-struct HeardBeam {
+struct MeasuredEcho {
   frames::HeadPose at_transmit;
   frames::HeadPose at_receive;
   double sin_transmit = 0.0;
@@ -17,12 +17,12 @@ struct HeardBeam {
   double two_way_s = 0.0;
 };
 
-/// Where the echo came from in the water that the instrument believes in: along the direction in which both cones meet
+/// Origin of the echo in the water that the instrument assumes: along the direction in which both cones intersect
 /// (georeference::intersect_cones), bent by the applied profile (georeference::place_sounding).
 ///
 /// The head moves between transmission and reception. The ray is traced from half way between, and turned and shortened
 /// by what a straight line to its end differs from there to the two places: exact in isovelocity water, else right to
 /// the product of the shift over the range and the bending.
-frames::Vec3 sounding_enu_m(const HeardBeam& heard, const refraction::SoundSpeedProfile& applied);
+frames::Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedProfile& applied);
 
 }  // namespace ensonify

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/refraction/eigenray.h"
+#include "kernels/water/refraction/eigenray.h"
 
 using namespace ensonify;
 using frames::Attitude;
@@ -27,7 +27,7 @@ TEST_CASE("a level head at rest finds the seabed by plain trigonometry") {
   CHECK(p.z() == Approx(-1 - range * std::cos(beam)));
 }
 
-TEST_CASE("a sounding is where the echo came from, however the head moves and turns meanwhile") {
+TEST_CASE("a sounding is at the echo's origin, however the head moves and turns meanwhile") {
   const Vec3 target(25, 3, -30);
   const HeadPose transmit = pose({0, 0, -1}, {0.10, 0.0, 0.05});
   const Vec3 out = target - transmit.position_enu_m;
@@ -41,7 +41,7 @@ TEST_CASE("a sounding is where the echo came from, however the head moves and tu
   CHECK((found - target).norm() < 1e-5);  // shift over range is 1e-2: its fourth power times the range is below 1e-6 m
 }
 
-TEST_CASE("in water that bends sound a sounding is where the ray between head and target ends") {
+TEST_CASE("in refracting water a sounding is where the ray between head and target ends") {
   const SoundSpeedProfile cast({{0.0, 1520.0}, {10.0, 1500.0}, {40.0, 1490.0}});
   const HeadPose head = pose({0, 0, -2}, {});
   const auto ray = refraction::eigenray(cast, 2.0, 45.0, 30.0);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/patch.h"
-#include "kernels/array/stabilisation.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/patch.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {
 namespace {
@@ -28,7 +28,7 @@ std::string stream_of(const MultibeamConfig& config, std::size_t sector, const s
   return config.process + "/" + what + (sector == 0 ? "" : "/" + std::to_string(sector));
 }
 
-/// The sector's part of the swath and what its outer beams hear beside it, when nothing is steered.
+/// The sector's part of the swath and what its outer beams receive beside it, when nothing is steered.
 trace::TransmitVolume volume_of(const MultibeamConfig& c, std::size_t number, double swath_rad) {
   const auto sectors = sectors_of(c, swath_rad);
   const array::TransmitSector& sector = sectors[number];
@@ -84,7 +84,7 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, std::size_t sector)
   if (!config.effects.speckle) power_receiver_.emplace(echo::power_line(receiver_.line()));
 }
 
-SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, double swath_rad) {
+SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double swath_rad) {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
   const echo::Pulse pulse = config_.pulse(pulse_length_s);
   const echo::SampledPulse sampled(pulse, 1.0 / config_.sample_rate_hz);
@@ -97,8 +97,8 @@ SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, doubl
         receiver_,
         [&](const Eigen::Vector3f& direction) {
           if (std::abs(static_cast<double>(direction.x())) > reach) return 0.0;
-          const double heard = static_cast<double>(pattern_.element_amplitude(direction));
-          return static_cast<double>(pattern_.transmitted_power(direction)) * heard * heard;
+          const double received = static_cast<double>(pattern_.element_amplitude(direction));
+          return static_cast<double>(pattern_.transmitted_power(direction)) * received * received;
         },
         kVolumeStep_beamwidths * config_.transmit_beamwidth_rad);
   }
@@ -117,44 +117,43 @@ SectorEchoes::Listening SectorEchoes::listening_for(double pulse_length_s, doubl
           std::move(directions)};
 }
 
-void SectorEchoes::send(const Shot& shot, const HeadSettings& settings, const Steering& steering,
+void SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
                         const frames::PoseHistory& truth, trace::Scene& seabed) {
-  prepare(shot, settings, truth);
+  prepare(event, settings, truth);
   aim(steering);
-  look(seabed);
-  arrivals_.listen(settings.source_level_db, listening_->scatterers, rays_, hits_);
+  insonify(seabed);
+  arrivals_.receive_echoes(settings.source_level_db, design_->scatterers, rays_, hits_);
 }
 
-void SectorEchoes::hear(const Shot& shot, const HeadSettings& settings, const std::deque<SectorEchoes>& all) {
+void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings, const std::deque<SectorEchoes>& all) {
   for (const SectorEchoes& other : all) {
     if (&other == this) continue;
-    echo::ForeignTransmission sent;
+    echo::InterferingTransmission sent;
     sent.time_s = other.delay_s_ - delay_s_;
     sent.frequency_hz = other.frequency_hz_;
     sent.sweep_hz = config_.chirp ? config_.bandwidth_hz : 0.0;
     sent.duration_s = settings.pulse_length_s;
     sent.rejection_db = config_.sector_rejection_db;
-    arrivals_.add_echoes_of(sent, other.arrivals_.echoes(), listening_->pulse);
+    arrivals_.add_echoes_of(sent, other.arrivals_.echoes(), design_->pulse);
   }
-  std::vector<echo::ForeignTransmission> foreign = shot.foreign;
-  for (echo::ForeignTransmission& sound : foreign) sound.time_s -= delay_s_;
-  const auto& arrivals = arrivals_.add_interference(foreign, listening_->pulse);
-  form_beams(arrivals, background(shot.ping, settings.source_level_db));
+  std::vector<echo::InterferingTransmission> interfering = event.interfering;
+  for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s_;
+  const auto& arrivals = arrivals_.add_interference(interfering, design_->pulse);
+  form_beams(arrivals, background(event.ping, settings.source_level_db));
 }
 
-void SectorEchoes::prepare(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& truth) {
-  if (!listening_ || listening_->pulse_length_s != settings.pulse_length_s ||
-      listening_->swath_rad != settings.swath_rad) {
-    listening_.emplace(listening_for(settings.pulse_length_s, settings.swath_rad));
+void SectorEchoes::prepare(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& truth) {
+  if (!design_ || design_->pulse_length_s != settings.pulse_length_s || design_->swath_rad != settings.swath_rad) {
+    design_.emplace(design_for(settings.pulse_length_s, settings.swath_rad));
   }
-  sampling_ = {-delay_s_, 1.0 / config_.sample_rate_hz, config_.samples(shot.range_m, settings.pulse_length_s)};
-  const double listening_s = config_.listening_s(shot.range_m, settings.pulse_length_s) - delay_s_;
-  const SimTime sent = shot.transmit + from_seconds(delay_s_);
-  head_poses(truth, config_.mounting.actual, sent, from_seconds(listening_s), poses_);
+  sampling_ = {-delay_s_, 1.0 / config_.sample_rate_hz, config_.samples(event.range_m, settings.pulse_length_s)};
+  const double reception_s = config_.reception_s(event.range_m, settings.pulse_length_s) - delay_s_;
+  const SimTime sent = event.transmit + from_seconds(delay_s_);
+  head_poses(truth, config_.mounting.actual, sent, from_seconds(reception_s), poses_);
   arrivals_.move(poses_, seconds(sent));
 }
 
-/// A flat array's delays are made for the sound speed that the head believes in; the true one turns its beams.
+/// A flat array's delays are made for the sound speed that the head assumes; the true one turns its beams.
 void SectorEchoes::aim(const Steering& steering) {
   const double true_mps = arrivals_.sound_speed_mps();
   const auto true_sine = [&](double sine) { return array::true_sine(sine, steering.sound_speed_mps, true_mps); };
@@ -163,7 +162,7 @@ void SectorEchoes::aim(const Steering& steering) {
   sector.lower_sine = true_sine(sector.lower_sine);
   sector.upper_sine = true_sine(sector.upper_sine);
   pattern_.steer(sector);
-  listening_->rays.steer(sector.sin_transmit, sector.middle_rad - listening_->centre_rad);
+  design_->rays.steer(sector.sin_transmit, sector.middle_rad - design_->centre_rad);
   sin_beams_.clear();
   for (int beam = sector.first_beam; beam < sector.first_beam + sector.beams; ++beam) {
     const double sine = true_sine(static_cast<double>(steering.sin_beams[static_cast<std::size_t>(beam)]));
@@ -171,16 +170,16 @@ void SectorEchoes::aim(const Steering& steering) {
   }
 }
 
-void SectorEchoes::look(trace::Scene& seabed) {
+void SectorEchoes::insonify(trace::Scene& seabed) {
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =
-      sampling_.start_s + sampling_.count * sampling_.period_s - config_.resolved_s(listening_->pulse_length_s);
+      sampling_.start_s + sampling_.count * sampling_.period_s - config_.resolved_s(design_->pulse_length_s);
   const double reach_m = 0.5 * arrivals_.sound_speed_mps() * window_s;
-  arrivals_.look(seabed, listening_->rays, reach_m, rays_, hits_);
+  arrivals_.insonify(seabed, design_->rays, reach_m, rays_, hits_);
 }
 
 echo::Background SectorEchoes::background(std::int64_t ping, double source_level_db) {
-  const echo::Pulse& pulse = listening_->pulse;
+  const echo::Pulse& pulse = design_->pulse;
   echo::Background background;
   background.ping = static_cast<std::uint64_t>(ping);
   if (config_.effects.noise) {
@@ -192,7 +191,7 @@ echo::Background SectorEchoes::background(std::int64_t ping, double source_level
   }
   if (arrivals_.water_scatters()) {
     background.volume_upa2 =
-        arrivals_.reverberation_upa2(source_level_db, listening_->volume_directions, pulse, sampling_);
+        arrivals_.reverberation_upa2(source_level_db, design_->volume_directions, pulse, sampling_);
     background.volume = &volume_;
   }
   return background;
@@ -203,13 +202,12 @@ void SectorEchoes::form_beams(std::span<const echo::Arrival> arrivals, const ech
   arrivals_.gains([this](const echo::Arrival& arrival) { return pattern_.element_amplitude(arrival.direction_head); },
                   gain_);
   if (config_.effects.speckle) {
-    receiver_.form({arrivals, gain_, listening_->sampled, sampling_, background}, sin_beams_, weights_, images_);
+    receiver_.form({arrivals, gain_, design_->sampled, sampling_, background}, sin_beams_, weights_, images_);
     return;
   }
   const std::span whole(images_.data(), 1);
-  power_receiver_->form({arrivals, gain_, listening_->squared, sampling_, {}}, sin_beams_, power_weights_,
-                        mean_square_);
-  receiver_.form({{}, {}, listening_->sampled, sampling_, background}, sin_beams_, weights_, whole);
+  power_receiver_->form({arrivals, gain_, design_->squared, sampling_, {}}, sin_beams_, power_weights_, mean_square_);
+  receiver_.form({{}, {}, design_->sampled, sampling_, background}, sin_beams_, weights_, whole);
   const auto& mean_square = mean_square_[0].envelope_upa;
   auto& envelope = images_[0].envelope_upa;
   for (std::size_t i = 0; i < envelope.size(); ++i) envelope[i] += std::sqrt(std::max(0.0F, mean_square[i].real()));

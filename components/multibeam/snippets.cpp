@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/detect/seabed_image.h"
+#include "kernels/acoustics/detect/seabed_image.h"
 
 namespace ensonify {
 namespace {
@@ -21,7 +21,7 @@ double nearest_s(const msg::Soundings& soundings) {
 
 }  // namespace
 
-msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const Steering& steering,
+msg::Snippets snippets_of(const std::vector<MultibeamHead::Received>& received, const Steering& steering,
                           const std::vector<Echo>& echoes, const msg::Soundings& soundings) {
   std::vector<std::uint16_t> beams;
   std::vector<float> first_s, samples;
@@ -29,13 +29,13 @@ msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const 
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
     const Echo& echo = echoes[i];
-    const detect::Amplitudes& image = heard[static_cast<std::size_t>(echo.sector)].image;
+    const detect::Amplitudes& image = received[static_cast<std::size_t>(echo.sector)].image;
     const int row = echo.beam - steering.sectors[static_cast<std::size_t>(echo.sector)].first_beam;
-    const int first = echo.heard.snippet_first, count = echo.heard.snippet_count;
+    const int first = echo.measured.snippet_first, count = echo.measured.snippet_count;
     const auto snippet = image.amplitude_upa.subspan(
         static_cast<std::size_t>(row) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(first),
         static_cast<std::size_t>(count));
-    const long centre = std::lround((echo.heard.two_way_s - image.start_s) / image.period_s) - first;
+    const long centre = std::lround((echo.measured.two_way_s - image.start_s) / image.period_s) - first;
     beams.push_back(static_cast<std::uint16_t>(echo.beam));
     first_s.push_back(static_cast<float>(first * image.period_s));
     centres.push_back(static_cast<std::uint32_t>(std::clamp(centre, 0L, std::max(count - 1L, 0L))));
@@ -55,12 +55,12 @@ msg::Snippets snippets_of(const std::vector<MultibeamHead::Heard>& heard, const 
 }
 
 msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettings& settings, const Steering& steering,
-                                 const MultibeamHead::Heard& heard, const AreaLengths& lines,
+                                 const MultibeamHead::Received& received, const AreaLengths& lines,
                                  const msg::Snippets& snippets, const msg::Soundings& soundings) {
   const auto sectors = config.all_sectors();
   detect::FlatteningModel model;
   model.source_level_db = settings.source_level_db;
-  model.pulse_length_s = heard.echo_s;
+  model.pulse_length_s = received.echo_s;
   model.sound_speed_mps = steering.sound_speed_mps;
   model.absorption_dbpm = settings.gain_absorption_dbpm;
   model.nearest_range_m = 0.5 * nearest_s(soundings) * steering.sound_speed_mps;
@@ -82,7 +82,7 @@ msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettin
     model.receive_length_in_waves = lines.receive_in_waves * sector.frequency_hz / config.frequency_hz;
     const std::size_t from = snippets.offset[i], count = snippets.offset[i + 1] - from;
     // A sample holds the echoes that began within a tone before it, or those of chirps about it.
-    const double first_s = static_cast<double>(snippets.first_sample_s[i]) - sector.delay_s - heard.middle_s;
+    const double first_s = static_cast<double>(snippets.first_sample_s[i]) - sector.delay_s - received.middle_s;
     const double step_s = snippets.sample_period_s;
     detect::seabed_image_db(model, snippets.amplitude_upa.flat().subspan(from, count),
                             0.5 * std::max(first_s, step_s) * steering.sound_speed_mps,

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/multibeam/test_survey.h"
-#include "kernels/detect/seabed_image.h"
+#include "kernels/acoustics/detect/seabed_image.h"
 
 using namespace ensonify;
 
@@ -49,11 +49,11 @@ double strength_db(const std::vector<msg::SeabedImage>& images, double incidence
 }  // namespace
 
 TEST_CASE("snippets are the ping's own samples about each detection, uncorrected") {
-  const Images heard = imaged(shallow(), 500_ms);
-  REQUIRE(heard.snippets.size() == heard.soundings.size());
-  const msg::Snippets& s = heard.snippets.back();
-  const msg::Ping& ping = heard.pings.back();
-  const msg::Soundings& soundings = heard.soundings.back();
+  const Images received = imaged(shallow(), 500_ms);
+  REQUIRE(received.snippets.size() == received.soundings.size());
+  const msg::Snippets& s = received.snippets.back();
+  const msg::Ping& ping = received.pings.back();
+  const msg::Soundings& soundings = received.soundings.back();
   REQUIRE(s.ping == ping.ping);
   REQUIRE(s.beam.size() == 256);
   REQUIRE(s.offset.size() == 257);
@@ -72,12 +72,12 @@ TEST_CASE("snippets are the ping's own samples about each detection, uncorrected
 TEST_CASE("the seabed image of a level Lambert seabed is flat where its law is assumed") {
   MultibeamConfig config = shallow();
   config.image.crossover_rad = 10.0 * MultibeamConfig::kDegree;
-  const Images heard = imaged(config, 2_s);
-  CHECK(heard.images.back().lambert_removed);
-  CHECK(heard.images.back().normal_incidence_range_m == Approx(20.0).margin(0.1));
+  const Images received = imaged(config, 2_s);
+  CHECK(received.images.back().lambert_removed);
+  CHECK(received.images.back().normal_incidence_range_m == Approx(20.0).margin(0.1));
   // Lambert's law with mu = -25 dB, the oblique strength that is assumed. The assumed area is right to 0.2 dB beyond 30
   // degrees, and some 300 independent samples to 0.25 dB.
-  for (const double deg : {35.0, 45.0, 55.0}) CHECK(strength_db(heard.images, deg) == Approx(-25.0).margin(0.7));
+  for (const double deg : {35.0, 45.0, 55.0}) CHECK(strength_db(received.images, deg) == Approx(-25.0).margin(0.7));
 }
 
 TEST_CASE("a wrong absorption leaves the trend across the swath that theory gives") {

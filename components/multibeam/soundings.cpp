@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "components/multibeam/placing.h"
-#include "components/runtime/head/environment.h"
-#include "kernels/array/line.h"
+#include "components/sonar/environment.h"
+#include "kernels/acoustics/array/line.h"
 
 namespace ensonify {
 namespace {
@@ -80,20 +80,20 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), a
   }
 }
 
-frames::HeadPose SoundingMaker::believed_pose(const frames::PoseHistory& estimate, SimTime t) const {
+frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estimate, SimTime t) const {
   return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
 }
 
-msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                                   const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate,
-                                   const uncertainty::Navigation& navigation) {
-  const Ping ping{shot, settings, steering, estimate, navigation};
-  detect(ping, heard);
+msg::Soundings SoundingMaker::make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                                   const std::vector<MultibeamHead::Received>& received,
+                                   const frames::PoseHistory& estimate, const uncertainty::Navigation& navigation) {
+  const Ping ping{event, settings, steering, estimate, navigation};
+  detect(ping, received);
 
-  const double period_s = heard.front().image.period_s;
+  const double period_s = received.front().image.period_s;
   msg::Soundings soundings = without_measurements(echoes_.size());
-  soundings.stamp_ns = shot.transmit.count();
-  soundings.ping = shot.ping;
+  soundings.stamp_ns = event.transmit.count();
+  soundings.ping = event.ping;
   soundings.sample_period_s = period_s;
   std::vector<float> angle_rad;
   for (const Echo& echo : echoes_) {
@@ -106,10 +106,10 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& setting
   if (config_.detections_per_beam > 1) soundings.detection = of_each<std::uint8_t>(echoes_, &Echo::detection);
   if (sectors_.size() > 1) soundings.sector = of_each<std::uint8_t>(echoes_, &Echo::sector);
   flag(steering, soundings);
-  heard_.clear();
+  bottoms_.clear();
   if (estimate.empty()) return soundings;
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
-    const detect::Detection& found = echoes_[i].heard;
+    const detect::Detection& found = echoes_[i].measured;
     if ((found.flags & detect::kNoSignal) == 0) soundings.quality_db[i] = found.snr_db;
     if (soundings.flags[i] != 0) continue;
     measure(ping, i, period_s, soundings);
@@ -124,7 +124,7 @@ msg::Soundings SoundingMaker::make(const Shot& shot, const HeadSettings& setting
 uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
   constexpr double kSpan_s = 0.2;
   const auto body_at = [&](SimTime t) { return *ping.estimate.at(t.count(), frames::PoseHistory::Outside::kNearest); };
-  const frames::Pose now = body_at(ping.shot.transmit), before = body_at(ping.shot.transmit - from_seconds(kSpan_s));
+  const frames::Pose now = body_at(ping.event.transmit), before = body_at(ping.event.transmit - from_seconds(kSpan_s));
   const frames::HeadPose head = frames::head_pose(now, config_.mounting.measured);
   const frames::Quaternion turn = now.enu_from_body * before.enu_from_body.conjugate();
   uncertainty::Geometry motion;
@@ -147,8 +147,8 @@ SoundingMaker::Footprint SoundingMaker::footprint(std::size_t entry, const frame
 }
 
 /// Heights' noise is that of the detection.
-void SoundingMaker::watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
-                                 const msg::Soundings& soundings) {
+void SoundingMaker::update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+                                  const msg::Soundings& soundings) {
   const frames::Vec3 starboard = motion.enu_from_head * frames::Vec3::UnitY();
   const frames::Vec3 across_enu = frames::Vec3(starboard.x(), starboard.y(), 0.0).normalized();
   profile_.clear();
@@ -170,8 +170,8 @@ void SoundingMaker::watch_relief(const uncertainty::Geometry& motion, const fram
 
 void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion,
                                       msg::Soundings& soundings) {
-  const frames::Vec3 head = believed_pose(ping.estimate, ping.shot.transmit).position_enu_m;
-  watch_relief(motion, head, soundings);
+  const frames::Vec3 head = estimated_pose(ping.estimate, ping.event.transmit).position_enu_m;
+  update_relief(motion, head, soundings);
   uncertainty::Geometry geometry = motion;
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
@@ -190,16 +190,16 @@ void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geome
   }
 }
 
-void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard) {
+void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Received>& received) {
   const Steering& steering = ping.steering;
-  settings_.pulse_length_s = heard.front().echo_s;
+  settings_.pulse_length_s = received.front().echo_s;
   settings_.absorption_dbpm = ping.settings.gain_absorption_dbpm;
   settings_.sound_speed_mps = steering.sound_speed_mps;
   settings_.seabed_tilt_rad = settings_.second_echo.head_depth_m = 0.0;
   if (!ping.estimate.empty()) {
-    const frames::HeadPose head = believed_pose(ping.estimate, ping.shot.transmit);
+    const frames::HeadPose head = estimated_pose(ping.estimate, ping.event.transmit);
     settings_.seabed_tilt_rad = seabed_tilt_rad(head);
-    const double water_level_m = config_.world.vertical.tide.at(seconds(ping.shot.transmit)).height_m;
+    const double water_level_m = config_.world.vertical.tide.at(seconds(ping.event.transmit)).height_m;
     settings_.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
   }
   echoes_.clear();
@@ -212,8 +212,8 @@ void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::He
     const auto end = std::lower_bound(begin, steering.beam_of_sounding.end(), beams.first_beam + beams.beams);
     const auto count = static_cast<std::size_t>(end - begin);
     const auto sines = std::span(steering.sin_soundings).subspan(first, count);
-    const MultibeamHead::Heard& as_formed = heard[sector];
-    const MultibeamHead::Heard at =
+    const MultibeamHead::Received& as_formed = received[sector];
+    const MultibeamHead::Received at =
         steering.high_density()
             ? at_places(steering, sector, as_formed, std::span(steering.beam_of_sounding).subspan(first, count), sines)
             : as_formed;
@@ -230,10 +230,11 @@ void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::He
 }
 
 /// The beams nearest to places in the swath, their halves turned from their axes to these places: what turns is the
-/// phase between the halves, what the beams hear stays.
-MultibeamHead::Heard SoundingMaker::at_places(const Steering& steering, std::size_t sector,
-                                              const MultibeamHead::Heard& beams, std::span<const int> beam_of_place,
-                                              std::span<const float> sin_places) {
+/// phase between the halves, what the beams receive stays.
+MultibeamHead::Received SoundingMaker::at_places(const Steering& steering, std::size_t sector,
+                                                 const MultibeamHead::Received& beams,
+                                                 std::span<const int> beam_of_place,
+                                                 std::span<const float> sin_places) {
   const auto samples = static_cast<std::size_t>(beams.image.samples), count = sin_places.size();
   const bool phase = !beams.halves.positive_upa.empty();
   amplitude_upa_.resize(count * samples);
@@ -252,17 +253,17 @@ MultibeamHead::Heard SoundingMaker::at_places(const Steering& steering, std::siz
     std::ranges::transform(beams.halves.positive_upa.subspan(from, samples), positive_upa_.begin() + to,
                            [&](std::complex<float> value) { return value * turn; });
   });
-  MultibeamHead::Heard at = beams;
+  MultibeamHead::Received at = beams;
   at.image.beams = static_cast<int>(count);
   at.image.amplitude_upa = amplitude_upa_;
   at.halves = {positive_upa_, negative_upa_};
   return at;
 }
 
-/// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam hears
+/// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam receives
 /// are the side lobes of those within it.
 void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) const {
-  for (std::size_t i = 0; i < echoes_.size(); ++i) soundings.flags[i] = flags_of(echoes_[i].heard);
+  for (std::size_t i = 0; i < echoes_.size(); ++i) soundings.flags[i] = flags_of(echoes_[i].measured);
   const auto sine = [&](const Echo& echo) { return steering.sin_soundings[static_cast<std::size_t>(echo.place)]; };
   const auto middle = std::ranges::lower_bound(echoes_, 0.0F, {}, sine) - echoes_.begin();
   const auto outward = [&](std::ptrdiff_t from, std::ptrdiff_t step) {
@@ -271,7 +272,7 @@ void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) co
     for (std::ptrdiff_t i = from; i >= 0 && i < end; i += step) {
       const Echo& echo = echoes_[static_cast<std::size_t>(i)];
       if (cut_off_at >= 0 && echo.place != cut_off_at) soundings.flags[static_cast<std::size_t>(i)] |= msg::kSideLobe;
-      if (cut_off_at < 0 && (echo.heard.flags & detect::kCutOff) != 0) cut_off_at = echo.place;
+      if (cut_off_at < 0 && (echo.measured.flags & detect::kCutOff) != 0) cut_off_at = echo.place;
     }
   };
   outward(middle, 1);
@@ -280,7 +281,7 @@ void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) co
 
 void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_period_s,
                             msg::Soundings& soundings) const {
-  const detect::Detection& detection = echoes_[entry].heard;
+  const detect::Detection& detection = echoes_[entry].measured;
   const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
   const HeadSettings& settings = ping.settings;
   const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings_.pulse_length_s);
@@ -302,10 +303,10 @@ void SoundingMaker::place(const Ping& ping, std::size_t entry, msg::Soundings& s
   const Echo& echo = echoes_[entry];
   const Steering& steering = ping.steering;
   const auto sector = static_cast<std::size_t>(echo.sector), place = static_cast<std::size_t>(echo.place);
-  const SimTime transmit = ping.shot.transmit + from_seconds(sectors_[sector].delay_s);
-  const double two_way_s = echo.heard.two_way_s;
+  const SimTime transmit = ping.event.transmit + from_seconds(sectors_[sector].delay_s);
+  const double two_way_s = echo.measured.two_way_s;
   const frames::Vec3 where = sounding_enu_m(
-      {believed_pose(ping.estimate, transmit), believed_pose(ping.estimate, transmit + from_seconds(two_way_s)),
+      {estimated_pose(ping.estimate, transmit), estimated_pose(ping.estimate, transmit + from_seconds(two_way_s)),
        steering.sectors[sector].sin_transmit, static_cast<double>(steering.sin_soundings[place]),
        steering.sound_speed_mps, two_way_s},
       applied_);
@@ -313,7 +314,7 @@ void SoundingMaker::place(const Ping& ping, std::size_t entry, msg::Soundings& s
     soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
   }
   soundings.valid[entry] = 1;
-  heard_.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
+  bottoms_.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
 }
 
 }  // namespace ensonify

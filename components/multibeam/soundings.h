@@ -5,13 +5,13 @@
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/config.h"
 #include "components/multibeam/head.h"
-#include "components/multibeam/relief_watch.h"
+#include "components/multibeam/relief_estimator.h"
 #include "components/multibeam/steering.h"
-#include "components/runtime/head/auto_range.h"
-#include "components/runtime/head/shot.h"
-#include "kernels/detect/bottom.h"
-#include "kernels/frames/pose.h"
-#include "kernels/refraction/profile.h"
+#include "components/sonar/auto_range.h"
+#include "components/sonar/ping_event.h"
+#include "kernels/acoustics/detect/bottom.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/water/refraction/profile.h"
 #include "messages/soundings.h"
 
 namespace ensonify {
@@ -22,26 +22,26 @@ struct Echo {
   int detection = 0;  // of its beam, or of its place in the swath with high density
   int sector = 0;
   int place = 0;  // in Steering::sin_soundings
-  detect::Detection heard;
+  detect::Detection measured;
 };
 
-/// What the instrument makes of a ping: bottom detections and where they are, by what it knows: its settings (with the
-/// operator's absorption), the navigation estimate, the measured mounting, the applied sound speed profile. Never the
-/// truth.
+/// Product of the instrument from a ping: bottom detections and where they are, by what it knows: its settings (with
+/// the operator's absorption), the navigation estimate, the measured mounting, the applied sound speed profile. Never
+/// the truth.
 class SoundingMaker {
  public:
   explicit SoundingMaker(const MultibeamConfig& config);
 
   /// Soundings of a ping, without settings and track. Without an estimate none is valid. `navigation`: what the
   /// estimate says of its own errors.
-  msg::Soundings make(const Shot& shot, const HeadSettings& settings, const Steering& steering,
-                      const std::vector<MultibeamHead::Heard>& heard, const frames::PoseHistory& estimate,
+  msg::Soundings make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                      const std::vector<MultibeamHead::Received>& received, const frames::PoseHistory& estimate,
                       const uncertainty::Navigation& navigation);
 
   /// The detections behind the entries of the last soundings.
   const std::vector<Echo>& echoes() const { return echoes_; }
-  /// What the valid ones heard of the bottom.
-  const std::vector<HeardBottom>& heard() const { return heard_; }
+  /// Bottom returns of the valid ones.
+  const std::vector<BottomDetection>& bottoms() const { return bottoms_; }
 
  private:
   /// The detector's view of one sector.
@@ -55,24 +55,24 @@ class SoundingMaker {
     double across_m, along_m;
   };
   struct Ping {
-    const Shot& shot;
+    const PingEvent& event;
     const HeadSettings& settings;
     const Steering& steering;
     const frames::PoseHistory& estimate;
     const uncertainty::Navigation& navigation;
   };
 
-  frames::HeadPose believed_pose(const frames::PoseHistory& estimate, SimTime t) const;
-  void detect(const Ping& ping, const std::vector<MultibeamHead::Heard>& heard);
-  MultibeamHead::Heard at_places(const Steering& steering, std::size_t sector, const MultibeamHead::Heard& beams,
-                                 std::span<const int> beam_of_place, std::span<const float> sin_places);
+  frames::HeadPose estimated_pose(const frames::PoseHistory& estimate, SimTime t) const;
+  void detect(const Ping& ping, const std::vector<MultibeamHead::Received>& received);
+  MultibeamHead::Received at_places(const Steering& steering, std::size_t sector, const MultibeamHead::Received& beams,
+                                    std::span<const int> beam_of_place, std::span<const float> sin_places);
   void flag(const Steering& steering, msg::Soundings& soundings) const;
   void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
   void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
   uncertainty::Geometry motion(const Ping& ping) const;
   Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const msg::Soundings& soundings) const;
-  void watch_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
-                    const msg::Soundings& soundings);
+  void update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+                     const msg::Soundings& soundings);
   void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings);
 
   MultibeamConfig config_;
@@ -81,9 +81,9 @@ class SoundingMaker {
   detect::Settings settings_;
   std::vector<detect::Detection> detections_;  // of one sector
   std::vector<Echo> echoes_;
-  std::vector<HeardBottom> heard_;
-  ReliefWatch relief_;
-  std::vector<ReliefWatch::Sounding> profile_;
+  std::vector<BottomDetection> bottoms_;
+  ReliefEstimator relief_;
+  std::vector<ReliefEstimator::Sounding> profile_;
   // Beams turned to the places where soundings are sought, of high density.
   std::vector<float> amplitude_upa_;
   std::vector<std::complex<float>> positive_upa_, negative_upa_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/array/beam_layout.h"
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/beam_layout.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {
 namespace {
@@ -25,14 +25,14 @@ array::HighDensity layout_of(const MultibeamConfig& c, double swath_rad) {
   return layout;
 }
 
-/// From the head to the frame in which angles are counted, by what is believed.
-frames::Quaternion held_from_head(const MultibeamConfig& config, const Belief& belief) {
-  if (!belief.vehicle) return frames::Quaternion::Identity();
+/// From the head to the frame in which angles are counted, by what is estimated.
+frames::Quaternion held_from_head(const MultibeamConfig& config, const SteeringInputs& inputs) {
+  if (!inputs.vehicle) return frames::Quaternion::Identity();
   const frames::Attitude head =
-      frames::attitude_of(frames::enu_from_body(*belief.vehicle) * config.mounting.measured.body_from_head);
-  const double head_over_vehicle_rad = head.heading_rad - belief.vehicle->heading_rad;
+      frames::attitude_of(frames::enu_from_body(*inputs.vehicle) * config.mounting.measured.body_from_head);
+  const double head_over_vehicle_rad = head.heading_rad - inputs.vehicle->heading_rad;
   return array::held_from_head({config.pitch_stabilised, config.yaw_stabilised, config.roll_stabilised}, head,
-                               belief.mean_heading_rad + head_over_vehicle_rad);
+                               inputs.mean_heading_rad + head_over_vehicle_rad);
 }
 
 /// Sine to steer to for a direction at an angle on the cone of a sector's fan.
@@ -73,14 +73,14 @@ std::vector<array::TransmitSector> sectors_of(const MultibeamConfig& config, dou
   return sectors;
 }
 
-Steering steer(const MultibeamConfig& config, double swath_rad, const Belief& belief) {
+Steering steer(const MultibeamConfig& config, double swath_rad, const SteeringInputs& inputs) {
   Steering steering;
-  steering.sound_speed_mps = belief.sound_speed_mps;
-  steering.roll_stabilised = config.roll_stabilised && belief.vehicle.has_value();
-  steering.pitch_stabilised = config.pitch_stabilised && belief.vehicle.has_value();
-  steering.yaw_stabilised = config.yaw_stabilised && belief.vehicle.has_value();
+  steering.sound_speed_mps = inputs.sound_speed_mps;
+  steering.roll_stabilised = config.roll_stabilised && inputs.vehicle.has_value();
+  steering.pitch_stabilised = config.pitch_stabilised && inputs.vehicle.has_value();
+  steering.yaw_stabilised = config.yaw_stabilised && inputs.vehicle.has_value();
 
-  const frames::Quaternion held = held_from_head(config, belief);
+  const frames::Quaternion held = held_from_head(config, inputs);
   const auto sectors = sectors_of(config, swath_rad);
   for (std::size_t i = 0; i < sectors.size(); ++i) {
     SteeredSector sector = steered(held, sectors[i]);

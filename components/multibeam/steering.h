@@ -5,29 +5,29 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
-#include "kernels/array/sectors.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/acoustics/array/sectors.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 
-/// What the head believes when it transmits: what its sensors have told by then, errors and latency included.
-struct Belief {
+/// Sensor values that the head has when it transmits, errors and latency included.
+struct SteeringInputs {
   double sound_speed_mps = 1500.0;          // at the face
   std::optional<frames::Attitude> vehicle;  // by the motion sensor; nothing: nothing can be stabilised
   double mean_heading_rad = 0.0;            // of the vehicle: what yaw is held against
 };
 
-/// How a sector is sent. Sines are from the planes across the head's x axis (transmit) and its y axis.
+/// Transmission of a sector. Sines are from the planes across the head's x axis (transmit) and its y axis.
 struct SteeredSector {
   double sin_transmit = 0.0;  // of its fan
   double middle_rad = 0.0;    // of its fan, about the head's x axis from its z axis, positive to starboard
   double lower_sine = -std::numeric_limits<double>::infinity();  // edges; infinite at the edges of the swath
   double upper_sine = std::numeric_limits<double>::infinity();
-  int first_beam = 0;  // that listen to it
+  int first_beam = 0;  // that receive it
   int beams = 0;
 };
 
-/// What the head tells its arrays in one ping.
+/// Steering of the arrays in one ping.
 struct Steering {
   double sound_speed_mps = 1500.0;  // delays are made for it
   std::vector<SteeredSector> sectors;
@@ -50,7 +50,7 @@ std::vector<array::TransmitSector> sectors_of(const MultibeamConfig& config, dou
 
 /// The fan of each sector goes through the middle of its part of the swath, and the beams cut it at their angles from
 /// the vertical below the head, as far as roll, pitch and yaw are stabilised; else from the head's z axis. All stay as
-/// they are for the whole ping. A beam that would have to look behind the face lies along it.
-Steering steer(const MultibeamConfig& config, double swath_rad, const Belief& belief);
+/// they are for the whole ping. A beam that would have to point behind the face lies along it.
+Steering steer(const MultibeamConfig& config, double swath_rad, const SteeringInputs& inputs);
 
 }  // namespace ensonify

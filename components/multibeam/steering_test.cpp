@@ -6,7 +6,7 @@
 
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/test_head.h"
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 using namespace ensonify;
 using frames::Vec3;
@@ -44,7 +44,7 @@ TEST_CASE("stabilised beams keep their angles from the vertical, whatever roll a
   }
 }
 
-TEST_CASE("without stabilisation, and without a motion sensor, angles are counted from the head's own axis") {
+TEST_CASE("without stabilisation or motion sensor, angles count from the head's axis") {
   MultibeamConfig config = head_in_plain_water();
   const auto unsteered = [](const Steering& s) {
     return s.sectors[0].sin_transmit == 0.0 && s.sectors[0].middle_rad == 0.0 && !s.roll_stabilised &&
@@ -63,7 +63,7 @@ TEST_CASE("a beam is never steered behind the face") {
   CHECK(std::ranges::is_sorted(steering.sin_beams));
 }
 
-TEST_CASE("each sector's fan goes through the middle of its part of the swath, across the mean heading") {
+TEST_CASE("each sector's fan passes through the middle of its part of the swath") {
   MultibeamConfig config = head_in_plain_water();
   config.sectors = {
       {.frequency_hz = 300e3, .tilt_rad = 0.02}, {.share = 2.0, .frequency_hz = 300e3}, {.frequency_hz = 300e3}};

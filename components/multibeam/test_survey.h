@@ -6,7 +6,7 @@
 
 #include "components/multibeam/node.h"
 #include "components/multibeam/test_head.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 
 /// For tests: surveys of a flat seabed, 20 m below the head, by the whole node.

@@ -1,11 +1,11 @@
 #include "components/nav_feed/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/own_vehicle.h"
+#include "components/config/config_reader.h"
+#include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
 
-NavFeedConfig NavFeedConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+NavFeedConfig NavFeedConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   NavFeedConfig config;
   from.optional("port", config.port, 1024, 65535);
   from.optional("pose_rate_hz", config.pose_rate_hz, 1, 1000);
@@ -16,11 +16,11 @@ NavFeedConfig NavFeedConfig::read(ConfigReader& from, const Scenario& scenario, 
   config.antenna_body_m = {antenna[0], antenna[1], antenna[2]};
   from.optional_choice("height", config.height,
                        {{"water", NavFeedConfig::Height::kWater}, {"gga", NavFeedConfig::Height::kGga}});
-  config.floats = own_vehicle(from, scenario, process).floats;
-  if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
-  config.tide = scenario.vertical.tide;
-  config.datums = scenario.vertical.datums;
-  config.current = scenario.current;
+  config.floats = own_vehicle(from, world, process).floats;
+  if (!world.site.origin_from_raster) config.origin = world.site.origin;
+  config.tide = world.vertical.tide;
+  config.datums = world.vertical.datums;
+  config.current = world.current;
   return config;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/vertical/reduction.h"
+#include "kernels/vehicle/vertical/reduction.h"
 
 namespace ensonify {
 namespace {
@@ -47,13 +47,13 @@ void FedTrack::take(std::string_view text, SimTime now) {
 
 double FedTrack::unwrapped_s(double time_of_day_s) const {
   if (!anchor_utc_s_) return time_of_day_s;
-  const double days = std::round((told_s_ - time_of_day_s) / kDay_s);
+  const double days = std::round((sentence_utc_s_ - time_of_day_s) / kDay_s);
   return time_of_day_s + kDay_s * days;
 }
 
-void FedTrack::tell(double utc_s, SimTime now) {
-  told_s_ = utc_s;
-  told_at_ = now;
+void FedTrack::set_utc(double utc_s, SimTime now) {
+  sentence_utc_s_ = utc_s;
+  sentence_at_ = now;
 }
 
 void FedTrack::take(const nmea::Fix& fix, SimTime now) {
@@ -71,7 +71,7 @@ void FedTrack::take(const nmea::Fix& fix, SimTime now) {
     anchor_utc_s_ = utc_s;
     anchor_ = now;
   }
-  tell(utc_s, now);
+  set_utc(utc_s, now);
   east_m_.push(utc_s, place.x());
   north_m_.push(utc_s, place.y());
   count_("fixes_taken");
@@ -116,28 +116,28 @@ bool FedTrack::push_heading(double utc_s, double true_heading_rad) {
 void FedTrack::take(const nmea::Heading& heading, SimTime now) {
   if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
   heading_by_gyro_ = true;
-  count_(push_heading(untold_s(now), heading.true_heading_rad) ? "headings_taken" : "sentences_late");
+  count_(push_heading(utc_s_at(now), heading.true_heading_rad) ? "headings_taken" : "sentences_late");
 }
 
 void FedTrack::take(const nmea::Motion& motion, SimTime now) {
   if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
-  const double utc_s = motion.time_s ? unwrapped_s(*motion.time_s) : untold_s(now);
+  const double utc_s = motion.time_s ? unwrapped_s(*motion.time_s) : utc_s_at(now);
   if (!roll_rad_.push(utc_s, motion.roll_rad)) return count_("sentences_late");
   pitch_rad_.push(utc_s, motion.pitch_rad);
   heave_m_.push(utc_s, motion.heave_m);
   if (motion.true_heading_rad && !heading_by_gyro_) push_heading(utc_s, *motion.true_heading_rad);
-  if (motion.time_s) tell(utc_s, now);
+  if (motion.time_s) set_utc(utc_s, now);
   count_("motions_taken");
 }
 
 /// Whether all that a pose takes has come once.
-bool FedTrack::can_tell() const {
+bool FedTrack::is_complete() const {
   const bool high = config_.height == NavFeedConfig::Height::kWater || mean_height_m_.size() > 0;
   return anchor_utc_s_ && heading_rad_.size() > 0 && high;
 }
 
 std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
-  if (!can_tell() || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
+  if (!is_complete() || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
   const double t_s = delayed_s(now);
   // Off a body that lies level at the world's origin with its bow to north. First as if it were at the antenna.
   const motion::Excursion way{north_m_.at(t_s),     east_m_.at(t_s),       height_m(t_s),
@@ -152,7 +152,7 @@ std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
   return moving;
 }
 
-bool FedTrack::starves(SimTime now) const { return !can_tell() || delayed_s(now) > east_m_.newest_s(); }
+bool FedTrack::lacks_data(SimTime now) const { return !is_complete() || delayed_s(now) > east_m_.newest_s(); }
 
 void FedTrack::forget(SimTime now) {
   if (!anchor_utc_s_) return;

@@ -8,13 +8,13 @@
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/nmea.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/frames/pose.h"
-#include "kernels/motion/sampled_curve.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/vehicle/motion/sampled_curve.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
 
-/// A vehicle's way as sentences tell it. The first fix binds UTC to sim time; from then on the sentences' own times
+/// A vehicle's way as sentences give it. The first fix binds UTC to sim time; from then on the sentences' own times
 /// count, and the vehicle is `delay_s` behind them, so that its way is a smooth curve between samples. Fixes are of the
 /// antenna, heave of the vehicle's reference point.
 class FedTrack {
@@ -22,14 +22,14 @@ class FedTrack {
   using Count = std::function<void(const std::string&)>;
   FedTrack(const NavFeedConfig& config, const frames::LocalProjection& world, Count count);
 
-  /// What arrived by the event at `now`: lines, good or bad. What cannot be used is counted, and changes nothing.
+  /// Lines that arrived by the event at `now`, good or bad. What cannot be used is counted, and changes nothing.
   void take(std::string_view text, SimTime now);
 
   /// The vehicle at `now`; nothing before its first fix is that old. Its height is heave alone, or with
   /// NavFeedConfig::Height::kGga that above chart datum.
   std::optional<frames::MovingPose> at(SimTime now) const;
   /// Nothing new has come for long enough that the way is a guess.
-  bool starves(SimTime now) const;
+  bool lacks_data(SimTime now) const;
   /// Forgets what no later event needs.
   void forget(SimTime now);
 
@@ -43,10 +43,10 @@ class FedTrack {
 
   /// A time of day on the way on from the last one, across midnight.
   double unwrapped_s(double time_of_day_s) const;
-  /// Time of a sentence that tells none: that of the last one that did, and what has passed since.
-  double untold_s(SimTime now) const { return told_s_ + seconds(now - told_at_); }
-  void tell(double utc_s, SimTime now);
-  bool can_tell() const;
+  /// Time of a sentence that gives none: that of the last one that did, and what has passed since.
+  double utc_s_at(SimTime now) const { return sentence_utc_s_ + seconds(now - sentence_at_); }
+  void set_utc(double utc_s, SimTime now);
+  bool is_complete() const;
   void settle_height();
   motion::Moving height_m(double t_s) const;
   double delayed_s(SimTime now) const { return *anchor_utc_s_ + seconds(now - anchor_) - config_.delay_s; }
@@ -57,8 +57,8 @@ class FedTrack {
   Count count_;
   std::optional<double> anchor_utc_s_;  // UTC at sim time anchor_
   SimTime anchor_{0};
-  double told_s_ = 0.0;
-  SimTime told_at_{0};
+  double sentence_utc_s_ = 0.0;
+  SimTime sentence_at_{0};
   bool heading_by_gyro_ = false;  // HDT has come: headings of motion sentences are left
   motion::SampledCurve east_m_, north_m_, heading_rad_, roll_rad_, pitch_rad_, heave_m_;
   motion::SampledCurve mean_height_m_;  // above chart datum, of the reference point without heave; by GGA

@@ -7,7 +7,7 @@
 
 #include "components/nav_feed/node.h"
 #include "components/nav_feed/test_sentence.h"
-#include "components/runtime/config/default_yaml.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 using nmea::sentence;
@@ -55,13 +55,12 @@ SimTime at_s(double t_s) { return from_seconds(t_s); }
 }  // namespace
 
 TEST_CASE("nav_feed/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles = {{"boat"}};
-  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", scenario) == "");
+  World world;
+  world.vehicles = {{"boat"}};
+  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", world) == "");
 }
 
-TEST_CASE(
-    "a vehicle follows its fixes with the delay, across midnight, and what it says of its motion is the derivative") {
+TEST_CASE("a vehicle follows its fixes delayed, across midnight, with their derivatives") {
   Fed fed;
   const auto east = [](double t) { return 3.0 * t; };
   const auto north = [](double t) { return 100.0 + 20.0 * std::sin(0.1 * t); };
@@ -72,7 +71,7 @@ TEST_CASE(
   }
   CHECK(fed.counts["fixes_taken"] == 31);
   CHECK(fed.counts["headings_taken"] == 31);
-  CHECK_FALSE(fed.feed.at(at_s(7.4)));  // the first fix came at 5 s and is flown 2.5 s later
+  CHECK_FALSE(fed.feed.at(at_s(7.4)));  // the first fix came at 5 s and is run 2.5 s later
   for (double t = 9.0; t < 33.0; t += 0.37) {
     const auto moving = fed.feed.at(at_s(t));
     REQUIRE(moving);
@@ -88,7 +87,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("roll, pitch and heave come from motion sentences; their heading gives way to the gyro's") {
+TEST_CASE("roll, pitch and heave come from motion sentences; the gyro's heading goes first") {
   Fed fed;
   for (int i = 0; i <= 6; ++i) {
     fed.feed.take(fix(100 + i, 0.0, i), at_s(i));
@@ -109,7 +108,7 @@ TEST_CASE("roll, pitch and heave come from motion sentences; their heading gives
 
 TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
   Fed fed;
-  fed.feed.take(heading(10.0), at_s(0));  // nothing tells what time that is
+  fed.feed.take(heading(10.0), at_s(0));  // nothing gives what time that is
   for (int i = 0; i <= 6; ++i) fed.feed.take(fix(100 + i, i, 0.0) + heading(90.0), at_s(i));
   const auto before = fed.feed.at(at_s(6))->pose.position_enu_m;
   fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPVTG,1,T") + sentence("GPHDT,,T") +
@@ -131,12 +130,11 @@ TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
   CHECK(fed.counts == expected);
 }
 
-TEST_CASE(
-    "when fixes stop it goes straight on and says so; when they come again, also from elsewhere, it is led again") {
+TEST_CASE("without fixes it goes straight on and reports it; new fixes are followed again") {
   Fed fed;
   for (int i = 0; i <= 10; ++i) fed.feed.take(fix(100 + i, 2.0 * i, 0.0) + heading(90.0), at_s(i));
-  CHECK_FALSE(fed.feed.starves(at_s(12.5)));
-  CHECK(fed.feed.starves(at_s(12.6)));
+  CHECK_FALSE(fed.feed.lacks_data(at_s(12.5)));
+  CHECK(fed.feed.lacks_data(at_s(12.6)));
   CHECK(fed.feed.at(at_s(22.5))->pose.position_enu_m.x() == Approx(40.0).margin(0.01));  // 10 s at 2 m/s
   for (int i = 25; i <= 40; ++i) fed.feed.take(fix(100 + i, 60.0, 5.0), at_s(i));
   CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.x() == Approx(60.0).margin(0.01));
@@ -166,7 +164,7 @@ TEST_CASE("fixes of an antenna off the reference point lead the reference point"
   }
 }
 
-TEST_CASE("heights of the antenna tell the reference point's, between fixes by heave") {
+TEST_CASE("heights of the antenna give the reference point's, between fixes by heave") {
   // Chart datum lies 1.5 m below the geoid; the tide rises by 1 cm/s while the boat heaves with 4 s and lies over by 10
   // degrees; the antenna is 5 m up and 3 m to starboard.
   NavFeedConfig config{.delay_s = 3.5, .antenna_body_m = {0.0, 3.0, -5.0}, .height = NavFeedConfig::Height::kGga};

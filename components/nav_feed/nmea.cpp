@@ -54,10 +54,10 @@ std::variant<std::string_view, Sentence> body_of(std::string_view line) {
   line.remove_prefix(1);
   const std::size_t star = line.rfind('*');
   if (star == std::string_view::npos || line.size() != star + 3) return Sentence{BadChecksum{}};
-  unsigned told = 0, sum = 0;
-  const auto [end, error] = std::from_chars(line.data() + star + 1, line.data() + line.size(), told, 16);
+  unsigned reported = 0, sum = 0;
+  const auto [end, error] = std::from_chars(line.data() + star + 1, line.data() + line.size(), reported, 16);
   for (const char c : line.substr(0, star)) sum ^= static_cast<unsigned char>(c);
-  if (error != std::errc{} || end != line.data() + line.size() || told != sum) return Sentence{BadChecksum{}};
+  if (error != std::errc{} || end != line.data() + line.size() || reported != sum) return Sentence{BadChecksum{}};
   return line.substr(0, star);
 }
 

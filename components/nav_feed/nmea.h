@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-/// Sentences of NMEA 0183 [NMEA0183] that tell where a vehicle is and how it lies. Times are seconds of the UTC day.
+/// Sentences of NMEA 0183 [NMEA0183] that give where a vehicle is and how it lies. Times are seconds of the UTC day.
 namespace ensonify::nmea {
 
 /// GGA of any talker. Quality 0: there is no fix, and the place means nothing.
@@ -12,7 +12,7 @@ struct Fix {
   double time_s = 0.0;
   int quality = 0;
   double latitude_deg = 0.0, longitude_deg = 0.0;
-  double hdop = 0.0;  // 0: not told
+  double hdop = 0.0;  // 0: not given
   std::optional<double> height_above_geoid_m;
 };
 
@@ -30,12 +30,12 @@ struct Motion {
 
 struct Other {};        // a good sentence of another kind
 struct Empty {};        // one of these kinds without what it is for: its source knows nothing yet
-struct BadChecksum {};  // another sum than it tells, or none told
+struct BadChecksum {};  // another sum than it gives, or not given
 struct Malformed {};    // no sentence, or a field that cannot be
 using Sentence = std::variant<Fix, Heading, Motion, Other, Empty, BadChecksum, Malformed>;
 
 /// One line, with or without its CR LF. A `$`, fields between commas, `*` and the sum of all between as two hexadecimal
-/// digits of either case. Fields beyond those that are needed are not looked at.
+/// digits of either case. Fields beyond those that are needed are not examined.
 Sentence parse(std::string_view line);
 
 }  // namespace ensonify::nmea

@@ -43,7 +43,7 @@ TEST_CASE("sentences as instruments send them are read") {
   CHECK(seapath.heave_m == 0.58);
 }
 
-TEST_CASE("any talker is heard; other sentences are known as such") {
+TEST_CASE("any talker is accepted; other sentences are known as such") {
   for (const char* talker : {"GP", "GN", "IN", "HE"}) {
     CHECK(is<Heading>(parse(sentence(std::string(talker) + "HDT,1.0,T"))));
   }
@@ -51,7 +51,7 @@ TEST_CASE("any talker is heard; other sentences are known as such") {
   CHECK(is<Other>(parse(sentence("PSXN,20,1,0,0,0"))));
 }
 
-TEST_CASE("a source that knows nothing yet is told from a broken one") {
+TEST_CASE("a source without data yet is distinguished from a broken one") {
   CHECK(is<Empty>(parse("$GPHDT,,T*1B")));
   CHECK(std::get<Fix>(parse("$GPGGA,,,,,,0,,,,M,,M,,*66")).quality == 0);
   CHECK(is<Empty>(parse(sentence("PASHR,,,T,,,,,,,0,0"))));

@@ -1,7 +1,7 @@
 #include "components/nav_feed/node.h"
 
 #include "components/runtime/log.h"
-#include "components/runtime/pose_message.h"
+#include "components/truth/pose_message.h"
 
 namespace ensonify {
 namespace {
@@ -32,9 +32,9 @@ SimTime NavFeedNode::step(SimTime now) {
   if (!poses_due_.due(now)) return poses_due_.next();
   if (!listener_) listener_.emplace(config_.port);
   if (!track_) return poses_due_.next();
-  hear(now);
+  receive(now);
   if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, now)));
-  if (track_->starves(now)) {
+  if (track_->lacks_data(now)) {
     ports_.count("poses_guessed");
     ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
   } else {
@@ -44,7 +44,7 @@ SimTime NavFeedNode::step(SimTime now) {
   return poses_due_.next();
 }
 
-void NavFeedNode::hear(SimTime now) {
+void NavFeedNode::receive(SimTime now) {
   for (int i = 0; i < kMostDatagrams; ++i) {
     const auto datagram = listener_->take();
     if (!datagram) break;
@@ -58,7 +58,7 @@ void NavFeedNode::hear(SimTime now) {
 }
 
 /// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by. One
-/// whose height the feed tells is where it is.
+/// whose height the feed gives is where it is.
 frames::MovingPose NavFeedNode::at_its_height(frames::MovingPose moving, SimTime now) {
   if (config_.height == NavFeedConfig::Height::kGga) return moving;
   const double t_s = seconds(now);

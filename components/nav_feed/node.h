@@ -6,13 +6,13 @@
 #include "components/nav_feed/fed_track.h"
 #include "components/nav_feed/udp_listener.h"
 #include "components/runtime/ports.h"
-#include "kernels/vertical/floating.h"
+#include "kernels/vehicle/vertical/floating.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
 
-/// Stands in for a vehicle: its true pose is what sentences from outside tell.
+/// Stands in for a vehicle: its true pose is what sentences from outside give.
 class NavFeedNode {
  public:
   using Config = NavFeedConfig;
@@ -23,7 +23,7 @@ class NavFeedNode {
   SimTime step(SimTime now);
 
  private:
-  void hear(SimTime now);
+  void receive(SimTime now);
   frames::MovingPose at_its_height(frames::MovingPose moving, SimTime now);
 
   Config config_;

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify {
 

@@ -1,12 +1,12 @@
 #include "components/navigation/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/own_vehicle.h"
-#include "components/runtime/head/environment.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/environment.h"
+#include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
 
-NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+NavigationConfig NavigationConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   NavigationConfig config;
   from.optional("attitude_rate_hz", config.attitude_rate_hz, 1, 1000);
   from.optional("position_rate_hz", config.position_rate_hz, 1, 100);
@@ -29,13 +29,13 @@ NavigationConfig NavigationConfig::read(ConfigReader& from, const Scenario& scen
   from.optional("sound_speed_latency_s", probe.latency_s, 0, 10);
 
   config.instruments = read_instruments(from);
-  const Vehicle vehicle = own_vehicle(from, scenario, process);  // the pose itself is wired
-  config.seed = scenario.seed;
+  const Vehicle vehicle = own_vehicle(from, world, process);  // the pose itself is wired
+  config.seed = world.seed;
   config.process = process;
-  config.heights = {scenario.vertical.tide, scenario.vertical.datums, scenario.current, vehicle.floats,
-                    vehicle.start ? vehicle.start->position_enu_m.z() : -scenario.mission.depth_m};
-  if (!scenario.site.origin_from_raster) config.origin = scenario.site.origin;
-  config.water = {true_profile(scenario), true_column(scenario.water), scenario.water.sound_speed_law};
+  config.heights = {world.vertical.tide, world.vertical.datums, world.current, vehicle.floats,
+                    vehicle.start ? vehicle.start->position_enu_m.z() : -world.mission.depth_m};
+  if (!world.site.origin_from_raster) config.origin = world.site.origin;
+  config.water = {true_profile(world), true_column(world.water), world.water.sound_speed_law};
   return config;
 }
 

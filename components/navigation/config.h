@@ -8,7 +8,7 @@
 #include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
 #include "components/navigation/true_water.h"
-#include "components/runtime/config/scenario.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
@@ -45,7 +45,7 @@ struct NavigationConfig {
   int attitude_rate_hz = 100;  // attitude and estimate
   int position_rate_hz = 5;
   double position_gain = 0.2;       // how much of a fix's difference from the estimate is taken over, 0..1
-  double motion_latency_s = 0.0;    // age of attitude and velocity at their stamp: a sensor that does not tell its own
+  double motion_latency_s = 0.0;    // age of attitude and velocity at their stamp: a sensor that does not state its own
   double position_latency_s = 0.0;  // the same of the estimate's east and north
   NavigationErrors sigma;
   SoundSpeedProbe probe;
@@ -55,10 +55,10 @@ struct NavigationConfig {
   std::uint64_t seed = 1;
   std::string process;
   Heights heights;
-  std::optional<frames::Geodetic> origin;  // not given: the chart tells it
+  std::optional<frames::Geodetic> origin;  // not given: the chart gives it
   TrueWater water;
 
-  static NavigationConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static NavigationConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters that have a default in default.yaml.
   bool operator==(const NavigationConfig& other) const {
     return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&

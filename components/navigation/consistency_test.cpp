@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
+#include "components/navigation/test_run.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
 namespace {
 
@@ -28,7 +28,7 @@ Nees nees_of(const msg::Estimate& estimate) {
           normalised(turn.angle() * turn.axis(), estimate.rotation_covariance_enu_rad2)};
 }
 
-/// Mean of 200 seeds at epochs of 5 s, on 75 s of a circle. `carried` tells the instruments of a seed.
+/// Mean of 200 seeds at epochs of 5 s, on 75 s of a circle. `carried` gives the instruments of a seed.
 template <class Carried>
 std::vector<Nees> mean_nees(const Carried& carried) {
   constexpr int kEpochs = 15;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/runtime/sim_time.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 

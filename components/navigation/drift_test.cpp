@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 #include <iostream>
 
-#include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/navigation/test_run.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
 // How far an AUV strays that dives: inertial unit and Doppler log of the grades' files, no fix.
 
@@ -49,7 +49,7 @@ double drift_percent(const std::string& carried, std::uint64_t seed) {
   return 100.0 * grown_m.norm() / (kSpeed_mps * (kEnd_s - kSurface_s));
 }
 
-/// Root mean square of so many dives. `carried` tells the inertial unit and log, and what else, of a seed.
+/// Root mean square of so many dives. `carried` gives the inertial unit and log, and what else, of a seed.
 template <class Carried>
 double rms_drift_percent(int dives, const Carried& carried) {
   double squares = 0.0;
@@ -65,7 +65,7 @@ std::string with_log(const std::string& imu, const std::string& log = "performan
 
 }  // namespace
 
-TEST_CASE("half an hour under water with FOG and a Doppler log, as graded, drifts by 0.1 to 0.3 % of the distance") {
+TEST_CASE("30 min submerged with FOG and Doppler log drift by 0.1 to 0.3 % of the distance") {
   // 0.18 % (a hundred dives). Of twenty, with two independent errors each, along and across, the root mean square
   // strays by 11 %: three times that is 0.06, well inside what the grade is meant to do.
   CHECK(rms_drift_percent(20, [](std::uint64_t) { return with_log("fog"); }) == Approx(0.18).margin(0.06));

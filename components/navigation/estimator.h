@@ -6,8 +6,8 @@
 
 #include "components/navigation/instrument_config.h"
 #include "components/runtime/sim_time.h"
-#include "kernels/frames/local_projection.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -31,7 +31,7 @@ class Estimator {
 
   bool ready() const { return filter_.has_value(); }
   double time_s() const { return seconds(SimTime{stamp_ns_}); }  // of the estimate
-  /// Of the body's origin, by the measured mounting of the unit. Only when ready.
+  /// Estimate of the body's origin, by the measured mounting of the unit. Only when ready.
   msg::Estimate estimate(const frames::LocalProjection& world) const;
 
   /// A place of the body as seen from the unit, its axes; and turns from the body's axes to its.

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
-#include "kernels/navigation_filter/test_vehicle.h"
+#include "components/navigation/test_run.h"
+#include "kernels/instruments/navigation_filter/test_vehicle.h"
 
 using namespace ensonify;
-namespace kernel = ensonify::navigation_filter::sailing;
+namespace kernel = ensonify::navigation_filter::test_run;
 
 // Consistency and drift of the filter are tested with grades that its kernel's tests write down (test_vehicle.h): the
 // kernel reads no files. They are those of the files, but for the quanta, which they leave out.
@@ -53,12 +53,12 @@ TEST_CASE("the grades that the filter's own tests know are those of the files") 
   for (const auto& [imu, heading, tested] : grades) {
     CAPTURE(imu, heading);
     const std::string compass = *heading ? std::string("heading: { grade: ") + heading + " }" : "";
-    const Instruments carried = sailing::config_of(std::string("imu: { grade: ") + imu + " }\n" + compass).instruments;
+    const Instruments carried = test_run::config_of(std::string("imu: { grade: ") + imu + " }\n" + compass).instruments;
     check_same(carried.imu->errors.gyro, tested.imu.gyro);
     check_same(carried.imu->errors.accelerometer, tested.imu.accelerometer);
     check_same(carried.imu->alignment, tested.alignment);
     if (carried.heading) check_same(carried.heading->errors, tested.compass);
   }
-  const Instruments log = sailing::config_of("velocity_log: { grade: performance }").instruments;
+  const Instruments log = test_run::config_of("velocity_log: { grade: performance }").instruments;
   CHECK(log.velocity_log->errors.scale == Approx(kernel::kLogScale));
 }

@@ -2,15 +2,15 @@
 
 #include <optional>
 
-#include "kernels/motion/current.h"
-#include "kernels/vertical/draught.h"
-#include "kernels/vertical/reduction.h"
-#include "kernels/vertical/tide.h"
+#include "kernels/vehicle/motion/current.h"
+#include "kernels/vehicle/vertical/draught.h"
+#include "kernels/vehicle/vertical/reduction.h"
+#include "kernels/vehicle/vertical/tide.h"
 #include "messages/motion.h"
 
 namespace ensonify {
 
-/// What heights and depths of instruments refer to. World zero is chart datum.
+/// References of the heights and depths of instruments. World zero is chart datum.
 struct Heights {
   vertical::Tide tide;
   vertical::Datums datums;
@@ -21,7 +21,7 @@ struct Heights {
   /// The water level above chart datum at sim time t.
   double water_level_m(double t_s) const { return tide.at(t_s).height_m; }
 
-  /// Of the water at a height above chart datum; it goes along with the tide's streams, not with its height.
+  /// Velocity of the water at a height above chart datum; it goes along with the tide's streams, not with its height.
   frames::Vec3 water_velocity_enu_mps(double height_m, double t_s) const {
     const frames::Vec2 across = current.velocity_enu_mps(-height_m, t_s);
     return {across.x(), across.y(), 0.0};

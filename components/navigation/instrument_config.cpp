@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/data_paths.h"
+#include "components/config/config_reader.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify {
 namespace {
@@ -54,7 +54,7 @@ void read_graded(ConfigReader& from, const std::string& kind, Instrument& instru
     if (path.empty()) {
       const std::string known = known_grades(kind);
       from.problem("grade", "\"" + grade + "\" is no grade of this instrument; allowed: " +
-                                (known.empty() ? "" : known + ", or ") + "a file *.yaml (looked for " + kGrades +
+                                (known.empty() ? "" : known + ", or ") + "a file *.yaml (searched for " + kGrades +
                                 " in " + data_roots_text() + ")");
     }
   }
@@ -69,7 +69,7 @@ void read_graded(ConfigReader& from, const std::string& kind, Instrument& instru
   read(from);
 }
 
-/// Of what hears the bottom between two distances.
+/// Of what detects the bottom between two distances.
 void check_ranges(const ConfigReader& from, double shortest_m, double longest_m) {
   if (shortest_m >= longest_m)
     from.problem("shortest_m", fmt::format("{} is not below longest_m {}; allowed: less", shortest_m, longest_m));

@@ -3,24 +3,24 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/frames/pose.h"
-#include "kernels/inertial/imu.h"
-#include "kernels/navigation_filter/error_state.h"
-#include "kernels/sensors/doppler_log.h"
-#include "kernels/sensors/gnss.h"
-#include "kernels/sensors/heading.h"
-#include "kernels/sensors/heave.h"
-#include "kernels/sensors/instrument_clock.h"
-#include "kernels/sensors/level.h"
-#include "kernels/sensors/range_sensor.h"
-#include "kernels/sensors/scalar_sensor.h"
-#include "kernels/sensors/usbl.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/instruments/inertial/imu.h"
+#include "kernels/instruments/navigation_filter/error_state.h"
+#include "kernels/instruments/sensors/doppler_log.h"
+#include "kernels/instruments/sensors/gnss.h"
+#include "kernels/instruments/sensors/heading.h"
+#include "kernels/instruments/sensors/heave.h"
+#include "kernels/instruments/sensors/instrument_clock.h"
+#include "kernels/instruments/sensors/level.h"
+#include "kernels/instruments/sensors/range_sensor.h"
+#include "kernels/instruments/sensors/scalar_sensor.h"
+#include "kernels/instruments/sensors/usbl.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// What every instrument has: its place, its pace and its clock.
+/// Common parameters of instruments: place, its pace and its clock.
 struct Instrument {
   double rate_hz = 1.0;
   double latency_s = 0.0;  // from the measurement to its message
@@ -63,7 +63,7 @@ struct DopplerLogConfig {
   sensors::JanusGeometry geometry;
   sensors::DopplerErrors errors;
   double water_track_m = 0.0;  // of the water that is tracked below the transducer; 0: water is not tracked
-  // What the filter believes of the current there, north and east each: its standard deviation at the start, and how it
+  // What the filter assumes of the current there, north and east each: its standard deviation at the start, and how it
   // changes at random with time and with depth. Assumed: 0.24 m/s in an hour, 0.2 m/s in 50 m.
   double current_prior_mps = 0.3;
   double current_walk_mps_per_sqrt_s = 0.004;
@@ -105,7 +105,7 @@ struct UsblConfig {
   frames::Vec3 transponder_body_m = frames::Vec3::Zero();  // of the target, in its own frame
 };
 
-/// What the filter believes of fixes by another vehicle, beside what its array says of its own noise: standard
+/// Filter's model of fixes by another vehicle, besides the noise of its array: standard
 /// deviations of what changes slowly, but for the white one.
 struct UsblFixesConfig {
   frames::Vec3 transponder_body_m = frames::Vec3::Zero();  // of this vehicle, as measured
@@ -116,7 +116,7 @@ struct UsblFixesConfig {
   double wander_s = 300.0;           // correlation time of the slow ones
 };
 
-/// What the vehicle carries; what is not given it does not.
+/// Instruments of the vehicle; those not given are absent.
 struct Instruments {
   std::optional<GnssConfig> gnss;
   std::optional<ImuConfig> imu;
@@ -132,7 +132,7 @@ struct Instruments {
   std::optional<UsblFixesConfig> usbl_fixes;
 
   bool need_seabed() const { return velocity_log || altimeter; }
-  bool meet_seabed() const { return need_seabed() || current_profiler; }
+  bool use_seabed() const { return need_seabed() || current_profiler; }
 };
 
 /// Reads the sections gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter, sound_speed, ctd,

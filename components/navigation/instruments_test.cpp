@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_mesh.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/navigation/test_run.h"
+#include "components/sonar/test_mesh.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
 namespace {
 
@@ -51,7 +51,7 @@ TEST_CASE("every grade reads, and names its kind") {
         Approx(0.5 * kDegree / 3600));
 }
 
-TEST_CASE("a grade of one's own is looked for beside the file that names it, wherever one stands") {
+TEST_CASE("a user's grade file is found beside the file that names it, from any directory") {
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_grade_beside";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "mine.yaml") << "gyro: { bias_degph: 0.5 }\n";
@@ -81,7 +81,7 @@ TEST_CASE("impossible instruments are refused with place and cause") {
 TEST_CASE("FOG and RTK: the estimate is within centimetres and as uncertain as it says") {
   NodeUnderTest<NavigationNode> navigation(
       config_of("imu: { grade: fog, position_m: [0.3, 0.1, -0.5] }\ngnss: { grade: rtk, position_m: [-1, 0, -3] }"));
-  sail(navigation, 60, kLevel);
+  run_for(navigation, 60, kLevel);
   const auto estimates = navigation.step_until<msg::Estimate>("estimate", 60_s);
   const auto increments = navigation.step_until<msg::InertialIncrements>("imu", 60_s);
   CHECK(estimates.size() == 6001);
@@ -104,7 +104,7 @@ TEST_CASE("FOG and RTK: the estimate is within centimetres and as uncertain as i
   }
 }
 
-TEST_CASE("a dive: no fixes under water; log and depth hold the estimate; the seabed gives the lock") {
+TEST_CASE("in a dive there are no fixes; log and depth hold the estimate") {
   // 5 m down from 20 s on, over a bottom at 20 m; without depth and log the inertial system alone drifts off.
   const auto dive = [](double t) { return t < 20 ? -0.2 : t < 30 ? -0.2 - 0.5 * (t - 20) : -5.2; };
   const std::string carried =
@@ -112,7 +112,7 @@ TEST_CASE("a dive: no fixes under water; log and depth hold the estimate; the se
       "velocity_log: { grade: performance, position_m: [0, 0, 0.5] }\ndepth: { grade: quartz }\naltimeter: {}\n";
   NodeUnderTest<NavigationNode> navigation(config_of(carried));
   navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
-  sail(navigation, 90, dive);
+  run_for(navigation, 90, dive);
   const auto positions = navigation.step_until<msg::Position>("position", 90_s);
   REQUIRE(!positions.empty());
   CHECK(positions.back().stamp_ns < 23'000'000'000);  // the antenna goes under at 21.6 s
@@ -137,7 +137,7 @@ TEST_CASE("a dive: no fixes under water; log and depth hold the estimate; the se
         std::sqrt(estimates[2000].position_covariance_enu_m2[0]));
 
   NodeUnderTest<NavigationNode> blind(config_of(carried));
-  sail(blind, 2, dive);
+  run_for(blind, 2, dive);
   CHECK(!blind.step_until<msg::VelocityLog>("velocity_log", 2_s).back().bottom_lock);
 }
 
@@ -146,10 +146,10 @@ TEST_CASE("an altimeter's beam ends on a mesh while it is there") {
   navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
   navigation.give_at("mesh", 4_s, table_of(300.0, -12.0));
   navigation.give_at("mesh_release", 8_s, msg::MeshRelease{0});
-  sail(navigation, 12, kLevel);
-  const auto told = [&](SimTime until) { return navigation.step_until<msg::Altitude>("altitude", until).back(); };
+  run_for(navigation, 12, kLevel);
+  const auto reported = [&](SimTime until) { return navigation.step_until<msg::Altitude>("altitude", until).back(); };
   for (const auto& [until, height_m] : {std::pair{3900_ms, -20.0}, {7900_ms, -12.0}, {11900_ms, -20.0}}) {
-    const auto altitude = told(until);
+    const auto altitude = reported(until);
     CHECK(altitude.valid);
     CHECK(altitude.range_m == Approx(-1.0 - height_m).margin(0.3));  // rolling by 5 degrees makes 0.08 m
   }
@@ -160,7 +160,7 @@ TEST_CASE("outages silence an instrument, latency delays it, its clock stamps it
       config_of("gnss: { position_m: [0, 0, -3], rate_hz: 1, outages_s: [3, 6], latency_s: 0.25, clock: { locked: "
                 "false, offset_s: 0.1 } }\n"
                 "depth: { rate_hz: 1, latency_s: 0.5, stamped_at: output }"));
-  sail(navigation, 8, kLevel);
+  run_for(navigation, 8, kLevel);
   CHECK(navigation.step_until<msg::Position>("position", 2.24_s).size() == 2);
   CHECK(navigation.step_until<msg::Position>("position", 2.25_s).size() == 1);
   const auto later = navigation.step_until<msg::Position>("position", 8_s);
@@ -171,7 +171,7 @@ TEST_CASE("outages silence an instrument, latency delays it, its clock stamps it
   CHECK(depths[2].stamp_ns == 2'500'000'000);
   NodeUnderTest<NavigationNode> again(
       config_of("gnss: { position_m: [0, 0, -3], rate_hz: 1, clock: { locked: false, offset_s: 0.1 } }"));
-  sail(again, 2, kLevel);
+  run_for(again, 2, kLevel);
   CHECK(again.step_until<msg::Position>("position", 2_s).back().stamp_ns == 2'100'000'000);
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("heave has no draught in it; delayed heave is right a window later") {
   const auto waves = [](double t) { return -3.0 + 0.5 * std::sin(2 * kPi * t / 8); };
   NodeUnderTest<NavigationNode> navigation(
       config_of("motion_sensor: { rate_hz: 10, heave_cutoff_s: 30, delayed_heave_s: 75 }"));
-  sail(navigation, 300, waves);
+  run_for(navigation, 300, waves);
   const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 300_s);
   double mean = 0.0;
   for (std::size_t i = 2000; i < 2800; ++i) mean += attitudes[i].heave_m / 800;  // ten periods
@@ -196,7 +196,7 @@ TEST_CASE("heave has no draught in it; delayed heave is right a window later") {
 TEST_CASE("the same seed gives the same estimate, another one another") {
   const auto last = [](std::uint64_t seed) {
     NodeUnderTest<NavigationNode> navigation(config_of("imu: { grade: mems }\ngnss: { grade: dgps }", seed));
-    sail(navigation, 2, kLevel);
+    run_for(navigation, 2, kLevel);
     return navigation.step_until<msg::Estimate>("estimate", 2_s).back().position_enu_m;
   };
   CHECK(last(1) == last(1));
@@ -205,7 +205,7 @@ TEST_CASE("the same seed gives the same estimate, another one another") {
 
 TEST_CASE("a compass gives the heading of attitude, clockwise from grid north") {
   NodeUnderTest<NavigationNode> navigation(config_of("heading: { errors: { bias_deg: 2 } }"));
-  sail(navigation, 1, kLevel);
+  run_for(navigation, 1, kLevel);
   const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 1_s);
   CHECK(attitudes.back().heading_grid_rad == Approx(0.02 + 2 * kDegree).margin(1e-5));
 }
@@ -226,11 +226,11 @@ double riding(double t) { return 2.0 + 1.5 * std::sin(kM2_radps * t) - 1.0 - 0.3
 
 }  // namespace
 
-TEST_CASE("neither tide nor draught nor load is in heave, of the simplest sensor and of a graded one") {
+TEST_CASE("heave of a simple and of a graded sensor holds no tide, draught or load") {
   NavigationConfig simple = on_a_tide("centre_of_rotation_m: [0, 0, 0]");
   simple.sigma.heave_m = 0.0;
   NodeUnderTest<NavigationNode> ideal(simple);
-  sail(ideal, 16, riding);
+  run_for(ideal, 16, riding);
   for (const auto& attitude : ideal.step_until<msg::Attitude>("attitude", 16_s)) {
     REQUIRE(attitude.heave_m ==
             Approx(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(attitude.stamp_ns) / 8)).margin(1e-9));
@@ -239,7 +239,7 @@ TEST_CASE("neither tide nor draught nor load is in heave, of the simplest sensor
   // The filter's corner is at 30 s: what it started with has died away after 160 s to exp(-0.7 * 2 pi * 160 / 30), and
   // of a steady rise nothing is left.
   NodeUnderTest<NavigationNode> graded(on_a_tide("motion_sensor: { rate_hz: 10, heave_cutoff_s: 30 }"));
-  sail(graded, 240, riding);
+  run_for(graded, 240, riding);
   const auto attitudes = graded.step_until<msg::Attitude>("attitude", 240_s);
   double mean = 0.0, early = 0.0;
   for (std::size_t i = 1600; i < 2400; ++i) mean += attitudes[i].heave_m / 800;
@@ -252,7 +252,7 @@ TEST_CASE("pressure depth counts from the water level, and heights by it follow 
   NodeUnderTest<NavigationNode> navigation(
       on_a_tide("imu: { grade: fog }\ndepth: { position_m: [0, 0, 2] }\ngnss: { grade: rtk, position_m: [0, 0, -4] }"));
   const auto still = [](double t) { return riding(t) - 0.5 * std::sin(2 * kPi * t / 8); };
-  sail(navigation, 60, still);
+  run_for(navigation, 60, still);
   const auto depths = navigation.step_until<msg::Depth>("depth", 60_s);
   REQUIRE(depths.size() == 601);
   for (const auto& depth : depths) {
@@ -266,12 +266,12 @@ TEST_CASE("pressure depth counts from the water level, and heights by it follow 
 
 TEST_CASE("an antenna above chart datum but under the water has no fix") {
   NodeUnderTest<NavigationNode> navigation(on_a_tide("gnss: { position_m: [0, 0, -0.5] }"));
-  sail(navigation, 30, riding);
+  run_for(navigation, 30, riding);
   CHECK(navigation.step_until<msg::Position>("position", 30_s).empty());
   const auto health = navigation.step_until<msg::Health>("health", 30_s).back();
   CHECK(health.state == "degraded");
   CHECK(health.message == "gnss: the antenna is -0.50 m above the water at rest: few fixes or none");
   NodeUnderTest<NavigationNode> higher(on_a_tide("gnss: { position_m: [0, 0, -2.5] }"));
-  sail(higher, 30, riding);
+  run_for(higher, 30, riding);
   CHECK(!higher.step_until<msg::Position>("position", 30_s).empty());
 }

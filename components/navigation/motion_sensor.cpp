@@ -34,9 +34,9 @@ msg::Attitude MotionSensor::measure(const msg::Pose& pose) {
   const double lean_rad = level_.advance(across_mps2, dt_s);
 
   const frames::Mounting &actual = config_.instrument.actual, &measured = config_.instrument.measured;
-  const frames::Quaternion believed =
+  const frames::Quaternion estimated =
       truth.pose.enu_from_body * actual.body_from_head * measured.body_from_head.conjugate();
-  const frames::Attitude angles = frames::attitude_of(believed);
+  const frames::Attitude angles = frames::attitude_of(estimated);
   msg::Attitude attitude;
   attitude.roll_rad = roll_.measure(angles.roll_rad, dt_s) + lean_rad;
   attitude.pitch_rad = pitch_.measure(angles.pitch_rad, dt_s);

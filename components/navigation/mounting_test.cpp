@@ -1,12 +1,12 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/navigation/test_run.h"
+#include "components/sonar/test_seabed.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
-// What each instrument errs by when it sits elsewhere, or otherwise turned, than is believed.
+// What each instrument errs by when it sits elsewhere, or otherwise turned, than is assumed.
 
 namespace {
 
@@ -37,14 +37,14 @@ struct Reading {
 };
 
 template <class Message, class Value>
-std::vector<Reading> told(const std::string& yaml, const std::string& port, const Value& value) {
+std::vector<Reading> reported(const std::string& yaml, const std::string& port, const Value& value) {
   constexpr int kSeconds = 20;
   NavigationConfig config = config_of(yaml);
   config.sigma = {0, 0, 0, 0, 0, 0, 0};
   config.water.sound_speed =
       refraction::SoundSpeedProfile({{0.0, 1450.0}, {100.0, 1450.0 + 100 * kSoundSpeedSlope_ps}});
   NodeUnderTest<NavigationNode> navigation(config);
-  if (config.instruments.meet_seabed()) {
+  if (config.instruments.use_seabed()) {
     navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
   }
   for (int i = 0; i <= 100 * kSeconds; ++i) {
@@ -68,49 +68,50 @@ Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 using Readings = std::vector<Reading> (*)(const std::string& yaml);
 
 std::vector<Reading> positions(const std::string& yaml) {
-  return told<msg::Position>(yaml, "position", [](const msg::Position& p) { return vec(p.position_enu_m); });
+  return reported<msg::Position>(yaml, "position", [](const msg::Position& p) { return vec(p.position_enu_m); });
 }
 std::vector<Reading> places(const std::string& yaml) {
-  return told<msg::Estimate>(yaml, "estimate", [](const msg::Estimate& e) { return vec(e.position_enu_m); });
+  return reported<msg::Estimate>(yaml, "estimate", [](const msg::Estimate& e) { return vec(e.position_enu_m); });
 }
 std::vector<Reading> starboards(const std::string& yaml) {  // where the estimate has the body's second axis
-  return told<msg::Estimate>(yaml, "estimate", [](const msg::Estimate& e) -> Vec3 {
+  return reported<msg::Estimate>(yaml, "estimate", [](const msg::Estimate& e) -> Vec3 {
     return frames::quaternion_of(e.enu_from_body) * Vec3::UnitY();
   });
 }
 std::vector<Reading> velocities(const std::string& yaml) {
-  return told<msg::VelocityLog>(yaml, "velocity_log",
-                                [](const msg::VelocityLog& log) { return vec(log.velocity_body_mps); });
+  return reported<msg::VelocityLog>(yaml, "velocity_log",
+                                    [](const msg::VelocityLog& log) { return vec(log.velocity_body_mps); });
 }
 std::vector<Reading> currents(const std::string& yaml) {
-  return told<msg::CurrentProfile>(yaml, "current_profile", [](const msg::CurrentProfile& p) {
+  return reported<msg::CurrentProfile>(yaml, "current_profile", [](const msg::CurrentProfile& p) {
     return Vec3(p.velocity_body_mps(0, 0), p.velocity_body_mps(0, 1), p.velocity_body_mps(0, 2));
   });
 }
 std::vector<Reading> headings(const std::string& yaml) {
-  return told<msg::Heading>(yaml, "heading", [](const msg::Heading& h) { return Vec3(h.heading_true_rad, 0, 0); });
+  return reported<msg::Heading>(yaml, "heading", [](const msg::Heading& h) { return Vec3(h.heading_true_rad, 0, 0); });
 }
 std::vector<Reading> leanings(const std::string& yaml) {
-  return told<msg::Attitude>(yaml, "attitude", [](const msg::Attitude& a) { return Vec3(a.roll_rad, a.pitch_rad, 0); });
+  return reported<msg::Attitude>(yaml, "attitude",
+                                 [](const msg::Attitude& a) { return Vec3(a.roll_rad, a.pitch_rad, 0); });
 }
 std::vector<Reading> heaves(const std::string& yaml) {
-  return told<msg::Attitude>(yaml, "attitude", [](const msg::Attitude& a) { return Vec3(0, 0, a.heave_m); });
+  return reported<msg::Attitude>(yaml, "attitude", [](const msg::Attitude& a) { return Vec3(0, 0, a.heave_m); });
 }
 std::vector<Reading> depths(const std::string& yaml) {
-  return told<msg::Depth>(yaml, "depth", [](const msg::Depth& d) { return Vec3(0, 0, d.depth_m); });
+  return reported<msg::Depth>(yaml, "depth", [](const msg::Depth& d) { return Vec3(0, 0, d.depth_m); });
 }
 std::vector<Reading> ctd_depths(const std::string& yaml) {
-  return told<msg::Ctd>(yaml, "ctd", [](const msg::Ctd& ctd) { return Vec3(0, 0, ctd.depth_m); });
+  return reported<msg::Ctd>(yaml, "ctd", [](const msg::Ctd& ctd) { return Vec3(0, 0, ctd.depth_m); });
 }
 std::vector<Reading> sound_speeds(const std::string& yaml) {
-  return told<msg::SoundSpeed>(yaml, "sound_speed",
-                               [](const msg::SoundSpeed& s) { return Vec3(s.sound_speed_mps, 0, 0); });
+  return reported<msg::SoundSpeed>(yaml, "sound_speed",
+                                   [](const msg::SoundSpeed& s) { return Vec3(s.sound_speed_mps, 0, 0); });
 }
 std::vector<Reading> ranges(const std::string& yaml) {
-  return told<msg::Altitude>(yaml, "altitude", [](const msg::Altitude& a) { return Vec3(0, 0, a.range_m); });
+  return reported<msg::Altitude>(yaml, "altitude", [](const msg::Altitude& a) { return Vec3(0, 0, a.range_m); });
 }
 std::vector<Reading> transponders(const std::string& yaml) {
-  return told<msg::UsblFix>(yaml, "usbl", [](const msg::UsblFix& fix) { return vec(fix.place_body_m); });
+  return reported<msg::UsblFix>(yaml, "usbl", [](const msg::UsblFix& fix) { return vec(fix.place_body_m); });
 }
 
 Eigen::AngleAxisd degree_about(const Vec3& axis) { return Eigen::AngleAxisd(kDegree, axis); }
@@ -236,7 +237,7 @@ const std::vector<Misfit> kMisfits{
 
 }  // namespace
 
-TEST_CASE("an instrument mounted otherwise than is believed errs by its closed form") {
+TEST_CASE("an instrument mounted otherwise than measured errs by its closed form") {
   for (const Misfit& misfit : kMisfits) {
     INFO(misfit.what);
     const std::vector<Reading> right = misfit.readings(misfit.right), wrong = misfit.readings(misfit.wrong);

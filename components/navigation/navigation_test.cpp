@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/navigation/test_sailing.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/navigation/test_run.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/terrain.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 constexpr double kPi = std::numbers::pi;
@@ -51,9 +51,9 @@ struct Moments {
 }  // namespace
 
 TEST_CASE("navigation/default.yaml lists every parameter with its default") {
-  Scenario scenario;
-  scenario.vehicles.resize(1);
-  CHECK(default_yaml_fault<NavigationConfig>("navigation", scenario, sailing::kSections) == "");
+  World world;
+  world.vehicles.resize(1);
+  CHECK(default_yaml_fault<NavigationConfig>("navigation", world, test_run::kSections) == "");
 }
 
 TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {
@@ -65,7 +65,7 @@ TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each att
   CHECK(navigation.take("estimate").size() == 201);
 }
 
-TEST_CASE("without noise the instruments tell the truth") {
+TEST_CASE("without noise the instruments report the truth") {
   NodeUnderTest<NavigationNode> navigation(config_of(0));
   give_truth(navigation, 10);
   const auto estimates = navigation.step_until<msg::Estimate>("estimate", 10_s);
@@ -133,7 +133,7 @@ TEST_CASE("the estimate is quieter than the fixes by what the filter's theory sa
   CHECK(east.sigma() == Approx(config.sigma.horizontal_m * std::sqrt(0.2 / 1.8)).epsilon(0.2));
 }
 
-TEST_CASE("the probe tells the sound speed at its own depth, with its bias, its noise and its latency") {
+TEST_CASE("the probe reports sound speed at its depth, with bias, noise and latency") {
   NavigationConfig config = config_of(0);
   config.water.sound_speed = refraction::SoundSpeedProfile({{0.0, 1500.0}, {10.0, 1520.0}});  // 2 m/s per m
   config.probe.position_body_m = {0.0, 0.0, 1.0};
@@ -180,7 +180,7 @@ TEST_CASE("an origin left to the raster comes with the chart; nothing is measure
   CHECK(positions[0].latitude_deg == Approx(10.0).margin(1e-4));
 }
 
-TEST_CASE("a latency of positions makes the estimate's east and north late, and nothing else") {
+TEST_CASE("position latency delays the estimate's east and north, and nothing else") {
   NavigationConfig late = config_of(0);
   late.position_latency_s = 0.155;  // between two estimates
   const auto last_of = [](const NavigationConfig& config) {
@@ -195,7 +195,7 @@ TEST_CASE("a latency of positions makes the estimate's east and north late, and 
   CHECK(old.enu_from_body == now.enu_from_body);
 }
 
-TEST_CASE("a latency of the motion sensor makes attitude and heave late, the position's fixes not") {
+TEST_CASE("motion sensor latency delays attitude and heave, not the position fixes") {
   // A sixth of the heave's 5 s. The roll turns with time: 2 degrees per second.
   NavigationConfig config = config_of(0);
   config.motion_latency_s = 5.0 / 6.0;

@@ -21,7 +21,7 @@ Rate position_rate(const NavigationConfig& config) {
 }
 
 /// How high above the water the antenna is at rest, or at the surface, if that is too low for fixes.
-std::optional<double> washed_antenna_m(const NavigationConfig& config) {
+std::optional<double> low_antenna_m(const NavigationConfig& config) {
   const auto& gnss = config.instruments.gnss;
   if (!gnss) return std::nullopt;
   const double rest_m = config.heights.floats ? config.heights.rest_m : 0.0;
@@ -56,7 +56,7 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       suite_(config, ports,
              {[this](const msg::Position& position) { take_fix(position); },
               [this](const msg::SoundSpeed& reading) { sound_speeds_.send(reading); }}),
-      washed_antenna_m_(washed_antenna_m(config)),
+      low_antenna_m_(low_antenna_m(config)),
       afloat_(config.heights.floats.has_value()) {
   if (config.origin) world_.emplace(*config.origin);
   if (carried_.usbl) usbl_.emplace(*carried_.usbl, config.seed, config.process, ports);
@@ -87,8 +87,8 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
 
 SimTime NavigationNode::step(SimTime now) {
   const std::int64_t sample = attitude_due_.count(), fix = position_due_.count();
-  if (sample == 0 && washed_antenna_m_) {
-    log::event(ports_, "antenna_under_water", "at_rest_above_water_m={:.2f}", *washed_antenna_m_);
+  if (sample == 0 && low_antenna_m_) {
+    log::event(ports_, "antenna_under_water", "at_rest_above_water_m={:.2f}", *low_antenna_m_);
   }
   const bool attitude = attitude_due_.due(now), position = position_due_.due(now);
   const bool inertial = estimator_ && imu_due_.due(now);
@@ -98,14 +98,14 @@ SimTime NavigationNode::step(SimTime now) {
     }
   }
   if (usbl_fixes_ && world_) usbl_fixes_->correct(*estimator_, *world_);
-  suite_.step(now, truth_, world_, believed_, estimator_);
+  suite_.step(now, truth_, world_, estimated_pose_, estimator_);
   if (truth_ && world_) {
     if (attitude && !estimator_) filter_.predict(SimTime{truth_->stamp_ns}, sensors_.velocity_enu_mps(moved(), sample));
     if (position && !carried_.gnss) measure_position(fix);
     if (attitude) measure_attitude(now, sample);
   }
   if (usbl_) find_transponder(now);
-  tell_trouble();
+  report_trouble();
   const std::int64_t dip = sound_speed_due_.count();
   if (sound_speed_due_.due(now) && truth_ && !carried_.sound_speed) {
     sound_speeds_under_way_.emplace_back(now + sound_speed_latency_, sensors_.sound_speed(*truth_, dip));
@@ -159,7 +159,8 @@ void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
     attitude.pitch_rad = sensed.pitch_rad;
     attitude.heave_m = sensed.heave_m;
   }
-  believed_.enu_from_body = frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
+  estimated_pose_.enu_from_body =
+      frames::enu_from_body({attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad});
   estimate(attitude);
   if (!motion_sensor_) return attitudes_.send(attitude);
 
@@ -174,31 +175,30 @@ void NavigationNode::measure_attitude(SimTime now, std::int64_t n) {
 void NavigationNode::find_transponder(SimTime now) {
   if (!truth_ || !world_) return usbl_->step(now, nullptr, outbox_);
   const double t_s = seconds(SimTime{truth_->stamp_ns});
-  const Moment moment{now, t_s, moving_pose(*truth_), *world_, believed_, nullptr};
+  const Moment moment{now, t_s, moving_pose(*truth_), *world_, estimated_pose_, nullptr};
   usbl_->step(now, &moment, outbox_);
 }
 
 /// A vehicle that dives has no fix most of the time; one that floats should have.
-void NavigationNode::tell_trouble() {
+void NavigationNode::report_trouble() {
   std::string trouble;
-  if (afloat_ && washed_antenna_m_) {
-    trouble =
-        fmt::format("gnss: the antenna is {:.2f} m above the water at rest: few fixes or none", *washed_antenna_m_);
+  if (afloat_ && low_antenna_m_) {
+    trouble = fmt::format("gnss: the antenna is {:.2f} m above the water at rest: few fixes or none", *low_antenna_m_);
   }
   if (usbl_ && !usbl_->silence().empty()) trouble += (trouble.empty() ? "" : "; ") + usbl_->silence();
   ports_.health(trouble.empty() ? "ok" : "degraded", trouble);
 }
 
-void NavigationNode::believe(const msg::Estimate& estimate) {
+void NavigationNode::update_pose(const msg::Estimate& estimate) {
   const auto& [east_m, north_m, up_m] = estimate.position_enu_m;
-  believed_ = {frames::quaternion_of(estimate.enu_from_body), frames::Vec3(east_m, north_m, up_m)};
+  estimated_pose_ = {frames::quaternion_of(estimate.enu_from_body), frames::Vec3(east_m, north_m, up_m)};
 }
 
 void NavigationNode::estimate(const msg::Attitude& attitude) {
   if (estimator_) {
     if (!estimator_->ready()) return;
     const msg::Estimate estimate = estimator_->estimate(*world_);
-    believe(estimate);
+    update_pose(estimate);
     return estimates_.send(output_age_.aged(estimate));
   }
   if (!filter_.ready()) return;
@@ -208,7 +208,7 @@ void NavigationNode::estimate(const msg::Attitude& attitude) {
   estimate.enu_from_body = frames::wxyz_of(
       frames::enu_from_body(frames::Attitude{attitude.heading_grid_rad, attitude.pitch_rad, attitude.roll_rad}));
   estimate.velocity_enu_mps = plain(filter_.velocity_enu_mps());
-  believe(estimate);
+  update_pose(estimate);
   estimates_.send(output_age_.aged(estimate));
 }
 

@@ -32,9 +32,9 @@ class NavigationNode {
   void measure_attitude(SimTime now, std::int64_t n);
   void report_sound_speed(SimTime now);
   void find_transponder(SimTime now);
-  void tell_trouble();
+  void report_trouble();
   void estimate(const msg::Attitude& attitude);
-  void believe(const msg::Estimate& estimate);
+  void update_pose(const msg::Estimate& estimate);
 
   Ports& ports_;
   NavigationSensors sensors_;
@@ -46,7 +46,7 @@ class NavigationNode {
   std::optional<frames::LocalProjection> world_;
   std::optional<msg::Pose> truth_;
   std::deque<msg::Pose> recent_;  // the newest pose that is as old as the motion sensor's latency, and all after it
-  Believed believed_;             // as last measured or estimated
+  EstimatedPose estimated_pose_;  // as last measured or estimated
   Outbox outbox_;
   Ports::Out<msg::Attitude> attitudes_;
   Ports::Out<msg::Position> positions_;
@@ -60,7 +60,7 @@ class NavigationNode {
   Suite suite_;
   std::optional<UsblTracker> usbl_;
   std::optional<UsblFixes> usbl_fixes_;
-  std::optional<double> washed_antenna_m_;  // above the water at rest, if that is too low for fixes
+  std::optional<double> low_antenna_m_;  // above the water at rest, if that is too low for fixes
   bool afloat_;
 };
 

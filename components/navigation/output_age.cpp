@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/frames/pose.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 
@@ -12,11 +12,11 @@ msg::Estimate OutputAge::aged(const msg::Estimate& now) {
   const std::int64_t oldest_ns = now.stamp_ns - std::max(position_, motion_).count();
   while (past_.size() > 1 && past_[1].stamp_ns <= oldest_ns) past_.pop_front();
   const msg::Estimate place = at(now.stamp_ns - position_.count()), motion = at(now.stamp_ns - motion_.count());
-  msg::Estimate told = now;
-  told.position_enu_m = {place.position_enu_m[0], place.position_enu_m[1], motion.position_enu_m[2]};
-  told.enu_from_body = motion.enu_from_body;
-  told.velocity_enu_mps = motion.velocity_enu_mps;
-  return told;
+  msg::Estimate reported = now;
+  reported.position_enu_m = {place.position_enu_m[0], place.position_enu_m[1], motion.position_enu_m[2]};
+  reported.enu_from_body = motion.enu_from_body;
+  reported.velocity_enu_mps = motion.velocity_enu_mps;
+  return reported;
 }
 
 msg::Estimate OutputAge::at(std::int64_t t_ns) const {

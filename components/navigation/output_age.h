@@ -9,7 +9,7 @@ namespace ensonify {
 
 /// Estimates that are older than their stamps say, as from a system whose outputs take their time to whoever stamps
 /// them: east and north by `position`, the rest (height, attitude, velocity) by `motion`. Between estimates they are
-/// interpolated; before the first has the age, the first is told. Covariances are those of the stamp.
+/// interpolated; before the first has the age, the first is given. Covariances are those of the stamp.
 class OutputAge {
  public:
   OutputAge(SimTime position, SimTime motion) : position_(position), motion_(motion) {}

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
+#include "components/navigation/test_run.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
 // What every instrument does with its outages, its clock and its latency.
 
@@ -40,7 +40,7 @@ const std::vector<Topic> kTopics{
 };
 
 /// What comes on the topic in ten seconds when `keys` stand in its section too.
-std::vector<Came> told(const Topic& topic, const std::string& keys) {
+std::vector<Came> reported(const Topic& topic, const std::string& keys) {
   constexpr int kSeconds = 10;
   NodeUnderTest<NavigationNode> navigation(config_of(topic.section + ": { " + topic.keys + ", " + keys + " }"));
   if (topic.section == "usbl") {
@@ -48,7 +48,7 @@ std::vector<Came> told(const Topic& topic, const std::string& keys) {
       navigation.give("target", circling(i * 10_ms, [](double) { return -30.0; }));
     }
   }
-  sail(navigation, kSeconds, kLevel);
+  run_for(navigation, kSeconds, kLevel);
   navigation.run_until(SimTime{std::chrono::seconds(kSeconds)});
   std::vector<Came> came;
   for (const msg::Packet& packet : navigation.take(topic.port)) {
@@ -76,30 +76,30 @@ std::vector<Came> later(const std::vector<Came>& all, SimTime comes, SimTime sta
 
 }  // namespace
 
-TEST_CASE("every topic of every section is silent in outages, stamped by the clock, late by the latency") {
+TEST_CASE("every instrument is silent in outages, stamped by its clock, late by its latency") {
   for (const std::string& section : kSections) {
     INFO(section);
-    if (section == "usbl_fixes") continue;  // what it hears is another vehicle's
+    if (section == "usbl_fixes") continue;  // what it receives is another vehicle's
     CHECK(std::any_of(kTopics.begin(), kTopics.end(), [&](const Topic& topic) { return topic.section == section; }));
   }
   for (const Topic& topic : kTopics) {
     INFO(topic.section << ": " << topic.port);
-    const std::vector<Came> usual = told(topic, "latency_s: 0");
+    const std::vector<Came> usual = reported(topic, "latency_s: 0");
     REQUIRE(usual.size() > 20);
-    check_same(told(topic, "clock: { locked: false, offset_s: 5 }"), later(usual, 0_s, 5_s));
-    check_same(told(topic, "latency_s: 1.35, stamped_at: measurement"), later(usual, 1350_ms, 0_s));
-    check_same(told(topic, "latency_s: 1.35, stamped_at: output"), later(usual, 1350_ms, 1350_ms));
+    check_same(reported(topic, "clock: { locked: false, offset_s: 5 }"), later(usual, 0_s, 5_s));
+    check_same(reported(topic, "latency_s: 1.35, stamped_at: measurement"), later(usual, 1350_ms, 0_s));
+    check_same(reported(topic, "latency_s: 1.35, stamped_at: output"), later(usual, 1350_ms, 1350_ms));
     if (topic.section == "imu") continue;  // may not fall out
-    std::vector<Came> heard;
+    std::vector<Came> received;
     for (const Came& came : usual) {
-      if (came.at < 6_s || came.at >= 8_s) heard.push_back(came);
+      if (came.at < 6_s || came.at >= 8_s) received.push_back(came);
     }
-    REQUIRE(heard.size() < usual.size());
-    check_same(told(topic, "outages_s: [6, 8]"), heard);
+    REQUIRE(received.size() < usual.size());
+    check_same(reported(topic, "outages_s: [6, 8]"), received);
   }
 }
 
-TEST_CASE("an inertial unit that falls out is refused, with place, cause and what may fall out") {
+TEST_CASE("outages of an inertial unit are refused, with place, cause and what may fail") {
   CHECK_THROWS_WITH(config_of("imu: { grade: fog, outages_s: [100, 160] }"),
                     Catch::Contains("nav.yaml:1:31: imu.outages_s: without its readings there is no estimate, so an "
                                     "inertial unit may not fall out; what aids it may: gnss, velocity_log, depth, "
@@ -110,7 +110,7 @@ TEST_CASE("an inertial unit that falls out is refused, with place, cause and wha
 TEST_CASE("the inertial unit's latency and clock leave the estimate as it is") {
   const auto last = [](const std::string& keys) {
     NodeUnderTest<NavigationNode> navigation(config_of("imu: { grade: mems, " + keys + " }\ngnss: { grade: dgps }"));
-    sail(navigation, 3, kLevel);
+    run_for(navigation, 3, kLevel);
     return navigation.step_until<msg::Estimate>("estimate", 3_s).back();
   };
   const msg::Estimate usual = last("latency_s: 0"), late = last("latency_s: 0.5, clock: { residual_s: 0.2 }");
@@ -120,7 +120,7 @@ TEST_CASE("the inertial unit's latency and clock leave the estimate as it is") {
 
 TEST_CASE("attitude has the newest heading that the compass has sent") {
   NodeUnderTest<NavigationNode> navigation(config_of("heading: { errors: { bias_deg: 2 }, latency_s: 0.5 }"));
-  sail(navigation, 3, kLevel);
+  run_for(navigation, 3, kLevel);
   for (const msg::Attitude& attitude : navigation.step_until<msg::Attitude>("attitude", 3_s)) {
     if (attitude.stamp_ns % 100'000'000 != 0 || attitude.stamp_ns < 500'000'000) continue;  // ten headings a second
     const double then_s = 1e-9 * static_cast<double>(attitude.stamp_ns) - 0.5;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHalfWidth_rad = 1e-3;
 
-/// What a ray along a direction looks at.
+/// What a ray along a direction examines.
 lod::View view_along(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m) {
   lod::View view;
   lod::Frustum& cone = view.frustum;

@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "components/runtime/head/tile_set.h"
 #include "components/runtime/ports.h"
-#include "kernels/frames/pose.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 
-/// The true seabed, as instruments with narrow beams meet it.
+/// The true seabed, as instruments with narrow beams sample it.
 class SeabedBelow {
  public:
   /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed. `mesh` and
@@ -20,7 +20,8 @@ class SeabedBelow {
   std::optional<double> distance_m(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m);
 
  private:
-  TileSet tiles_{trace::LevelOfDetail{.enabled = true, .looks = 8}};  // fine along the beams of a measurement alone
+  TileSet tiles_{
+      trace::LevelOfDetail{.enabled = true, .adaptations_per_ping = 8}};  // fine along the beams of a measurement alone
 };
 
 }  // namespace ensonify

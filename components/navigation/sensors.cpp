@@ -1,7 +1,7 @@
 #include "components/navigation/sensors.h"
 
 #include "components/navigation/world_frame.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 namespace {
@@ -42,7 +42,7 @@ msg::Position NavigationSensors::position(const msg::Pose& truth, std::int64_t n
     const double sigma_m = axis < 2 ? sigma_.horizontal_m : sigma_.vertical_m;
     measured.position_enu_m[axis] = truth.position_enu_m[axis] + sigma_m * noise(position_noise_, n, axis);
   }
-  tell_place(measured, world, heights_.datums);
+  report_position(measured, world, heights_.datums);
   measured.sigma_horizontal_m = sigma_.horizontal_m;
   measured.sigma_vertical_m = sigma_.vertical_m;
   return measured;

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "components/navigation/config.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -20,7 +20,7 @@ class NavigationSensors {
   /// Latitude and longitude are those of the noisy place.
   msg::Position position(const msg::Pose& truth, std::int64_t n, const frames::LocalProjection& world) const;
   frames::Vec3 velocity_enu_mps(const msg::Pose& truth, std::int64_t n) const;
-  /// Of the water at the probe's depth; above chart datum that of the topmost water.
+  /// Sound speed of the water at the probe's depth; above chart datum that of the topmost water.
   msg::SoundSpeed sound_speed(const msg::Pose& truth, std::int64_t n) const;
 
  private:

@@ -44,7 +44,7 @@ Suite::Suite(const NavigationConfig& config, Ports& ports, const To& to)
     altimeter_.emplace(*c, sensors::RangeSensor(c->errors, stream("altimeter")));
     altitudes_out_ = ports.out<msg::Altitude>("altitude", rate(c->instrument));
   }
-  if (carried.meet_seabed()) seabed_.connect(ports, !carried.need_seabed());
+  if (carried.use_seabed()) seabed_.connect(ports, !carried.need_seabed());
 }
 
 SimTime Suite::next() const {
@@ -58,15 +58,15 @@ SimTime Suite::next() const {
 }
 
 void Suite::step(SimTime now, const std::optional<msg::Pose>& truth,
-                 const std::optional<frames::LocalProjection>& world, const Believed& believed,
+                 const std::optional<frames::LocalProjection>& world, const EstimatedPose& estimated,
                  std::optional<Estimator>& estimator) {
   const auto n = static_cast<std::uint64_t>(log_ ? log_->due.count() : 0);
   const bool heading = heading_ && heading_->due.due(now), fix = gnss_ && gnss_->due.due(now);
   const bool velocity = log_ && log_->due.due(now), depth = depth_ && depth_->due.due(now);
   const bool altitude = altimeter_ && altimeter_->due.due(now);
   if (!truth || !world) return water_.step(now, nullptr, outbox_);
-  const Moment moment{now,      seconds(SimTime{truth->stamp_ns}), moving_pose(*truth), *world,
-                      believed, estimator ? &*estimator : nullptr};
+  const Moment moment{now,       seconds(SimTime{truth->stamp_ns}), moving_pose(*truth), *world,
+                      estimated, estimator ? &*estimator : nullptr};
   if (heading) measure_heading(moment);
   if (fix) measure_fix(moment);
   if (velocity) measure_velocity(moment, n);
@@ -102,11 +102,11 @@ void Suite::measure_fix(const Moment& moment) {
     moment.estimator->correct(stamp_s, [fix](Estimator::Filter& filter) { filter.correct_position(fix); });
   }
 
-  const frames::Vec3 origin_enu_m = measured_enu_m - moment.believed.enu_from_body * lever;
+  const frames::Vec3 origin_enu_m = measured_enu_m - moment.estimated.enu_from_body * lever;
   msg::Position position;
   position.stamp_ns = from_seconds(stamp_s).count();
   position.position_enu_m = plain(origin_enu_m);
-  tell_place(position, moment.world, heights_.datums);
+  report_position(position, moment.world, heights_.datums);
   position.sigma_horizontal_m = reading.sigma_enu_m.x();
   position.sigma_vertical_m = reading.sigma_enu_m.z();
   position.quality = static_cast<std::int64_t>(reading.quality);
@@ -118,8 +118,8 @@ void Suite::measure_heading(const Moment& moment) {
   const Instrument& instrument = heading_->config.instrument;
   const double dt_s = heading_->since(moment.t_s);
   const inertial::NavigationState compass = moment.at(instrument.actual);
-  const frames::Quaternion believed = compass.ned_from_body * instrument.measured.body_from_head.conjugate();
-  const frames::Vec3 forward = believed * frames::Vec3::UnitX();
+  const frames::Quaternion estimated = compass.ned_from_body * instrument.measured.body_from_head.conjugate();
+  const frames::Vec3 forward = estimated * frames::Vec3::UnitX();
   const double true_rad = std::atan2(forward.y(), forward.x());
   const double reading = heading_->sensor.measure(true_rad, compass.velocity_ned_mps.x(), compass.latitude_rad, dt_s);
   if (instrument.out_at(moment.t_s)) return;
@@ -171,10 +171,11 @@ void Suite::measure_velocity(const Moment& moment, std::uint64_t n) {
   message.error_velocity_mps = reading.error_velocity_mps;
   track_water(moment, head, n, message);
   outbox_.publish(*velocities_out_, message, instrument, moment);
-  tell_velocity(moment, reading, &Estimator::Filter::correct_velocity);
+  report_velocity(moment, reading, &Estimator::Filter::correct_velocity);
 }
 
-void Suite::tell_velocity(const Moment& moment, const sensors::DopplerReading& reading, CorrectVelocity correct) const {
+void Suite::report_velocity(const Moment& moment, const sensors::DopplerReading& reading,
+                            CorrectVelocity correct) const {
   if (moment.estimator == nullptr || !reading.valid) return;
   const Estimator& e = *moment.estimator;
   const Instrument& instrument = log_->config.instrument;
@@ -197,7 +198,7 @@ void Suite::track_water(const Moment& moment, const frames::HeadPose& head, std:
   const auto reading = log_->sensor.water_track(head.enu_from_head.conjugate() * through_enu_mps, n);
   message.water_lock = reading.valid;
   message.water_velocity_body_mps = plain(frames::Vec3(measured.body_from_head * reading.velocity_mps));
-  tell_velocity(moment, reading, &Estimator::Filter::correct_water_velocity);
+  report_velocity(moment, reading, &Estimator::Filter::correct_water_velocity);
 }
 
 void Suite::measure_depth(const Moment& moment) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "components/navigation/carried.h"
 #include "components/navigation/config.h"
+#include "components/navigation/mounted_instrument.h"
 #include "components/navigation/seabed_below.h"
 #include "components/navigation/water_instruments.h"
 #include "components/runtime/ports.h"
@@ -14,11 +14,11 @@
 namespace ensonify {
 
 /// The instruments beside the motion sensor and the inertial unit: GNSS, compass, Doppler log, depth, altimeter, and
-/// those that measure the water. Each measures at its own rate, tells the filter (when there is one) and publishes
+/// those that measure the water. Each measures at its own rate, corrects the filter (when there is one) and publishes
 /// after its latency.
 class Suite {
  public:
-  /// Where readings go whose ports belong to the node.
+  /// Sinks of readings whose ports belong to the node.
   struct To {
     std::function<void(const msg::Position&)> positions;
     std::function<void(const msg::SoundSpeed&)> sound_speeds;
@@ -28,10 +28,10 @@ class Suite {
 
   SimTime next() const;
 
-  /// Measures what is due, if the truth and the world's place are known. By what is `believed` the
+  /// Measures what is due, if the truth and the world's place are known. By what is `estimated` the
   /// antenna's place is brought to the body's origin, and a transponder's into the world.
   void step(SimTime now, const std::optional<msg::Pose>& truth, const std::optional<frames::LocalProjection>& world,
-            const Believed& believed, std::optional<Estimator>& estimator);
+            const EstimatedPose& estimated, std::optional<Estimator>& estimator);
 
   /// The newest heading that the compass has sent by now, clockwise from true north.
   std::optional<double> heading_rad(SimTime now);
@@ -43,10 +43,10 @@ class Suite {
   void measure_velocity(const Moment& moment, std::uint64_t n);
   void track_water(const Moment& moment, const frames::HeadPose& head, std::uint64_t n,
                    msg::VelocityLog& message) const;
-  /// Tells the filter how a reading moves the transducer, by one of its corrections.
+  /// Corrects the filter with how a reading moves the transducer, by one of its corrections.
   using CorrectVelocity = navigation_filter::Innovation (Estimator::Filter::*)(const frames::Vec3&, const frames::Vec3&,
                                                                                const frames::Vec3&);
-  void tell_velocity(const Moment& moment, const sensors::DopplerReading& reading, CorrectVelocity correct) const;
+  void report_velocity(const Moment& moment, const sensors::DopplerReading& reading, CorrectVelocity correct) const;
   void measure_depth(const Moment& moment);
   void measure_altitude(const Moment& moment);
 
@@ -55,11 +55,11 @@ class Suite {
   Outbox outbox_;
   std::function<void(const msg::Position&)> positions_;
   std::deque<std::pair<SimTime, double>> headings_;  // and when each comes: the newest that has, and all after it
-  std::optional<Carried<GnssConfig, sensors::Gnss>> gnss_;
-  std::optional<Carried<HeadingConfig, sensors::HeadingSensor>> heading_;
-  std::optional<Carried<DopplerLogConfig, sensors::DopplerLog>> log_;
-  std::optional<Carried<DepthConfig, sensors::ScalarSensor>> depth_;
-  std::optional<Carried<AltimeterConfig, sensors::RangeSensor>> altimeter_;
+  std::optional<MountedInstrument<GnssConfig, sensors::Gnss>> gnss_;
+  std::optional<MountedInstrument<HeadingConfig, sensors::HeadingSensor>> heading_;
+  std::optional<MountedInstrument<DopplerLogConfig, sensors::DopplerLog>> log_;
+  std::optional<MountedInstrument<DepthConfig, sensors::ScalarSensor>> depth_;
+  std::optional<MountedInstrument<AltimeterConfig, sensors::RangeSensor>> altimeter_;
   std::optional<Ports::Out<msg::Heading>> headings_out_;
   std::optional<Ports::Out<msg::VelocityLog>> velocities_out_;
   std::optional<Ports::Out<msg::Depth>> depths_out_;

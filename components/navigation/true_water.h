@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/refraction/profile.h"
 #include "kernels/water/column.h"
+#include "kernels/water/refraction/profile.h"
 #include "kernels/water/sound_speed.h"
 
 namespace ensonify {

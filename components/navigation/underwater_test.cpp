@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
+#include "components/navigation/test_run.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
-// The filter of a vehicle under water: its log sees water alone, a ship tells where she found it.
+// The filter of a vehicle under water: its log sees water alone, a ship reports where she found it.
 
 namespace {
 
@@ -33,7 +33,7 @@ Off off(const msg::Estimate& estimate) {
 }
 
 /// Where the vehicle was `age` before, as a ship 50 m east of the circle's middle says that comes now.
-void tell(NodeUnderTest<NavigationNode>& navigation, SimTime now, SimTime age) {
+void give_fix(NodeUnderTest<NavigationNode>& navigation, SimTime now, SimTime age) {
   const msg::Pose then = circling(now - age, kDeep);
   msg::UsblFix fix;
   fix.stamp_ns = then.stamp_ns;
@@ -52,22 +52,22 @@ TEST_CASE("tracking water holds a vehicle that has no bottom to what the current
   // 2 m/s^2 x 1e-3 x 60^2 / 2, and says so.
   const auto after_a_minute = [](const std::string& log) {
     NodeUnderTest<NavigationNode> navigation(under_water(log));
-    sail(navigation, 60, kDeep);
+    run_for(navigation, 60, kDeep);
     return off(navigation.step_until<msg::Estimate>("estimate", 60_s).back());
   };
   const Off water = after_a_minute("velocity_log: { grade: performance, water_track_m: 3 }");
   const Off nothing = after_a_minute("velocity_log: { grade: performance }");
   CHECK(water.level_m < 25.0);
   CHECK(water.level_m < 3.0 * water.sigma_m);
-  CHECK(water.sigma_m < 30.0);  // sqrt(2) x 0.3 m/s x 60 s, if the unit told nothing
+  CHECK(water.sigma_m < 30.0);  // sqrt(2) x 0.3 m/s x 60 s, if the unit reported nothing
   CHECK(nothing.sigma_m > water.sigma_m);
 }
 
 TEST_CASE("fixes of a ship, a second and a half old, hold a vehicle where it is") {
   NodeUnderTest<NavigationNode> navigation(
       under_water("velocity_log: { grade: performance, water_track_m: 3 }\nusbl_fixes: { place_m: 0.1 }"));
-  for (SimTime now = 2_s; now <= 60_s; now = now + 2_s) tell(navigation, now, 1'500_ms);
-  sail(navigation, 60, kDeep);
+  for (SimTime now = 2_s; now <= 60_s; now = now + 2_s) give_fix(navigation, now, 1'500_ms);
+  run_for(navigation, 60, kDeep);
   const auto estimates = navigation.step_until<msg::Estimate>("estimate", 60_s);
   // The vehicle goes 3 m in 1.5 s. Thirty fixes of 0.2 m and the speed of the water.
   const Off last = off(estimates.back());
@@ -76,21 +76,21 @@ TEST_CASE("fixes of a ship, a second and a half old, hold a vehicle where it is"
   CHECK(last.level_m < 4.0 * last.sigma_m);
 }
 
-TEST_CASE("a fix that was not heard, and one beyond belief, move nothing") {
+TEST_CASE("an invalid fix and an implausible one change no estimate") {
   const auto end_of = [](const auto& give) {
     NodeUnderTest<NavigationNode> navigation(under_water("usbl_fixes: {}"));
     give(navigation);
-    sail(navigation, 10, kDeep);
+    run_for(navigation, 10, kDeep);
     return navigation.step_until<msg::Estimate>("estimate", 10_s).back().position_enu_m;
   };
-  const auto untold = end_of([](NodeUnderTest<NavigationNode>&) {});
+  const auto unreported = end_of([](NodeUnderTest<NavigationNode>&) {});
   msg::UsblFix fix;
   fix.stamp_ns = (4_s).count();
-  CHECK(end_of([&](NodeUnderTest<NavigationNode>& n) { n.give_at("usbl_fix", 5_s, fix); }) == untold);
+  CHECK(end_of([&](NodeUnderTest<NavigationNode>& n) { n.give_at("usbl_fix", 5_s, fix); }) == unreported);
   fix.valid = true;
   fix.position_enu_m = {1000.0, 0.0, -40.0};
   fix.sigma_enu_m = {0.2, 0.2, 0.2};
-  CHECK(end_of([&](NodeUnderTest<NavigationNode>& n) { n.give_at("usbl_fix", 5_s, fix); }) == untold);
+  CHECK(end_of([&](NodeUnderTest<NavigationNode>& n) { n.give_at("usbl_fix", 5_s, fix); }) == unreported);
 }
 
 TEST_CASE("fixes by a ship need an inertial unit") {

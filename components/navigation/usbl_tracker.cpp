@@ -28,7 +28,7 @@ void UsblTracker::step(SimTime now, const Moment* moment, Outbox& outbox) {
   const frames::HeadPose head = frames::head_pose(moment->truth.pose, instrument.actual);
   const auto transponder_enu_m = answered_enu_m(*moment, head.position_enu_m);
   silence_ = target_.empty() ? "usbl: no pose of the target has come" : "";
-  if (!transponder_enu_m || !moment->believed.position_enu_m || instrument.out_at(moment->t_s)) return;
+  if (!transponder_enu_m || !moment->estimated.position_enu_m || instrument.out_at(moment->t_s)) return;
 
   msg::UsblFix fix;
   const frames::Vec3 place_array_m = frames::head_from_enu(head, *transponder_enu_m);
@@ -38,9 +38,9 @@ void UsblTracker::step(SimTime now, const Moment* moment, Outbox& outbox) {
   if (reading) {
     const frames::Mounting& measured = instrument.measured;
     const frames::Vec3 place_body_m = measured.body_from_head * reading->place_array_m;
-    const frames::Quaternion& enu_from_body = moment->believed.enu_from_body;
+    const frames::Quaternion& enu_from_body = moment->estimated.enu_from_body;
     const frames::Vec3 position_enu_m =
-        *moment->believed.position_enu_m + enu_from_body * (measured.position_body_m + place_body_m);
+        *moment->estimated.position_enu_m + enu_from_body * (measured.position_body_m + place_body_m);
     const Eigen::Matrix3d enu_from_array = (enu_from_body * measured.body_from_head).toRotationMatrix();
     const frames::Vec3 sigma_enu_m = (enu_from_array.cwiseAbs2() * reading->sigma_array_m.cwiseAbs2()).cwiseSqrt();
     const auto plain = [](const frames::Vec3& v) { return std::array{v.x(), v.y(), v.z()}; };
@@ -75,11 +75,11 @@ std::string UsblTracker::why_silent(const frames::Vec3& place_array_m) const {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const sensors::UsblErrors& errors = array_.config.errors;
   if (place_array_m.norm() > errors.longest_m) {
-    return fmt::format("usbl: the transponder is {:.0f} m away, heard within {:.0f}", place_array_m.norm(),
+    return fmt::format("usbl: the transponder is {:.0f} m away, received within {:.0f}", place_array_m.norm(),
                        errors.longest_m);
   }
   return fmt::format(
-      "usbl: the transponder is {:.0f} degrees off the array's axis, heard within {:.0f}; turn the array",
+      "usbl: the transponder is {:.0f} degrees off the array's axis, received within {:.0f}; turn the array",
       sensors::off_axis_rad(place_array_m) / kDegree, errors.widest_rad / kDegree);
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "components/navigation/carried.h"
+#include "components/navigation/mounted_instrument.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
@@ -16,15 +16,15 @@ class UsblTracker {
   /// Asks when it is due; without a moment time passes and nothing is asked.
   void step(SimTime now, const Moment* moment, Outbox& outbox);
 
-  /// Why the last interrogation had no answer; empty when it had one.
+  /// Reason that the last interrogation had no answer; empty when it had one.
   const std::string& silence() const { return silence_; }
 
  private:
-  /// Where the transponder was when it answered what is heard at the moment; empty while the target is not known.
+  /// Place of the transponder when it sent the reply received now; empty while the target is not known.
   std::optional<frames::Vec3> answered_enu_m(const Moment& moment, const frames::Vec3& array_enu_m) const;
   std::string why_silent(const frames::Vec3& place_array_m) const;
 
-  Carried<UsblConfig, random::Stream> array_;
+  MountedInstrument<UsblConfig, random::Stream> array_;
   frames::PoseHistory target_;
   std::string silence_;
   Ports::Out<msg::UsblFix> fixes_out_;

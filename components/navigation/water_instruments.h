@@ -3,8 +3,8 @@
 #include <functional>
 #include <optional>
 
-#include "components/navigation/carried.h"
 #include "components/navigation/heights.h"
+#include "components/navigation/mounted_instrument.h"
 #include "components/navigation/seabed_below.h"
 #include "components/navigation/true_water.h"
 #include "messages/navigation.h"
@@ -36,9 +36,9 @@ class WaterInstruments {
   Heights heights_;
   SeabedBelow& seabed_;
   std::function<void(const msg::SoundSpeed&)> sound_speeds_;
-  std::optional<Carried<SoundSpeedConfig, sensors::ScalarSensor>> probe_;
-  std::optional<Carried<CtdConfig, CtdSensors>> ctd_;
-  std::optional<Carried<CurrentProfilerConfig, random::Stream>> profiler_;
+  std::optional<MountedInstrument<SoundSpeedConfig, sensors::ScalarSensor>> probe_;
+  std::optional<MountedInstrument<CtdConfig, CtdSensors>> ctd_;
+  std::optional<MountedInstrument<CurrentProfilerConfig, random::Stream>> profiler_;
   std::optional<Ports::Out<msg::Ctd>> ctds_out_;
   std::optional<Ports::Out<msg::CurrentProfile>> profiles_out_;
 };

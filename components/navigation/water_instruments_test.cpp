@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_sailing.h"
-#include "components/runtime/head/test_seabed.h"
+#include "components/navigation/test_run.h"
+#include "components/sonar/test_seabed.h"
 #include "kernels/water/sound_speed.h"
 
 using namespace ensonify;
-using namespace ensonify::sailing;
+using namespace ensonify::test_run;
 
 namespace {
 
@@ -32,9 +32,9 @@ frames::Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-TEST_CASE("a CTD tells depth below the water and what the water is like there") {
+TEST_CASE("a CTD reports depth below the water level and the water's properties there") {
   NodeUnderTest<NavigationNode> navigation(in_layers("ctd: { position_m: [0, 0, 2], rate_hz: 2 }"));
-  sail(navigation, 5, [](double t) { return -1.0 - t; });
+  run_for(navigation, 5, [](double t) { return -1.0 - t; });
   const auto readings = navigation.step_until<msg::Ctd>("ctd", 5_s);
   REQUIRE(readings.size() == 11);
   for (const msg::Ctd& ctd : readings) {
@@ -50,17 +50,17 @@ TEST_CASE("a CTD tells depth below the water and what the water is like there") 
 TEST_CASE("a sound speed probe of its own takes the place of the simple one") {
   NodeUnderTest<NavigationNode> navigation(
       in_layers("sound_speed: { rate_hz: 2, latency_s: 0.2, errors: { bias_mps: 0.5 }, outages_s: [2, 3] }"));
-  sail(navigation, 5, [](double) { return -10.0; });
+  run_for(navigation, 5, [](double) { return -10.0; });
   const auto readings = navigation.step_until<msg::SoundSpeed>("sound_speed", 5_s);
   CHECK(readings.size() == 8);  // of 11: two in the outage, and the last is still under way
   for (const msg::SoundSpeed& reading : readings) CHECK(reading.sound_speed_mps == Approx(1500.5));
 }
 
-TEST_CASE("a current profiler finds the current of each depth, down to where side lobes reach the bottom") {
+TEST_CASE("a current profiler measures each depth down to where side lobes reach the bottom") {
   NodeUnderTest<NavigationNode> navigation(in_layers(
       "current_profiler: { position_m: [1, 0, 1], rotation_deg: [0, 0, 45], slant_deg: 20, blanking_m: 1, bin_m: 2 }"));
   navigation.give_at("tile", 0_s, tile_of(512.0, 1.0, [](double, double) { return -20.0; }));
-  sail(navigation, 6, kLevel);
+  run_for(navigation, 6, kLevel);
   const auto profiles = navigation.step_until<msg::CurrentProfile>("current_profile", 6_s);
   REQUIRE(profiles.size() == 7);
   for (const msg::CurrentProfile& profile : profiles) {
@@ -85,7 +85,7 @@ TEST_CASE("a current profiler finds the current of each depth, down to where sid
 
 TEST_CASE("without a pager a profiler sees no bottom") {
   NodeUnderTest<NavigationNode> navigation(in_layers("current_profiler: { bins: 12, longest_m: 100 }"));
-  sail(navigation, 1, kLevel);
+  run_for(navigation, 1, kLevel);
   const auto profiles = navigation.step_until<msg::CurrentProfile>("current_profile", 1_s);
   REQUIRE(!profiles.empty());
   CHECK(profiles[0].below_transducer_m.size() == 12);
@@ -93,7 +93,7 @@ TEST_CASE("without a pager a profiler sees no bottom") {
 
 TEST_CASE("a Doppler log tracks the water below it, where it has no bottom either") {
   NodeUnderTest<NavigationNode> navigation(in_layers("velocity_log: { water_track_m: 9, rotation_deg: [0, 0, 30] }"));
-  sail(navigation, 6, kLevel);
+  run_for(navigation, 6, kLevel);
   const auto logs = navigation.step_until<msg::VelocityLog>("velocity_log", 6_s);
   REQUIRE(logs.size() == 31);
   for (const msg::VelocityLog& log : logs) {
@@ -119,13 +119,13 @@ msg::Pose towed(SimTime at) {
 }
 
 template <class Message>
-std::vector<Message> heard(const std::string& port, const std::string& usbl) {
+std::vector<Message> received(const std::string& port, const std::string& usbl) {
   NodeUnderTest<NavigationNode> navigation(in_layers("usbl: { range_white_m: 0, bearing_white_deg: 0, " + usbl + " }"));
   for (int i = 0; i <= 1200; ++i) navigation.give("target", towed(i * 10_ms));
-  sail(navigation, 12, kLevel);
+  run_for(navigation, 12, kLevel);
   return navigation.step_until<Message>(port, 12_s);
 }
-std::vector<msg::UsblFix> fixes_of(const std::string& usbl) { return heard<msg::UsblFix>("usbl", usbl); }
+std::vector<msg::UsblFix> fixes_of(const std::string& usbl) { return received<msg::UsblFix>("usbl", usbl); }
 
 }  // namespace
 
@@ -142,7 +142,7 @@ TEST_CASE("USBL finds a vehicle's transponder where it was when it answered") {
   }
 }
 
-TEST_CASE("USBL whose array is turned by a degree that nobody measured errs by a degree of the range") {
+TEST_CASE("a USBL array turned by an unmeasured degree errs by a degree of the range") {
   const auto right = fixes_of("rotation_deg: [0, 0, 0]");
   const auto turned = fixes_of("rotation_deg: [0, 0, 1], measured_rotation_deg: [0, 0, 0]");
   REQUIRE(right.size() == turned.size());
@@ -151,26 +151,26 @@ TEST_CASE("USBL whose array is turned by a degree that nobody measured errs by a
   const frames::Vec3 apart = vec(right.back().position_enu_m) - vec(ship.position_enu_m);
   CHECK(off.norm() == Approx(apart.head<2>().norm() * kDegree).epsilon(0.05));
 
-  const auto deaf = fixes_of("rotation_deg: [180, 0, 0]");  // it looks up
-  REQUIRE(!deaf.empty());
-  CHECK(!deaf.back().valid);
+  const auto unanswered = fixes_of("rotation_deg: [180, 0, 0]");  // it points up
+  REQUIRE(!unanswered.empty());
+  CHECK(!unanswered.back().valid);
   CHECK(fixes_of("outages_s: [0, 100]").empty());
 }
 
-TEST_CASE("health says why a transponder is not heard") {
-  const auto last = [](const std::string& usbl) { return heard<msg::Health>("health", usbl).back(); };
+TEST_CASE("health says why a transponder does not reply") {
+  const auto last = [](const std::string& usbl) { return received<msg::Health>("health", usbl).back(); };
   const auto up = last("rotation_deg: [180, 0, 0]");
   CHECK(up.state == "degraded");
   // 80 m down, 57 m to the east and 12 m to the north: 36 degrees off straight down.
-  CHECK(up.message == "usbl: the transponder is 144 degrees off the array's axis, heard within 74; turn the array");
-  CHECK(last("longest_m: 50").message == "usbl: the transponder is 99 m away, heard within 50");
-  CHECK(heard<msg::Health>("health", "rotation_deg: [0, 0, 0]").empty());  // nothing to tell
+  CHECK(up.message == "usbl: the transponder is 144 degrees off the array's axis, received within 74; turn the array");
+  CHECK(last("longest_m: 50").message == "usbl: the transponder is 99 m away, received within 50");
+  CHECK(received<msg::Health>("health", "rotation_deg: [0, 0, 0]").empty());  // nothing to report
 }
 
 TEST_CASE("the graded instruments' clocks lose their pulse and drift") {
   NodeUnderTest<NavigationNode> navigation(
       in_layers("ctd: { rate_hz: 1, clock: { drift_ppm: 1000, unlocked_s: [2, 6] } }"));
-  sail(navigation, 8, kLevel);
+  run_for(navigation, 8, kLevel);
   const auto readings = navigation.step_until<msg::Ctd>("ctd", 8_s);
   REQUIRE(readings.size() == 9);
   CHECK(readings[1].stamp_ns == 1'000'000'000);

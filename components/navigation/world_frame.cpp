@@ -30,7 +30,7 @@ frames::MovingPose moving_pose(const msg::Pose& pose) {
   return {{{x, y, z}, frames::quaternion_of(pose.enu_from_body)}, {u, v, w}, {p, q, r}};
 }
 
-void tell_place(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums) {
+void report_position(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums) {
   const auto& [east_m, north_m, up_m] = position.position_enu_m;
   const frames::Geodetic place = world.geodetic_of({east_m, north_m});
   position.latitude_deg = place.latitude_deg;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/frames/local_projection.h"
-#include "kernels/frames/pose.h"
-#include "kernels/inertial/strapdown.h"
-#include "kernels/vertical/reduction.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/instruments/inertial/strapdown.h"
+#include "kernels/vehicle/vertical/reduction.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -20,6 +20,6 @@ inertial::NavigationState geodetic_state(const frames::MovingPose& body, const f
 frames::MovingPose moving_pose(const msg::Pose& pose);
 
 /// Completes a position whose place in the world is set by its latitude, longitude and heights.
-void tell_place(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums);
+void report_position(msg::Position& position, const frames::LocalProjection& world, const vertical::Datums& datums);
 
 }  // namespace ensonify

@@ -1,8 +1,8 @@
 #include "components/recorder/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scenario.h"
+#include "components/config/config_reader.h"
 #include "components/runtime/topic_pattern.h"
+#include "scenarios/scenario_file.h"
 
 namespace ensonify {
 
@@ -39,7 +39,7 @@ std::string text_of(const ConfigPlace& place) {
 
 }  // namespace
 
-RecorderConfig RecorderConfig::read(ConfigReader& from, const Scenario& scenario, const std::string&) {
+RecorderConfig RecorderConfig::read(ConfigReader& from, const ScenarioHeader& scenario) {
   RecorderConfig config;
   from.optional("file", config.file);
   if (config.file.empty()) from.problem("file", "is empty");

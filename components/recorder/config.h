@@ -7,7 +7,7 @@
 namespace ensonify {
 
 class ConfigReader;
-struct Scenario;
+struct ScenarioHeader;
 
 /// Which messages are kept.
 struct RecordedTopics {
@@ -26,11 +26,11 @@ struct RecorderConfig {
   std::uint64_t seed = 0;
   std::int64_t start_unix_ns = 0;
 
-  static RecorderConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static RecorderConfig read(ConfigReader& from, const ScenarioHeader& scenario);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const RecorderConfig& other) const { return file == other.file && topics == other.topics; }
 
-  /// How many messages of a topic make one that is kept. Of several patterns that match, the longest counts.
+  /// Number of messages of a topic per one that is kept. Of several patterns that match, the longest counts.
   std::int64_t every(const std::string& topic) const;
 };
 

@@ -1,6 +1,6 @@
 #include "components/recorder/node.h"
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "messages/schema.h"
 
 namespace ensonify {

@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 
+#include "components/record/writer.h"
 #include "components/recorder/config.h"
 #include "components/runtime/ports.h"
-#include "components/runtime/record/writer.h"
 
 namespace ensonify {
 

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/reader.h"
-#include "components/runtime/testing.h"
+#include "components/errors/exit_error.h"
+#include "components/record/reader.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/schema.h"
 #include "messages/sonar.h"
 

@@ -1,6 +1,6 @@
 #include "components/replay/config.h"
 
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 namespace ensonify {
 
@@ -15,7 +15,7 @@ std::string place_of(const ConfigNode* node) {
 
 }  // namespace
 
-ReplayConfig ReplayConfig::read(ConfigReader& from, const Scenario&, const std::string&) {
+ReplayConfig ReplayConfig::read(ConfigReader& from) {
   ReplayConfig config;
   from.required_path("file", config.file);
   from.optional("finish", config.finish);

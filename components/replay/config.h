@@ -7,7 +7,6 @@
 namespace ensonify {
 
 class ConfigReader;
-struct Scenario;
 
 struct ReplayConfig {
   std::string file;                           // a record
@@ -18,7 +17,7 @@ struct ReplayConfig {
   std::string file_place;  // where the user named it, for messages
   std::string topics_place;
 
-  static ReplayConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static ReplayConfig read(ConfigReader& from);
   bool operator==(const ReplayConfig& other) const {
     return file == other.file && topics == other.topics && rename == other.rename && finish == other.finish;
   }

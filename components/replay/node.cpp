@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <deque>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/topic_pattern.h"
 
 namespace ensonify {

@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
+#include "components/record/reader.h"
 #include "components/replay/config.h"
 #include "components/runtime/ports.h"
-#include "components/runtime/record/reader.h"
 
 namespace ensonify {
 

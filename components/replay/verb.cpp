@@ -9,9 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/run.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
+#include "launch/process/run.h"
 
 namespace ensonify {
 

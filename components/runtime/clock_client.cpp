@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/run_finder.h"
 
 namespace ensonify {
@@ -44,11 +44,11 @@ RunRegistry read_registry(const json& answer) {
   return registry;
 }
 
-ClockClient::ClockClient(const std::string& run) : endpoint_(find_clock(run)), asker_(endpoint_) {}
+ClockClient::ClockClient(const std::string& run) : endpoint_(find_clock(run)), query_(endpoint_) {}
 
 json ClockClient::ask(const json& request) {
   const std::string kind = request.at("kind");
-  const auto text = asker_.ask(request.dump(), kPatience);
+  const auto text = query_.ask(request.dump(), kPatience);
   if (!text) {
     throw UserError(fmt::format("the clock at {} has not answered for {} s: the run has ended, or hangs", endpoint_,
                                 kPatience.count() / 1000));

@@ -14,7 +14,7 @@ class App;
 
 namespace ensonify {
 
-/// What the clock's registry says of a topic.
+/// Entry of the clock's registry for a topic.
 struct TopicEntry {
   struct Subscriber {
     std::string process;
@@ -59,7 +59,7 @@ class ClockClient {
 
  private:
   std::string endpoint_;
-  bus::Asker asker_;
+  bus::ClockQuery query_;
 };
 
 /// Adds --run to a tool's options.

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-
-#include "components/runtime/config/launch_file.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {
@@ -13,14 +9,11 @@ class AnyNode {
  public:
   virtual ~AnyNode() = default;
   virtual SimTime step(SimTime now) = 0;
-  /// The run has ended in order: files are completed here, where an error can still be told.
+  /// The run has ended in order: files are completed here, where an error can still be reported.
   virtual void finish_run() = 0;
-  /// What the process exits with after an orderly end.
+  /// Exit code of the process after an orderly end.
   virtual int exit_code() const = 0;
 };
-
-/// Reads a process's parameters and constructs its node, which declares its ports. Throws ConfigError.
-using NodeFactory = std::function<std::unique_ptr<AnyNode>(const Launch&, const ProcessSpec&, Ports&)>;
 
 template <class Node>
 class NodeHolder : public AnyNode {
@@ -38,19 +31,5 @@ class NodeHolder : public AnyNode {
  private:
   Node node_;
 };
-
-/// The factory of a node class: its Config reads the process's own parameters and, from the scenario, the world. A
-/// Config with a scenario_text is given the scenario as it is recorded, one with a duration the run's.
-template <class Node>
-NodeFactory factory_of() {
-  return [](const Launch& launch, const ProcessSpec& process, Ports& ports) -> std::unique_ptr<AnyNode> {
-    ConfigReader from = process.reader();
-    auto config = Node::Config::read(from, launch.scenario, process.name);
-    from.finish();
-    if constexpr (requires { config.scenario_text; }) config.scenario_text = launch.scenario_text;
-    if constexpr (requires { config.duration; }) config.duration = launch.duration;
-    return std::make_unique<NodeHolder<Node>>(config, ports);
-  };
-}
 
 }  // namespace ensonify

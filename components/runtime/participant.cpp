@@ -5,7 +5,7 @@
 #include <chrono>
 #include <set>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/protocol.h"
 
@@ -30,7 +30,7 @@ class Participant {
       const bus::Link::Event event = next_event();
       if (event.kind == bus::Link::Event::kClockLost) throw ExitError(kExitDied, "the clock is gone");
       if (event.kind == bus::Link::Event::kTokens) {
-        tell_proven(event.tokens);
+        report_proven(event.tokens);
       } else if (const auto grant = protocol::read_grant(event.control)) {
         run_grant(*grant);
       } else {
@@ -42,7 +42,9 @@ class Participant {
     }
   }
 
-  void tell_failed(int code, const std::string& message) { link_.send_control(protocol::encode_failed(code, message)); }
+  void report_failed(int code, const std::string& message) {
+    link_.send_control(protocol::encode_failed(code, message));
+  }
 
  private:
   // The queue must not depend on the launch file, which a program may not have read; the longest window allowed is 5 s.
@@ -71,7 +73,7 @@ class Participant {
     link_.subscribe(subscriptions, w.epoch);
   }
 
-  void tell_proven(const std::vector<std::string>& tokens) { link_.send_control(protocol::encode_proven(tokens)); }
+  void report_proven(const std::vector<std::string>& tokens) { link_.send_control(protocol::encode_proven(tokens)); }
 
   void run_grant(const protocol::Grant& grant) {
     if (grant.epoch != epoch_) return;
@@ -123,10 +125,10 @@ int participate(const std::string& component, Ports& ports, AnyNode& node, const
   try {
     return participant.run();
   } catch (const ExitError& e) {
-    participant.tell_failed(e.code, e.what());
+    participant.report_failed(e.code, e.what());
     throw;
   } catch (const std::exception& e) {
-    participant.tell_failed(kExitDied, e.what());
+    participant.report_failed(kExitDied, e.what());
     throw;
   }
 }

@@ -8,17 +8,17 @@
 
 namespace ensonify {
 
-/// Where a participant finds the others.
+/// Addresses of the others for a participant.
 struct Meeting {
   std::string clock_endpoint;
   bus::Address address;
 };
 
 /// Takes part in a run: HELLO, the proof of every edge, grants until the end. Returns the process's exit code; throws
-/// what the node or the bus throws, after telling the clock.
+/// what the node or the bus throws, after reporting to the clock.
 int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting);
 
-/// What the process is to everybody else.
+/// Declaration of the process to the others.
 Declaration declaration_of(const std::string& component, const Ports& ports);
 
 }  // namespace ensonify

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 
 namespace ensonify {
 

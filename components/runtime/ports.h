@@ -27,7 +27,7 @@ struct InOptions {
   bool optional = false;  // may stay unconnected
 };
 
-/// What a port is to everybody else: the JSON that `--check` prints and HELLO carries.
+/// Declaration of a port: the JSON that `--check` prints and HELLO carries.
 struct OutPort {
   std::string port;
   std::string type;
@@ -97,7 +97,7 @@ class Ports {
   }
 
   /// One type from several publishers: every topic of `topics` (names or patterns such as "*"), which for a name must
-  /// be of this type. The handler is told who published.
+  /// be of this type. The handler gets the publisher.
   template <msg::Message M>
   void in_topics(const std::string& port, std::vector<std::string> topics,
                  std::function<void(const std::string& publisher, const M&)> handler, InOptions options = {}) {
@@ -124,7 +124,7 @@ class Ports {
   const std::filesystem::path& out_dir() const { return out_dir_; }
   /// Time of the event being run.
   SimTime now() const { return now_; }
-  /// What feeds the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
+  /// Feeds of the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
   const std::vector<Feed>& feeds() const { return feeds_; }
   /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version". Complete before the first step.
   const std::map<std::string, std::string>& facts() const { return facts_; }

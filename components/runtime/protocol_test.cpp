@@ -36,7 +36,7 @@ TEST_CASE("ports survive their JSON") {
   CHECK(back.ins.at(0).optional);
 }
 
-TEST_CASE("what is not a control message is told, not crashed on") {
+TEST_CASE("what is not a control message is reported, without a crash") {
   CHECK(protocol::kind_of("") == "");
   CHECK(protocol::kind_of("nonsense") == "");
   CHECK(protocol::kind_of("{\"kind\":5}") == "");

@@ -19,7 +19,7 @@
 #include <optional>
 #include <string_view>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify {
 
@@ -58,7 +58,7 @@ bool connects(int family, const sockaddr* address, socklen_t size) {
 }
 
 /// A connection that says nothing does the clock no harm.
-bool somebody_listens(std::string_view endpoint) {
+bool is_listening(std::string_view endpoint) {
   if (endpoint.starts_with(kIpc)) {
     const std::string_view path = endpoint.substr(kIpc.size());
     sockaddr_un address{};
@@ -154,7 +154,7 @@ std::vector<LiveRun> live_runs(const std::string& folder) {
   std::vector<LiveRun> runs;
   for (const fs::path& run : run_directories(folder)) {
     const std::string endpoint = endpoint_in(run);
-    if (somebody_listens(endpoint)) runs.push_back({run.string(), endpoint});
+    if (is_listening(endpoint)) runs.push_back({run.string(), endpoint});
   }
   return runs;
 }
@@ -162,7 +162,7 @@ std::vector<LiveRun> live_runs(const std::string& folder) {
 std::vector<std::string> dead_runs(const std::string& folder) {
   std::vector<std::string> dead;
   for (const fs::path& run : run_directories(folder)) {
-    if (!somebody_listens(endpoint_in(run)) && lock_is_free(run)) dead.push_back(run.string());
+    if (!is_listening(endpoint_in(run)) && lock_is_free(run)) dead.push_back(run.string());
   }
   return dead;
 }
@@ -177,8 +177,8 @@ std::string find_clock(const std::string& run, const std::string& folder) {
     if (endpoint.empty())
       throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folder));
   }
-  if (!somebody_listens(endpoint))
-    throw UserError(wanted + ": is dead: nobody listens at " + endpoint + "; " + hint(folder));
+  if (!is_listening(endpoint))
+    throw UserError(wanted + ": is dead: no clock listens at " + endpoint + "; " + hint(folder));
   return endpoint;
 }
 

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify {
 
@@ -72,12 +72,12 @@ TEST_CASE("the only live run is found, a dead one beside it is not in the way") 
   CHECK(dead_runs(runs.path()) == std::vector<std::string>{runs.path() + "/run-dead"});
 }
 
-TEST_CASE("none, several and dead runs are told apart, and the text says what to do") {
+TEST_CASE("none, several and dead runs are distinguished, with advice") {
   const Runs runs;
   CHECK_THROWS_WITH(find_clock("", runs.path()),
                     Contains("no run is live under " + runs.path()) && Contains("`ensonify run LAUNCH` starts one"));
   const std::string a = runs.make("run-a");
-  CHECK_THROWS_WITH(find_clock("run-a", runs.path()), Contains("run-a: is dead: nobody listens at ipc://"));
+  CHECK_THROWS_WITH(find_clock("run-a", runs.path()), Contains("run-a: is dead: no clock listens at ipc://"));
   const Listener clock_a(a);
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);

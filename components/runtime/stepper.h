@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/ports.h"
 #include "messages/codec.h"
 
 namespace ensonify {
 
-/// What a process's outputs are called on the bus.
+/// Names of a process's outputs on the bus.
 struct OutTopic {
   std::string topic;
   std::uint32_t topic_id = 0;
@@ -42,7 +42,7 @@ class Stepper {
   /// Time of the last event run.
   SimTime last() const { return last_; }
   const std::vector<OutTopic>& outs() const { return outs_; }
-  /// How many messages have been published on each output.
+  /// Number of messages published on each output.
   const std::vector<std::uint64_t>& published() const { return published_; }
 
  private:

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/assert.h"
-#include "components/runtime/testing.h"
+#include "components/errors/assert.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 
 using namespace ensonify;
@@ -20,7 +20,7 @@ struct Listener {
   Listener(const Config& config, Ports& ports)
       : ports_(ports), echo(ports.out<msg::Guidance>("echo", {.rate = {10, 1}})), events({10, 1}) {
     ports.in<msg::Guidance>("command",
-                            [this](const msg::Guidance& g) { heard.emplace_back(ports_.now(), g.speed_mps); },
+                            [this](const msg::Guidance& g) { received.emplace_back(ports_.now(), g.speed_mps); },
                             {.delay = config.delay});
     ports.in_any("all", {"*"},
                  [this](const msg::Packet& p) { order.push_back(p.topic + "#" + std::to_string(p.envelope.seq)); });
@@ -28,7 +28,7 @@ struct Listener {
   }
   SimTime step(SimTime now) {
     events.due(now);
-    if (!heard.empty()) echo.send(command_at(now, heard.back().second));
+    if (!received.empty()) echo.send(command_at(now, received.back().second));
     if (now == finish_at) ports_.finish();
     return events.next();
   }
@@ -36,26 +36,26 @@ struct Listener {
   Ports::Out<msg::Guidance> echo;
   Periodic events;
   SimTime finish_at{-1};
-  std::vector<std::pair<SimTime, double>> heard;
+  std::vector<std::pair<SimTime, double>> received;
   std::vector<std::string> order;
 };
 
 }  // namespace
 
-TEST_CASE("an event sees exactly the messages stamped up to its time, however early they came") {
+TEST_CASE("an event receives exactly the messages stamped up to its time, never later ones") {
   NodeUnderTest<Listener> listener({});
   listener.give("command", command_at(0_s, 1.0), command_at(100_ms, 2.0), command_at(101_ms, 3.0));
   listener.run_until(100_ms);
-  CHECK(listener.node().heard == std::vector<std::pair<SimTime, double>>{{0_s, 1.0}, {100_ms, 2.0}});
+  CHECK(listener.node().received == std::vector<std::pair<SimTime, double>>{{0_s, 1.0}, {100_ms, 2.0}});
   listener.run_until(200_ms);
-  CHECK(listener.node().heard.back() == std::pair<SimTime, double>{200_ms, 3.0});
+  CHECK(listener.node().received.back() == std::pair<SimTime, double>{200_ms, 3.0});
 }
 
-TEST_CASE("a delayed input sees a message at the first event at or after its time plus the delay") {
+TEST_CASE("a delayed input receives at the first event at or after stamp plus delay") {
   NodeUnderTest<Listener> listener({.delay = 100_ms});
   listener.give("command", command_at(0_s, 1.0), command_at(50_ms, 2.0));
   listener.run_until(300_ms);
-  CHECK(listener.node().heard == std::vector<std::pair<SimTime, double>>{{100_ms, 1.0}, {200_ms, 2.0}});
+  CHECK(listener.node().received == std::vector<std::pair<SimTime, double>>{{100_ms, 1.0}, {200_ms, 2.0}});
 }
 
 TEST_CASE("messages of several topics come by time, then publisher, then topic, then seq") {
@@ -114,7 +114,7 @@ struct TooBig {
 };
 }  // namespace
 
-TEST_CASE("an event that does not advance, or a message larger than declared, is a mistake of ours with its values") {
+TEST_CASE("an event that does not advance or an oversized message asserts with its values") {
   NodeUnderTest<Stuck> stuck({});
   CHECK_THROWS_AS(stuck.run_until(1_s), AssertionError);
   NodeUnderTest<TooBig> big({});

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/version.h"
 
 namespace ensonify {
@@ -42,7 +42,7 @@ void ask_for_finite_numbers(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     if (option->get_type_name().find("FLOAT") == std::string::npos) continue;
     option->check([](const std::string& text) {
-      const double value = std::strtod(text.c_str(), nullptr);  // what is no number at all is told when it is parsed
+      const double value = std::strtod(text.c_str(), nullptr);  // what is no number at all is given when it is parsed
       return std::isfinite(value) ? std::string{} : text + " is not a finite number";
     });
   }

@@ -10,7 +10,7 @@ class App;
 namespace ensonify {
 
 /// Reads the command line of any of our programs, with `--version`. An exit code when the program is to end here: 0
-/// after help, 2 for wrong arguments, which have been told. NaN and infinities are wrong for every number.
+/// after help, 2 for wrong arguments, which have been reported. NaN and infinities are wrong for every number.
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// main() of a tool: reads the command line, runs `body` and gives its exit code. What `body` throws becomes a text on

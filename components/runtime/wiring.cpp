@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/config/config_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/topic_pattern.h"
 
 namespace ensonify {

@@ -27,7 +27,7 @@ struct WireRule {
   std::string place;  // "demo.yaml:12:3", for messages
 };
 
-/// Who talks to whom. Topic ids count outputs in the order of ranks and declarations.
+/// Graph of publishers and subscribers. Topic ids count outputs in the order of ranks and declarations.
 struct Graph {
   struct Topic {
     std::string name;
@@ -54,7 +54,7 @@ struct Graph {
 Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
            const std::map<std::string, std::string>& places = {});
 
-/// What a subscriber's runtime needs: its feeds, in the order of in ports and topic ids.
+/// Feeds of a subscriber, in the order of in ports and topic ids.
 std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& processes, std::size_t rank);
 
 /// Messages that may be on their way on a sync socket at once: 2 + window x rate, summed over its topics.

@@ -33,7 +33,7 @@ TEST_CASE("an input finds the only publisher of its type") {
   CHECK(graph.edges[0].delay == 100_ms);
 }
 
-TEST_CASE("two publishers of a type must be told apart by a rule") {
+TEST_CASE("two publishers of a type need a rule") {
   auto processes = kLoop;
   processes.push_back(process("agent", {out("command", "guidance/1")}, {}));
   CHECK(only_problem(processes) ==
@@ -52,7 +52,7 @@ TEST_CASE("an output that is called after an input and a process is for that one
       process("pilot", {out("settings_bow", "sonar_settings/1"), out("settings_stern", "sonar_settings/1")}, {}));
   const Graph graph = wire(processes, {});
   CHECK(graph.problems.empty());
-  REQUIRE(graph.edges.size() == 2);  // the side head hears nobody
+  REQUIRE(graph.edges.size() == 2);  // the side head receives nobody
   CHECK(graph.topics[graph.edges[0].topic].name == "pilot/settings_bow");
   CHECK(graph.edges[0].to == 0);
   CHECK(graph.topics[graph.edges[1].topic].name == "pilot/settings_stern");
@@ -101,7 +101,7 @@ TEST_CASE("every cycle needs a delayed edge, and the one without is named") {
   CHECK(wire(processes, {{"auv.command", "pilot/command", 20_ms, "x.yaml:3:1"}}).problems.empty());
 }
 
-TEST_CASE("a pattern takes every topic but its owner's, and a name that nobody publishes is refused") {
+TEST_CASE("a pattern takes all topics but its owner's; an unpublished name is refused") {
   auto processes = kLoop;
   processes.push_back(
       {"recorder", "recorder", {out("health", "health/1")}, {{"all", "*", SimTime{0}, true, {"*"}, 0}}, false});
@@ -118,7 +118,7 @@ TEST_CASE("an input of one type takes it from every publisher that it lists") {
   std::vector<Declaration> heads = {process("bow", {out("transmit", "transmit/1"), out("ping", "ping/1")}, {}),
                                     process("side", {out("transmit", "transmit/1")}, {}),
                                     process("down", {out("transmit", "transmit/1")}, {})};
-  for (std::size_t i = 0; i < 2; ++i) {  // they hear each other, and down hears nobody
+  for (std::size_t i = 0; i < 2; ++i) {  // they receive each other, and down receives nobody
     heads[i].ins = {{"transmits", "transmit/1", 20_ms, false, {i == 0 ? "side/transmit" : "bow/transmit"}, 0}};
   }
   heads[0].ins[0].topics.push_back("down/transmit");

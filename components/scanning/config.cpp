@@ -1,7 +1,7 @@
 #include "components/scanning/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/line_shading.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/line_shading.h"
 
 namespace ensonify {
 namespace {
@@ -21,7 +21,7 @@ void read_scan(ConfigReader& from, Scan& scan) {
 
 }  // namespace
 
-ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+ScanningConfig ScanningConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   ScanningConfig c;
   from.optional("frequency_hz", c.frequency_hz, 50e3, 3e6);
   from.optional("horizontal_beamwidth_deg", c.horizontal_beamwidth_rad, 0.2, 20, kDegrees);
@@ -37,7 +37,7 @@ ScanningConfig ScanningConfig::read(ConfigReader& from, const Scenario& scenario
     from.problem("range_m", "is beyond longest_range_m, " + std::to_string(c.longest_range_m) + " m");
   }
   from.optional("electronic_noise_db", c.electronic_noise_db, -200, 150);
-  read_head(from, scenario, process, kFastest_hz, c);
+  read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
   return c;
 }

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "components/runtime/head/head_config.h"
-#include "components/runtime/head/ranged_pulse.h"
 #include "components/scanning/scan.h"
-#include "kernels/array/shading.h"
+#include "components/sonar/head_config.h"
+#include "components/sonar/ranged_pulse.h"
+#include "kernels/acoustics/array/shading.h"
 
 namespace ensonify {
 
@@ -31,7 +31,7 @@ struct ScanningConfig : HeadConfig {
     processing_latency_s = 5e-3;
     gain_spreading_db = 0.0;
   }
-  static ScanningConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static ScanningConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const ScanningConfig& other) const;
 

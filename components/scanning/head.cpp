@@ -5,11 +5,11 @@
 #include <memory>
 #include <numbers>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {
@@ -85,26 +85,27 @@ ScanningHead::ScanningHead(const ScanningConfig& config)
     : config_(config),
       echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)) {}
 
-msg::Ping ScanningHead::listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                               const frames::PoseHistory& truth, trace::Scene& seabed) {
+msg::Ping ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                       double known_sound_speed_mps, const frames::PoseHistory& truth,
+                                       trace::Scene& seabed) {
   Scan scan = config_.scan;
   scan.width_rad = settings.swath_rad;
-  const double angle_rad = scan_angle_rad(scan, shot.ping);
+  const double angle_rad = scan_angle_rad(scan, event.ping);
   const RangedPulse ranged = pulse_for(settings);
-  head_poses(truth, config_.mounting.actual, shot.transmit, from_seconds(ranged.listening_s()), poses_);
+  head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
   for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
   Emission emission;
-  emission.shot = shot;
+  emission.event = event;
   emission.source_level_db = settings.source_level_db;
   emission.sample_period_s = ranged.sampling.period_s;
-  emission.listening_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
-  echo::Image& image = echoes_.listen(emission, echo_pulse(config_.pulse, ranged), poses_, seabed);
-  sight_ = echoes_.arrivals().sight(settings.range_m, seabed);
+  emission.reception_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
+  echo::Image& image = echoes_.receive_echoes(emission, echo_pulse(config_.pulse, ranged), poses_, seabed);
+  trace_summary_ = echoes_.arrivals().trace_summary(settings.range_m, seabed);
 
   msg::Ping ping;
-  ping.stamp_ns = shot.transmit.count();
-  ping.ping = shot.ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
   ping.kind = "scanning";
   ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);

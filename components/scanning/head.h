@@ -2,28 +2,28 @@
 
 #include <vector>
 
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/sight.h"
 #include "components/scanning/config.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/trace_summary.h"
 
 namespace ensonify {
 
 /// The pattern of the transducer, in its own frame: x along its axis's projection onto the plane that it turns in.
 AperturePattern scanning_pattern(const ScanningConfig& config);
 
-/// The acoustics of a mechanically scanned head: what its one transducer hears where it points. It stands still while
-/// it listens. Uses the true motion, the actual mounting and the true water.
+/// The acoustics of a mechanically scanned head: what its one transducer receives where it points. It stands still
+/// while it receives. Uses the true motion, the actual mounting and the true water.
 class ScanningHead {
  public:
   explicit ScanningHead(const ScanningConfig& config);
 
   /// The row of a ping: a function of the shot, the settings, the sound speed that the head knows, the poses while it
-  /// listens, and the tiles. The track is left to the caller.
-  msg::Ping listen(const Shot& shot, const HeadSettings& settings, double known_sound_speed_mps,
-                   const frames::PoseHistory& truth, trace::Scene& seabed);
+  /// receives, and the tiles. The track is left to the caller.
+  msg::Ping receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
+                           const frames::PoseHistory& truth, trace::Scene& seabed);
 
-  /// What the last ping met.
-  const Sight& sight() const { return sight_; }
+  /// Summary of the last ping's hits.
+  const TraceSummary& trace_summary() const { return trace_summary_; }
 
   RangedPulse pulse_for(const HeadSettings& settings) const {
     return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
@@ -34,7 +34,7 @@ class ScanningHead {
   ScanningConfig config_;
   ApertureEchoes echoes_;
   std::vector<frames::HeadPose> poses_;
-  Sight sight_;
+  TraceSummary trace_summary_;
 };
 
 }  // namespace ensonify

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 namespace {
@@ -16,7 +16,7 @@ std::int64_t strides(const Scan& scan) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(scan.width_rad / stride_rad(scan) + 1e-6)));
 }
 
-/// Which place of the sector a ping looks from.
+/// Which place of the sector a ping points from.
 std::int64_t place(const Scan& scan, std::int64_t ping) {
   const std::int64_t last = strides(scan);
   if (scan.reversing) {

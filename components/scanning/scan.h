@@ -4,7 +4,7 @@
 
 namespace ensonify {
 
-/// How a mechanically scanned head turns its transducer about the head's z axis. Angles from the x axis, positive to
+/// Rotation of a mechanically scanned head's transducer about the head's z axis. Angles from the x axis, positive to
 /// starboard.
 struct Scan {
   double centre_rad = 0.0;
@@ -23,7 +23,7 @@ double stride_rad(const Scan& scan);
 /// Pings from one end of the sector to the other; in a full turn, pings of the turn. At least 1.
 std::int64_t pings_per_sweep(const Scan& scan);
 
-/// Where the transducer points at a ping, -pi..pi; the first is the sector's port end.
+/// Angle of the transducer at a ping, -pi..pi; the first is the sector's port end.
 double scan_angle_rad(const Scan& scan, std::int64_t ping);
 
 }  // namespace ensonify

@@ -1,15 +1,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/head/test_config.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/scanning/node.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_config.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -86,7 +86,7 @@ TEST_CASE("a sector is scanned from port to starboard, and again or back") {
   check_angles(scan, {88, 90, 92, 90, 88});
 }
 
-TEST_CASE("a post is heard in the ping that points at it, at its range") {
+TEST_CASE("a pole echoes in the ping that points at it, at its range") {
   // 60 degrees to port, 12 m away; the head 10 m deep, 3 m above the seabed.
   const double east_m = -12.0 * std::sin(60 * kDeg), north_m = 12.0 * std::cos(60 * kDeg);
   ScanningConfig config = quiet();
@@ -95,13 +95,13 @@ TEST_CASE("a post is heard in the ping that points at it, at its range") {
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   auto scene = scene_of([&](double e, double n) { return std::hypot(e - east_m, n - north_m) < 0.2 ? -9.0 : -60.0; });
-  double loudest_upa = 0.0, angle_deg = 0.0, range_m = 0.0;
+  double strongest_upa = 0.0, angle_deg = 0.0, range_m = 0.0;
   for (std::int64_t ping = 0; ping < pings_per_sweep(config.scan); ++ping) {
-    const msg::Ping row = head.listen({ping, SimTime{0}, 20.0}, config.start(), kSpeed_mps, truth, scene);
+    const msg::Ping row = head.receive_echoes({ping, SimTime{0}, 20.0}, config.start(), kSpeed_mps, truth, scene);
     REQUIRE(row.amplitude_upa.rows() == 1);
     for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {
-      if (static_cast<double>(row.amplitude_upa[k]) <= loudest_upa) continue;
-      loudest_upa = static_cast<double>(row.amplitude_upa[k]);
+      if (static_cast<double>(row.amplitude_upa[k]) <= strongest_upa) continue;
+      strongest_upa = static_cast<double>(row.amplitude_upa[k]);
       angle_deg = static_cast<double>(row.beam_angle_rad[0]) / kDeg;
       range_m = range_of(row, k);
     }
@@ -110,7 +110,7 @@ TEST_CASE("a post is heard in the ping that points at it, at its range") {
   CHECK(range_m == Approx(12.0).margin(0.5));  // a post of 0.4 m on posts of terrain 0.25 m apart
 }
 
-TEST_CASE("a shaded transducer is as wide as a uniform one at -3 dB, with the side lobes that were asked for") {
+TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe level") {
   ScanningConfig config = quiet();
   config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
   const auto at = [&](const AperturePattern& pattern, double sine) {
@@ -141,7 +141,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   auto scene = scene_of([](double, double) { return -15.0; });
-  const msg::Ping row = head.listen({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
+  const msg::Ping row = head.receive_echoes({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
   const double narrow = array::length_in_waves_for(2 * kDeg), tall = array::length_in_waves_for(25 * kDeg);
   const double length_m = 0.5 * kSpeed_mps * head.pulse_for(config.start()).length_s, H = 5.0;
   for (const double R : {15.0, 20.0, 30.0}) {
@@ -169,7 +169,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   }
 }
 
-TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its shorter effective length") {
+TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective length") {
   ScanningConfig config = quiet();
   config.tilt_rad = 10 * kDeg;
   config.range_m = 40.0;
@@ -179,7 +179,7 @@ TEST_CASE("a tapered tone leaves the mean level of a flat seabed, but for its sh
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   const auto ping = [&] {
     ScanningHead head(config);
-    return head.listen({200, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
+    return head.receive_echoes({200, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene);
   };
   const msg::Ping rectangular = ping();
   config.pulse.tapered_fraction = 0.5;
@@ -211,7 +211,7 @@ TEST_CASE("a command holds the tone and sets the sector's width") {
     wanted.swath_rad = swath_rad;
     CommandedSettings settings(config.start(), config.limits());
     settings.command(wanted);
-    return head.listen({number, SimTime{0}, 20.0}, settings.at_ping(), kSpeed_mps, truth, scene);
+    return head.receive_echoes({number, SimTime{0}, 20.0}, settings.at_ping(), kSpeed_mps, truth, scene);
   };
   const double by_range_s = 2 * 2 * 20.0 / kSpeed_mps / 1200;  // two of 1200 samples
   CHECK(ping(0, msg::kUnchanged, msg::kUnchanged).applied.pulse_length_s == Approx(by_range_s));

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <set>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/line_shading.h"
-#include "components/runtime/head/ranged_pulse.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/line_array.h"
+#include "components/config/config_reader.h"
+#include "components/sonar/line_shading.h"
+#include "components/sonar/ranged_pulse.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/line_array.h"
 
 namespace ensonify {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kLeastSweep = 4.0;  // bandwidth times length of a chirp
 constexpr double kLongestPulse_s = 20e-3;
 constexpr double kMostSamples = 100'000.0;  // per side
 
-/// One-way width of a line that sends and listens with a two-way width: 50.76 / 36.55 of it when uniform.
+/// One-way width of a line that transmits and receives with a two-way width: 50.76 / 36.55 of it when uniform.
 double one_way_rad(double two_way_rad, const array::Shading& shading) {
   const array::LineArray line = array::line_array_of_width(two_way_rad, 1.0, shading);
   const auto both_ways = [&](double sine) { return std::pow(array::power(line, 1.0, sine), 2); };
@@ -76,7 +76,7 @@ echo::Pulse SidescanChannel::pulse(double length_s) const {
   return echo::tapered_pulse(length_s, tapered_fraction);
 }
 
-SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+SidescanConfig SidescanConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   SidescanConfig c;
   if (from.has("channels")) c.channels.clear();
   std::set<std::string> names;
@@ -85,11 +85,11 @@ SidescanConfig SidescanConfig::read(ConfigReader& from, const Scenario& scenario
     if (!names.insert(c.channels.back().name).second) channel.problem("name", "is taken by another channel");
   }
   if (c.channels.empty()) from.problem("channels", "needs at least one channel");
-  read_head(from, scenario, process, kFastest_hz, c);
+  read_head(from, world, process, kFastest_hz, c);
   read_sound_speed(from, c);
   from.optional("bottom_threshold_db", c.bottom_threshold_db, 3, 40);
   for (const SidescanChannel& channel : c.channels) {
-    const double samples = c.listening_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
+    const double samples = c.reception_s(channel.range_m, channel.pulse_length_s) / channel.sample_period_s();
     if (samples > kMostSamples) {
       from.problem("channels", "channel " + channel.name + " makes " + std::to_string(std::llround(samples)) +
                                    " samples a side; at most 100000 are allowed: shorten range_m");

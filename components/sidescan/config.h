@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/head_config.h"
-#include "kernels/array/shading.h"
-#include "kernels/echo/pulse.h"
+#include "components/sonar/head_config.h"
+#include "kernels/acoustics/array/shading.h"
+#include "kernels/acoustics/echo/pulse.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// How a line takes the curvature of wave fronts inside L^2 / lambda.
+/// Treatment of the curvature of wave fronts by a line inside L^2 / lambda.
 enum class Focus {
-  kIdeal,  // pays none: sends and listens focused at every range, with its far-field pattern
-  kEcho,   // sends unfocused; listens focused at the range of each echo
-  kFixed,  // sends unfocused; listens focused at one range
-  kOff,    // sends and listens unfocused
+  kIdeal,  // pays none: transmits and receives focused at every range, with its far-field pattern
+  kEcho,   // sends unfocused; receives focused at the range of each echo
+  kFixed,  // sends unfocused; receives focused at one range
+  kOff,    // transmits and receives unfocused
 };
 
-/// One frequency of a sidescan: a line array on each side, along the head's x axis, that sends and listens.
+/// One frequency of a sidescan: a line array on each side, along the head's x axis, that transmits and receives.
 struct SidescanChannel {
   std::string name = "main";
   double frequency_hz = 400e3;
@@ -38,14 +38,14 @@ struct SidescanChannel {
   double bandwidth_hz = 0.0;      // that a chirp sweeps
   echo::Window window = echo::Window::kHamming;  // of its matched filter
   double samples_per_pulse = 2.0;                // of a tone, or per 1 / bandwidth of a chirp
-  double range_m = 100.0;                        // the longest that is listened to, slant
+  double range_m = 100.0;                        // the longest of reception, slant
   double electronic_noise_db = -200.0;           // as sound in the water, re 1 uPa^2/Hz
 
   static SidescanChannel read(ConfigReader& from);
   bool operator==(const SidescanChannel&) const = default;
 
   echo::Pulse pulse(double length_s) const;
-  /// Of the echo of one point: samples_per_pulse are taken per inverse of it.
+  /// Bandwidth of the echo of one point: samples_per_pulse are taken per inverse of it.
   double band_hz() const { return chirp ? bandwidth_hz : 1.0 / pulse_length_s; }
   double sample_period_s() const { return 1.0 / (samples_per_pulse * band_hz()); }
   /// c / 2B of a chirp, c tau / 2 of a tone.
@@ -63,7 +63,7 @@ struct SidescanConfig : HeadConfig {
     ping_rate_hz = 30.0;
     gain_absorption_dbpm = 0.1;
   }
-  static SidescanConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static SidescanConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const SidescanConfig& other) const;
 
@@ -71,7 +71,7 @@ struct SidescanConfig : HeadConfig {
   HeadSettings start_of(const SidescanChannel& channel) const;
   SettingLimits limits_of(const SidescanChannel& channel) const;
   /// From transmission to the last echo of this range.
-  double listening_s(double range_m, double pulse_length_s) const {
+  double reception_s(double range_m, double pulse_length_s) const {
     return 2.0 * range_m / sound_speed_mps + pulse_length_s;
   }
 };

@@ -5,12 +5,12 @@
 #include <memory>
 #include <numbers>
 
-#include "components/runtime/head/head_motion.h"
-#include "components/runtime/head/tone_shape.h"
-#include "kernels/array/aperture.h"
-#include "kernels/array/line.h"
-#include "kernels/array/near_field.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/head_motion.h"
+#include "components/sonar/tone_shape.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/near_field.h"
+#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {
@@ -88,7 +88,7 @@ std::vector<AperturePattern> sides_of(const AlongTrack& along, const SidescanCha
   std::vector<AperturePattern> sides;
   for (const float side : {-1.0F, 1.0F}) {
     const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
-    if (!effects.directivity) {  // each side hears its own half of the water
+    if (!effects.directivity) {  // each side receives its own half of the water
       sides.push_back([=](const Eigen::Vector3f& d, float r) { return side * d.y() > 0.0F ? along(d.x(), r) : 0.0F; });
       continue;
     }
@@ -114,7 +114,7 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   return a;
 }
 
-/// To both sides. Across-track only range tells echoes apart.
+/// To both sides. Across-track only range distinguishes echoes.
 trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel) {
   const double wave_over_length = 1.0 / lines_in_waves(channel), null = array::first_null(line_of(channel), 1.0);
   double reach = std::min(1.0, kReach * wave_over_length);
@@ -150,33 +150,33 @@ SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& 
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}
 
-SidescanHead::Heard SidescanHead::listen(const Shot& shot, const HeadSettings& settings,
-                                         const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                                    const frames::PoseHistory& vehicle, trace::Scene& seabed) {
   if (pulse_length_s_ != settings.pulse_length_s) {
     pulse_length_s_ = settings.pulse_length_s;
     pulse_ = channel_.pulse(pulse_length_s_);
   }
   Emission emission;
-  emission.shot = shot;
+  emission.event = event;
   emission.source_level_db = settings.source_level_db;
-  emission.listening_s = config_.listening_s(settings.range_m, settings.pulse_length_s);
+  emission.reception_s = config_.reception_s(settings.range_m, settings.pulse_length_s);
   emission.sample_period_s = channel_.sample_period_s();
 
-  head_poses(vehicle, config_.mounting.actual, shot.transmit, from_seconds(emission.listening_s), poses_);
-  echo::Image& image = echoes_.listen(emission, pulse_, poses_, seabed);
+  head_poses(vehicle, config_.mounting.actual, event.transmit, from_seconds(emission.reception_s), poses_);
+  echo::Image& image = echoes_.receive_echoes(emission, pulse_, poses_, seabed);
 
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  Heard heard{ping_message(shot, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps)};
-  heard.bottom.stamp_ns = shot.transmit.count();
-  heard.bottom.ping = shot.ping;
-  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, heard.ping);
-  return heard;
+  Received received{ping_message(event, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps)};
+  received.bottom.stamp_ns = event.transmit.count();
+  received.bottom.ping = event.ping;
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, received.ping);
+  return received;
 }
 
-msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& settings) const {
+msg::Ping SidescanHead::ping_message(const PingEvent& event, const HeadSettings& settings) const {
   msg::Ping ping;
-  ping.stamp_ns = shot.transmit.count();
-  ping.ping = shot.ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
   ping.kind = "sidescan";
   const auto broadside = static_cast<float>(0.5 * std::numbers::pi - channel_.depression_rad);
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
@@ -191,7 +191,7 @@ msg::Ping SidescanHead::ping_message(const Shot& shot, const HeadSettings& setti
 }
 
 std::size_t SidescanHead::max_ping_bytes() const {
-  const double longest_s = config_.listening_s(channel_.range_m, config_.limits_of(channel_).pulse_length_s->most);
+  const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_).pulse_length_s->most);
   return 2 * sizeof(float) * static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0) + 65536;
 }
 

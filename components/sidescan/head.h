@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "components/runtime/head/aperture_echoes.h"
-#include "components/runtime/head/bottom_finder.h"
 #include "components/sidescan/config.h"
+#include "components/sonar/aperture_echoes.h"
+#include "components/sonar/bottom_finder.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -12,26 +12,26 @@ namespace ensonify {
 /// The patterns of a channel, port then starboard: a uniform line along x, another across the face, the face's back.
 AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChannel& channel);
 
-/// One channel of a sidescan: what both sides hear of a ping, and where the instrument finds the bottom in it. The
-/// acoustics use the true motion, mounting and water; the track of the bottom only what was heard.
+/// One channel of a sidescan: what both sides receive of a ping, and where the instrument finds the bottom in it. The
+/// acoustics use the true motion, mounting and water; the track of the bottom only what was received.
 class SidescanHead {
  public:
   SidescanHead(const SidescanConfig& config, const SidescanChannel& channel);
 
-  struct Heard {
+  struct Received {
     msg::Ping ping;  // without a track
     msg::BottomTrack bottom;
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
-  Heard listen(const Shot& shot, const HeadSettings& settings, const frames::PoseHistory& vehicle,
-               trace::Scene& seabed);
+  Received receive_echoes(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& vehicle,
+                          trace::Scene& seabed);
 
-  /// How many rays of the last ping met the seabed within its range.
+  /// Number of rays of the last ping that hit the seabed within its range.
   int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
   std::size_t max_ping_bytes() const;
 
  private:
-  msg::Ping ping_message(const Shot& shot, const HeadSettings& settings) const;
+  msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings) const;
 
   SidescanConfig config_;
   SidescanChannel channel_;

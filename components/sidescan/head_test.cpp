@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/head/tile_set.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_seabed.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/water/noise.h"
 
 using namespace ensonify;
@@ -49,10 +49,11 @@ Sea flat(double height_m = -kDepth_m - 10.0) {
   return Sea(tile_of(256, 1.0, [=](double, double) { return height_m; }));
 }
 
-SidescanHead::Heard heard(const SidescanConfig& config, const Sea& sea, double yaw_radps = 0.0, std::int64_t ping = 0) {
+SidescanHead::Received received(const SidescanConfig& config, const Sea& sea, double yaw_radps = 0.0,
+                                std::int64_t ping = 0) {
   SidescanHead head(config, config.channels[0]);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  return head.listen({ping, SimTime{0}, settings.range_m}, settings, yawing(yaw_radps), sea.tiles.scene());
+  return head.receive_echoes({ping, SimTime{0}, settings.range_m}, settings, yawing(yaw_radps), sea.tiles.scene());
 }
 
 /// Mean power of a side over +-`around_m` of slant range, dB. The echo at time t is that of slant ranges
@@ -74,7 +75,7 @@ double level_db(const msg::Ping& ping, std::size_t side, double range_m, double 
 TEST_CASE("the level on a flat Lambert seabed is that of the area integral, on both sides") {
   // docs/physics/echo.md: the pulse-limited strip with the two-way width of the line. Rays in strata leave less than
   // 0.1 dB in the mean over 1.4 m.
-  const auto ping = heard(plain_sidescan(), flat()).ping;
+  const auto ping = received(plain_sidescan(), flat()).ping;
   REQUIRE(ping.amplitude_upa.rows() == 2);
   const std::pair<double, double> anchors[] = {{20, 103.50}, {50, 77.06}, {99, 52.37}};
   for (const auto& [range_m, expected_db] : anchors) {
@@ -86,9 +87,9 @@ TEST_CASE("the level on a flat Lambert seabed is that of the area integral, on b
 
 TEST_CASE("the vertical pattern shapes the level across the track, two-way") {
   SidescanConfig config = plain_sidescan();
-  const auto plain = heard(config, flat()).ping;
+  const auto plain = received(config, flat()).ping;
   config.effects.directivity = true;
-  const auto shaped = heard(config, flat()).ping;
+  const auto shaped = received(config, flat()).ping;
   const double waves = array::length_in_waves_for(50 * kDeg);
   for (const double range_m : {15.0, 20.0, 40.0, 80.0}) {
     INFO("slant range " << range_m);
@@ -100,7 +101,7 @@ TEST_CASE("the vertical pattern shapes the level across the track, two-way") {
   }
 }
 
-TEST_CASE("a shaded line is as wide as a uniform one at -3 dB, with the side lobes that were asked for") {
+TEST_CASE("a shaded line keeps its -3 dB width and has the set side lobe level") {
   SidescanConfig config = plain_sidescan();
   config.channels[0].shading = {array::Shading::Window::kTaylor, 30.0, 4};
   const auto at = [&](double sine) {  // of the starboard side, abeam
@@ -129,7 +130,7 @@ TEST_CASE("yaw during the ping moves the receive pattern off the transmit patter
     config.channels[0].horizontal_beamwidth_rad = width_deg * kDeg;
     const Sea sea = flat();
     const double waves = array::length_in_waves_for(width_deg * kDeg);
-    const auto rest = heard(config, sea).ping, turning = heard(config, sea, 3 * kDeg).ping;
+    const auto rest = received(config, sea).ping, turning = received(config, sea, 3 * kDeg).ping;
     for (const double range_m : {50.0, 98.0}) {
       const double turn = std::cos(std::asin(10.0 / range_m)) * 3 * kDeg * 2.0 * range_m / 1500.0;
       double apart = 0.0, in_place = 0.0;
@@ -142,15 +143,15 @@ TEST_CASE("yaw during the ping moves the receive pattern off the transmit patter
             Approx(10.0 * std::log10(apart / in_place)).margin(0.5));
     }
     config.effects.motion = false;
-    CHECK(level_db(heard(config, sea, 3 * kDeg).ping, 1, 98) == Approx(level_db(rest, 1, 98)).margin(1e-4));
+    CHECK(level_db(received(config, sea, 3 * kDeg).ping, 1, 98) == Approx(level_db(rest, 1, 98)).margin(1e-4));
   }
 }
 
-TEST_CASE("the first bottom is found at the altitude, to a sample, and told for each side") {
+TEST_CASE("the first bottom is at the altitude, to a sample, and reported for each side") {
   SidescanConfig config = plain_sidescan();
   config.effects = {};
   config.effects.multipath = false;
-  const auto [ping, bottom] = heard(config, flat());
+  const auto [ping, bottom] = received(config, flat());
   const double sample_m = 750.0 * ping.sample_period_s;
   CHECK(bottom.valid);
   CHECK(bottom.altitude_m == Approx(10.0).margin(sample_m));
@@ -161,10 +162,10 @@ TEST_CASE("the first bottom is found at the altitude, to a sample, and told for 
   }
   // The instrument takes 1600 m/s for granted: its altitude is wrong by that, though nothing in the water changed.
   config.sound_speed_mps = 1600.0;
-  CHECK(heard(config, flat()).bottom.altitude_m == Approx(10.0 * 1600.0 / 1500.0).margin(1.1 * sample_m));
+  CHECK(received(config, flat()).bottom.altitude_m == Approx(10.0 * 1600.0 / 1500.0).margin(1.1 * sample_m));
 }
 
-TEST_CASE("the surface overhead is not the bottom, whose echo lasts longer than a long pulse") {
+TEST_CASE("the surface overhead is not detected as the bottom, even with a long pulse") {
   // 1 ms fill 0.75 m, more than 0.7 of the metre that the bottom has to answer for.
   for (const double samples : {2.0, 20.0}) {
     SidescanConfig config;
@@ -176,7 +177,7 @@ TEST_CASE("the surface overhead is not the bottom, whose echo lasts longer than 
     const Sea sea = flat(-13.0);
     SidescanHead head(config, channel);
     const auto [ping, bottom] =
-        head.listen({0, SimTime{0}, settings.range_m}, settings, yawing(0.0, 3.0), sea.tiles.scene());
+        head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, yawing(0.0, 3.0), sea.tiles.scene());
     INFO(samples << " samples per pulse");
     CHECK(bottom.valid);
     CHECK(bottom.altitude_m == Approx(10.0).margin(750.0 * ping.sample_period_s + 0.02));
@@ -193,7 +194,7 @@ TEST_CASE("a wall throws the shadow that its height says, to a sample") {
     const double seabed = -kDepth_m - 10.0;
     return east > 29.9 && east < 30.6 ? seabed + 2.0 : seabed;
   }));
-  const auto ping = heard(config, sea).ping;
+  const auto ping = received(config, sea).ping;
   const double edge_m = std::hypot(30.5, 8.0), end_m = edge_m * 10.0 / 8.0;
   const double sample_m = 750.0 * ping.sample_period_s;
   const auto side = ping.amplitude_upa.row(1);
@@ -218,7 +219,7 @@ TEST_CASE("noise is that of the water against the line's directivity, in the pul
   config.effects.noise = true;
   config.channels[0].source_level_db = -300.0;
   config.world.water.noise_level_db = 50.0;
-  const auto ping = heard(config, flat()).ping;
+  const auto ping = received(config, flat()).ping;
   const double di =
       array::directivity_index_db(array::length_in_waves_for(0.5 * kDeg), array::length_in_waves_for(50 * kDeg));
   double sum = 0.0;
@@ -233,14 +234,14 @@ TEST_CASE("a run that differs in one effect differs by that effect only") {
   config.world.water.scattering_layers = {{13.0, 20.0, -60.0}};
   config.channels[0].range_m = 30.0;
   const Sea sea = flat();
-  const auto all = heard(config, sea).ping;
-  CHECK(heard(config, sea).ping.amplitude_upa == all.amplitude_upa);  // the same ping twice
+  const auto all = received(config, sea).ping;
+  CHECK(received(config, sea).ping.amplitude_upa == all.amplitude_upa);  // the same ping twice
   // Without noise the water column holds the volume's draws alone, and the other way round: powers add up in the mean,
   // and each is the same whatever else is on.
   const auto without = [&](bool Effects::*effect) {
     SidescanConfig one = config;
     one.effects.*effect = false;
-    return heard(one, sea).ping;
+    return received(one, sea).ping;
   };
   const auto quiet = without(&Effects::noise), clear = without(&Effects::volume);
   CHECK_FALSE(quiet.amplitude_upa == all.amplitude_upa);
@@ -249,7 +250,7 @@ TEST_CASE("a run that differs in one effect differs by that effect only") {
   mute.channels[0].source_level_db = -300.0;
   SidescanConfig mute_clear = mute;
   mute_clear.effects.volume = mute_clear.effects.speckle = mute_clear.effects.multipath = false;
-  CHECK(heard(mute, sea).ping.amplitude_upa == heard(mute_clear, sea).ping.amplitude_upa);  // the noise alone
+  CHECK(received(mute, sea).ping.amplitude_upa == received(mute_clear, sea).ping.amplitude_upa);  // the noise alone
   // Switches that concern nothing in this scene change not a bit.
   CHECK(without(&Effects::refraction).amplitude_upa == all.amplitude_upa);
   CHECK(without(&Effects::quantisation).amplitude_upa == all.amplitude_upa);
@@ -259,12 +260,12 @@ TEST_CASE("a run that differs in one effect differs by that effect only") {
 
 TEST_CASE("counts hold the gain, and its settings and scale give the pressure back") {
   SidescanConfig config = plain_sidescan();
-  const auto pressure = heard(config, flat()).ping;
+  const auto pressure = received(config, flat()).ping;
   config.converter = {16, 1e9};
   config.gain_spreading_db = 30.0;
   config.gain_absorption_dbpm = 0.1;
   config.gain_offset_db = 10.0;
-  const auto counts = heard(config, flat()).ping;
+  const auto counts = received(config, flat()).ping;
   REQUIRE(counts.amplitude_upa.empty());
   REQUIRE(counts.amplitude_count.cols() == pressure.amplitude_upa.cols());
   for (const double range_m : {20.0, 50.0, 99.0}) {
@@ -276,7 +277,7 @@ TEST_CASE("counts hold the gain, and its settings and scale give the pressure ba
     CHECK(20 * std::log10(upa / pressure.amplitude_upa(1, k)) == Approx(0.0).margin(0.05));
   }
   config.effects.tvg = config.effects.quantisation = false;
-  const auto off = heard(config, flat()).ping;
+  const auto off = received(config, flat()).ping;
   CHECK(off.amplitude_upa == pressure.amplitude_upa);
   CHECK(off.applied.gain_spreading_db == 0.0);
 }

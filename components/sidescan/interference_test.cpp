@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/sidescan/node.h"
+#include "components/sonar/test_seabed.h"
 #include "messages/motion.h"
 
 using namespace ensonify;
@@ -34,7 +34,7 @@ SidescanConfig beside_another() {
   return config;
 }
 
-msg::Transmit shot_of_other(SimTime at) {
+msg::Transmit transmission_of_other(SimTime at) {
   msg::Transmit transmit;
   transmit.stamp_ns = at.count();
   transmit.frequency_hz = 400e3;
@@ -54,8 +54,9 @@ void give_surroundings(Head& head, SimTime until) {
   head.give("tile", tile_of(256, 2.0, [](double, double) { return -2.0 - kAltitude_m; }));
 }
 
-/// What is heard of `others`, ping by ping.
-std::vector<msg::Ping> listen(const SidescanConfig& config, const std::vector<msg::Transmit>& others, SimTime until) {
+/// What is received of `others`, ping by ping.
+std::vector<msg::Ping> receive_echoes(const SidescanConfig& config, const std::vector<msg::Transmit>& others,
+                                      SimTime until) {
   Head head(config);
   give_surroundings(head, until);
   for (const auto& other : others) head.give("bow/transmit", other);
@@ -63,7 +64,7 @@ std::vector<msg::Ping> listen(const SidescanConfig& config, const std::vector<ms
 }
 
 /// Time of the first sound of a side (0 port, 1 starboard), to a sample.
-double first_sound_s(const msg::Ping& ping, std::size_t side) {
+double first_arrival_s(const msg::Ping& ping, std::size_t side) {
   std::size_t k = 0;
   while (k < ping.amplitude_upa.cols() && ping.amplitude_upa(side, k) == 0.0F) ++k;
   return ping.first_sample_s + static_cast<double>(k) * ping.sample_period_s;
@@ -78,23 +79,23 @@ double flight_s(const SidescanConfig& config, double path_m) {
 
 }  // namespace
 
-TEST_CASE("another head's transmission stands at its slant range and drifts when the heads do not keep time") {
+TEST_CASE("interference is at its slant range, and drifts where heads are not synchronised") {
   const auto config = beside_another();
   std::vector<msg::Transmit> others;  // every 101 ms, from 3 ms after our first
-  for (int n = 0; n < 6; ++n) others.push_back(shot_of_other(3_ms + n * 101_ms));
-  const auto pings = listen(config, others, 600_ms);
+  for (int n = 0; n < 6; ++n) others.push_back(transmission_of_other(3_ms + n * 101_ms));
+  const auto pings = receive_echoes(config, others, 600_ms);
   REQUIRE(pings.size() >= 5);
   for (int n = 0; n < 5; ++n) {
     const double expected_s = 3e-3 + n * 1e-3 + flight_s(config, kLever_m);
-    CHECK(first_sound_s(pings[n], 1) == Approx(expected_s).margin(pings[n].sample_period_s));
+    CHECK(first_arrival_s(pings[n], 1) == Approx(expected_s).margin(pings[n].sample_period_s));
   }
-  const double drift_m = slant_range_m(first_sound_s(pings[4], 1)) - slant_range_m(first_sound_s(pings[0], 1));
+  const double drift_m = slant_range_m(first_arrival_s(pings[4], 1)) - slant_range_m(first_arrival_s(pings[0], 1));
   CHECK(drift_m == Approx(4 * 0.75).margin(slant_range_m(pings[0].sample_period_s)));
 }
 
 TEST_CASE("cross-talk has the level of source, isolation, spreading and our own pattern") {
   const auto config = beside_another();
-  const auto pings = listen(config, {shot_of_other(3_ms)}, 150_ms);
+  const auto pings = receive_echoes(config, {transmission_of_other(3_ms)}, 150_ms);
   const double expected_s = 3e-3 + flight_s(config, kLever_m);
   const auto sides = side_patterns(config, config.channels[0]);
   const auto sample = static_cast<std::size_t>((expected_s + 0.5 * kPulse_s) / pings[0].sample_period_s);
@@ -108,21 +109,21 @@ TEST_CASE("cross-talk has the level of source, isolation, spreading and our own 
 TEST_CASE("it comes by way of the bottom too, where the mirror is") {
   const auto config = beside_another();
   // Sent 5 ms before our ping: the straight sound is over; down and up take 13.5 ms, before our own first bottom.
-  const auto pings = listen(config, {shot_of_other(95_ms)}, 250_ms);
+  const auto pings = receive_echoes(config, {transmission_of_other(95_ms)}, 250_ms);
   REQUIRE(pings.size() == 2);
   const double expected_s = -5e-3 + flight_s(config, std::hypot(2.0 * kAltitude_m, kLever_m));
-  CHECK(first_sound_s(pings[1], 1) == Approx(expected_s).margin(pings[1].sample_period_s));
-  CHECK(first_sound_s(pings[0], 1) > 2.0 * kAltitude_m / 1550.0);  // sent after its 40 ms: not heard
+  CHECK(first_arrival_s(pings[1], 1) == Approx(expected_s).margin(pings[1].sample_period_s));
+  CHECK(first_arrival_s(pings[0], 1) > 2.0 * kAltitude_m / 1550.0);  // sent after its 40 ms: not received
 }
 
-TEST_CASE("a slave hears its master in one place, and only there") {
+TEST_CASE("a slave receives its master at one range only") {
   auto config = beside_another();
   config.trigger.mode = Trigger::Mode::kSlave;
   config.trigger.offset_s = 0.0;
   Head head(config);
   give_surroundings(head, 1_s);
   for (int n = 0; n < 9; ++n) {
-    auto master = shot_of_other(n * 103_ms);
+    auto master = transmission_of_other(n * 103_ms);
     master.ping = n;
     master.next_ns = ((n + 1) * 103_ms).count();
     head.give("trigger", master);
@@ -132,18 +133,18 @@ TEST_CASE("a slave hears its master in one place, and only there") {
   REQUIRE(pings.size() == 9);
   for (int n = 0; n < 9; ++n) {
     CHECK(pings[n].stamp_ns == (n * 103_ms).count());
-    CHECK(first_sound_s(pings[n], 1) == first_sound_s(pings[0], 1));
+    CHECK(first_arrival_s(pings[n], 1) == first_arrival_s(pings[0], 1));
   }
-  CHECK(slant_range_m(first_sound_s(pings[0], 1)) == Approx(0.5 * kLever_m).margin(0.1));
+  CHECK(slant_range_m(first_arrival_s(pings[0], 1)) == Approx(0.5 * kLever_m).margin(0.1));
 }
 
 TEST_CASE("interference switched off changes nothing but itself") {
   auto config = beside_another();
   config.effects.noise = config.effects.volume = true;
-  const std::vector<msg::Transmit> others{shot_of_other(3_ms)};
-  const auto with = listen(config, others, 150_ms);
+  const std::vector<msg::Transmit> others{transmission_of_other(3_ms)};
+  const auto with = receive_echoes(config, others, 150_ms);
   config.effects.interference = false;
-  const auto without = listen(config, others, 150_ms);
+  const auto without = receive_echoes(config, others, 150_ms);
   config.interference.clear();
   Head alone(config);
   give_surroundings(alone, 150_ms);
@@ -153,14 +154,14 @@ TEST_CASE("interference switched off changes nothing but itself") {
   for (std::size_t k = 0; k < with[0].amplitude_upa.cols(); ++k) {
     REQUIRE(without[0].amplitude_upa(1, k) == never[0].amplitude_upa(1, k));
     const double t = static_cast<double>(k) * with[0].sample_period_s;
-    const bool heard = (t >= from_s && t < to_s) || (t >= bounce_s && t < bounce_s + kPulse_s);
+    const bool received = (t >= from_s && t < to_s) || (t >= bounce_s && t < bounce_s + kPulse_s);
     INFO(t);
-    REQUIRE((with[0].amplitude_upa(1, k) != without[0].amplitude_upa(1, k)) == heard);
+    REQUIRE((with[0].amplitude_upa(1, k) != without[0].amplitude_upa(1, k)) == received);
   }
 }
 
-TEST_CASE("heads that are heard stand on the same vehicle, and need time to arrive") {
-  Scenario scenario;
+TEST_CASE("interfering heads are of the same vehicle, and need time to arrive") {
+  World world;
   Vehicle boat;
   boat.name = "boat";
   boat.mountings["side"].actual.position_body_m = {1.0, 0.0, 0.5};
@@ -168,10 +169,10 @@ TEST_CASE("heads that are heard stand on the same vehicle, and need time to arri
   Vehicle other;
   other.name = "auv";
   other.mountings["far"] = {};
-  scenario.vehicles = {boat, other};
+  world.vehicles = {boat, other};
   const auto read = [&](const std::string& yaml, std::string& problems) {
     auto from = ConfigReader::from_text(yaml, "head.yaml");
-    auto config = SidescanConfig::read(from, scenario, "side");
+    auto config = SidescanConfig::read(from, world, "side");
     try {
       from.finish();
     } catch (const ConfigError& error) {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "components/runtime/head/tile_set.h"
 #include "components/sidescan/head.h"
-#include "kernels/array/line.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 
 // A line inside L^2 / lambda, through the whole head, against the sum over its elements by exact distances: a bright
 // strip across the track of a dark level seabed, as the head passes it. Sums of mean squares: the mean over the strip's
@@ -60,7 +60,7 @@ double found(const SidescanConfig& config, TileSet& tiles, double north_m) {
   at_rest.push(0, {{0.0, north_m, 0.0}, frames::enu_from_ned()});
   SidescanHead head(config, config.channels[0]);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  const auto ping = head.listen({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene()).ping;
+  const auto ping = head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene()).ping;
   double sum = 0.0;
   for (std::size_t k = 0; k < ping.amplitude_upa.cols(); ++k) {
     const double slant_m = 750.0 * static_cast<double>(k) * static_cast<double>(ping.sample_period_s);
@@ -82,8 +82,8 @@ double element_sum(double along_m, double range_m, double focus_m) {
   return std::norm(sum) / (kElements * kElements);
 }
 
-/// The same power by the sums over elements, of sending and of listening, over the strip within the window. A width of
-/// it is y dy = R dR across the track, scatters sin^2 = (H / R)^2 by Lambert's law, and spreads R^-4.
+/// The same power by the sums over elements, of transmission and of reception, over the strip within the window. A
+/// width of it is y dy = R dR across the track, scatters sin^2 = (H / R)^2 by Lambert's law, and spreads R^-4.
 double theory(Focus focus, double north_m) {
   constexpr int kRanges = 9, kAlongs = 8;
   double sum = 0.0;
@@ -91,10 +91,10 @@ double theory(Focus focus, double north_m) {
     const double R = kRange_m + kWindow_m * ((2 * i + 1.0) / kRanges - 1.0);
     const double weight = std::pow(R, -5) / std::sqrt(R * R - kAltitude_m * kAltitude_m);
     const double sending = focus == Focus::kIdeal ? R : kUnfocused_m;
-    const double listening = focus == Focus::kFixed ? 40.0 : focus == Focus::kOff ? kUnfocused_m : R;
+    const double reception = focus == Focus::kFixed ? 40.0 : focus == Focus::kOff ? kUnfocused_m : R;
     for (int j = 0; j < kAlongs; ++j) {
       const double along_m = kStrip_m * ((j + 0.5) / kAlongs - 0.5) - north_m;
-      sum += weight * element_sum(along_m, R, sending) * element_sum(along_m, R, listening);
+      sum += weight * element_sum(along_m, R, sending) * element_sum(along_m, R, reception);
     }
   }
   return sum;
@@ -104,9 +104,9 @@ double db(double ratio) { return 10.0 * std::log10(ratio); }
 
 }  // namespace
 
-TEST_CASE("at a quarter of L^2 / lambda a sidescan's line is as weak and as wide as the sum over its elements says") {
+TEST_CASE("at L^2 / 4 lambda a sidescan's line has the gain and width of its elements' sum") {
   // 4.0 dB below the ideal line on the axis where only transmission is unfocused, 7.9 dB where nothing is; beside the
-  // axis an unfocused line has a shoulder at -4 dB, so that half widths would tell little. Patches of seabed of 17 mm,
+  // axis an unfocused line has a shoulder at -4 dB, so that half widths would show little. Patches of seabed of 17 mm,
   // which answer as one point, blur the strip: 0.15 dB at -6 dB, and more in nulls, which are left out. Some hundred
   // rays beside the main lobe: 0.1 dB.
   TileSet tiles = strip_across_the_track();

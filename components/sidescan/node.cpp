@@ -12,12 +12,12 @@ HeadInputs::Start start_of(const SidescanConfig& config) {
   start.mounting = config.mounting;
   start.tide = config.world.vertical.tide;
   start.lod = config.lod;
-  start.lod.looks = static_cast<std::int32_t>(config.channels.size());
+  start.lod.adaptations_per_ping = static_cast<std::int32_t>(config.channels.size());
   start.sound_speed_mps = config.sound_speed_mps;
   double longest_s = 0.0;
   for (const SidescanChannel& channel : config.channels) {
     const SettingLimits limits = config.limits_of(channel);
-    longest_s = std::max(longest_s, config.listening_s(channel.range_m, limits.pulse_length_s->most));
+    longest_s = std::max(longest_s, config.reception_s(channel.range_m, limits.pulse_length_s->most));
     start.channels.push_back({channel.name, config.start_of(channel), limits});
   }
   start.longest_ping = from_seconds(longest_s + config.processing_latency_s);
@@ -49,22 +49,22 @@ void SidescanNode::transmit(SimTime now) {
   std::vector<Transmission> sent;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const HeadSettings& settings = inputs_.settings_at_ping(i);
-    const double listening_s = config_.listening_s(settings.range_m, settings.pulse_length_s);
-    sent.push_back({channels_[i].config.frequency_hz, settings.pulse_length_s, from_seconds(listening_s), settings,
+    const double reception_s = config_.reception_s(settings.range_m, settings.pulse_length_s);
+    sent.push_back({channels_[i].config.frequency_hz, settings.pulse_length_s, from_seconds(reception_s), settings,
                     channels_[i].config.bandwidth_hz});
   }
   cycle_.transmit(now, std::move(sent));
 }
 
 void SidescanNode::publish(const PingUnderWay& ping) {
-  std::string silent;  // channels that could only hear noise
+  std::string silent;  // channels that could only receive noise
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     Channel& channel = channels_[i];
     const Transmission& sent = ping.channels[i];
-    auto heard = channel.head.listen(ping.shot(i), sent.settings, inputs_.truth(), inputs_.seabed());
-    inputs_.fill_track(heard.ping.track, ping.transmit, sent.listening);
-    channel.ping_out.send(heard.ping);
-    channel.bottom_out.send(heard.bottom);
+    auto received = channel.head.receive_echoes(ping.event(i), sent.settings, inputs_.truth(), inputs_.seabed());
+    inputs_.fill_track(received.ping.track, ping.transmit, sent.reception);
+    channel.ping_out.send(received.ping);
+    channel.bottom_out.send(received.bottom);
     if (channel.head.rays_that_hit() == 0) {
       silent += fmt::format("{}{} ({:.0f} m)", silent.empty() ? "" : ", ", channel.config.name, sent.settings.range_m);
     }

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "components/runtime/head/head_inputs.h"
-#include "components/runtime/head/ping_cycle.h"
 #include "components/runtime/ports.h"
 #include "components/sidescan/head.h"
+#include "components/sonar/head_inputs.h"
+#include "components/sonar/ping_cycle.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

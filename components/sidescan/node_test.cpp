@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/head/test_seabed.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/test_seabed.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -54,18 +54,18 @@ std::string last_health(Head& head, SimTime t) {
 
 }  // namespace
 
-TEST_CASE("both frequencies ping together, each with two sides, its own range and its settings") {
+TEST_CASE("both frequencies ping together, each with two sides, its own range and settings") {
   Head head(dual());
   give_motion(head, 500_ms);
   head.give("tile", level_tile());
   const auto low = head.step_until<msg::Ping>("ping_low", 450_ms);
   const auto high = head.step_until<msg::Ping>("ping_high", 450_ms);
-  const auto shots = head.step_until<msg::Transmit>("transmit", 450_ms);
+  const auto transmissions = head.step_until<msg::Transmit>("transmit", 450_ms);
   REQUIRE(low.size() == 4);
   REQUIRE(high.size() == 4);
-  REQUIRE(shots.size() == 10);
-  CHECK(shots[0].frequency_hz == 100e3);
-  CHECK(shots[1].frequency_hz == 400e3);
+  REQUIRE(transmissions.size() == 10);
+  CHECK(transmissions[0].frequency_hz == 100e3);
+  CHECK(transmissions[1].frequency_hz == 400e3);
   CHECK(low[3].stamp_ns == 300'000'000);
   CHECK(low[3].stamp_ns == high[3].stamp_ns);
   CHECK(low[0].amplitude_upa.rows() == 2);
@@ -90,7 +90,7 @@ TEST_CASE("a command changes range, power, pulse, gain and rate from the next pi
   give_motion(head, 1_s);
   head.give("tile", level_tile());
   msg::SonarSettings command;
-  command.stamp_ns = 0;    // heard at 100 ms
+  command.stamp_ns = 0;    // received at 100 ms
   command.range_m = 40.0;  // more than the high channel has: it takes what it can
   command.source_level_db = 200.0;
   command.pulse_length_s = 200e-6;

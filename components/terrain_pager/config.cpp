@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 namespace ensonify {
 
-TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& scenario, const std::string&) {
+TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const World& world, const std::string&) {
   TerrainPagerConfig config;
   from.optional("rate_hz", config.rate_hz, 1, 20);
   from.optional("feed_margin_m", config.feed_margin_m, 0, 50e3);
@@ -24,15 +24,16 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const Scenario& 
   from.optional("raster_nodata", config.terrain.raster_nodata);
 
   config.place = from.node().place;
-  config.scenario_file = scenario.file;
-  config.terrain.site = scenario.site;
-  config.terrain.seabed = scenario.seabed;
-  config.mission = scenario.mission;
-  config.vehicles = scenario.vehicles;
-  config.tide = scenario.vertical.tide;
-  if (!scenario.vehicles.empty()) config.fastest_mps = 0.0;
-  for (const Vehicle& vehicle : scenario.vehicles)
-    config.fastest_mps = std::max(config.fastest_mps, vehicle.fastest_mps);
+  config.scenario_file = world.file;
+  config.scenario_text = world.text;
+  if (world.end_ns) config.duration = SimTime(*world.end_ns);
+  config.terrain.site = world.site;
+  config.terrain.seabed = world.seabed;
+  config.mission = world.mission;
+  config.vehicles = world.vehicles;
+  config.tide = world.vertical.tide;
+  if (!world.vehicles.empty()) config.fastest_mps = 0.0;
+  for (const Vehicle& vehicle : world.vehicles) config.fastest_mps = std::max(config.fastest_mps, vehicle.fastest_mps);
   return config;
 }
 

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/scenario.h"
+#include "components/config/config_error.h"
 #include "components/runtime/sim_time.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// What the pager is told: its own parameters and, from the scenario, which seabed and where the survey goes.
+/// Configuration of the pager: its own parameters and, from the scenario, which seabed and where the survey goes.
 struct TerrainPagerConfig {
-  int rate_hz = 2;                     // how often it looks where the vehicle is
-  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: as far as they can hear (demand.h)
+  int rate_hz = 2;                     // how often it checks where the vehicle is
+  double feed_margin_m = 0.0;          // heads hold tiles nearer than this; 0: as far as they can receive (demand.h)
   double release_hysteresis_m = 50.0;  // and give them up when farther than feed margin + this
   double wide_margin_m = 100.0;        // memory has tiles nearer than feed margin + this to the predicted track
   double load_ahead_s = 60.0;          // which is followed for so long
@@ -31,15 +31,15 @@ struct TerrainPagerConfig {
 
   // From the scenario.
   std::string scenario_file;
-  std::string scenario_text;        // canonical, as it is recorded; whoever has a launch puts it here
-  std::optional<SimTime> duration;  // of the run, where it has an end of its own; so with this
+  std::string scenario_text;        // canonical, as it is recorded; empty without a launch
+  std::optional<SimTime> duration;  // of the run, where it has an end of its own
   source::TerrainOptions terrain;
   Mission mission;
   std::vector<Vehicle> vehicles;
   vertical::Tide tide;
   double fastest_mps = 10.0;  // of all vehicles
 
-  static TerrainPagerConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static TerrainPagerConfig read(ConfigReader& from, const World& world, const std::string& process);
 };
 
 }  // namespace ensonify

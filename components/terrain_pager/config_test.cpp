@@ -3,14 +3,14 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "components/runtime/config/config_reader.h"
+#include "components/config/config_reader.h"
 
 using namespace ensonify;
 
 TEST_CASE("default.yaml of the pager says what the struct says") {
   const std::string source = std::getenv("ENSONIFY_SOURCE");
   auto from = ConfigReader::from_file(source + "/components/terrain_pager/default.yaml");
-  const auto read = TerrainPagerConfig::read(from, Scenario{}, "pager");
+  const auto read = TerrainPagerConfig::read(from, World{}, "pager");
   from.finish();
   const TerrainPagerConfig d;
   CHECK(read.rate_hz == d.rate_hz);

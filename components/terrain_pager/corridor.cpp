@@ -11,8 +11,8 @@
 namespace ensonify::pager {
 namespace {
 
-constexpr int kAcross = 12;          // places probed to either side of the line
-constexpr double kMostLooks = 2000;  // along a line
+constexpr int kAcross = 12;            // places probed to either side of the line
+constexpr double kMostSamples = 2000;  // along a line
 
 std::string place_text(const Vec2& place) {
   char text[64];
@@ -43,25 +43,25 @@ terrain::Tile posts_around(const TerrainSource& terrain, const Vec2& a, const Ve
 }
 
 /// Places along a line, from one end to the other, and the heights there.
-struct Looks {
+struct Samples {
   std::vector<Vec2> place;
   std::vector<double> height_m;  // as posts show it that are as far apart as the places; NaN in holes
 };
 
-Looks looks_along(const TerrainSource& terrain, const Leg& leg) {
+Samples samples_along(const TerrainSource& terrain, const Leg& leg) {
   constexpr std::size_t kTogether = 64;  // places under one block of posts: each block costs some milliseconds at most
-  const double length_m = navigation::length_m(leg.line);
-  const double spacing_m = std::max({terrain.native_spacing_m(), leg.spacing_m, length_m / kMostLooks});
+  const double length_m = runlines::length_m(leg.line);
+  const double spacing_m = std::max({terrain.native_spacing_m(), leg.spacing_m, length_m / kMostSamples});
   const auto steps = static_cast<int>(std::ceil(length_m / spacing_m));
-  Looks looks;
-  for (int i = 0; i <= steps; ++i) looks.place.push_back(navigation::point_on(leg.line, length_m * i / steps));
-  for (std::size_t first = 0; first < looks.place.size(); first += kTogether) {
-    const auto some = std::span(looks.place).subspan(first, std::min(kTogether, looks.place.size() - first));
+  Samples samples;
+  for (int i = 0; i <= steps; ++i) samples.place.push_back(runlines::point_on(leg.line, length_m * i / steps));
+  for (std::size_t first = 0; first < samples.place.size(); first += kTogether) {
+    const auto some = std::span(samples.place).subspan(first, std::min(kTogether, samples.place.size() - first));
     const terrain::Tile posts = posts_around(terrain, some.front(), some.back(), spacing_m);
     for (const Vec2& place : some)
-      looks.height_m.push_back(terrain::height_m(posts, place).value_or(std::numeric_limits<double>::quiet_NaN()));
+      samples.height_m.push_back(terrain::height_m(posts, place).value_or(std::numeric_limits<double>::quiet_NaN()));
   }
-  return looks;
+  return samples;
 }
 
 /// Why a vehicle cannot be at a place of that height; holes are nobody's business here.
@@ -85,9 +85,9 @@ std::optional<std::string> fault_at(const Vec2& place, double height_m, double r
 }
 
 /// Why a vehicle could never dive along a surveyed leg.
-std::optional<std::string> too_shallow(const Leg& leg, const Looks& looks, const CorridorRules& rules) {
+std::optional<std::string> too_shallow(const Leg& leg, const Samples& samples, const CorridorRules& rules) {
   double deepest_m = 0.0;
-  for (const double height_m : looks.height_m)
+  for (const double height_m : samples.height_m)
     deepest_m = std::max(deepest_m, std::isnan(height_m) ? 0.0 : rules.lowest_water_m - height_m);
   const double above_bottom_m = leg.altitude_m.value_or(rules.least_altitude_m);
   if (deepest_m <= 0.0 || above_bottom_m < deepest_m) return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<Vec2> hole_beside(const TerrainSource& terrain, const Vec2& place,
   return std::nullopt;
 }
 
-std::optional<std::string> fault_of(const TerrainSource& terrain, const Leg& leg, const Looks& looks,
+std::optional<std::string> fault_of(const TerrainSource& terrain, const Leg& leg, const Samples& samples,
                                     const CorridorRules& rules) {
   const Extent extent = terrain.extent();
   for (const Vec2& end : {leg.line.start_enu_m, leg.line.end_enu_m}) {
@@ -118,14 +118,15 @@ std::optional<std::string> fault_of(const TerrainSource& terrain, const Leg& leg
       return "its end " + place_text(end) + " is outside the terrain; allowed is " + extent_text(extent);
   }
   if (leg.surveyed) {
-    if (const auto fault = too_shallow(leg, looks, rules)) return fault;
+    if (const auto fault = too_shallow(leg, samples, rules)) return fault;
   }
-  const Vec2 along = (leg.line.end_enu_m - leg.line.start_enu_m) / navigation::length_m(leg.line);
+  const Vec2 along = (leg.line.end_enu_m - leg.line.start_enu_m) / runlines::length_m(leg.line);
   const Vec2 starboard(along.y(), -along.x());
-  for (std::size_t i = 0; i < looks.place.size(); ++i) {
-    if (const auto fault = fault_at(looks.place[i], looks.height_m[i], leg.reach_m, rules.lowest_water_m)) return fault;
+  for (std::size_t i = 0; i < samples.place.size(); ++i) {
+    if (const auto fault = fault_at(samples.place[i], samples.height_m[i], leg.reach_m, rules.lowest_water_m))
+      return fault;
     if (!leg.surveyed || !rules.refuse_holes) continue;
-    if (const auto hole = hole_beside(terrain, looks.place[i], starboard, rules.half_swath_rad)) {
+    if (const auto hole = hole_beside(terrain, samples.place[i], starboard, rules.half_swath_rad)) {
       return "the terrain has a hole at " + place_text(*hole) +
              " inside the surveyed corridor; move the line, or set seabed.raster.holes to keep or fill";
     }
@@ -149,10 +150,10 @@ double check_corridors(const TerrainSource& terrain, const std::vector<Leg>& leg
   const bool surveys = std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.surveyed; });
   double highest_m = surveys ? terrain.lowest_m() : terrain.highest_m();
   for (const Leg& leg : legs) {
-    const Looks looks = looks_along(terrain, leg);
-    for (const double height_m : looks.height_m)
+    const Samples samples = samples_along(terrain, leg);
+    for (const double height_m : samples.height_m)
       if (leg.surveyed && !std::isnan(height_m)) highest_m = std::max(highest_m, height_m);
-    if (const auto fault = fault_of(terrain, leg, looks, rules)) add(problems, leg.place, leg.key, *fault);
+    if (const auto fault = fault_of(terrain, leg, samples, rules)) add(problems, leg.place, leg.key, *fault);
   }
   if (!problems.empty()) throw ConfigError(problems);
   return std::max(0.0, -highest_m);

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/terrain/terrain_source.h"
-#include "kernels/navigation/runline.h"
+#include "components/config/config_error.h"
+#include "components/terrain/terrain_source.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {
 
@@ -14,15 +14,15 @@ using frames::Vec2;
 using source::Extent;
 using source::TerrainSource;
 
-/// A straight piece of what a mission flies.
+/// A straight piece of what a mission runs.
 struct Leg {
-  navigation::Runline line;
+  runlines::Runline line;
   double reach_m = 0.0;              // of the vehicle's lowest part below the water level; at the surface where it
   std::optional<double> altitude_m;  // follows the bottom, this far above it
   ConfigPlace place;                 // in the file that says so
   std::string key = "mission";       // there
   bool surveyed = false;             // its corridor matters too
-  double spacing_m = 0.0;            // it is looked at no more finely than this
+  double spacing_m = 0.0;            // it is examined no more finely than this
 };
 
 /// A place that a mission visits besides its legs or where a vehicle starts.
@@ -33,7 +33,7 @@ struct VisitedPlace {
   std::string key = "mission";
 };
 
-/// What is asked of the seabed.
+/// Rules that the seabed must keep.
 struct CorridorRules {
   double half_swath_rad = 1.134;  // the corridor reaches tan(half_swath) times the depth to either side
   bool refuse_holes = true;       // else holes do not matter
@@ -45,8 +45,8 @@ struct CorridorRules {
 /// Throws ConfigError, one problem per key and place at most, if a leg leaves the terrain, runs over land (above the
 /// lowest water) or through the seabed, if all of a surveyed one is too shallow for the obstacle floor or for the
 /// altitude to follow, or, with refuse_holes, if a place of its corridor inside the terrain has no height. A leg is
-/// looked at in steps of the posts, but at most 2000, and the seabed as posts that far apart show it. Returns the least
-/// depth below chart datum that was looked at along surveyed legs; without any, of the whole terrain. At least 0.
+/// examined in steps of the posts, but at most 2000, and the seabed as posts that far apart show it. Returns the least
+/// depth below chart datum that was examined along surveyed legs; without any, of the whole terrain. At least 0.
 double check_corridors(const TerrainSource& terrain, const std::vector<Leg>& legs, const CorridorRules& rules);
 
 /// The same for places, without corridors.

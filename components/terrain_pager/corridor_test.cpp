@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;
@@ -40,11 +40,11 @@ class Counting : public TerrainSource {
 
 const CorridorRules kHolesAllowed{.refuse_holes = false};
 
-Leg leg_along(const navigation::Runline& line) {
+Leg leg_along(const runlines::Runline& line) {
   return {.line = line, .place = {"sea.yaml", 12, 7}, .key = "mission runline 1", .surveyed = true};
 }
 
-std::string fault(const TerrainSource& terrain, const navigation::Runline& line, double reach_m,
+std::string fault(const TerrainSource& terrain, const runlines::Runline& line, double reach_m,
                   double lowest_water_m = 0.0) {
   Leg leg = leg_along(line);
   leg.reach_m = reach_m;
@@ -60,10 +60,10 @@ std::string fault(const TerrainSource& terrain, const navigation::Runline& line,
 
 TEST_CASE("along a line of kilometres the least depth is found from few posts") {
   const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
-  const navigation::Runline line{{-3000, -3000}, {3000, 3000}};
+  const runlines::Runline line{{-3000, -3000}, {3000, 3000}};
   CHECK(check_corridors(slope, {leg_along(line)}, kHolesAllowed) ==
         Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
-  // Looks stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
+  // Samples stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
   CHECK(slope.posts_made < 2 * 32 * 50 * 50);
 }
 
@@ -72,9 +72,9 @@ TEST_CASE("a short line is looked at post by post") {
   CHECK(check_corridors(rock, {leg_along({{-40, 0}, {40, 0}})}, kHolesAllowed) == Approx(3.0));
 }
 
-TEST_CASE("an obstacle floor above all of a line's water is refused, one above some of it is not") {
+TEST_CASE("an obstacle floor above all of a line's water is refused, above a part is not") {
   const Counting slope([](double x, double) { return -30.0 + 5e-3 * x; });  // 10 to 50 m deep
-  const navigation::Runline line{{-4000, 0}, {4000, 0}};
+  const runlines::Runline line{{-4000, 0}, {4000, 0}};
   const auto with_floor = [&](double least_altitude_m, std::optional<double> altitude_m = std::nullopt) {
     Leg leg = leg_along(line);
     leg.altitude_m = altitude_m;
@@ -93,10 +93,10 @@ TEST_CASE("an obstacle floor above all of a line's water is refused, one above s
   CHECK(with_floor(0.0, 51.0).find("altitude_m 51.0 leaves no depth to dive to") != std::string::npos);
 }
 
-TEST_CASE("a line may not run over land nor through the seabed, and a hole is no fault of it") {
+TEST_CASE("a line over land or through the seabed is refused, one over a hole is not") {
   const Counting ridge(
       [](double x, double) { return x > 2000 ? std::nan("") : -40.0 + 39.0 * std::exp(-x * x / 1e4); });
-  const navigation::Runline line{{-4000, 10}, {4000, 10}};
+  const runlines::Runline line{{-4000, 10}, {4000, 10}};
   CHECK(fault(ridge, line, 0.5) == "accepted");
   const std::string through = fault(ridge, line, 20.0);
   CHECK(through.find("sea.yaml:12:7: mission runline 1: at (-") == 0);
@@ -105,9 +105,9 @@ TEST_CASE("a line may not run over land nor through the seabed, and a hole is no
   CHECK(fault(island, line, 0.0).find("is land") != std::string::npos);
 }
 
-TEST_CASE("depths count from the lowest water: a low tide dries a bank, a high one floats a boat over it") {
+TEST_CASE("depths count from the lowest water: low tide dries a bank, high tide clears it") {
   const Counting bank([](double x, double) { return -8.0 + 9.0 * std::exp(-x * x / 1e4); });  // up to 1 m above datum
-  const navigation::Runline over{{-400, 0}, {400, 0}}, beside{{-400, 0}, {-300, 0}};
+  const runlines::Runline over{{-400, 0}, {400, 0}}, beside{{-400, 0}, {-300, 0}};
   CHECK(fault(bank, over, 0.0, 0.0).find("is land, 0.0 m above chart datum with the lowest water at 0.0 m") !=
         std::string::npos);
   CHECK(fault(bank, over, 0.5, 1.6) == "accepted");

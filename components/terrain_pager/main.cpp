@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <string_view>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/launch_file.h"
-#include "components/runtime/run.h"
+#include "components/config/config_reader.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "components/terrain_pager/mission_check.h"
 #include "components/terrain_pager/node.h"
+#include "launch/file/launch_file.h"
+#include "launch/process/run.h"
 
 namespace {
 
@@ -22,10 +24,7 @@ int check_mission(int argc, char** argv) {
   return exit_code_of([&] {
     const Launch launch = read_launch(options);
     auto defaults = ConfigReader::from_text("{}", options.file);
-    auto config = TerrainPagerConfig::read(defaults, launch.scenario, "");
-    config.scenario_text = launch.scenario_text;
-    config.duration = launch.duration;
-    pager::check_mission_alone(config);
+    pager::check_mission_alone(TerrainPagerConfig::read(defaults, World::read(launch.scenario), ""));
     return kExitOk;
   });
 }

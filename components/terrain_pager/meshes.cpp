@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "components/runtime/mesh_message.h"
-#include "components/runtime/terrain/prepared_mesh.h"
-#include "components/terrain_pager/mission_flight.h"
-#include "kernels/navigation/runline.h"
-#include "kernels/progressive/crossing.h"
+#include "components/terrain/mesh_message.h"
+#include "components/terrain/prepared_mesh.h"
+#include "components/terrain_pager/mission_track.h"
+#include "kernels/mesh/progressive/crossing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {
 namespace {
@@ -37,12 +37,12 @@ void refuse(const TerrainPagerConfig& config, const std::string& name, const std
 }
 
 /// A leg may lie beside a mesh, or above it where the vehicle dives; not through it, nor below. One problem a mesh.
-void check_legs(const Flight& flight, const std::string& name, const progressive::TriangleMesh& mesh) {
-  for (const Leg& leg : flight.legs) {
-    const double lowest_z_m = flight.lowest_water_m - leg.reach_m;
+void check_legs(const MissionTrack& track, const std::string& name, const progressive::TriangleMesh& mesh) {
+  for (const Leg& leg : track.legs) {
+    const double lowest_z_m = track.lowest_water_m - leg.reach_m;
     const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, lowest_z_m});
     if (!along_m) continue;
-    const frames::Vec2 place = navigation::point_on(leg.line, *along_m);
+    const frames::Vec2 place = runlines::point_on(leg.line, *along_m);
     throw ConfigError(
         {ConfigProblem{leg.place, leg.key,
                        fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a way "
@@ -55,7 +55,7 @@ void check_legs(const Flight& flight, const std::string& name, const progressive
 
 Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain) {
   const source::Extent known = terrain.extent();
-  const Flight flight = flight_of(config);
+  const MissionTrack track = track_of(config);
   std::size_t bytes = 0;
   for (const SeabedMesh& mesh : config.terrain.seabed.meshes) {
     const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain);
@@ -70,7 +70,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
                       box.low.x(), box.high.x(), box.low.y(), box.high.y(), known.west_m, known.east_m, known.south_m,
                       known.north_m));
-    check_legs(flight, mesh.name, placed.hierarchy.mesh);
+    check_legs(track, mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());
     one.message.name = mesh.name;
@@ -85,7 +85,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
   }
 }
 
-Meshes::Decision Meshes::look(const frames::Vec2& place_enu_m, const paging::Margins& margins) {
+Meshes::Decision Meshes::update(const frames::Vec2& place_enu_m, const paging::Margins& margins) {
   Decision decision;
   for (One& one : meshes_) {
     const double away_m = paging::distance_m(one.box, place_enu_m);

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/terrain_source.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
-#include "kernels/paging/near.h"
-#include "kernels/paging/residency.h"
+#include "kernels/mesh/paging/near.h"
+#include "kernels/mesh/paging/residency.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {
@@ -25,10 +25,10 @@ class Meshes {
     std::vector<const msg::Mesh*> publish;  // in the scenario's order
     std::vector<std::int64_t> release;
   };
-  /// One look at where the vehicle is.
-  Decision look(const frames::Vec2& place_enu_m, const paging::Margins& margins);
+  /// An update for where the vehicle is.
+  Decision update(const frames::Vec2& place_enu_m, const paging::Margins& margins);
 
-  /// Of the largest one, as a message.
+  /// Size of the largest one, as a message.
   std::size_t max_bytes() const;
   /// Names of those whose splits had to be made at the start and are many.
   const std::vector<std::string>& unprepared() const { return unprepared_; }

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/terrain_pager/node.h"
 
 using namespace ensonify;
@@ -31,22 +31,22 @@ const paging::Margins kMargins{60.0, 80.0};
 
 }  // namespace
 
-TEST_CASE("a mesh is published when the vehicle comes near it, and released farther off than that") {
+TEST_CASE("a mesh is published near the vehicle, and released farther off than that") {
   Meshes meshes = meshes_of(quay());
-  const auto look = [&](double east_m) { return meshes.look({east_m, 50.0}, kMargins); };
-  CHECK(look(39.0).publish.empty());
-  const auto near = look(41.0);
+  const auto update = [&](double east_m) { return meshes.update({east_m, 50.0}, kMargins); };
+  CHECK(update(39.0).publish.empty());
+  const auto near = update(41.0);
   REQUIRE(near.publish.size() == 1);
   CHECK(near.publish[0]->name == "quay");
   CHECK(near.publish[0]->number == 0);
-  CHECK(look(112.0).publish.empty());  // beside it: heads have it
-  CHECK(look(21.0).release.empty());
-  CHECK(look(19.0).release == std::vector<std::int64_t>{0});
-  CHECK(look(10.0).release.empty());
-  CHECK(look(60.0).publish.size() == 1);
+  CHECK(update(112.0).publish.empty());  // beside it: heads have it
+  CHECK(update(21.0).release.empty());
+  CHECK(update(19.0).release == std::vector<std::int64_t>{0});
+  CHECK(update(10.0).release.empty());
+  CHECK(update(60.0).publish.size() == 1);
 }
 
-TEST_CASE("what no head could ever meet or hold is refused, with its place") {
+TEST_CASE("a mesh that no head can reach or hold is refused, with its place") {
   TerrainPagerConfig config = quay();
   config.terrain.seabed.meshes[0].wall->from_enu_m = {400.0, 50.0};
   config.terrain.seabed.meshes[0].wall->to_enu_m = {424.0, 50.0};
@@ -59,11 +59,11 @@ TEST_CASE("what no head could ever meet or hold is refused, with its place") {
                                            Catch::Contains("at most 0.05 MB are allowed"));
 }
 
-TEST_CASE("a runline through a mesh is refused with its place, one beside it or above it is not") {
+TEST_CASE("a runline through a mesh is refused with its place, one beside or above is not") {
   TerrainPagerConfig config = quay();
-  const auto refused = [&](const navigation::Runline& line, double depth_m) {
+  const auto refused = [&](const runlines::Runline& line, double depth_m) {
     config.mission.depth_m = depth_m;
-    config.mission.steps = {FlyLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
+    config.mission.steps = {FollowLine{.points_enu_m = {line.start_enu_m, line.end_enu_m}}};
     try {
       meshes_of(config);
     } catch (const ConfigError& error) {
@@ -72,7 +72,7 @@ TEST_CASE("a runline through a mesh is refused with its place, one beside it or 
     return std::string();
   };
   config.terrain.seabed.meshes[0].wall->out_of_line_m = 0.0;
-  // Pans stand in and out by half the section's depth: the way up from the south meets one of them.
+  // Pans stand in and out by half the section's depth: the way up from the south hits one of them.
   CHECK_THAT(
       refused({{110.0, 0.0}, {110.0, 90.0}}, 0.0),
       Catch::Matches(R"(world.yaml: mission runline 1: at \(110.0, (49.[89]|50.[0-2])\) m, 0.0 m deep, it runs into )"
@@ -87,9 +87,9 @@ TEST_CASE("a runline through a mesh is refused with its place, one beside it or 
   CHECK_FALSE(refused({{110.0, 45.0}, {110.0, 0.0}}, 0.0).empty());
   config.mission.run_in_m = 0.0;
   CHECK(refused({{126.0, 0.0}, {126.0, 90.0}}, 0.0).empty());
-  config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 19.0}};
+  config.mission.steps = {FollowOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 19.0}};
   CHECK_NOTHROW(meshes_of(config));
-  config.mission.steps = {FlyOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 21.0}};
+  config.mission.steps = {FollowOrbit{.centre_enu_m = {110.0, 30.0}, .radius_m = 21.0}};
   CHECK_THROWS_WITH(meshes_of(config), Catch::Contains("world.yaml: mission orbit: at"));
   config.terrain.seabed.meshes[0].wall->top_height_m = -2.0;
   CHECK(refused({{110.0, 0.0}, {110.0, 90.0}}, 1.9).empty());

@@ -2,25 +2,25 @@
 
 #include <numbers>
 
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/meshes.h"
-#include "components/terrain_pager/mission_flight.h"
+#include "components/terrain_pager/mission_track.h"
 
 namespace ensonify::pager {
 
 double check_mission(const source::TerrainSource& terrain, const TerrainPagerConfig& config, Beyond beyond) {
   const auto holes = config.terrain.seabed.kind == Seabed::Kind::kRaster ? config.terrain.seabed.raster.holes
                                                                          : RasterSeabed::Holes::kKeep;
-  const Flight flight = flight_of(config);
+  const MissionTrack track = track_of(config);
   CorridorRules rules;
   rules.half_swath_rad = config.corridor_half_deg * std::numbers::pi / 180.0;
   rules.refuse_holes = beyond == Beyond::kRefused && holes == RasterSeabed::Holes::kRefuse;
   rules.refuse_beyond = beyond == Beyond::kRefused;
   rules.least_altitude_m = config.mission.least_altitude_m;
-  rules.lowest_water_m = flight.lowest_water_m;
-  const double shallowest_m = check_corridors(terrain, flight.legs, rules);
-  check_places(terrain, flight.places, rules);
+  rules.lowest_water_m = track.lowest_water_m;
+  const double shallowest_m = check_corridors(terrain, track.legs, rules);
+  check_places(terrain, track.places, rules);
   return shallowest_m;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "components/runtime/config/config_node.h"
-#include "components/runtime/config/data_paths.h"
+#include "components/config/config_node.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify::pager {
 namespace {
@@ -49,8 +49,8 @@ MissionPlaces mission_places(const std::string& scenario_file, const std::string
   const ConfigNode run = parse_config(scenario_text, scenario_file).root;
   if (const ConfigNode* vehicles = file.find("vehicles"); vehicles != nullptr && run.find("vehicles") != nullptr) {
     for (const auto& vehicle : vehicles->entries) {
-      const ConfigNode* flown = run.find("vehicles")->find(vehicle.key);
-      const ConfigNode* start = in_force(vehicle.value.find("start"), flown ? flown->find("start") : nullptr);
+      const ConfigNode* steered = run.find("vehicles")->find(vehicle.key);
+      const ConfigNode* start = in_force(vehicle.value.find("start"), steered ? steered->find("start") : nullptr);
       places.starts[vehicle.key] = start != nullptr ? start->place : places.mission;
     }
   }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
 
 namespace ensonify::pager {
 
-/// Where a scenario's file says what is flown, for messages. What the launch file has changed stands nowhere there, and
+/// Places in a scenario's file of what is run, for messages. What the launch file has changed stands nowhere there, and
 /// has the file alone.
 struct MissionPlaces {
   ConfigPlace mission;

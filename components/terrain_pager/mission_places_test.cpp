@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/config/config_node.h"
+#include "components/config/config_node.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/budget.h"
 #include "components/terrain_pager/demand.h"
 #include "components/terrain_pager/mission_check.h"
@@ -58,7 +58,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   store_.emplace([this](const TileKey& key) { return made(key); },
                  pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
   if (!config.mission.runlines.empty()) {
-    const navigation::Runline& line = config.mission.runlines.front();
+    const runlines::Runline& line = config.mission.runlines.front();
     const pager::Paging probably(grid_, box_, rules(feed_m));
     store_->hold(probably.before_start(line.start_enu_m));
   }
@@ -73,7 +73,7 @@ SimTime TerrainPagerNode::step(SimTime now) {
   if (!events_.due(now)) return events_.next();
   if (made_chart_.valid()) start();
   if (pose_) page(*pose_);
-  tell_cache();
+  report_cache();
   return events_.next();
 }
 
@@ -126,12 +126,12 @@ void TerrainPagerNode::start() {
 pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
   pager::Paging::Rules rules;
   rules.margins = {feed_margin_m, feed_margin_m + config_.release_hysteresis_m};
-  rules.outlook = {config_.load_ahead_s, 1.0 / config_.rate_hz, feed_margin_m, feed_margin_m + config_.wide_margin_m};
+  rules.horizon = {config_.load_ahead_s, 1.0 / config_.rate_hz, feed_margin_m, feed_margin_m + config_.wide_margin_m};
   rules.most = pager::most_in_memory(config_, grid_);
   return rules;
 }
 
-/// What heads note is known when time starts. Between two looks the vehicle moves on.
+/// What heads note is known when time starts. Between two updates the vehicle moves on.
 void TerrainPagerNode::start_paging() {
   double feed_m = config_.feed_margin_m;
   if (feed_m <= 0.0) {
@@ -157,7 +157,7 @@ paging::Motion TerrainPagerNode::motion_of(const msg::Pose& pose) {
 void TerrainPagerNode::page(const msg::Pose& pose) {
   if (!paging_) start_paging();
   const paging::Motion motion = motion_of(pose);
-  const auto decision = paging_->look(motion);
+  const auto decision = paging_->update(motion);
   store_->hold(decision.in_memory);
   for (const TileKey& key : decision.publish) publish(key);
   for (const TileKey& key : decision.release) {
@@ -165,7 +165,7 @@ void TerrainPagerNode::page(const msg::Pose& pose) {
     ports_.count("tiles_released");
   }
   exchange_meshes(motion.position_enu_m);
-  tell_paging(decision);
+  report_paging(decision);
   const bool inside = terrain_->extent().contains(motion.position_enu_m);
   ports_.health(inside ? "ok" : "degraded", inside ? "" : "the vehicle is outside the terrain");
 }
@@ -181,13 +181,13 @@ void TerrainPagerNode::publish(const TileKey& key) {
   ports_.count("tiles_published");
 }
 
-void TerrainPagerNode::tell_cache() {
+void TerrainPagerNode::report_cache() {
   if (!cache_) return;
   for (const auto& notice : cache_->take_notices()) log::event(ports_, notice.event, "{}", notice.pairs);
 }
 
 void TerrainPagerNode::exchange_meshes(const Vec2& place_enu_m) {
-  const auto decision = meshes_.look(place_enu_m, margins_);
+  const auto decision = meshes_.update(place_enu_m, margins_);
   for (const msg::Mesh* mesh : decision.publish) {
     meshes_out_.send(*mesh);
     ports_.count("meshes_published");
@@ -199,7 +199,7 @@ void TerrainPagerNode::exchange_meshes(const Vec2& place_enu_m) {
 }
 
 /// A message only when poses have changed something; what disk and threads did goes behind it, for viewers.
-void TerrainPagerNode::tell_paging(const pager::Paging::Decision& decision) {
+void TerrainPagerNode::report_paging(const pager::Paging::Decision& decision) {
   fetched_ += decision.fetched;
   fetched_again_ += decision.fetched_again;
   if (decision.publish.empty() && decision.release.empty() && decision.fetched == 0) return;

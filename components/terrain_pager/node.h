@@ -40,9 +40,9 @@ class TerrainPagerNode {
   paging::Motion motion_of(const msg::Pose& pose);
   void page(const msg::Pose& pose);
   void publish(const pager::TileKey& key);
-  void tell_cache();
+  void report_cache();
   void exchange_meshes(const source::Vec2& place_enu_m);
-  void tell_paging(const pager::Paging::Decision& decision);
+  void report_paging(const pager::Paging::Decision& decision);
 
   Config config_;
   Ports& ports_;
@@ -51,7 +51,7 @@ class TerrainPagerNode {
   pager::TileGrid grid_;
   pager::Box box_;
   pager::Meshes meshes_;
-  std::optional<pager::Paging> paging_;  // from the first look on, when it is known how far heads hear
+  std::optional<pager::Paging> paging_;  // from the first update on, when it is known how far heads receive
   paging::Margins margins_;              // the same
   std::optional<pager::TileCache> cache_;
   std::optional<pager::TileStore> store_;  // its threads use what stands above

@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
 
@@ -79,7 +79,7 @@ TEST_CASE("a vehicle under way gets tiles ahead and gives up those behind") {
   CHECK_FALSE(held.contains({-3, 0}));  // its eastern edge is 104 m behind
 }
 
-TEST_CASE("what is published does not depend on the threads that make it, nor on what memory may hold") {
+TEST_CASE("published tiles depend neither on the number of threads nor on the budget") {
   const auto published = [](int threads, double budget_mb) {
     auto config = small_slope();
     config.threads = threads;
@@ -101,7 +101,7 @@ TEST_CASE("what is published does not depend on the threads that make it, nor on
   }
 }
 
-TEST_CASE("a second run takes its tiles from the cache, and they are those that were made, to the bit") {
+TEST_CASE("a second run takes its tiles from the cache, bit-equal to those made") {
   const Folder folder;
   auto config = small_slope();
   config.load_ahead_s = 1.0;
@@ -119,8 +119,8 @@ TEST_CASE("a second run takes its tiles from the cache, and they are those that 
     Outcome outcome;
     outcome.tiles = pager.step_until<msg::Tile>("tile", 1_s);
     // All that is meant to be in memory, also ahead of need: then the next run finds all of it.
-    const auto told = pager.step_until<msg::Health>("paging", 1_s);
-    while (pager.node().statistics().made < std::stoi(told.back().message)) std::this_thread::yield();
+    const auto reported = pager.step_until<msg::Health>("paging", 1_s);
+    while (pager.node().statistics().made < std::stoi(reported.back().message)) std::this_thread::yield();
     outcome.made = pager.node().statistics().made;
     outcome.cached = pager.node().cached();
     return outcome;
@@ -192,9 +192,9 @@ TEST_CASE("posts too fine for the depth are refused before the run") {
 
 TEST_CASE("a budget too small for what heads need at once is refused, with its place") {
   auto from = ConfigReader::from_text("feed_margin_m: 60\nbudget_mb: 30\n", "pager.yaml");
-  Scenario scenario;
-  scenario.seabed = small_slope().terrain.seabed;
-  const auto config = TerrainPagerConfig::read(from, scenario, "pager");
+  World world;
+  world.seabed = small_slope().terrain.seabed;
+  const auto config = TerrainPagerConfig::read(from, world, "pager");
   CHECK_THROWS_WITH(
       NodeUnderTest<TerrainPagerNode>(config),
       "pager.yaml:1:1: budget_mb: 30 does not hold the 6 tiles that may lie within 60 m of the vehicle and 2 "
@@ -211,7 +211,7 @@ TEST_CASE("memory keeps its budget, counted in bytes, however fast the vehicle")
   CHECK(static_cast<double>(pager.node().statistics().most_resident) * 1025 * 1025 * 5 <= 43e6);
 }
 
-TEST_CASE("what is fetched is counted, and behind it is told how fast disk and threads are") {
+TEST_CASE("fetched tiles are counted, with the speed of disk and threads") {
   NodeUnderTest<TerrainPagerNode> pager(small_slope());
   for (int s = 0; s <= 20; ++s) pager.give("pose", pose_at(std::chrono::seconds(s), -300.0 + 4.0 * s, 0.0));
   pager.run_until(20_s);

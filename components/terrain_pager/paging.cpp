@@ -5,8 +5,8 @@
 
 namespace ensonify::pager {
 
-Paging::Decision Paging::look(const paging::Motion& motion) {
-  ++looks_;
+Paging::Decision Paging::update(const paging::Motion& motion) {
+  ++updates_;
   const std::vector<TileKey> held(at_heads_.begin(), at_heads_.end());
   auto exchange = paging::exchange(grid_, terrain_, motion.position_enu_m, rules_.margins, held);
   at_heads_.insert(exchange.give.begin(), exchange.give.end());
@@ -24,7 +24,7 @@ Paging::Decision Paging::look(const paging::Motion& motion) {
     const auto before = in_memory_.find(key);
     const bool within_reach =
         paging::distance_m(paging::box_of(grid_, key), motion.position_enu_m) <= rules_.margins.feed_m;
-    now[key] = within_reach || wanted.contains(key) ? looks_ : before->second;
+    now[key] = within_reach || wanted.contains(key) ? updates_ : before->second;
     if (before != in_memory_.end()) continue;
     ++decision.fetched;
     if (!ever_fetched_.insert(key).second) ++decision.fetched_again;
@@ -40,7 +40,7 @@ std::vector<TileKey> Paging::before_start(const paging::Vec2& place_enu_m) const
 /// `first`, then what the track ahead needs and heads do not hold. What is only near is not needed when heads have had
 /// it before: it lies behind.
 std::vector<TileKey> Paging::needed(const paging::Motion& motion, std::vector<TileKey> first) const {
-  for (const paging::Need& need : paging::needs(grid_, terrain_, motion, rules_.outlook)) {
+  for (const paging::Need& need : paging::needs(grid_, terrain_, motion, rules_.horizon)) {
     const bool only_near = std::isinf(need.due_s);
     if (!(only_near ? ever_at_heads_ : at_heads_).contains(need.key)) first.push_back(need.key);
   }

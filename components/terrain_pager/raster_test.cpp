@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/terrain/raster_source.h"
-#include "components/runtime/terrain/source_of.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/terrain/raster_source.h"
+#include "components/terrain/source_of.h"
 #include "components/terrain_pager/corridor.h"
 #include "components/terrain_pager/node.h"
 #include "components/terrain_pager/tile_messages.h"
@@ -165,7 +165,7 @@ TEST_CASE("a raster turned and sheared against its map stands where its geotrans
   }
 }
 
-TEST_CASE("a raster across the antimeridian is one seabed, by whichever longitudes it is written") {
+TEST_CASE("a raster across the antimeridian is one seabed, in either longitude convention") {
   for (const double west_deg : {179.999, -180.001}) {
     MadeRaster raster;
     raster.name = "antimeridian.tif";
@@ -356,7 +356,7 @@ TEST_CASE("real rasters with real faults are refused") {
   CHECK(refusal(options).find("set the pager's `raster_nodata: -9999`") != std::string::npos);
 }
 
-TEST_CASE("tiles tell how steep their facets are, also where a mask looks at the shape of a guide's raster") {
+TEST_CASE("tiles state their facets' slopes, also with a mask of the guide's shape") {
   // -20 m in the middle; within 250 m x 200 m of it the ground lies between 16.75 and 23.25 m.
   const MadeRaster raster;
   TerrainPagerConfig config;
@@ -370,7 +370,7 @@ TEST_CASE("tiles tell how steep their facets are, also where a mask looks at the
   guide.raster = raster.write();
   guide.cell_m = 5.0;
   const relief::Spectrum relief{.rms_m = 0.01, .hurst = 0.625, .outer_scale_m = 20.0};
-  const auto told = [&](const std::optional<layers::Mask>& mask) {
+  const auto reported = [&](const std::optional<layers::Mask>& mask) {
     seabed.layered.layers = {{.name = "ground", .form = guide},
                              {.name = "silt", .form = layers::Spectral{.spectrum = relief}, .mask = mask}};
     NodeUnderTest<TerrainPagerNode> pager(config);
@@ -387,16 +387,16 @@ TEST_CASE("tiles tell how steep their facets are, also where a mask looks at the
     mask.of = "ground";
     return mask;
   };
-  const auto everywhere = told(std::nullopt);
+  const auto everywhere = reported(std::nullopt);
   REQUIRE(everywhere.size() == 3);
   // Rounded to 1e-4 degrees: of a slope of 0.9 degrees 1e-4, of its square twice that.
   CHECK(everywhere[0] == Approx(relief::facet_mean_square_slope(relief, 0.25)).epsilon(2e-4));
   CHECK(everywhere[1] == 0.0);
   CHECK(everywhere[2] == everywhere[0]);
-  CHECK(told(in_depths(0.0, 21.0)) == everywhere);  // at three quarters of the places
-  CHECK(told(in_depths(0.0, 19.0)).empty());        // at a quarter
+  CHECK(reported(in_depths(0.0, 21.0)) == everywhere);  // at three quarters of the places
+  CHECK(reported(in_depths(0.0, 19.0)).empty());        // at a quarter
 
   config.terrain.seabed.kind = Seabed::Kind::kRaster;  // nobody knows what its heights are made of
   config.terrain.seabed.raster.path = guide.raster;
-  CHECK(told(std::nullopt).empty());
+  CHECK(reported(std::nullopt).empty());
 }

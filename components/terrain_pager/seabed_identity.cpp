@@ -2,19 +2,19 @@
 
 #include <variant>
 
-#include "components/runtime/config/config_node.h"
-#include "components/runtime/terrain/raster_file.h"
-#include "components/runtime/tiles/tile_set.h"
+#include "components/config/config_node.h"
+#include "components/terrain/raster_file.h"
+#include "components/terrain/tiles/tile_set.h"
 #include "components/terrain_pager/identity.h"
 
 namespace ensonify::pager {
 namespace {
 
 std::string scenario_part(const TerrainPagerConfig& config) {
-  const ConfigNode scenario = parse_config(config.scenario_text, config.scenario_file).root;
+  const ConfigNode world = parse_config(config.scenario_text, config.scenario_file).root;
   ConfigNode part = ConfigNode::map();
   for (const char* section : {"site", "seed", "seabed"}) {
-    if (const ConfigNode* found = scenario.find(section)) part.set(section, *found);
+    if (const ConfigNode* found = world.find(section)) part.set(section, *found);
   }
   return to_canonical_yaml(part);
 }

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <regex>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/tiles/tile_set.h"
+#include "components/config/config_reader.h"
+#include "components/terrain/tiles/tile_set.h"
 #include "components/terrain_pager/identity.h"
 
 using namespace ensonify;
@@ -46,7 +46,7 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE("a seabed is another when its seed, place or any number of it is, set in the file or on the command line") {
+TEST_CASE("another seed, place or value makes another seabed, from file or command line") {
   const std::string plain = seabed_identity(config_of(kWorld));
   CHECK(seabed_identity(config_of(kWorld)) == plain);
   CHECK(with("seed", "4") != plain);
@@ -56,7 +56,7 @@ TEST_CASE("a seabed is another when its seed, place or any number of it is, set 
   CHECK(with("seed", "3") == plain);
 }
 
-TEST_CASE("a seabed is the same under another mission, in other water and when comments change") {
+TEST_CASE("a seabed's identity ignores mission, water and comments") {
   const std::string plain = seabed_identity(config_of(kWorld));
   CHECK(with("mission.speed_mps", "2") == plain);
   CHECK(with("water.salinity_psu", "30") == plain);

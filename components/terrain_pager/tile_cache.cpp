@@ -16,9 +16,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "components/runtime/tiles/crc32c.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/sha256.h"
+#include "components/terrain/tiles/crc32c.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/sha256.h"
 #include "messages/codec.h"
 
 namespace ensonify::pager {
@@ -49,7 +49,7 @@ bool is_name_of_tile(const std::string& name) {
 }
 
 /// A file's bytes, read whole. They are not mapped: where a mapped file is cut off while its tile is in use, whoever
-/// looks at it next is ended by SIGBUS.
+/// examines it next is ended by SIGBUS.
 msg::Buffer bytes_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
@@ -137,7 +137,7 @@ std::shared_ptr<const msg::Chart> TileCache::read_chart() { return read_named<ms
 
 std::vector<TileCache::Kept> TileCache::kept() const {
   std::vector<Kept> all;
-  std::error_code gone;  // a file may go, or be no file, while we look
+  std::error_code gone;  // a file may go, or be no file, while we check
   for (fs::directory_iterator at(folder_, gone), end; !gone && at != end; at.increment(gone)) {
     const std::string name = at->path().filename().string();
     std::error_code error;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/terrain/tile.h"
+#include "kernels/mesh/tile.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {
@@ -41,7 +41,7 @@ class TileCache {
   std::shared_ptr<const msg::Chart> read_chart();
   void write(const msg::Chart& chart);
 
-  /// What a user should hear of: a word for the log and its key=value pairs. Each is given once.
+  /// A report to the user: a word for the log and its key=value pairs. Each is given once.
   struct Notice {
     std::string event;
     std::string pairs;

@@ -135,7 +135,7 @@ TEST_CASE("another seabed has tiles of its own") {
   CHECK(TileCache(folder.path, "seed: 1", kPlenty).read({1, 1}));
 }
 
-TEST_CASE("a damaged file is told, removed and made anew") {
+TEST_CASE("a damaged file is reported, removed and made anew") {
   const Folder folder;
   TileCache(folder.path, "a seabed", kPlenty).write(tile_at({1, 1}));
   const fs::path file = files_in(folder.path).at(0);
@@ -160,7 +160,7 @@ TEST_CASE("a damaged file is told, removed and made anew") {
   CHECK(cache.read({1, 1}));
 }
 
-TEST_CASE("a tile in use outlives its file's being cut off or removed, and is made anew by who asks next") {
+TEST_CASE("a tile in use survives loss of its file, and is made anew on the next request") {
   const Folder folder;
   TileCache cache(folder.path, "a seabed", kPlenty);
   cache.write(tile_at({1, 1}));
@@ -198,7 +198,7 @@ TEST_CASE("a whole file in another tile's place is as good as damaged") {
   CHECK(cache.take_notices().size() == 1);
 }
 
-TEST_CASE("the budget is kept: when all that is there was used by this run, no more is kept, and that is told once") {
+TEST_CASE("the budget holds: a cache full of this run's tiles takes no more, reported once") {
   const Folder folder;
   TileCache one(folder.path, "a seabed", kPlenty);
   one.write(tile_at({0, 0}));
@@ -214,7 +214,7 @@ TEST_CASE("the budget is kept: when all that is there was used by this run, no m
   CHECK(notices[0].event == "tile_cache_full");
 }
 
-TEST_CASE("what earlier runs used makes room: other seabeds first, then what was used least recently") {
+TEST_CASE("earlier runs' tiles are evicted: other seabeds first, then the least used") {
   const Folder folder;
   TileCache(folder.path, "a seabed", kPlenty).write(tile_at({0, 0}));
   const std::uint64_t tile_bytes = bytes_in(folder.path);
@@ -276,7 +276,7 @@ TEST_CASE("a file that is no tile of a cache is neither counted nor released") {
   CHECK(fs::file_size(folder.path / "survey.tile") == 100'000);
 }
 
-TEST_CASE("a full disk is told once, leaves no half file, and what is there is still read") {
+TEST_CASE("a full disk is reported once, leaves no half file, and stored tiles stay") {
   const Folder folder;
   TileCache cache(folder.path, "a seabed", kPlenty);
   cache.write(tile_at({0, 0}));
@@ -297,7 +297,7 @@ TEST_CASE("a full disk is told once, leaves no half file, and what is there is s
   CHECK(cache.read({0, 0}));
 }
 
-TEST_CASE("a folder that cannot be made is told, and the tiles are made without") {
+TEST_CASE("a folder that cannot be made is reported, and tiles are made without it") {
   const Folder folder;
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "file") << "not a folder";

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "components/runtime/terrain/tile_posts.h"
+#include "components/terrain/tile_posts.h"
 
 namespace ensonify::pager {
 

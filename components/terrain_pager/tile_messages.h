@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/runtime/terrain/terrain_source.h"
+#include "components/terrain/terrain_source.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {

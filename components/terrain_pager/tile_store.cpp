@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 
 namespace ensonify::pager {
 

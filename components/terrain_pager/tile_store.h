@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "kernels/terrain/tile.h"
+#include "kernels/mesh/tile.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {

@@ -80,7 +80,7 @@ TEST_CASE("each tile is made once, by whichever thread, while what is to be held
   for (const TileKey& key : made) CHECK(made.count(key) == 1);
 }
 
-TEST_CASE("no more tiles live than the budget allows, while what is to be held changes faster than it is made") {
+TEST_CASE("live tiles stay within the budget while demand changes faster than they are made") {
   Census census;
   {
     TileStore store([&](const TileKey& key) { return census.make(key); }, {.threads = 4, .most = 12});

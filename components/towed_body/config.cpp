@@ -1,7 +1,7 @@
 #include "components/towed_body/config.h"
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/own_vehicle.h"
+#include "components/config/config_reader.h"
+#include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
 namespace {
@@ -42,7 +42,7 @@ bool TowedBodyConfig::operator==(const TowedBodyConfig& other) const {
          sheave_m == other.sheave_m && depth_lag_s == other.depth_lag_s && positioning == other.positioning;
 }
 
-TowedBodyConfig TowedBodyConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+TowedBodyConfig TowedBodyConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   TowedBodyConfig config;
   from.optional("pose_rate_hz", config.pose_rate_hz, 10, 200);
   if (const auto cable = from.optional_section("cable")) read_cable(*cable, config.cable);
@@ -50,12 +50,12 @@ TowedBodyConfig TowedBodyConfig::read(ConfigReader& from, const Scenario& scenar
   from.optional("sheave_m", config.sheave_m, -500, 500);
   from.optional("depth_lag_s", config.depth_lag_s, 0.1, 10000);
   if (const auto section = from.optional_section("positioning")) read_positioning(*section, config.positioning);
-  const Vehicle vehicle = own_vehicle(from, scenario, process);
+  const Vehicle vehicle = own_vehicle(from, world, process);
   config.process = process;
   config.name = vehicle.name;
-  config.seed = scenario.seed;
+  config.seed = world.seed;
   config.disturbance = vehicle.disturbance;
-  config.current = scenario.current;
+  config.current = world.current;
   return config;
 }
 

@@ -3,14 +3,14 @@
 #include <array>
 #include <string>
 
-#include "components/runtime/config/scenario.h"
-#include "kernels/motion/towed_body.h"
+#include "kernels/vehicle/motion/towed_body.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-/// How somebody aboard makes out where the body is.
+/// Positioning of the body aboard the vessel.
 struct TowPositioning {
   enum class By {
     kLayback,  // from the cable out and the depth: so far back on the vessel's own track
@@ -20,9 +20,9 @@ struct TowPositioning {
 
   By by = By::kLayback;
   double cable_scale = 0.0;     // relative error of the cable counter, as it is
-  double layback_factor = 1.0;  // layback over that of a straight cable, as it is believed
+  double layback_factor = 1.0;  // layback over that of a straight cable, as it is assumed
   double usbl_gain = 0.2;       // how much of a fix's difference from the estimate is taken over
-  double depth_white_m = 0.05;  // standard deviations of what the body's own sensors tell, each sample
+  double depth_white_m = 0.05;  // standard deviations of what the body's own sensors give, each sample
   double heading_white_rad = 0.5 * kDegree_rad;
   double level_white_rad = 0.05 * kDegree_rad;  // roll and pitch each
 
@@ -44,7 +44,7 @@ struct TowedBodyConfig {
   motion::DisturbanceParameters disturbance;
   motion::Current current;
 
-  static TowedBodyConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static TowedBodyConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const TowedBodyConfig& other) const;
 };

@@ -1,4 +1,4 @@
-#include "components/runtime/run.h"
 #include "components/towed_body/node.h"
+#include "launch/process/run.h"
 
 int main(int argc, char** argv) { return ensonify::run<ensonify::TowedBodyNode>(argc, argv); }

@@ -1,6 +1,6 @@
 #include "components/towed_body/node.h"
 
-#include "components/runtime/pose_message.h"
+#include "components/truth/pose_message.h"
 
 namespace ensonify {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace ensonify {
 
-/// A body on a cable behind a vessel: where it truly is, and where it is believed to be.
+/// A body on a cable behind a vessel: where it truly is, and where it is estimated to be.
 class TowedBodyNode {
  public:
   using Config = TowedBodyConfig;

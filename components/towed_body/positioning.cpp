@@ -62,9 +62,9 @@ std::optional<TowEstimator::Place> TowEstimator::by_usbl(SimTime now, double hea
   followed_at_ = now;
   if (fix_) {
     const frames::Vec2 since_m = seconds(now - SimTime{fix_->stamp_ns}) * velocity;
-    const frames::Vec2 told = vec(fix_->position_enu_m).head<2>() + since_m;
+    const frames::Vec2 reported = vec(fix_->position_enu_m).head<2>() + since_m;
     followed_enu_m_ =
-        followed_enu_m_ ? *followed_enu_m_ + config_.positioning.usbl_gain * (told - *followed_enu_m_) : told;
+        followed_enu_m_ ? *followed_enu_m_ + config_.positioning.usbl_gain * (reported - *followed_enu_m_) : reported;
     fix_sigma_m_ = std::max(fix_->sigma_enu_m[0], fix_->sigma_enu_m[1]);
     fix_.reset();
   }

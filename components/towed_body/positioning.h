@@ -5,14 +5,14 @@
 
 #include "components/runtime/sim_time.h"
 #include "components/towed_body/config.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
 
-/// Where the body is believed to be, aboard: by the vessel's estimate, and what cable, fixes and the body's own depth,
-/// heading and level sensors tell.
+/// Estimate of the body's place, aboard: by the vessel's estimate, and what cable, fixes and the body's own depth,
+/// heading and level sensors give.
 class TowEstimator {
  public:
   explicit TowEstimator(const TowedBodyConfig& config);

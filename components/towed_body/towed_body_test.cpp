@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/towed_body/node.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kSpeed_mps = 2.0;
 
-Scenario sea() {
-  Scenario scenario;
-  scenario.vehicles = {{"fish"}};
-  return scenario;
+World sea() {
+  World world;
+  world.vehicles = {{"fish"}};
+  return world;
 }
 
 TowedBodyConfig config_of(const std::string& yaml) {
@@ -76,7 +76,7 @@ TEST_CASE("towed_body/default.yaml lists every parameter with its default") {
   CHECK(default_yaml_fault<TowedBodyConfig>("towed_body", sea()) == "");
 }
 
-TEST_CASE("on a straight course the body runs where the cable's shape has it, and moves as its poses say") {
+TEST_CASE("on a straight course the body runs at the cable's end, its motion the derivative") {
   const Towed towed = run(kShort + kQuiet, 20);
   REQUIRE(towed.poses.size() == 1001);
   const auto shape = motion::tow_shape(config_of(kShort).cable, config_of(kShort).body, kSpeed_mps);
@@ -90,7 +90,7 @@ TEST_CASE("on a straight course the body runs where the cable's shape has it, an
   }
 }
 
-TEST_CASE("in a circle it runs inside the vessel's track, and deeper; layback by the track errs by just that") {
+TEST_CASE("in a circle it runs inside the vessel's track and deeper, as layback errs") {
   const Towed towed = run(kShort + kQuiet, 220, 20);
   const msg::Pose& pose = towed.poses.back();
   const double radius_m = std::hypot(pose.position_enu_m[0] - 60.0, pose.position_enu_m[1] - 40.0);
@@ -101,13 +101,13 @@ TEST_CASE("in a circle it runs inside the vessel's track, and deeper; layback by
   CHECK(-pose.position_enu_m[2] == Approx(shape.depth_m).epsilon(0.002));
   CHECK(shape.depth_m > motion::tow_shape(config_of(kShort).cable, config_of(kShort).body, kSpeed_mps).depth_m + 0.5);
 
-  const msg::Estimate& believed = towed.estimates.back();
-  const double believed_m = std::hypot(believed.position_enu_m[0] - 60.0, believed.position_enu_m[1] - 40.0);
-  CHECK(believed_m == Approx(60.0).margin(0.01));  // chords of a metre
-  CHECK(across_m(believed.position_enu_m, pose.position_enu_m) > 60.0 - radius_m - 0.01);
+  const msg::Estimate& estimated = towed.estimates.back();
+  const double estimated_m = std::hypot(estimated.position_enu_m[0] - 60.0, estimated.position_enu_m[1] - 40.0);
+  CHECK(estimated_m == Approx(60.0).margin(0.01));  // chords of a metre
+  CHECK(across_m(estimated.position_enu_m, pose.position_enu_m) > 60.0 - radius_m - 0.01);
 }
 
-TEST_CASE("layback is that of a straight cable, or the share of it that is believed, by a counter that may err") {
+TEST_CASE("layback is that of a straight cable, or a set share, by a counter with error") {
   const auto off_m = [](const std::string& positioning) {
     const Towed towed = run(kShort + "positioning: { depth_white_m: 0, " + positioning + " }\n", 10);
     return 2.0 * 10.0 - towed.estimates.back().position_enu_m[1];
@@ -121,11 +121,11 @@ TEST_CASE("layback is that of a straight cable, or the share of it that is belie
   CHECK(straight_m > true_m);  // a cable sags: the straight one is too long
 }
 
-TEST_CASE("by USBL the estimate follows the fixes, late ones brought up to date; before the first there is none") {
+TEST_CASE("by USBL the estimate follows fixes, late ones corrected; none before the first") {
   NodeUnderTest<TowedBodyNode> fish(
       config_of(kShort + "positioning: { by: usbl, heading_white_deg: 0, usbl_gain: 0.3 }\n"));
   double worst_m = 0.0;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   const random::Stream noise(3, "test");
   for (int i = 0; i <= 60 * 50; ++i) {
     const double t_s = i * 0.02;
@@ -148,11 +148,11 @@ TEST_CASE("by USBL the estimate follows the fixes, late ones brought up to date;
       fish.give_at("usbl", from_seconds(t_s), fix);
     }
     if (t_s < 20.0 || estimates.empty()) continue;
-    ++told;
+    ++reported;
     worst_m = std::max(worst_m, across_m(estimates.back().position_enu_m, poses.back().position_enu_m));
     REQUIRE(estimates.back().position_covariance_enu_m2[0] == Approx(1.0));
   }
-  CHECK(told > 1900);
+  CHECK(reported > 1900);
   // A gain g leaves sqrt(g / (2 - g)) = 0.42 of a fix's noise; of 40 fixes of two axes the largest is about 3 of those.
   CHECK(worst_m < 4 * 0.42);
   CHECK(worst_m > 0.42);

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/own_vehicle.h"
+#include "components/config/config_reader.h"
+#include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
 namespace {
 
-/// Holds a mission against what a vehicle's forces can do. With several vehicles the one that is flown is not known
+/// Holds a mission against what a vehicle's forces can do. With several vehicles the one that is steered is not known
 /// here; it is taken to be the one without a start of its own.
-void check_abilities(ConfigReader& from, const Scenario& scenario, const Vehicle& vehicle,
-                     const HydrodynamicVehicle& moved) {
-  if (vehicle.start && scenario.vehicles.size() > 1) return;
-  double fastest_mps = scenario.mission.speed_mps;
-  for (const MissionStep& step : scenario.mission.steps) {
+void check_abilities(ConfigReader& from, const World& world, const Vehicle& vehicle, const HydrodynamicVehicle& moved) {
+  if (vehicle.start && world.vehicles.size() > 1) return;
+  double fastest_mps = world.mission.speed_mps;
+  for (const MissionStep& step : world.mission.steps) {
     if (const auto* go = std::get_if<GoAt>(&step)) fastest_mps = std::max(fastest_mps, go->speed_mps.value_or(0.0));
   }
   const motion::Body body(moved.body);
@@ -38,33 +37,33 @@ void check_abilities(ConfigReader& from, const Scenario& scenario, const Vehicle
 
 }  // namespace
 
-VehicleConfig VehicleConfig::read(ConfigReader& from, const Scenario& scenario, const std::string& process) {
+VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   VehicleConfig config;
   from.optional("pose_rate_hz", config.pose_rate_hz, 1, 1000);
 
-  const Vehicle vehicle = own_vehicle(from, scenario, process);
+  const Vehicle vehicle = own_vehicle(from, world, process);
   config.limits = vehicle.limits;
   config.fastest_mps = vehicle.fastest_mps;
   config.waves = vehicle.waves;
   config.disturbance = vehicle.disturbance;
-  config.seed = scenario.seed;
+  config.seed = world.seed;
   config.name = vehicle.name;
-  config.water = {scenario.vertical.tide, scenario.current, vehicle.floats};
+  config.water = {world.vertical.tide, world.current, vehicle.floats};
   if (!vehicle.dynamics_file.empty()) {
     try {
       config.hydrodynamics = read_dynamics(vehicle.dynamics_file);
-      check_abilities(from, scenario, vehicle, *config.hydrodynamics);
+      check_abilities(from, world, vehicle, *config.hydrodynamics);
     } catch (const ConfigError& error) {
       from.add(error);
     }
   }
   config.start = vehicle.start;
-  config.plan = MissionPlan::of(scenario, vehicle);
+  config.plan = MissionPlan::of(world, vehicle);
   if (!config.start && !config.plan.needs_chart()) {
-    if (scenario.mission.runlines.empty()) {
-      from.problem("", "the scenario tells vehicle " + vehicle.name + " neither a start nor a runline to start at");
+    if (world.mission.runlines.empty()) {
+      from.problem("", "the scenario gives vehicle " + vehicle.name + " neither a start nor a runline to start at");
     } else {
-      config.start = start_of(config.plan, scenario.mission.runlines);
+      config.start = start_of(config.plan, world.mission.runlines);
     }
   }
   return config;

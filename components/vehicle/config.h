@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "components/runtime/mission/auto_plan.h"
 #include "components/vehicle/hydrodynamic/dynamics_file.h"
+#include "scenarios/world/auto_plan.h"
 
 namespace ensonify {
 
@@ -32,8 +32,8 @@ struct VehicleConfig {
   std::optional<motion::State> start;                // not given: at the first line's run-in
   MissionPlan plan;
 
-  static VehicleConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
-  /// Where the vehicle starts is known only when the chart is.
+  static VehicleConfig read(ConfigReader& from, const World& world, const std::string& process);
+  /// Need of the chart: the vehicle's start is known only with it.
   bool needs_chart() const { return !start && plan.needs_chart(); }
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const VehicleConfig& other) const { return pose_rate_hz == other.pose_rate_hz; }

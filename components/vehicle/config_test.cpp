@@ -2,27 +2,27 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/config/default_yaml.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
 namespace {
 
-Scenario two_vehicles() {
-  Scenario scenario;
-  scenario.file = "bay.yaml";
-  scenario.mission.runlines = {{{0, 0}, {0, 100}}};
+World two_vehicles() {
+  World world;
+  world.file = "bay.yaml";
+  world.mission.runlines = {{{0, 0}, {0, 100}}};
   Vehicle auv, ship;
   auv.name = "auv";
   ship.name = "ship";
   ship.limits.turning_radius_m = 40;
-  scenario.vehicles = {auv, ship};
-  return scenario;
+  world.vehicles = {auv, ship};
+  return world;
 }
 
-std::string problem(const std::string& yaml, const Scenario& scenario, const std::string& process) {
+std::string problem(const std::string& yaml, const World& world, const std::string& process) {
   auto from = ConfigReader::from_text(yaml, "v.yaml");
-  VehicleConfig::read(from, scenario, process);
+  VehicleConfig::read(from, world, process);
   try {
     from.finish();
   } catch (const ConfigError& error) {
@@ -34,51 +34,51 @@ std::string problem(const std::string& yaml, const Scenario& scenario, const std
 }  // namespace
 
 TEST_CASE("vehicle/default.yaml lists every parameter with its default") {
-  Scenario scenario = two_vehicles();
-  scenario.vehicles.pop_back();
-  CHECK(default_yaml_fault<VehicleConfig>("vehicle", scenario) == "");
+  World world = two_vehicles();
+  world.vehicles.pop_back();
+  CHECK(default_yaml_fault<VehicleConfig>("vehicle", world) == "");
 }
 
 TEST_CASE("a process finds its vehicle by its own name or by the key") {
-  const Scenario scenario = two_vehicles();
+  const World world = two_vehicles();
   auto by_name = ConfigReader::from_text("{}", "v.yaml");
-  CHECK(VehicleConfig::read(by_name, scenario, "ship").limits.turning_radius_m == 40);
+  CHECK(VehicleConfig::read(by_name, world, "ship").limits.turning_radius_m == 40);
   auto by_key = ConfigReader::from_text("vehicle: ship", "v.yaml");
-  CHECK(VehicleConfig::read(by_key, scenario, "auv").limits.turning_radius_m == 40);
-  CHECK(problem("{}", scenario, "rov") ==
+  CHECK(VehicleConfig::read(by_key, world, "auv").limits.turning_radius_m == 40);
+  CHECK(problem("{}", world, "rov") ==
         "v.yaml:1:1: vehicle: is missing, and no vehicle is named rov; allowed: auv, ship");
-  CHECK(problem("vehicle: shup", scenario, "auv") ==
+  CHECK(problem("vehicle: shup", world, "auv") ==
         "v.yaml:1:10: vehicle: \"shup\" is no vehicle of the scenario; allowed: auv, ship");
-  CHECK(problem("{}", Scenario{}, "auv").find("has no vehicle") != std::string::npos);
+  CHECK(problem("{}", World{}, "auv").find("has no vehicle") != std::string::npos);
 }
 
 TEST_CASE("what a vehicle's forces cannot do of a mission is refused") {
-  Scenario scenario = two_vehicles();
-  scenario.vehicles.pop_back();
-  Vehicle& auv = scenario.vehicles[0];
+  World world = two_vehicles();
+  world.vehicles.pop_back();
+  Vehicle& auv = world.vehicles[0];
   auv.dynamics_file = std::string(std::getenv("ENSONIFY_FOLDER")) + "/hydrodynamic/remus_100.yaml";
   auv.limits.turning_radius_m = 25;
-  scenario.mission.speed_mps = 2;
-  CHECK(problem("{}", scenario, "auv") == "");
+  world.mission.speed_mps = 2;
+  CHECK(problem("{}", world, "auv") == "");
   auv.limits.turning_radius_m = 5;
-  CHECK(problem("{}", scenario, "auv") ==
+  CHECK(problem("{}", world, "auv") ==
         "v.yaml:1:1: the scenario has auv turn on 5 m at 2 m/s, tighter than its forces make; allowed: "
         "turning_radius_m 19.5 or more");
-  scenario.mission.steps = {GoAt{4.0, {}, {}}};
-  CHECK(problem("{}", scenario, "auv") ==
+  world.mission.steps = {GoAt{4.0, {}, {}}};
+  CHECK(problem("{}", world, "auv") ==
         "v.yaml:1:1: the mission asks for 4 m/s, more than auv's propellers make; allowed: 2.55 m/s");
-  auv.start.emplace();  // somebody else may be the one that is flown
-  scenario.vehicles.push_back(two_vehicles().vehicles[1]);
-  CHECK(problem("{}", scenario, "auv") == "");
+  auv.start.emplace();  // somebody else may be the one that is steered
+  world.vehicles.push_back(two_vehicles().vehicles[1]);
+  CHECK(problem("{}", world, "auv") == "");
 }
 
-TEST_CASE("a vehicle told no start begins the first line's run-in at mission speed") {
-  Scenario scenario = two_vehicles();
-  scenario.mission.run_in_m = 15;
-  scenario.mission.depth_m = 4;
-  scenario.mission.speed_mps = 1.5;
+TEST_CASE("a vehicle without a start begins the first line's run-in at mission speed") {
+  World world = two_vehicles();
+  world.mission.run_in_m = 15;
+  world.mission.depth_m = 4;
+  world.mission.speed_mps = 1.5;
   auto from = ConfigReader::from_text("{}", "v.yaml");
-  const auto start = VehicleConfig::read(from, scenario, "auv").start;
+  const auto start = VehicleConfig::read(from, world, "auv").start;
   REQUIRE(start.has_value());
   CHECK((start->position_enu_m - frames::Vec3(0, -15, -4)).norm() < 1e-9);
   CHECK(start->heading_rad == Approx(0.0));

@@ -5,11 +5,11 @@
 
 #include "components/runtime/sim_time.h"
 #include "components/vehicle/config.h"
-#include "kernels/frames/pose.h"
+#include "kernels/base/frames/pose.h"
 
 namespace ensonify {
 
-/// What moves a vehicle. One folder each: kinematic, hydrodynamic.
+/// Model of a vehicle's motion. One folder each: kinematic, hydrodynamic.
 class Dynamics {
  public:
   virtual ~Dynamics() = default;
@@ -19,12 +19,12 @@ class Dynamics {
   /// Puts a command in force from now on. Speed is through the water, >= 0; depth below the water level, >= 0, or
   /// nothing: as before.
   virtual void command(double heading_rad, double speed_mps, std::optional<double> depth_m) = 0;
-  /// Where the vehicle is and how it moves, without waves.
+  /// Pose and motion of the vehicle, without waves.
   virtual frames::MovingPose moving() const = 0;
 };
 
 /// The dynamics that the configuration names. At sim time `now` the vehicle is at `start`, whose height counts from the
-/// water level, and goes straight ahead until told otherwise.
+/// water level, and goes straight ahead until commanded otherwise.
 std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motion::State& start, SimTime now);
 
 }  // namespace ensonify

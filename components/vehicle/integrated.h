@@ -7,7 +7,7 @@
 /// For tests: what a vehicle says of its motion, integrated, against where it says it is.
 namespace ensonify {
 
-/// How far the integrals are from the pose at the end.
+/// Distance of the integrals from the pose at the end.
 struct Off {
   frames::Vec3 position_m = frames::Vec3::Zero();  // of the acceleration, twice, from the first place and velocity
   double attitude_rad = 0.0;                       // of the turn rate, from the first attitude

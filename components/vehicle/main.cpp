@@ -1,4 +1,4 @@
-#include "components/runtime/run.h"
 #include "components/vehicle/node.h"
+#include "launch/process/run.h"
 
 int main(int argc, char** argv) { return ensonify::run<ensonify::VehicleNode>(argc, argv); }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/pose_message.h"
+#include "components/truth/pose_message.h"
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 #include "components/vehicle/kinematic/kinematic.h"
 

@@ -12,7 +12,7 @@ namespace ensonify {
 /// A vehicle: its dynamics, and what waves add to them.
 class VehicleModel {
  public:
-  /// At sim time `now`, going on straight ahead until told otherwise.
+  /// At sim time `now`, going on straight ahead until commanded otherwise.
   VehicleModel(const VehicleConfig& config, const motion::State& start, SimTime now);
 
   /// Moves on to `now` under the command in force.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 
 namespace ensonify {
 namespace {
@@ -26,7 +26,7 @@ VehicleNode::VehicleNode(const Config& config, Ports& ports)
 SimTime VehicleNode::step(SimTime now) {
   if (!poses_due_.due(now)) return poses_due_.next();
   if (!vehicle_ && config_.start) vehicle_.emplace(config_, *config_.start, now);
-  if (!vehicle_ && chart_) vehicle_.emplace(config_, start_of(config_.plan, runlines(config_.plan, *chart_)), now);
+  if (!vehicle_ && chart_) vehicle_.emplace(config_, start_of(config_.plan, planned_lines(config_.plan, *chart_)), now);
   if (vehicle_) {
     vehicle_->advance(now);
     if (command_ && std::isfinite(command_->heading_grid_rad) && std::isfinite(command_->speed_mps) &&

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/testing.h"
+#include "components/config/config_error.h"
+#include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
 constexpr double kPi = std::numbers::pi;
@@ -114,7 +114,7 @@ TEST_CASE("with lines planned over a chart the vehicle appears when the chart do
   REQUIRE(poses.size() == 91);
   CHECK(poses[0].stamp_ns == 100'000'000);
   CHECK(poses[0].position_enu_m[2] == Approx(-3.0));
-  const auto lines = runlines(config.plan, flat_chart(25));
+  const auto lines = planned_lines(config.plan, flat_chart(25));
   CHECK(poses[0].position_enu_m[1] == Approx(lines[0].start_enu_m.y() - 20));
 }
 

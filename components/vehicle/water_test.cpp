@@ -7,7 +7,7 @@
 #include "components/vehicle/integrated.h"
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
-#include "kernels/motion/disturbance_presets.h"
+#include "kernels/vehicle/motion/disturbance_presets.h"
 
 using namespace ensonify;
 using frames::Vec3;
@@ -54,7 +54,7 @@ TEST_CASE("a current carries a vehicle, by its depth") {
   CHECK((auv.moving().velocity_enu_mps - Vec3(0.4, 2.0, 0)).norm() < 1e-12);
 }
 
-TEST_CASE("velocity and acceleration of a vehicle in all of it are the derivatives of its pose") {
+TEST_CASE("velocity and acceleration of a vehicle in water are derivatives of its pose") {
   VehicleConfig config = in_a_tide();
   config.water.floats = vertical::Loading{{{0, 0.0}, {9, 0.3}}, 0.0, -1e-6};
   config.water.current.profile = {{0.0, {0.3, 0.2}}};
@@ -80,7 +80,7 @@ TEST_CASE("velocity and acceleration of a vehicle in all of it are the derivativ
   CHECK(std::abs(now.acceleration_enu_mps2[2]) > 0.01);
 }
 
-TEST_CASE("600 s of a vehicle's accelerations and turn rates, on a tide and in a stream, integrate to its pose") {
+TEST_CASE("600 s of a vehicle's accelerations and rates, in tide and stream, give its pose") {
   VehicleConfig config = in_a_tide();
   config.water.floats = vertical::Loading{{{0, 0.0}, {9, 0.3}}, 0.0, -1e-6};
   config.water.current.profile = {{0.0, {0.3, 0.2}}};
@@ -103,7 +103,7 @@ TEST_CASE("600 s of a vehicle's accelerations and turn rates, on a tide and in a
   CHECK(off.attitude_rad < 1e-3 * kPi / 180);
 }
 
-TEST_CASE("a ramp of speed makes no step in vertical velocity: acceleration integrates to the settlement") {
+TEST_CASE("a ramp of speed makes no vertical step; acceleration integrates to settlement") {
   VehicleConfig config = in_a_tide();
   config.water.tide = {};
   config.limits.acceleration_mps2 = 0.3;

@@ -6,7 +6,7 @@
 namespace ensonify {
 
 class ConfigReader;
-struct Scenario;
+struct World;
 
 struct GyroConfig {
   int rate_hz = 10;
@@ -17,7 +17,7 @@ struct GyroConfig {
   std::uint64_t seed = 1;
   std::string process;
 
-  static GyroConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static GyroConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// The parameters of its own, which default.yaml lists.
   bool operator==(const GyroConfig& other) const {
     return rate_hz == other.rate_hz && bias_rad == other.bias_rad && sigma_rad == other.sigma_rad;

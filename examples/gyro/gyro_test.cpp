@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/config/default_yaml.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "examples/gyro/node.h"
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
+#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -16,10 +16,10 @@ static msg::Pose heading_east(SimTime t) {
 }
 
 TEST_CASE("gyro/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<GyroConfig>("gyro", Scenario{}) == "");
+  CHECK(default_yaml_fault<GyroConfig>("gyro", World{}) == "");
 }
 
-TEST_CASE("the gyro tells heading plus its bias, ten times a second, whatever the roll") {
+TEST_CASE("the gyro reports heading plus its bias, ten times a second, whatever the roll") {
   GyroConfig config;
   config.bias_rad = 0.1;
   config.sigma_rad = 0.0;

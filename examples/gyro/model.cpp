@@ -1,6 +1,6 @@
 #include "examples/gyro/model.h"
 
-#include "kernels/frames/attitude.h"
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify {
 

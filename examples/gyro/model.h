@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "examples/gyro/config.h"
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

@@ -40,8 +40,8 @@ class SedimentBackscatter {
   /// Total cross section.
   double operator()(double grazing_rad) const { return parts(grazing_rad).total; }
 
-  /// Of relief, that the parameters imply at this frequency (a ratio: tangent of an angle). The report's theory is for
-  /// small slopes; above 0.12 (7 degrees) its empirical law takes over.
+  /// Slope of relief, rms, that the parameters imply at this frequency (a ratio: tangent of an angle). The report's
+  /// theory is for small slopes; above 0.12 (7 degrees) its empirical law takes over.
   double rms_slope() const { return s_; }
 
  private:
@@ -58,7 +58,7 @@ class SedimentBackscatter {
   double R90_squared_;          // |R|^2 at normal incidence
   double q_, a_, b_;            // of the Kirchhoff law
   double s_;                    // rms slope
-  double cos_theta_k_;          // where Kirchhoff and composite laws meet
+  double cos_theta_k_;          // where Kirchhoff and composite laws join
 };
 
 }  // namespace ensonify::seabed

@@ -69,7 +69,7 @@ TEST_CASE("above 100 kHz: the trends that the documentation states") {
   CHECK(strength_db(sediment_of("medium sand").value(), 400e3, 1500, 90) == Approx(-16.0).margin(0.1));
 }
 
-TEST_CASE("all sediments are finite over 0-90 degrees and 10-1000 kHz, and without steps above 1 degree") {
+TEST_CASE("all sediments are finite at 0-90 deg and 10-1000 kHz, smooth above 1 deg") {
   double greatest_step_db = 0.0;
   for (const auto& row : named_sediments()) {
     for (const double frequency_hz : frequencies_hz()) {
@@ -94,7 +94,7 @@ TEST_CASE("all sediments are finite over 0-90 degrees and 10-1000 kHz, and witho
   CHECK(greatest_step_db < 1.5);
 }
 
-TEST_CASE("angles outside 0-90 degrees are those at the ends, below 0.001 degrees that at 0.001") {
+TEST_CASE("angles outside 0-90 degrees are clamped, below 0.001 degrees to 0.001") {
   const SedimentBackscatter law(sediment_of("fine sand").value(), 100e3, 1500);
   CHECK(law(-0.1) == law(0.001 * kDegree));
   CHECK(law(0.0) == law(0.001 * kDegree));
@@ -102,7 +102,7 @@ TEST_CASE("angles outside 0-90 degrees are those at the ends, below 0.001 degree
   CHECK(law(4.0) == law(90 * kDegree));
 }
 
-TEST_CASE("the total is the blended roughness and the volume; blends stay between their parts") {
+TEST_CASE("strength is blended roughness plus volume; blends stay between their parts") {
   for (const auto& row : named_sediments()) {
     const SedimentBackscatter law(row.parameters, 200e3, 1500);
     for (double degrees = 1.0; degrees <= 90.0; degrees += 1.0) {
@@ -128,7 +128,7 @@ TEST_CASE("the Kirchhoff law at normal incidence is the closed form of its integ
   CHECK(SedimentBackscatter(sand, 60e3, 1500).parts(90 * kDegree).kirchhoff == Approx(exact).epsilon(1e-9));
 }
 
-TEST_CASE("energy: below 60 degrees no sediment exceeds a perfect diffuser up to 100 kHz, except rock") {
+TEST_CASE("below 60 degrees, to 100 kHz, only rock exceeds a perfect diffuser") {
   // sigma <= sin^2 / pi. Rough rock exceeds it at low grazing at every frequency, rock from 45 kHz: section 2.1 of the
   // page.
   for (const auto& row : named_sediments()) {
@@ -160,7 +160,7 @@ TEST_CASE("energy: the specular lobe holds no more than the seabed reflects") {
   }
 }
 
-TEST_CASE("with the cap rough rock is a diffuse reflector below 60 degrees, and unchanged near normal incidence") {
+TEST_CASE("the cap makes rough rock diffuse below 60 degrees, unchanged near normal") {
   const auto rock = sediment_of("rough rock").value();
   const double diffuse = std::norm(reflection_coefficient(rock, 90 * kDegree)) / std::numbers::pi;
   for (const double frequency_hz : {100e3, 400e3, 900e3}) {

@@ -6,7 +6,7 @@
 
 namespace ensonify::seabed {
 
-/// What a man-made object is made of. A small model, ours: of the energy that its impedance reflects at normal
+/// Material of a man-made object. A small model, ours: of the energy that its impedance reflects at normal
 /// incidence, the share `diffuse` leaves by Lambert's law and the rest by mirror-like facets whose slopes are Gaussian.
 /// Thick bodies (nothing comes back from a far side), no shear waves, no resonance, no frequency.
 struct Material {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Integral over the lit half of a sphere of radius a.
+/// Integral over the insonified half of a sphere of radius a.
 double sphere_cross_section_m2(const Law& law, double radius_m) {
   const int n = 20000;
   double sum = 0.0;
@@ -48,7 +48,7 @@ TEST_CASE("a rigid sphere of facets has the target strength of the closed form")
   CHECK_THROWS_WITH(sphere_target_strength_db(0.0), "radius in m 0.000000: allowed is above 0");
 }
 
-TEST_CASE("the closed form of a rigid sphere is within 0.7 dB of the exact series from ka = 10 on") {
+TEST_CASE("a rigid sphere's closed form is within 0.7 dB of the series from ka = 10 on") {
   // Echo of a plane wave, relative to a / 2: |2 / ka Sum (2n + 1) (-1)^n j_n' / h_n'|.
   const auto slope = [](auto bessel, unsigned n, double x) {
     return n == 0 ? -bessel(1, x) : bessel(n - 1, x) - (n + 1) / x * bessel(n, x);

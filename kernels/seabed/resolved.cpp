@@ -93,7 +93,7 @@ Law law_of_facets(const Law& whole, double mean_square_slope) {
   const auto weights = weights_of(mean_square_slope);
   Curve plane{}, facets{}, change{};  // change: natural logarithm
   for (std::size_t i = 0; i < plane.size(); ++i) {
-    // Laws fall to nothing at 0: there the curve would be steeper than half a degree can tell.
+    // Laws fall to nothing at 0: there the curve would be steeper than half a degree can give.
     plane[i] = std::max(whole(std::max(kStep_rad * static_cast<double>(i), 0.1 * kStep_rad)), 1e-30);
   }
   facets = plane;

@@ -23,7 +23,7 @@ namespace ensonify::seabed {
 /// @throws std::invalid_argument for a mean square that is not finite, negative, or above 0.5 (facets of 35 degrees).
 Law law_of_facets(const Law& whole, double mean_square_slope);
 
-/// What facets of that law return from a unit of the plane's area, on average over tilts of that mean square slope;
+/// Mean return of facets of that law from a unit of the plane's area, over tilts of that mean square slope;
 /// slopes as above, without shadows.
 double mean_over_facets(const Law& facets, double mean_square_slope, double grazing_rad);
 

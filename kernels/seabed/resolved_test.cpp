@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "kernels/random/stream.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/seabed/backscatter.h"
 #include "kernels/seabed/facets.h"
 #include "kernels/seabed/table.h"
@@ -45,7 +45,7 @@ double slope_of_posts(const SedimentParameters& sediment, double post_spacing_m)
 
 }  // namespace
 
-TEST_CASE("of mirrors with Gaussian slopes, facets leave the rest of the slopes: mean squares add") {
+TEST_CASE("facets leave mirrors the rest of Gaussian slopes: mean squares add") {
   // Whole 0.03, facets 0.01: 0.02 are left. Exact for small slopes; tilting a tilted facet is of their fourth order.
   const auto gaussian = [](double mean_square) {
     return [=](double grazing_rad) { return facet_backscatter(std::sin(grazing_rad), mean_square); };
@@ -58,7 +58,7 @@ TEST_CASE("of mirrors with Gaussian slopes, facets leave the rest of the slopes:
   CHECK(db(gaussian(0.03)(90 * kDegree)) < db(left(90 * kDegree)) - 1.7);
 }
 
-TEST_CASE("facets of a mesh return on average what the plane's law says, and with that law itself they do not") {
+TEST_CASE("mesh facets return the plane's law on average, and not when they use it as is") {
   double most_counted_twice_db = 0.0;
   int cases = 0;
   for (const char* name : {"rock", "coarse sand", "medium sand", "very fine sand", "clay"}) {

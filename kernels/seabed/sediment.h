@@ -6,7 +6,7 @@
 
 namespace ensonify::seabed {
 
-/// What [APL1994] (section IV) needs to know about a seabed. The comment gives the report's letter and its stated
+/// Parameters of a seabed in [APL1994] (section IV). The comment gives the report's letter and its stated
 /// limits.
 struct SedimentParameters {
   double density_ratio = 0.0;          // rho: sediment / water, 1..3

@@ -6,7 +6,7 @@
 
 using namespace ensonify::seabed;
 
-TEST_CASE("there are 14 named sediments, all inside the report's limits, known by each of their names") {
+TEST_CASE("14 named sediments, within the report's limits, are found by each name") {
   CHECK(named_sediments().size() == 14);
   for (const auto& row : named_sediments()) {
     INFO(row.name);
@@ -48,7 +48,7 @@ TEST_CASE("a grain size outside the fits is refused") {
   CHECK_THROWS(sediment_of_grain_size(-1.01));
 }
 
-TEST_CASE("at normal incidence the reflection is that of the two impedances, at 0 degrees it is total") {
+TEST_CASE("reflection is the impedances' at normal incidence, and total at grazing 0") {
   for (const auto& row : named_sediments()) {
     INFO(row.name);
     const auto& sediment = row.parameters;
@@ -61,7 +61,7 @@ TEST_CASE("at normal incidence the reflection is that of the two impedances, at 
   }
 }
 
-TEST_CASE("no seabed reflects more than arrives; a fast one almost all below the critical angle") {
+TEST_CASE("no seabed reflects more than arrives; fast ones nearly all below critical") {
   for (const auto& row : named_sediments()) {
     for (double degrees = 0.0; degrees <= 90.0; degrees += 0.5) {
       CHECK(forward_loss_db(row.parameters, degrees * 3.14159265358979 / 180) >= -1e-9);

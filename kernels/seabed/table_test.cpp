@@ -58,7 +58,7 @@ TEST_CASE("so are the tables of capped rock, materials, Lambert, GSAB and tissue
   }
 }
 
-TEST_CASE("steps are chosen by the law: a table of sediment is small, a narrow specular lobe needs more") {
+TEST_CASE("the law sets a table's steps: few for sediment, more for a specular lobe") {
   const BackscatterTable sand(law_of(sediment_of("fine sand").value(), 300e3, 1500));
   CHECK(sand.steps().per_octave() == 8);
   CHECK(sand.values().size() == 36 * 8 + 2);

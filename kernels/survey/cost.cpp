@@ -2,22 +2,22 @@
 
 #include <stdexcept>
 
-#include "kernels/navigation/turn.h"
+#include "kernels/vehicle/runlines/turn.h"
 
 namespace ensonify::survey {
 
-RunCost run_cost(std::span<const navigation::Runline> lines, const RunRules& rules) {
+RunCost run_cost(std::span<const runlines::Runline> lines, const RunRules& rules) {
   RunCost cost;
   double extra_m = 0.0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    cost.line_m += navigation::length_m(lines[i]);
+    cost.line_m += runlines::length_m(lines[i]);
     extra_m += rules.run_in_m + rules.run_out_m;
     if (i + 1 == lines.size()) break;
-    const navigation::Waypose from{navigation::extended(lines[i], 0.0, rules.run_out_m).end_enu_m,
-                                   navigation::heading_rad(lines[i])};
-    const navigation::Waypose to{navigation::extended(lines[i + 1], rules.run_in_m, 0.0).start_enu_m,
-                                 navigation::heading_rad(lines[i + 1])};
-    cost.turn_m += navigation::shortest_turn(from, to, rules.turning_radius_m).length_m();
+    const runlines::Waypose from{runlines::extended(lines[i], 0.0, rules.run_out_m).end_enu_m,
+                                 runlines::heading_rad(lines[i])};
+    const runlines::Waypose to{runlines::extended(lines[i + 1], rules.run_in_m, 0.0).start_enu_m,
+                               runlines::heading_rad(lines[i + 1])};
+    cost.turn_m += runlines::shortest_turn(from, to, rules.turning_radius_m).length_m();
   }
   cost.line_s = cost.line_m / rules.speed_mps;
   cost.turn_s = extra_m / rules.speed_mps + cost.turn_m / rules.turn_speed_mps;
@@ -27,10 +27,10 @@ RunCost run_cost(std::span<const navigation::Runline> lines, const RunRules& rul
   return cost;
 }
 
-double redundancy(std::span<const navigation::Runline> lines, std::span<const double> swath_m, double area_m2) {
+double redundancy(std::span<const runlines::Runline> lines, std::span<const double> swath_m, double area_m2) {
   if (lines.size() != swath_m.size()) throw std::invalid_argument("redundancy: give one swath for each line");
   double swept_m2 = 0.0;
-  for (std::size_t i = 0; i < lines.size(); ++i) swept_m2 += swath_m[i] * navigation::length_m(lines[i]);
+  for (std::size_t i = 0; i < lines.size(); ++i) swept_m2 += swath_m[i] * runlines::length_m(lines[i]);
   return swept_m2 / area_m2;
 }
 

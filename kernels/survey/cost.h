@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "kernels/navigation/runline.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-/// How lines are run, and what running costs.
+/// Parameters of running lines, and their costs.
 struct RunRules {
   double speed_mps = 2.0;       // over ground on lines, > 0
   double turn_speed_mps = 2.0;  // > 0
@@ -29,10 +29,10 @@ struct RunCost {
 };
 
 /// Time, way and cost of lines run one after the other, the first from its run-in on.
-RunCost run_cost(std::span<const navigation::Runline> lines, const RunRules& rules);
+RunCost run_cost(std::span<const runlines::Runline> lines, const RunRules& rules);
 
-/// How often the area is covered: swath of each line times its length, over the area. 1 is no place twice, where all is
+/// Redundancy of the coverage: swath of each line times its length, over the area. 1 is no place twice, where all is
 /// covered.
-double redundancy(std::span<const navigation::Runline> lines, std::span<const double> swath_m, double area_m2);
+double redundancy(std::span<const runlines::Runline> lines, std::span<const double> swath_m, double area_m2);
 
 }  // namespace ensonify::survey

@@ -8,7 +8,7 @@ using namespace ensonify;
 using namespace ensonify::survey;
 
 TEST_CASE("a lawnmower two radii wide turns in half circles; time, data and cost follow") {
-  const auto lines = navigation::lawnmower({0, 0}, 0.3, 500.0, 40.0, 4);
+  const auto lines = runlines::lawnmower({0, 0}, 0.3, 500.0, 40.0, 4);
   RunRules rules;
   rules.speed_mps = 4.0;
   rules.turn_speed_mps = 2.0;
@@ -32,7 +32,7 @@ TEST_CASE("a lawnmower two radii wide turns in half circles; time, data and cost
 }
 
 TEST_CASE("lines closer than two radii take the longer way that the circle leaves") {
-  const auto lines = navigation::lawnmower({0, 0}, 0.0, 500.0, 20.0, 2);
+  const auto lines = runlines::lawnmower({0, 0}, 0.0, 500.0, 20.0, 2);
   RunRules rules;
   rules.turning_radius_m = 20.0;
   // Three arcs: out by a, round by pi + 2 a, back by a, with cos a = (2 r + s) / (4 r), s the spacing.
@@ -41,7 +41,7 @@ TEST_CASE("lines closer than two radii take the longer way that the circle leave
 }
 
 TEST_CASE("redundancy is the area swept over the area") {
-  const auto lines = navigation::lawnmower({0, 0}, 0.0, 100.0, 30.0, 2);
+  const auto lines = runlines::lawnmower({0, 0}, 0.0, 100.0, 30.0, 2);
   CHECK(redundancy(lines, std::vector<double>{40.0, 40.0}, 100.0 * 60.0) == Approx(80.0 / 60.0));
   CHECK_THROWS_AS(redundancy(lines, std::vector<double>{40.0}, 1.0), std::invalid_argument);
 }

@@ -20,7 +20,7 @@ Runline line_across(const Rectangle& r, double across_m, bool back) {
   const Vec2 middle = r.centre_enu_m + (across_m - 0.5 * r.width_m) * starboard_of(r);
   const Vec2 half = 0.5 * r.length_m * forward_of(r);
   const Runline line{middle - half, middle + half};
-  return back ? navigation::reversed(line) : line;
+  return back ? runlines::reversed(line) : line;
 }
 
 Coverage::Coverage(const Rectangle& r, double cell_m, int needed)
@@ -60,7 +60,7 @@ double Coverage::height_m(std::size_t column, std::size_t row) const {
 }
 
 std::vector<CoveredEdge> Coverage::open_rows(double across_m, double head_height_m) const {
-  constexpr std::size_t kNear = 3;  // cells from the edge back that tell its depth: the shallowest counts
+  constexpr std::size_t kNear = 3;  // cells from the edge back that give its depth: the shallowest counts
   const auto first =
       static_cast<std::size_t>(std::clamp(std::floor(across_m / cell_m_), 0.0, static_cast<double>(columns_ - 1)));
   std::vector<CoveredEdge> open;

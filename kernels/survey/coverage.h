@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "kernels/navigation/runline.h"
 #include "kernels/survey/spacing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-using navigation::Runline;
-using navigation::Vec2;
+using runlines::Runline;
+using runlines::Vec2;
 
 /// A rectangle that a survey covers with parallel lines, each to starboard of the one before (seen along the first).
 struct Rectangle {
@@ -24,7 +24,7 @@ struct Rectangle {
 /// The line `across_m` from the rectangle's port edge, along its heading or back.
 Runline line_across(const Rectangle& rectangle, double across_m, bool back);
 
-/// What soundings have covered, cell by cell, and where the next line goes.
+/// Coverage by soundings, cell by cell, and the place of the next line.
 class Coverage {
  public:
   /// A cell is covered when it holds `needed` soundings. cell_m > 0, needed >= 1.
@@ -32,7 +32,7 @@ class Coverage {
 
   /// Takes a sounding; nothing happens outside the rectangle.
   void add(const Vec2& place_enu_m, double height_m);
-  /// A line has been flown: what it covered by itself counts for `overlapped`.
+  /// A line has been run: what it covered by itself counts for `overlapped`.
   void end_line();
 
   /// Rows to starboard of `across_m`, where the last line lies, that are not covered to the rectangle's edge: where
@@ -41,7 +41,7 @@ class Coverage {
   std::vector<CoveredEdge> open_rows(double across_m, double head_height_m) const;
 
   /// Across position of the column that lies in the middle of most uncovered cells not marked before, which are then
-  /// marked within `reach_m` of it: a line over holes is flown once. NaN when none is left.
+  /// marked within `reach_m` of it: a line over holes is run once. NaN when none is left.
   double take_holes(double reach_m);
 
   /// Depths below `head_height_m` (ENU z) of what is covered; all 0 when nothing is.

@@ -11,7 +11,7 @@ namespace {
 /// A vessel with a fan of 121 beams over 60 degrees either side, on a plane that deepens to the east: x_m from the
 /// western edge. Two pings a cell.
 void survey_line(Coverage& coverage, const Runline& line, double deepening, double cell_m) {
-  const double length_m = navigation::length_m(line);
+  const double length_m = runlines::length_m(line);
   const Vec2 forward = (line.end_enu_m - line.start_enu_m) / length_m;
   const auto depth = [&](double east_m) { return 10.0 + deepening * east_m; };
   for (double along = 0.25 * cell_m; along < length_m; along += 0.5 * cell_m) {
@@ -62,7 +62,7 @@ TEST_CASE("the next line lies a reach beyond the row that is covered least far")
   CHECK(coverage.depths(-1.0).deepest_m == 24.0);
 }
 
-TEST_CASE("lines over holes are flown once") {
+TEST_CASE("lines over holes are run once") {
   Coverage coverage({{50, 10}, 0.0, 20.0, 100.0}, 10.0, 1);
   for (double x = 5.0; x < 100.0; x += 10.0) {
     if (x != 35.0) coverage.add({x, 5.0}, -20.0);
@@ -74,7 +74,7 @@ TEST_CASE("lines over holes are flown once") {
   CHECK(std::isnan(coverage.take_holes(15.0)));
 }
 
-TEST_CASE("a plane from 10 to 40 m is covered without a gap, with lines within 15 % of the bound") {
+TEST_CASE("a plane of 10-40 m is covered without a gap, lines within 15 % of the bound") {
   const double deepening = 0.02, width_m = 30.0 / deepening, cell_m = 4.0;
   const Rectangle area{{0.5 * width_m, 50.0}, 0.0, 100.0, width_m};
   Coverage coverage(area, cell_m, 1);

@@ -8,7 +8,7 @@
 
 namespace ensonify::survey {
 
-/// How small a cube on the seabed may be and still be met by soundings. They are counted in small cells of a rectangle;
+/// Smallest cube on the seabed that soundings hit. They are counted in small cells of a rectangle;
 /// a cube stands anywhere inside it, upright, its sides along the rectangle's. Counted are soundings whose place lies
 /// on it: that it rises towards the sonar, and how strong its echo is, are left out.
 class CubeSearch {
@@ -23,7 +23,7 @@ class CubeSearch {
   /// taken off, so that it holds wherever the cube stands between cells. 0 for sides below two steps.
   double found(double side_m, int needed) const;
 
-  /// The same of cubes whose side depends on where they stand: `side_m` tells it by how far the corner nearest to the
+  /// The same of cubes whose side depends on where they stand: `side_m` gives it by how far the corner nearest to the
   /// rectangle's own port and back one lies from that, across and along, m.
   double found(const std::function<double(double across_m, double along_m)>& side_m, int needed) const;
 

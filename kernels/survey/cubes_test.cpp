@@ -34,7 +34,7 @@ TEST_CASE("the share of places found falls from all to none") {
   const CubeSearch search = lattice(1.0, 1.0);
   CHECK(search.found(3.5, 9) == 1.0);
   CHECK(search.found(1.5, 9) == 0.0);
-  CHECK(search.found(0.25, 1) == 0.0);  // below what cells tell
+  CHECK(search.found(0.25, 1) == 0.0);  // below what cells give
   double before = 0.0;
   for (double side_m = 1.0; side_m <= 4.0; side_m += 0.25) {
     const double share = search.found(side_m, 9);
@@ -61,18 +61,18 @@ TEST_CASE("where cubes may be larger, fewer soundings find them") {
   CHECK(search.found([](double, double) { return 0.25; }, 1) == 0.0);
 }
 
-TEST_CASE("a gap decides what is found everywhere, and little of what is found in most places") {
+TEST_CASE("a gap limits what is found everywhere, less what is found in most places") {
   CubeSearch search(kArea, 0.25);
   for (double east = 0.125; east < 40.0; east += 0.25) {
     for (double north = 0.125; north < 20.0; north += 0.25) {
       if (std::hypot(east - 20.0, north - 10.0) > 2.0) search.add({east, north});  // a hole of 4 m across
     }
   }
-  // The square inside the hole, a cell more because holes end between cells, and two steps that are not told.
+  // The square inside the hole, a cell more because holes end between cells, and two steps that are not given.
   const double square_m = 4.0 / std::sqrt(2.0), side_m = search.smallest_side_m(1, 1.0);
   CHECK(side_m > square_m);
   CHECK(side_m <= square_m + 3 * 0.25);
-  CHECK(search.smallest_side_m(1, 0.95) == 0.5);  // the least that cells of 0.25 m tell
+  CHECK(search.smallest_side_m(1, 0.95) == 0.5);  // the least that cells of 0.25 m give
 }
 
 TEST_CASE("without soundings nothing is found; a step of nothing is refused") {

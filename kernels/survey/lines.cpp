@@ -60,7 +60,7 @@ std::vector<Runline> clipped(const Turned& area, const std::vector<double>& acro
     if (pieces.empty()) continue;
     if (!up) {
       std::reverse(pieces.begin(), pieces.end());
-      for (Runline& piece : pieces) piece = navigation::reversed(piece);
+      for (Runline& piece : pieces) piece = runlines::reversed(piece);
     }
     lines.insert(lines.end(), pieces.begin(), pieces.end());
     up = !up;
@@ -91,7 +91,7 @@ class Bottom {
     return depth_m;
   }
 
-  /// Where the outermost beam of a head at (ahead, across) meets the bottom to starboard: steps out until the beam is
+  /// Where the outermost beam of a head at (ahead, across) hits the bottom to starboard: steps out until the beam is
   /// below it, then halves.
   double reached_m(double ahead_m, double across_m) const {
     const double tangent = std::tan(rules_.swath.half_angle_rad);
@@ -106,7 +106,7 @@ class Bottom {
     return across_m + in_m;
   }
 
-  /// Rows along the survey at which the area is met at all.
+  /// Rows along the survey at which the area is crossed at all.
   std::vector<double> rows_m() const {
     const int count = std::max(1, static_cast<int>(std::lround((area_.front_m - area_.rear_m) / rules_.row_m)));
     std::vector<double> rows;

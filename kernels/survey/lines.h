@@ -3,23 +3,23 @@
 #include <functional>
 #include <vector>
 
-#include "kernels/navigation/runline.h"
 #include "kernels/survey/polygon.h"
 #include "kernels/survey/spacing.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 
-using navigation::Runline;
+using runlines::Runline;
 
 /// Depth below the head at a place, m; NaN where it is not known.
 using DepthAt = std::function<double(const Vec2& place_enu_m)>;
 
-/// How lines are laid over an area.
+/// Layout of lines over an area.
 struct LayRules {
   double heading_rad = 0.0;  // grid, of the first line; the survey goes on to starboard of it
   Swath swath;
   double shortest_line_m = 1.0;  // pieces of lines that are shorter are left out
-  double row_m = 5.0;            // distance along lines at which the bottom is looked at, > 0
+  double row_m = 5.0;            // distance along lines at which the bottom is examined, > 0
 };
 
 /// Parallel lines over an area, run alternately up and down, each as far from the one before as the swath allows on the

@@ -17,15 +17,15 @@ double x_of(const Runline& line) { return line.start_enu_m.x(); }
 
 }  // namespace
 
-TEST_CASE("on level ground lines are two reaches apart, the first one reach from the edge, run up and down") {
+TEST_CASE("on level ground lines are two reaches apart, the first one reach from the edge") {
   const auto level = [](const Vec2&) { return 20.0; };
   const auto lines = adapted_lines(kSquare, level, {0.0, kSixty});
   const double reach = 20.0 * std::sqrt(3.0);
   REQUIRE(lines.size() == 6);  // 400 / (2 * 34.64) = 5.8
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     CHECK(x_of(lines[i]) == Approx(reach * (2.0 * static_cast<double>(i) + 1.0)).epsilon(1e-6));
-    CHECK(navigation::length_m(lines[i]) == Approx(200.0));
-    CHECK(navigation::heading_rad(lines[i]) == Approx(i % 2 == 0 ? 0.0 : kPi).margin(1e-9));
+    CHECK(runlines::length_m(lines[i]) == Approx(200.0));
+    CHECK(runlines::heading_rad(lines[i]) == Approx(i % 2 == 0 ? 0.0 : kPi).margin(1e-9));
   }
   CHECK(fixed_lines(kSquare, level, {0.0, kSixty}).size() == lines.size());
 }
@@ -58,11 +58,11 @@ TEST_CASE("lines are clipped to the area, in pieces where it is concave") {
   const Polygon u = {{0, 0}, {90, 0}, {90, 100}, {60, 100}, {60, 40}, {30, 40}, {30, 100}, {0, 100}};
   const auto lines = spaced_lines(u, 30.0, {0.5 * kPi, kSixty});  // to east, going on to the south
   REQUIRE(lines.size() == 6);
-  CHECK(navigation::length_m(lines[0]) == Approx(30.0));
+  CHECK(runlines::length_m(lines[0]) == Approx(30.0));
   CHECK((lines[0].start_enu_m - Vec2(0, 87.5)).norm() < 1e-9);
   CHECK((lines[1].start_enu_m - Vec2(60, 87.5)).norm() < 1e-9);
   CHECK((lines[2].start_enu_m - Vec2(90, 62.5)).norm() < 1e-9);  // back to west
-  CHECK(navigation::length_m(lines[4]) == Approx(90.0));
+  CHECK(runlines::length_m(lines[4]) == Approx(90.0));
 }
 
 TEST_CASE("what makes no survey is refused with its cause") {

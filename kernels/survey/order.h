@@ -4,7 +4,7 @@
 
 namespace ensonify::survey {
 
-/// What an order of S-44 allows a sounding to be uncertain by, at 95 % [S44]: vertically sqrt(a^2 + (b depth)^2),
+/// Uncertainty that an order of S-44 allows a sounding, at 95 % [S44]: vertically sqrt(a^2 + (b depth)^2),
 /// horizontally a radius and a share of the depth. And the side of the cubes that its full feature search must find: a
 /// length, below some depth a share of the depth.
 struct SurveyOrder {

@@ -16,7 +16,7 @@ double side_of(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// Whether two sides, ends included, have a place in common.
-bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+bool intersect(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto apart = [](double s, double t) { return (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0); };
   if (apart(side_of(a, b, c), side_of(a, b, d)) || apart(side_of(c, d, a), side_of(c, d, b))) return false;
   const auto beside = [](double a0, double a1, double b0, double b1) {
@@ -25,8 +25,8 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return !beside(a.x(), b.x(), c.x(), d.x()) && !beside(a.y(), b.y(), c.y(), d.y());
 }
 
-/// Two sides, by the corner where each begins, that meet elsewhere than in a corner between them. Sides of no length do
-/// not count: the first corner may be given again at the end.
+/// Two sides, by the corner where each begins, that intersect elsewhere than in a corner between them. Sides of no
+/// length do not count: the first corner may be given again at the end.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_sides(const Polygon& area) {
   const auto end = [&](std::size_t side) -> const Vec2& { return area[(side + 1) % area.size()]; };
   std::vector<std::size_t> sides;
@@ -39,7 +39,7 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing_sides(const Polygon&
       const bool next = k == i + 1, last = i == 0 && k + 1 == sides.size();
       const bool doubles_back = side_of(area[s], end(s), end(t)) == 0.0 && side_of(area[s], end(s), area[t]) == 0.0 &&
                                 (end(s) - area[s]).dot(end(t) - area[t]) < 0.0;
-      if (next || last ? doubles_back : meet(area[s], end(s), area[t], end(t))) return std::pair{s, t};
+      if (next || last ? doubles_back : intersect(area[s], end(s), area[t], end(t))) return std::pair{s, t};
     }
   }
   return std::nullopt;
@@ -65,10 +65,11 @@ void check_simple(const Polygon& area) {
   if (const auto sides = crossing_sides(area)) {
     const Vec2 &a = area[sides->first], &b = area[sides->second];
     char text[240];
-    std::snprintf(text, sizeof text,
-                  "the area crosses itself: the side from corner %zu (%g, %g) meets the one from corner %zu (%g, %g); "
-                  "allowed: corners in order round it",
-                  sides->first + 1, a.x(), a.y(), sides->second + 1, b.x(), b.y());
+    std::snprintf(
+        text, sizeof text,
+        "the area crosses itself: the side from corner %zu (%g, %g) crosses the one from corner %zu (%g, %g); "
+        "allowed: corners in order round it",
+        sides->first + 1, a.x(), a.y(), sides->second + 1, b.x(), b.y());
     throw std::invalid_argument(text);
   }
 }

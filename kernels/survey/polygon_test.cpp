@@ -15,8 +15,8 @@ TEST_CASE("an area that crosses or touches itself is refused, however large it i
     CHECK_THROWS_WITH(check_simple(area), Catch::StartsWith("the area crosses itself: the side from corner " + sides));
   };
   crosses({{0, 0}, {200, 100}, {200, 0}, {0, 300}},
-          "1 (0, 0) meets the one from corner 3 (200, 0)");  // one lobe larger
-  crosses({{0, 0}, {200, 100}, {200, 0}, {0, 100}}, "1 (0, 0) meets the one from corner 3 (200, 0)");  // both alike
+          "1 (0, 0) crosses the one from corner 3 (200, 0)");  // one lobe larger
+  crosses({{0, 0}, {200, 100}, {200, 0}, {0, 100}}, "1 (0, 0) crosses the one from corner 3 (200, 0)");  // both alike
   crosses({{0, 0}, {50, 50}, {100, 100}, {100, 0}, {50, 50}, {0, 100}}, "1");  // through a corner
   crosses({{0, 0}, {100, 0}, {100, 100}, {50, 0}, {0, 100}}, "1");             // a corner on a side
   crosses({{0, 0}, {100, 0}, {50, 0}, {50, 80}}, "1");                         // back along its own side

@@ -2,7 +2,7 @@
 
 namespace ensonify::survey {
 
-/// What one pass of a sidescan sees on level ground, to either side.
+/// Coverage of one pass of a sidescan on level ground, to either side.
 struct SidescanSwath {
   double near_m = 0.0;         // from the track to where the image begins: half the nadir gap
   double far_m = 0.0;          // to where it ends

@@ -34,7 +34,7 @@ TEST_CASE("lines that fill the gaps leave nothing unseen, lines a little farther
   CHECK(unseen(joining_spacing_m(swath, 0.0)) > 0);
 }
 
-TEST_CASE("a shadow ends where the ray over the object meets the bottom") {
+TEST_CASE("a shadow ends where the ray over the object hits the bottom") {
   // Similar triangles: altitude / (ground range + shadow) = object / shadow.
   const double shadow = shadow_m(1.0, 10.0, 45.0);
   CHECK(10.0 / (45.0 + shadow) == Approx(1.0 / shadow));

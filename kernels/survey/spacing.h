@@ -2,7 +2,7 @@
 
 #include <span>
 
-/// What a survey takes: where lines go, how fast, how long. Values in, values out.
+/// Cost of a survey: where lines go, how fast, how long. Values in, values out.
 namespace ensonify::survey {
 
 /// The swath that a survey counts on.
@@ -11,7 +11,7 @@ struct Swath {
   double overlap = 0.1;            // of the next line's near half swath with what is covered, 0 .. 0.9
 };
 
-/// How far the swath reaches to one side of a head that is `depth_m` above the bottom below it, across the line. The
+/// Reach of the swath to one side of a head that is `depth_m` above the bottom below it, across the line. The
 /// bottom is a plane that deepens by `deepening` per metre to that side (a tangent). Infinite where it falls away as
 /// steeply as the beam. From x = tan(angle) (depth + deepening x).
 double reach_m(double depth_m, double deepening, double half_angle_rad);
@@ -23,8 +23,8 @@ struct CoveredEdge {
   double depth_m = 0.0;
 };
 
-/// Where the next line goes, across the survey: as far from what is covered as its near half swath reaches, less the
-/// overlap. Its outermost beam there meets the bottom at the edge, where the depth is known: the reach is
+/// Place of the next line across the survey: as far from what is covered as its near half swath reaches, less the
+/// overlap. Its outermost beam there hits the bottom at the edge, where the depth is known: the reach is
 /// depth tan(angle), whatever the slope. The row that reaches least decides, so that no gap is left. A line that would
 /// lie beyond the survey's far edge lies in the middle of what is left. Throws std::invalid_argument without a row.
 double next_line_across_m(std::span<const CoveredEdge> rows, const Swath& swath, double far_edge_m);

@@ -25,10 +25,10 @@ std::vector<double> lines(double shallow_m, double deep_m, double deepening, con
 
 }  // namespace
 
-TEST_CASE("a swath of 120 degrees reaches 1.73 depths on level ground, more down a slope and less up it") {
+TEST_CASE("a swath of 120 degrees reaches 1.73 depths on level ground, more downslope") {
   const double sixty = std::acos(0.5);
   CHECK(reach_m(20.0, 0.0, sixty) == Approx(20.0 * std::sqrt(3.0)));
-  // The outermost beam meets the slope where the depth below the head is reach / tan(angle).
+  // The outermost beam hits the slope where the depth below the head is reach / tan(angle).
   for (const double deepening : {-0.3, 0.1, 0.5}) {
     const double x = reach_m(20.0, deepening, sixty);
     CHECK(20.0 + deepening * x == Approx(x / std::sqrt(3.0)));

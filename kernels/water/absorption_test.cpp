@@ -17,7 +17,7 @@ TEST_CASE("absorption matches the values printed in the paper") {
   CHECK(dbpkm(1000, 30) == Approx(344).margin(0.5));
 }
 
-TEST_CASE("absorption rises with frequency, falls with depth, and the two pure-water fits meet at 20 degC") {
+TEST_CASE("absorption rises with frequency, falls with depth; the fits join at 20 degC") {
   for (double f = 1e3; f < 1e6; f *= 1.3) CHECK(absorption_dbpm(1.3 * f, {}) > absorption_dbpm(f, {}));
   CHECK(absorption_dbpm(300e3, {.depth_m = 1000}) < absorption_dbpm(300e3, {}));
   CHECK(absorption_dbpm(1e6, {.temperature_degc = 20.0}) ==

@@ -15,7 +15,7 @@ class Column {
 
   SeaWater at(double depth_m) const;
 
-  /// Absorption averaged over depth, in dB/m: what a straight path between the two depths meets, whatever its slope. At
+  /// Absorption averaged over depth, in dB/m: what a straight path between the two depths has, whatever its slope. At
   /// one depth, the absorption there. The order of the depths does not matter.
   double mean_absorption_dbpm(AbsorptionLaw law, double frequency_hz, double from_depth_m, double to_depth_m) const;
 

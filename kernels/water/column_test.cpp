@@ -25,7 +25,7 @@ TEST_CASE("a column is linear between its samples and constant beyond them") {
   CHECK(column.at(500).depth_m == 500);  // pressure goes on
 }
 
-TEST_CASE("absorption along depth is the average of what is met") {
+TEST_CASE("absorption along depth is the average over the path") {
   for (const AbsorptionLaw law : kLaws) {
     for (const double frequency_hz : {30e3, 300e3, 1e6}) {
       // Ten thousand slices of 15 mm, whose own error is below 1e-8; three nodes per layer leave 1e-5.

@@ -25,7 +25,7 @@ TEST_CASE("the coefficients of 1995 give what those of 1983 gave") {
   CHECK(unesco_sound_speed_mps(t90(40), 40, 1000 * kBar) == Approx(1731.995).margin(1.5e-3));
 }
 
-TEST_CASE("the table of UNESCO 44 is met to its printed digit") {
+TEST_CASE("the table of UNESCO 44 is matched to its printed digit") {
   // [Fofonoff1983] p. 50, m/s, rounded to 0.1; temperature by the scale of 1968, and 2 mm/s for the refit.
   struct Row {
     double salinity_psu, pressure_bar;

@@ -26,7 +26,7 @@ def stone(turn, radius, up):
 
 
 def text(what, profile, shape, around):
-    """Rings around the z axis, and a vertex for each end; triangles look outwards."""
+    """Rings around the z axis, and a vertex for each end; triangles face outwards."""
     places = [shape(2 * math.pi * i / around, radius, up) for radius, up in profile for i in range(around)]
     for radius, up in (profile[0], profile[-1]):
         x, y, z = (sum(c) / around for c in zip(*(shape(2 * math.pi * i / around, radius, up) for i in range(around))))

@@ -1,4 +1,4 @@
-"""docs/wiring.svg, the drawing in docs/architecture.md, shows what `ensonify graph launch/demo.yaml` tells today."""
+"""docs/wiring.svg, the drawing in docs/architecture.md, shows what `ensonify graph launch/demo.yaml` prints today."""
 import html
 import os
 import pathlib
@@ -19,16 +19,16 @@ class Wiring(unittest.TestCase):
         self.drawing = html.unescape((SOURCE / "docs/wiring.svg").read_text()).replace("\N{NO-BREAK SPACE}", " ")
 
     def test_the_drawing_has_the_arrows_of_today(self):
-        told = re.findall(r'^  "(\S+)" -> "(\S+)" ', self.dot, re.M)
+        reported = re.findall(r'^  "(\S+)" -> "(\S+)" ', self.dot, re.M)
         drawn = re.findall(r"<title>(\S+)->(\S+)</title>", self.drawing)
-        self.assertGreater(len(told), 5)
-        self.assertEqual(sorted(told), sorted(drawn), ANEW)
+        self.assertGreater(len(reported), 5)
+        self.assertEqual(sorted(reported), sorted(drawn), ANEW)
 
     def test_the_arrows_have_the_texts_of_today(self):
-        told = [text for label in re.findall(r'-> "\S+" \[label="([^"]*)"', self.dot) for text in label.split(r"\n")]
+        reported = [text for label in re.findall(r'-> "\S+" \[label="([^"]*)"', self.dot) for text in label.split(r"\n")]
         drawn = re.findall(r'font-size="9.00">([^<]*)</text>', self.drawing)
         squeezed = lambda texts: sorted(" ".join(text.split()) for text in texts)
-        self.assertEqual(squeezed(told), squeezed(drawn), ANEW)
+        self.assertEqual(squeezed(reported), squeezed(drawn), ANEW)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // The adaptive survey of scenarios/slope_overlap: autopilot and coverage in closed loop with a kinematic boat, over the
 // scenario's own seabed, the mission that of launch/adaptive.yaml. Soundings are geometry: 512 over 122 degrees, evenly
-// spaced on level ground, that meet the seabed across the track.
+// spaced on level ground, that hit the seabed across the track.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "components/autopilot/node.h"
+#include "components/config/config_reader.h"
 #include "components/coverage/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/terrain/source_of.h"
-#include "components/runtime/testing.h"
-#include "kernels/motion/kinematics.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/terrain/source_of.h"
+#include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify;
-using navigation::Vec2;
+using runlines::Vec2;
 
 namespace {
 
@@ -40,11 +40,11 @@ struct Slope {
     return mission;
   }
 
-  Scenario scenario = read_scenario(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
+  World world = read_world(file("scenarios/slope_overlap/scenario.yaml"), {{"mission", mission()}});
   std::vector<float> depths_m;  // west to east, and so northward
 
   Slope() {
-    const auto terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+    const auto terrain = source::source_of({world.site, world.seabed, "", 1, {}});
     for (int north = -kHalfNorth; north <= kHalfNorth; ++north) {
       for (int east = -kHalfEast; east <= kHalfEast; ++east) {
         depths_m.push_back(static_cast<float>(-terrain->height_m(kStep_m * Vec2(east, north))));
@@ -94,18 +94,18 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
   return soundings;
 }
 
-/// Flies a mission over the slope while coverage looks on, and, where the mission is adaptive, lays the lines. Returns
+/// Runs a mission over the slope while coverage observes, and, where the mission is adaptive, lays the lines. Returns
 /// coverage's report.
-nlohmann::json fly(const Slope& slope, const Scenario& flown) {
+nlohmann::json run_line(const Slope& slope, const World& surveyed) {
   auto empty = ConfigReader::from_text("{}", "test.yaml");
-  const auto pilot_config = AutopilotConfig::read(empty, flown, "pilot");
+  const auto pilot_config = AutopilotConfig::read(empty, surveyed, "pilot");
   const auto coverage_config = CoverageConfig::read(empty, slope.scenario, "coverage");
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_adaptive_test";
   std::filesystem::create_directories(folder);
 
   NodeUnderTest<AutopilotNode> pilot(pilot_config);
   NodeUnderTest<CoverageNode> coverage(coverage_config, "test", folder);
-  motion::State boat = start_of(pilot_config.plan, flown.mission.runlines);
+  motion::State boat = start_of(pilot_config.plan, surveyed.mission.runlines);
   motion::Command command{boat.heading_rad, boat.speed_mps, 0.0};
   for (SimTime now{0}; now < 14400_s && !pilot.finished(); now += 100_ms) {
     msg::Estimate estimate;
@@ -116,7 +116,7 @@ nlohmann::json fly(const Slope& slope, const Scenario& flown) {
                                  boat.speed_mps * std::cos(boat.heading_rad), 0.0};
     pilot.give("estimate", estimate);
     const auto next_lines = coverage.step_until<msg::NextLine>("next_line", now);
-    if (flown.mission.adaptive) {
+    if (surveyed.mission.adaptive) {
       for (const auto& line : next_lines) pilot.give_at("next_line", now, line);
     }
     const auto orders = pilot.step_until<msg::Guidance>("command", now);
@@ -135,14 +135,14 @@ nlohmann::json fly(const Slope& slope, const Scenario& flown) {
 }
 
 /// The same survey with so many lines at one distance, from the shallow side to the deep one.
-Scenario with_fixed_lines(const Slope& slope, std::size_t count) {
-  Scenario fixed = slope.scenario;
+World with_fixed_lines(const Slope& slope, std::size_t count) {
+  World fixed = slope.scenario;
   const AdaptivePlan plan = *std::exchange(fixed.mission.adaptive, std::nullopt);
   fixed.mission.runlines.clear();
   for (std::size_t i = 0; i < count; ++i) {
     AdaptivePlan at = plan;
     at.first_line_m = plan.width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    navigation::Runline line = first_line(at);
+    runlines::Runline line = first_line(at);
     if (i % 2 == 1) std::swap(line.start_enu_m, line.end_enu_m);
     fixed.mission.runlines.push_back(line);
   }
@@ -152,11 +152,9 @@ Scenario with_fixed_lines(const Slope& slope, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE(
-    "slope_overlap takes at least 45 % less track than lines at a fixed distance, leaves no gap, and is near the "
-    "bound") {
+TEST_CASE("slope_overlap needs 45 % less track than fixed spacing, without gaps, near bound") {
   const Slope slope;
-  const auto report = fly(slope, slope.scenario);
+  const auto report = run_line(slope, slope.scenario);
   INFO(report.dump(2));
   CHECK(report["holes"] == 0);
   CHECK(report["covered"] == 1.0);
@@ -166,10 +164,10 @@ TEST_CASE(
   CHECK(report["share_of_fixed"] <= 1.15 * report["bound"].get<double>());
   CHECK(report["share_of_fixed"] > report["bound"]);
 
-  // Lines at one distance are flown too: as many as adaptive ones over 0.55 leave gaps, so what covers as
+  // Lines at one distance are run too: as many as adaptive ones over 0.55 leave gaps, so what covers as
   // much takes more.
   const auto lines = report["lines"].get<double>();
-  const auto wide = fly(slope, with_fixed_lines(slope, static_cast<std::size_t>(lines / 0.55)));
+  const auto wide = run_line(slope, with_fixed_lines(slope, static_cast<std::size_t>(lines / 0.55)));
   INFO(wide.dump(2));
   CHECK(wide["covered"] < 1.0);
 }

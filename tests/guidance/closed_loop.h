@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "components/autopilot/node.h"
+#include "components/config/config_reader.h"
 #include "components/navigation/node.h"
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "components/vehicle/model.h"
 
 namespace ensonify::closed_loop {
@@ -22,7 +22,7 @@ inline const std::string kAuvByForces =
     "disturbance: {preset: auv}";
 
 /// Ground 60 m deep, a current to the east, and one vehicle with a mission.
-inline Scenario world_of(const std::string& vehicle, const std::string& mission, double current_mps = 0.5) {
+inline World world_of(const std::string& vehicle, const std::string& mission, double current_mps = 0.5) {
   const std::string text =
       "ensonify: scenario/1\nsite: {latitude_deg: 53, longitude_deg: -9}\nseed: 5\n"
       "seabed: {kind: layers, layers: {ground: {plane: {depth_m: 60}}}}\n"
@@ -30,9 +30,9 @@ inline Scenario world_of(const std::string& vehicle, const std::string& mission,
       std::to_string(current_mps) + ", heading_deg: 90}]}\nvehicles: {auv: {" + vehicle + "}}\nmission: {" + mission +
       "}\n";
   auto from = ConfigReader::from_text(text, std::string(std::getenv("ENSONIFY_SOURCE")) + "/world.yaml");
-  Scenario scenario = read_scenario(from, "world.yaml");
+  World world = read_world(from, "world.yaml");
   from.finish();
-  return scenario;
+  return world;
 }
 
 /// What RTK and a motion sensor make of a pose: white noise of 2 cm, 2 cm/s and 0.05 degrees, each axis.
@@ -53,11 +53,11 @@ inline msg::Estimate estimate_of(const msg::Pose& pose, const random::Stream& no
 /// of a navigation process whose filter makes the estimate; "": estimate_of(). `see(mission state, true pose,
 /// estimate)` at each command. Returns whether the mission was done.
 template <class See>
-bool fly(const Scenario& scenario, SimTime end, const std::string& instruments, See&& see) {
+bool run_line(const World& world, SimTime end, const std::string& instruments, See&& see) {
   constexpr SimTime kPeriod = 100_ms;
   auto empty = ConfigReader::from_text("{}", "auv.yaml");
-  const auto vehicle_config = VehicleConfig::read(empty, scenario, "auv");
-  const auto pilot_config = AutopilotConfig::read(empty, scenario, "pilot");
+  const auto vehicle_config = VehicleConfig::read(empty, world, "auv");
+  const auto pilot_config = AutopilotConfig::read(empty, world, "pilot");
   empty.finish();
 
   VehicleModel model(vehicle_config, *vehicle_config.start, 0_s);
@@ -65,7 +65,7 @@ bool fly(const Scenario& scenario, SimTime end, const std::string& instruments, 
   std::optional<NodeUnderTest<NavigationNode>> navigation;
   if (!instruments.empty()) {
     auto from = ConfigReader::from_text(instruments, "nav.yaml");
-    const auto navigation_config = NavigationConfig::read(from, scenario, "nav");
+    const auto navigation_config = NavigationConfig::read(from, world, "nav");
     from.finish();
     navigation.emplace(navigation_config);
   }

@@ -1,5 +1,5 @@
-"""Lines that survey software wrote become a mission that a scenario flies: each format through `ensonify plan import` and
-`ensonify check`. The same lines on land are refused there, so that the check did look at them."""
+"""Lines that survey software wrote become a mission that a scenario runs: each format through `ensonify plan import` and
+`ensonify check`. The same lines on land are refused there, so that the check did examine them."""
 import pathlib
 import subprocess
 import tempfile
@@ -52,9 +52,9 @@ class Imported(unittest.TestCase):
     def test_each_formats_lines_are_held_against_the_seabed(self):
         for ending in FORMATS:
             with self.subTest(ending):
-                code, told = self.checked(ending, 200)
-                self.assertEqual(code, 2, told)
-                self.assertRegex(told, r"mission.yaml:\d+.*-(199|200)\.\d.*is land")
+                code, reported = self.checked(ending, 200)
+                self.assertEqual(code, 2, reported)
+                self.assertRegex(reported, r"mission.yaml:\d+.*-(199|200)\.\d.*is land")
 
 
 if __name__ == "__main__":

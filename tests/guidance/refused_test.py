@@ -1,4 +1,4 @@
-"""What cannot be flown, measured or believed is refused before time starts: exit code 2, with the place, the cause and what is
+"""What cannot be run, measured or assumed is refused before time starts: exit code 2, with the place, the cause and what is
 allowed. One row a case."""
 import os
 import pathlib
@@ -40,7 +40,7 @@ processes:
   sounder: { run: echosounder, config: { HEAD } }
 """
 
-# What is wrong; where it is written; the file that is blamed; the cause and what is allowed, as they are told.
+# What is wrong; where it is written; the file that is blamed; the cause and what is allowed, as they are reported.
 MISSIONS = [
     ("a line through land", "runlines: [{ from_m: [-200, 0], to_m: [100, 0] }]", r"world.yaml:\d+:\d+: mission runline 1.*is land.*allowed is water"),
     ("a run-in over land", "run_in_m: 150, runlines: [{ from_m: [0, 0], to_m: [100, 0] }]", r"mission run-in: \(-150.0, 0.0\) m is land"),
@@ -116,7 +116,7 @@ WORLDS = [
 ]
 GROUND = "layers: { ground"  # meshes stand before it
 WALL = "sheet_pile_wall: { from_m: [50, 5], to_m: [90, 5] }"
-# The water's constant level, what is flown, and why not; a plain None is flown. At x = -90 m the ground is 2.1 m below chart datum.
+# The water's constant level, what is run, and why not; a plain None is run. At x = -90 m the ground is 2.1 m below chart datum.
 LEVELS = [
     ("a depth that low water does not leave", -5, f"depth_m: 8, {LINE}", "reach 8.5 m deep and the seabed is 5.0 m below the lowest water"),
     ("a bank that has dried", -6, "runlines: [{ from_m: [-90, 0], to_m: [-60, 0] }]", "is land, -2.1 m above chart datum with the lowest water at -6.0 m"),
@@ -194,10 +194,10 @@ class Refused(unittest.TestCase):
         return done.returncode, done.stdout + done.stderr
 
     def expect(self, launch, blamed, cause):
-        code, told = self.check(launch)
-        self.assertEqual(code, 2, told)
-        lines = [line for line in told.splitlines() if re.search(cause, line)]
-        self.assertTrue(lines, told)
+        code, reported = self.check(launch)
+        self.assertEqual(code, 2, reported)
+        lines = [line for line in reported.splitlines() if re.search(cause, line)]
+        self.assertTrue(lines, reported)
         self.assertIn(blamed, lines[0])  # the file, and where it is known the line
 
     def test_without_a_fault_nothing_is_refused(self):
@@ -208,7 +208,7 @@ class Refused(unittest.TestCase):
             with self.subTest(what):
                 self.expect(self.write(mission=mission), "world.yaml", cause)
 
-    def test_without_an_altimeter_nothing_is_flown_above_the_bottom(self):
+    def test_without_an_altimeter_no_line_is_run_above_the_bottom(self):
         launch = LAUNCH.replace("NAVIGATION", "")
         for mission in (f"altitude_m: 4, {LINE}", f"depth_m: 5, least_altitude_m: 2, abort: {{ too_low_s: 2 }}, {LINE}",
                         "steps: [{ altitude_m: 4 }, { line: [[0, 0], [0, 50]] }]"):
@@ -239,8 +239,8 @@ class Refused(unittest.TestCase):
                 if cause:
                     self.expect(launch, "world.yaml", cause)
                 else:
-                    code, told = self.check(launch)
-                    self.assertEqual(code, 0, told)
+                    code, reported = self.check(launch)
+                    self.assertEqual(code, 0, reported)
 
     def test_meshes(self):
         for what, mesh, cause in MESHES:

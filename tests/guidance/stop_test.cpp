@@ -10,7 +10,7 @@
 
 using namespace ensonify;
 using namespace ensonify::closed_loop;
-using navigation::Vec2;
+using runlines::Vec2;
 
 namespace {
 
@@ -20,7 +20,7 @@ struct Stop {
   bool done = false;
 };
 
-/// Flies `steps` of which the last keeps the origin for five minutes within 3 m. `last_way` is that to the origin.
+/// Runs `steps` of which the last keeps the origin for five minutes within 3 m. `last_way` is that to the origin.
 Stop stop(const std::string& vehicle, double speed_mps, const std::string& steps, const Vec2& last_way,
           double current_mps) {
   Stop stop;
@@ -36,7 +36,7 @@ Stop stop(const std::string& vehicle, double speed_mps, const std::string& steps
     stop.overshoot_m = std::max(stop.overshoot_m, place.dot(last_way));
     stop.farthest_m = std::max(stop.farthest_m, place.norm());
   };
-  stop.done = fly(world_of(vehicle, mission, current_mps), 3000_s, "", see);
+  stop.done = run_line(world_of(vehicle, mission, current_mps), 3000_s, "", see);
   REQUIRE(arrived);
   return stop;
 }
@@ -63,7 +63,7 @@ const std::string kAuv = kAuvByForces + ", start: {position_m: [0, -550, -5]}";
 
 }  // namespace
 
-TEST_CASE("a kinematic launch stops in a current within 0.5 m beyond its place, and stays within 5 m") {
+TEST_CASE("in a current a kinematic launch stops 0.5 m beyond its station, stays within 5 m") {
   for (const double current_mps : {0.0, 0.5}) {
     for (const double speed_mps : {2.0, 4.0}) {
       const Stop worst = worst_stop(kLaunch, speed_mps, current_mps);
@@ -75,7 +75,7 @@ TEST_CASE("a kinematic launch stops in a current within 0.5 m beyond its place, 
   }
 }
 
-TEST_CASE("a launch and an AUV moved by forces stop in a current within 6 m beyond their place, and stay within 10 m") {
+TEST_CASE("in a current hydrodynamic vehicles stop 6 m beyond their station, stay in 10 m") {
   for (const double current_mps : {0.0, 0.5}) {
     for (const auto& [vehicle, speed_mps] : {std::pair(kLaunchByForces, 2.0), {kLaunchByForces, 4.0}, {kAuv, 2.0}}) {
       const Stop worst = worst_stop(vehicle, speed_mps, current_mps);

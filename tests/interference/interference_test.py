@@ -1,4 +1,4 @@
-"""launch/interference.yaml: a sidescan beside a multibeam of its own frequency. What it hears of it in its water column stands
+"""launch/interference.yaml: a sidescan beside a multibeam of its own frequency. What it receives of it in its water column stands
 where the record's transmissions say, drifts by the difference of the ping intervals, and is gone when it is triggered."""
 import os
 import pathlib
@@ -18,7 +18,7 @@ NEAR_M = 2.0  # the multibeam's pulse and the sidescan's own end before
 OFF_BOTTOM_M = 2.0
 
 
-def heard(*arguments):
+def received(*arguments):
     """Of each ping of the sidescan: sim time of transmission, the multibeam's transmissions after it (s), level of its
     starboard water column (dB) and that column's slant ranges."""
     with tempfile.TemporaryDirectory(prefix="ens-") as folder:
@@ -40,7 +40,7 @@ class Interference(unittest.TestCase):
     def test_free_heads_drift_and_triggered_ones_do_not(self):
         places = {}  # of the strongest sound in the column, by the time of the ping
         loud_db = []
-        for stamp_s, sent_s, level_db, range_m in heard():
+        for stamp_s, sent_s, level_db, range_m in received():
             straight_m = 0.5 * SPEED_MPS * sent_s + 0.5 * BETWEEN_M
             inside = (straight_m > range_m[0]) & (straight_m < range_m[-1])
             if not inside.any():
@@ -57,7 +57,7 @@ class Interference(unittest.TestCase):
         self.assertAlmostEqual(np.mean(drifts_m), 0.5 * SPEED_MPS * (1 / 9.9 - 1 / 10), delta=0.01)
 
         pings, quiet_db = 0, []
-        for stamp_s, sent_s, level_db, range_m in heard("--arg", "side=slave"):
+        for stamp_s, sent_s, level_db, range_m in received("--arg", "side=slave"):
             self.assertLess(np.abs(sent_s).min(), 1e-9, f"the sidescan's ping at {stamp_s} s follows no transmission")
             pings += 1
             quiet_db.append(level_db.max())

@@ -16,14 +16,14 @@ constexpr int kFewestSteps = 64;
 double ring_upa2pm(const LevelSeabed& seabed, const Tone& tone, double R) {
   const double down = seabed.altitude_m / R, level = std::sqrt(1.0 - down * down);
   const int steps = std::max(kFewestSteps, static_cast<int>(2.0 * kPi * level / (kPerLobe * tone.finest_sine)));
-  double heard = 0.0;
+  double received = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double psi = 2.0 * kPi * i / steps;
-    heard += tone.pattern(level * std::cos(psi), level * std::sin(psi), down);
+    received += tone.pattern(level * std::cos(psi), level * std::sin(psi), down);
   }
   const double source = std::pow(10.0, 0.1 * tone.source_level_db);
   const double absorbed = std::pow(10.0, -0.2 * seabed.absorption_dbpm * R);
-  return source * seabed.backscatter(std::asin(down)) * absorbed * std::pow(R, -3) * heard * 2.0 * kPi / steps;
+  return source * seabed.backscatter(std::asin(down)) * absorbed * std::pow(R, -3) * received * 2.0 * kPi / steps;
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ struct Tone {
 ///   p0^2 Integral over c (t - tau) / 2 <= R <= c t / 2 of b_T b_R sigma R^-4 10^(-2 alpha R / 10) dA,
 ///
 /// with dA = R dR dpsi in polar coordinates about the point below the head. No ray, no tube and no code of
-/// kernels/trace or kernels/echo in it. The rule in psi is exact for patterns of uniform lines but for 1e-3 of a dB.
+/// kernels/acoustics/trace or kernels/acoustics/echo in it. The rule in psi is exact for patterns of uniform lines but
+/// for 1e-3 of a dB.
 double mean_square_upa2(const LevelSeabed& seabed, const Tone& tone, double time_s);
 
 /// Power pattern of `elements` points `spacing_in_waves` apart, steered to a sine: (sin N x / N sin x)^2,

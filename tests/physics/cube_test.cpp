@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/random/stream.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/base/random/stream.h"
 #include "tests/physics/heads.h"
 
 // Objects on the seabed of 20 m in a survey at 2 m/s: how many soundings fall on each. The whole head, through its
@@ -80,7 +80,7 @@ std::vector<int> soundings_on(const std::vector<Cube>& cubes, const std::vector<
 
 }  // namespace
 
-TEST_CASE("cubes of 0.5 m within 45 degrees and of 1 m within 60 get at least 9 soundings, 95 of 100 of them") {
+TEST_CASE("95 % of 0.5 m cubes within 45 degrees and 1 m within 60 get 9 soundings") {
   // A head of the 1 x 0.5 degree class at 400 kHz, 512 beams over 130 degrees, as fast as 48 m of range allow.
   const std::string yaml =
       "frequency_hz: 400000\nbeams: 512\nswath_deg: 130\ntransmit_beamwidth_deg: 1\nreceive_beamwidth_deg: 0.5\n"
@@ -89,7 +89,7 @@ TEST_CASE("cubes of 0.5 m within 45 degrees and of 1 m within 60 get at least 9 
   std::vector<Cube> cubes;
   strew(0.5, std::numbers::pi / 4, {1, "small cubes"}, cubes);
   strew(1.0, std::numbers::pi / 3, {1, "large cubes"}, cubes);
-  const Scenario world = world_with("head");
+  const World world = world_with("head");
   NodeUnderTest<MultibeamNode> head(config_of<MultibeamNode>(yaml, world, "head"));
   const double lead_m = 1.5;
   const SimTime end = from_seconds((2.0 * (-kFirstRow_m + lead_m)) / kSpeed_mps);

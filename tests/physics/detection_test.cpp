@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/detect/accuracy.h"
-#include "kernels/sonar_equation/sonar_equation.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/detect/testing/accuracy.h"
+#include "kernels/acoustics/sonar_equation.h"
 #include "tests/physics/heads.h"
 
-// How well a multibeam finds a plane: the head through its ports, from the water to soundings. (kernels/detect does the
-// same for the detector alone, on echoes that it is given.)
+// How well a multibeam finds a plane: the head through its ports, from the water to soundings.
+// (kernels/acoustics/detect does the same for the detector alone, on echoes that it is given.)
 
 using namespace ensonify;
 using namespace ensonify::physics;
@@ -23,7 +23,7 @@ constexpr double kDepth_m = 20.0, kAbsorption_dbpm = 0.07, kNoise_db = 35.0, kBa
 constexpr int kBinDegrees = 5;
 
 /// Signal to noise ratio at the axis of a beam of 1 x 1 degree, 100 us, by the sonar equation. The directivity is that
-/// of a uniform line of the same width (the head's shaded one has 0.4 dB more) and of a face that hears half of all
+/// of a uniform line of the same width (the head's shaded one has 0.4 dB more) and of a face that receives half of all
 /// directions.
 double snr_db(double source_level_db, double angle_rad) {
   const double range_m = kDepth_m / std::cos(angle_rad);
@@ -49,7 +49,7 @@ struct Errors {  // of depth, relative
 
 /// By the number of the bin of beam angle, both sides together, of three seconds at 3 m/s.
 std::map<int, Errors> survey(double source_level_db, const std::string& transmit_window = "taylor") {
-  Scenario world = world_with("head");
+  World world = world_with("head");
   world.water.profile.sound_speed_mps = 1500.0;
   world.water.absorption_dbpm = kAbsorption_dbpm;
   world.water.noise_level_db = kNoise_db;
@@ -76,7 +76,7 @@ std::map<int, Errors> survey(double source_level_db, const std::string& transmit
 
 }  // namespace
 
-TEST_CASE("soundings of a plane are unbiased, as exact as theory allows at 10-20 dB, within 5 cm to 65 degrees") {
+TEST_CASE("soundings of a plane are unbiased, at the theoretical sd, within 5 cm to 65 deg") {
   // Bins of 5 degrees with 300 soundings or more, neighbours in part alike: a bias is uncertain by a tenth of their
   // standard deviation, 0.01 %, and a standard deviation by 5 %.
   int judged = 0;
@@ -97,7 +97,7 @@ TEST_CASE("soundings of a plane are unbiased, as exact as theory allows at 10-20
   CHECK(judged >= 10);
 }
 
-TEST_CASE("a uniform transmit line's soundings are too deep by the thickness of its fan, a shaded one's much less") {
+TEST_CASE("a uniform transmit line's soundings are too deep by its fan's thickness") {
   // From 45 to 60 degrees the closed form is 0.035 to 0.054 %; some 2,000 soundings leave 0.007 %, and echoes that come
   // from the outermost lobes after the detector's window 0.01 %. By its integrated pattern the shaded line has 0.01 %.
   const auto found_and_expected = [](const std::string& window) {

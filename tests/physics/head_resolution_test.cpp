@@ -5,8 +5,8 @@
 
 #include "components/forward_looking/head.h"
 #include "components/multibeam/head.h"
-#include "components/runtime/head/tile_set.h"
-#include "kernels/array/line.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/dip.h"
 #include "tests/physics/sidescan_ping.h"
 #include "tests/physics/strips.h"
@@ -49,7 +49,7 @@ frames::PoseHistory resting_at(const frames::Vec3& position_enu_m) {
 /// Patches of seabed are a fortieth of the beam at 100 m: 4 mm for 0.1 degrees.
 SidescanConfig sidescan_over_strips(double width_deg, double range_m) {
   SidescanConfig config = sidescan_of(400e3);
-  hear_strips(config);
+  receive_strips(config);
   config.channels[0].horizontal_beamwidth_rad = width_deg * SidescanChannel::kDegree;
   config.channels[0].range_m = range_m;
   config.quality = 2.0;
@@ -75,7 +75,7 @@ Dips of_sidescan(const SidescanConfig& config, double apart_m) {
 /// A multibeam's beam 45 degrees to starboard, over strips along the track.
 Dips of_multibeam(double apart_m) {
   MultibeamConfig config;
-  hear_strips(config);
+  receive_strips(config);
   config.frequency_hz = 400e3;
   config.sample_rate_hz = kEightPerPulse / kPulse_s;
   config.quality = 4.0;
@@ -91,9 +91,9 @@ Dips of_multibeam(double apart_m) {
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps / config.sample_rate_hz;
     const auto truth = resting_at({std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0, 0.0});
-    const Shot shot{0, SimTime{0}, 17.0};
-    head.listen(shot, settings, steering, truth, tiles.scene());
-    const auto ping = head.ping_message(shot, settings, steering, false);
+    const PingEvent event{0, SimTime{0}, 17.0};
+    head.receive_echoes(event, settings, steering, truth, tiles.scene());
+    const auto ping = head.ping_message(event, settings, steering, false);
     std::size_t beam = 0;
     while (double(ping.beam_angle_rad[beam]) < 0.25 * std::numbers::pi) ++beam;
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(beam))));
@@ -104,7 +104,7 @@ Dips of_multibeam(double apart_m) {
 /// A forward-looking head's middle beam, over strips across its view.
 Dips of_forward_looking(double apart_m) {
   ForwardLookingConfig config;
-  hear_strips(config);
+  receive_strips(config);
   config.pulse = {.length_s = kPulse_s, .samples_per_pulse = kEightPerPulse};
   config.tilt_rad = 0.25 * std::numbers::pi;
   config.aperture_rad = 0.35;
@@ -120,7 +120,8 @@ Dips of_forward_looking(double apart_m) {
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps * kPulse_s / kEightPerPulse;
     const auto truth = resting_at({0.0, std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0});
-    const auto ping = head.listen({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene());
+    const auto ping =
+        head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene());
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(static_cast<std::size_t>(config.beams) / 2))));
   }
   return dips;
@@ -155,7 +156,7 @@ AlongTrack along_track(double apart_in_widths) {
 
 }  // namespace
 
-TEST_CASE("with six samples a pulse a sidescan parts strips 1.2 x c tau / 2 apart wherever they lie, and not 0.7 x") {
+TEST_CASE("at 6 samples a pulse a sidescan resolves strips 1.2 x c tau / 2 apart, not 0.7 x") {
   // The strips are 20 mm wide in slant range, a quarter of c tau / 2: their echoes pass half
   // power where those of points in their middle end and begin, so a fifth of a pulse lies between them.
   SidescanConfig config = sidescan_over_strips(0.1, 51.0);
@@ -164,8 +165,7 @@ TEST_CASE("with six samples a pulse a sidescan parts strips 1.2 x c tau / 2 apar
   CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
 }
 
-TEST_CASE(
-    "with two samples a pulse a sidescan parts strips 1.65 x c tau / 2 apart wherever they lie, and 1.2 x by luck") {
+TEST_CASE("at 2 samples a pulse a sidescan resolves 1.65 x c tau / 2, 1.2 x only by chance") {
   const SidescanConfig config = sidescan_over_strips(0.1, 51.0);
   CHECK(of_sidescan(config, 1.65 * kCell_m).shallowest > 3.0);
   const Dips near = of_sidescan(config, 1.2 * kCell_m);
@@ -174,7 +174,7 @@ TEST_CASE(
   CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
 }
 
-TEST_CASE("a sidescan's chirp parts strips 1.2 x c / 2B apart wherever they lie, and not 0.7 x") {
+TEST_CASE("a sidescan's chirp resolves strips 1.2 x c / 2B apart anywhere, and not 0.7 x") {
   // Points dip by 3.04 dB at the instant between them (resolution_test.cpp). 20 samples per 1 / B miss it by 1 / 40 at
   // most; strips a quarter of a cell wide on posts of their own move it by half a dB either way.
   SidescanConfig config = sidescan_over_strips(0.1, 51.0);
@@ -188,7 +188,7 @@ TEST_CASE("a sidescan's chirp parts strips 1.2 x c / 2B apart wherever they lie,
   CHECK(of_sidescan(config, 0.7 * kCell_m).deepest < 1.0);
 }
 
-TEST_CASE("at reference, with eight samples a pulse, a multibeam parts strips 1.2 x c tau / 2 apart, and not 0.7 x") {
+TEST_CASE("at 8 samples a pulse a multibeam resolves strips 1.2 x c tau / 2 apart only") {
   // Patches of seabed are a quarter of c tau / 2 wide then, and answer from anywhere in them: of the fifth of a pulse
   // between points, strips leave half.
   const Dips two = of_multibeam(1.2 * kCell_m), one = of_multibeam(0.7 * kCell_m);
@@ -204,7 +204,7 @@ TEST_CASE("at reference, with eight samples a pulse, a forward-looking head part
 
 TEST_CASE("a sidescan parts strips 1.2 beam widths apart along the track, and not 0.7") {
   // Points 1.2 one-way widths apart dip by 5.9 dB; these strips are a sixth of a width wide, and lie on posts. Some
-  // hundred rays meet each: 0.3 dB.
+  // hundred rays hit each: 0.3 dB.
   const AlongTrack two = along_track(1.2), one = along_track(0.7);
   CHECK(two.theory_db > 3.5);
   CHECK(two.found_db > 3.0);

@@ -3,18 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/head/test_config.h"
-#include "components/runtime/testing.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/test_config.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "messages/terrain.h"
 
-/// Heads as a launch runs them: configured by YAML, fed and heard through their ports.
+/// Heads as a launch runs them: configured by YAML, fed and read through their ports.
 namespace ensonify::physics {
 
 /// Throws ConfigError when the head's reader refuses the text.
 template <class Node>
-typename Node::Config config_of(const std::string& yaml, const Scenario& world, const std::string& head) {
+typename Node::Config config_of(const std::string& yaml, const World& world, const std::string& head) {
   auto from = ConfigReader::from_text(yaml, head + ".yaml");
   typename Node::Config config = Node::Config::read(from, world, head);
   from.finish();

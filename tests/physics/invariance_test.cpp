@@ -42,7 +42,7 @@ std::vector<double> levels_db(const MillsCross& cross, const trace::Scene& seabe
   for (const double deg : kBeams_deg) sines.push_back(static_cast<float>(std::sin(deg * kDeg)));
   const frames::HeadPose head{Eigen::AngleAxisd(-turn_rad, frames::Vec3::UnitZ()) * frames::Vec3(0.13, 0.21, 0.0),
                               frames::enu_from_body({.heading_rad = turn_rad})};
-  const echo::Image image = cross.hear(seabed, head, medium_sand(), sines);
+  const echo::Image image = cross.receive(seabed, head, medium_sand(), sines);
   std::vector<double> levels;
   for (int b = 0; b < image.beams; ++b) levels.push_back(db(energy_upa2s(cross, image, b)));
   return levels;
@@ -97,7 +97,7 @@ TEST_CASE("a rigid sphere of facets has the target strength of its radius") {
         return r2 < radius_m * radius_m ? centre.z() + std::sqrt(radius_m * radius_m - r2) : std::nan("");
       });
       const std::vector<float> sine{static_cast<float>(std::sin(beam_deg * kDeg))};
-      const echo::Image image = cross.hear(ball, {}, rigid, sine);
+      const echo::Image image = cross.receive(ball, {}, rigid, sine);
       const double level_db = db(energy_upa2s(cross, image, 0) / cross.pulse_length_s), front_m = 15.0 - radius_m;
       const double strength_db =
           level_db - cross.source_level_db + 2.0 * db(front_m * 15.0) + 2.0 * cross.absorption_dbpm * front_m;

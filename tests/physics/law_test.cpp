@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/aperture.h"
-#include "kernels/random/stream.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/seabed/lambert.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/mills_cross.h"
@@ -49,14 +49,15 @@ Echo echo_of(const End& source, const Vec3& point_enu_m, const End& receiver) {
   std::vector<echo::Arrival> arrivals;
   echo::add_direct_echoes({300e3, 0.07, echo::Sum::kMeanSquare}, source.pose.position_enu_m, std::span(&point, 1),
                           receivers, arrivals);
-  const double heard = array::line_power(receiver.waves, double(arrivals[0].direction_head.x()));
-  return {arrivals[0].time_s, db(double(arrivals[0].pressure_upa.real()) * heard)};
+  const double received = array::line_power(receiver.waves, double(arrivals[0].direction_head.x()));
+  return {arrivals[0].time_s, db(double(arrivals[0].pressure_upa.real()) * received)};
 }
 
 }  // namespace
 
 TEST_CASE("reciprocity: source and receiver change places, and nothing changes") {
-  // Two stations with lines of different lengths anyhow turned. Bent paths: kernels/refraction, "there and back".
+  // Two stations with lines of different lengths anyhow turned. Refracted paths: kernels/water/refraction, "there and
+  // back".
   const random::Stream draw{1, "reciprocity"};
   for (std::uint64_t i = 0; i < 300; ++i) {
     const auto station = [&](std::uint64_t which) {
@@ -75,8 +76,8 @@ TEST_CASE("reciprocity: source and receiver change places, and nothing changes")
   }
 }
 
-TEST_CASE("energy: a bowl about the head that scatters all by Lambert's law returns what falls on it, spread evenly") {
-  // A cap of a sphere of radius R about the head, 50 degrees to either side, met at right angles. Of the power
+TEST_CASE("a Lambert bowl about the head returns the energy that falls on it, evenly") {
+  // A cap of a sphere of radius R about the head, 50 degrees to either side, hit at right angles. Of the power
   // p0^2 b_T dOmega in a direction, a perfect diffuser (mu = 1 / pi) returns b_T dOmega / (pi R^2), from everywhere at
   // the same time: p^2 = p0^2 / (pi R^2) Integral b_T b_R dOmega, never more than twice p0^2 / R^2.
   constexpr double kRadius_m = 20.0, kCap_rad = 50 * kPi / 180;
@@ -88,21 +89,21 @@ TEST_CASE("energy: a bowl about the head that scatters all by Lambert's law retu
   });
   const auto diffuser = [](double grazing_rad) { return std::pow(std::sin(grazing_rad), 2) / kPi; };
   const std::vector<float> nadir{0.0F};
-  const echo::Image image = cross.hear(bowl, {}, diffuser, nadir);
+  const echo::Image image = cross.receive(bowl, {}, diffuser, nadir);
   double energy = 0.0;
   for (const auto& p2 : image.row(0)) energy += double(p2.real());
   energy *= cross.sample_period_s;
 
-  double heard_sr = 0.0;  // over the cap, in polar coordinates about the axis
+  double received_sr = 0.0;  // over the cap, in polar coordinates about the axis
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i) {
     const double off_axis = (i + 0.5) * kCap_rad / kSteps;
     for (int j = 0; j < kSteps; ++j) {
       const double around = (j + 0.5) * 2 * kPi / kSteps, level = std::sin(off_axis);
-      heard_sr += cross.two_way_power(level * std::cos(around), level * std::sin(around), 0.0) * level * kCap_rad /
-                  kSteps * 2 * kPi / kSteps;
+      received_sr += cross.two_way_power(level * std::cos(around), level * std::sin(around), 0.0) * level * kCap_rad /
+                     kSteps * 2 * kPi / kSteps;
     }
   }
-  const double expected = std::pow(10.0, 0.1 * cross.source_level_db) * heard_sr / (kPi * kRadius_m * kRadius_m);
+  const double expected = std::pow(10.0, 0.1 * cross.source_level_db) * received_sr / (kPi * kRadius_m * kRadius_m);
   CHECK(db(energy / cross.pulse_length_s / expected) == Approx(0.0).margin(0.1));
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/sediment.h"
 #include "kernels/water/absorption.h"
 #include "kernels/water/noise.h"
@@ -30,7 +30,7 @@ trace::Scene level_seabed(double height_m) {
   return scene_of(256.0, 1.0, [=](double, double) { return height_m; });
 }
 
-/// Both lines of a side of the sidescan, sent and heard; starboard, its axis 30 degrees below the horizon.
+/// Both lines of a side of the sidescan, transmitted and received; starboard, its axis 30 degrees below the horizon.
 TwoWayPattern starboard_pattern(const SidescanChannel& channel) {
   const double along = array::length_in_waves_for(channel.horizontal_beamwidth_rad);
   const double across = array::length_in_waves_for(channel.vertical_beamwidth_rad);
@@ -49,7 +49,7 @@ Tone transmission_of(const SidescanChannel& channel) {
 
 }  // namespace
 
-TEST_CASE("sidescan: the mean level of a level seabed is that of the area integral, 20-100 m, 100-900 kHz") {
+TEST_CASE("sidescan: level seabed gives the area integral, 20-100 m, 100-900 kHz") {
   // As a sum of mean squares. A metre of slant range holds 13 pulses with some 12 rays each in strata that leave 30 %
   // of scatter: 2.4 %, 0.1 dB.
   trace::Scene seabed = level_seabed(-22.0);
@@ -74,7 +74,7 @@ TEST_CASE("sidescan: the mean level of a level seabed is that of the area integr
   }
 }
 
-TEST_CASE("multibeam: the mean level of a level seabed is that of the area integral, 0-70 degrees, 100-900 kHz") {
+TEST_CASE("multibeam: level seabed gives the area integral, 0-70 degrees, 100-900 kHz") {
   // Mean over the echo between the first nulls of the beam, and at its axis (three pulses). Rays of reference quality,
   // 48 to a resolution cell: at the axis 0.3 / sqrt(3 x 48) = 2.5 %, 0.1 dB.
   trace::Scene seabed = level_seabed(-20.0);
@@ -84,7 +84,7 @@ TEST_CASE("multibeam: the mean level of a level seabed is that of the area integ
   for (const double frequency_hz : kFrequencies_hz) {
     const LevelSeabed sand = medium_sand(frequency_hz, 20.0);
     const MillsCross cross{.absorption_dbpm = sand.absorption_dbpm, .quality = 4.0};
-    const echo::Image image = cross.hear(seabed, {}, sand.backscatter, sines);
+    const echo::Image image = cross.receive(seabed, {}, sand.backscatter, sines);
     for (std::size_t b = 0; b < sines.size(); ++b) {
       const double sine = double(sines[b]), null = 1.0 / cross.length_in_waves();
       const Tone tone{
@@ -96,22 +96,22 @@ TEST_CASE("multibeam: the mean level of a level seabed is that of the area integ
         return static_cast<int>(std::lround((two_way_s + 0.5 * cross.pulse_length_s) / cross.sample_period_s));
       };
       const int axis = sample_at(sine), first = sample_at(std::max(0.0, sine - null)) - 2;
-      double heard = 0.0, expected = 0.0, heard_at_axis = 0.0, expected_at_axis = 0.0;
+      double received = 0.0, expected = 0.0, received_at_axis = 0.0, expected_at_axis = 0.0;
       for (int k = first; k <= sample_at(sine + null) + 2; ++k) {
         const double p2 = double(image.row(int(b))[k].real());
         const double integral = mean_square_upa2(sand, tone, k * cross.sample_period_s);
-        heard += p2, expected += integral;
-        if (std::abs(k - axis) <= 6) heard_at_axis += p2, expected_at_axis += integral;
+        received += p2, expected += integral;
+        if (std::abs(k - axis) <= 6) received_at_axis += p2, expected_at_axis += integral;
       }
-      INFO(frequency_hz << " Hz, " << beams_deg[b] << " deg: " << db(heard / expected) << " dB, at the axis "
-                        << db(heard_at_axis / expected_at_axis) << " dB");
-      CHECK(std::abs(db(heard / expected)) < 0.5);
-      CHECK(std::abs(db(heard_at_axis / expected_at_axis)) < 0.5);
+      INFO(frequency_hz << " Hz, " << beams_deg[b] << " deg: " << db(received / expected) << " dB, at the axis "
+                        << db(received_at_axis / expected_at_axis) << " dB");
+      CHECK(std::abs(db(received / expected)) < 0.5);
+      CHECK(std::abs(db(received_at_axis / expected_at_axis)) < 0.5);
     }
   }
 }
 
-TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the level of the integral") {
+TEST_CASE("side lobes give the nadir's arc in every beam, at the level of the integral") {
   // Beams of a uniform line from 25 to 60 degrees during the first pulse from below: through side lobes of -25 to
   // -40 dB, as mean over beams, for a single beam may stand in a null. Before that there is silence.
   trace::Scene seabed = level_seabed(-20.0);
@@ -120,7 +120,7 @@ TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the
   std::vector<float> sines;
   for (double deg = 25.0; deg < 60.5; deg += 2.5) sines.push_back(static_cast<float>(std::sin(deg * kDeg)));
   sines.push_back(0.0F);
-  const echo::Image image = cross.hear(seabed, {}, sand.backscatter, sines);
+  const echo::Image image = cross.receive(seabed, {}, sand.backscatter, sines);
   const int first = static_cast<int>(std::ceil(40.0 / kSpeed_mps / cross.sample_period_s)), pulse = 4;
   double arc = 0.0, expected = 0.0, gap = 0.0, silence = 0.0;
   for (std::size_t b = 0; b + 1 < sines.size(); ++b) {
@@ -133,7 +133,7 @@ TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the
       arc += double(image.row(int(b))[k].real());
       expected += mean_square_upa2(sand, tone, k * cross.sample_period_s);
     }
-    // Between the arc and the beam's own bottom, at 21.2 m (25 degrees: 22.1 m), the same beams hear less.
+    // Between the arc and the beam's own bottom, at 21.2 m (25 degrees: 22.1 m), the same beams receive less.
     const int later = static_cast<int>(42.4 / kSpeed_mps / cross.sample_period_s);
     for (int k = later; k < later + pulse; ++k) gap += double(image.row(int(b))[k].real());
     for (int k = 0; k < first - 2; ++k) silence += double(image.row(int(b))[k].real());
@@ -143,7 +143,7 @@ TEST_CASE("the arc: side lobes hear the nadir at its range in every beam, at the
   CHECK(silence < 1e-9 * arc);
 }
 
-TEST_CASE("the range at which a sidescan's signal is as strong as its noise is that of the sonar equation") {
+TEST_CASE("a sidescan's range of equal signal and noise is the sonar equation's") {
   // SNR 0 dB by EL = NL + 10 log10(1 / tau) - DI. Signal and noise as the head records them together, less the noise,
   // which is measured where nothing answers; speckle off. 130 samples to 5 m: the noise's mean is good to 0.4 dB,
   // where 5 % of the range is 2 dB and more.

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/line_receiver.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/seabed/table.h"
-#include "kernels/trace/ray_distribution.h"
 #include "tests/physics/area_integral.h"
 
 namespace ensonify::physics {
@@ -16,8 +16,8 @@ double MillsCross::two_way_power(double forward, double starboard, double sin_be
          elements_power(elements, spacing_in_waves, starboard, sin_beam);
 }
 
-echo::Image MillsCross::hear(const trace::Scene& seabed, const frames::HeadPose& head, const seabed::Law& backscatter,
-                             std::span<const float> sin_beams) const {
+echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPose& head,
+                                const seabed::Law& backscatter, std::span<const float> sin_beams) const {
   const double resolution_m = 0.5 * kSpeed_mps * pulse_length_s;
   trace::RayDistribution distribution(trace::mills_cross_volume(length_in_waves(), length_in_waves(), half_swath_rad),
                                       {.quality = quality, .range_resolution_m = resolution_m}, {1, "rays"});

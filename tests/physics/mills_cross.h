@@ -3,15 +3,15 @@
 #include <functional>
 #include <span>
 
-#include "kernels/echo/image.h"
-#include "kernels/frames/pose.h"
+#include "kernels/acoustics/echo/image.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
 #include "kernels/seabed/law.h"
-#include "kernels/trace/scene.h"
 
 namespace ensonify::physics {
 
 /// A Mills cross of the kernels that heads are made of (rays, tiles, scatterers, beams with all their side lobes): two
-/// uniform lines of elements, alike but for their direction, in isovelocity water. It hears sums of mean squares, so
+/// uniform lines of elements, alike but for their direction, in isovelocity water. It receives sums of mean squares, so
 /// levels without speckle.
 struct MillsCross {
   int elements = 102;  // of each line; 1 degree
@@ -29,8 +29,8 @@ struct MillsCross {
   double two_way_power(double forward, double starboard, double sin_beam) const;
 
   /// Mean-square pressure, beam by sample (in the real part), uPa^2.
-  echo::Image hear(const trace::Scene& seabed, const frames::HeadPose& head, const seabed::Law& backscatter,
-                   std::span<const float> sin_beams) const;
+  echo::Image receive(const trace::Scene& seabed, const frames::HeadPose& head, const seabed::Law& backscatter,
+                      std::span<const float> sin_beams) const;
 };
 
 inline constexpr double kSpeed_mps = 1500.0;

@@ -6,8 +6,8 @@
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/array/pattern_table.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/array/pattern_table.h"
 #include "kernels/water/absorption.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/heads.h"
@@ -24,25 +24,25 @@ constexpr double kDepth_m = 20.0;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-struct Heard {
+struct Received {
   std::vector<msg::Ping> pings;
   MultibeamConfig config;
 };
 
 /// At rest over a level seabed, as sums of mean squares; `yaml` is set besides.
-Heard hear(double frequency_hz, const std::string& yaml, SimTime until) {
-  Scenario world = world_with("head");
+Received receive(double frequency_hz, const std::string& yaml, SimTime until) {
+  World world = world_with("head");
   world.water.profile.sound_speed_mps = 1500.0;
   world.water.noise_level_db = 50.0;
-  Heard heard;
-  heard.config = config_of<MultibeamNode>("frequency_hz: " + std::to_string(frequency_hz) +
-                                              "\nsample_rate_hz: 40000\nauto_range: false\nping_rate_hz: 5\n" + yaml,
-                                          world, "head");
-  NodeUnderTest<MultibeamNode> head(heard.config);
+  Received received;
+  received.config = config_of<MultibeamNode>("frequency_hz: " + std::to_string(frequency_hz) +
+                                                 "\nsample_rate_hz: 40000\nauto_range: false\nping_rate_hz: 5\n" + yaml,
+                                             world, "head");
+  NodeUnderTest<MultibeamNode> head(received.config);
   give_course(head, {}, until);
   head.give("tile", tile_of(256.0, 1.0, [](double, double) { return -kDepth_m; }));
-  heard.pings = head.step_until<msg::Ping>("ping", until);
-  return heard;
+  received.pings = head.step_until<msg::Ping>("ping", until);
+  return received;
 }
 
 /// The head over medium sand, as its levels should be.
@@ -54,10 +54,10 @@ class Theory {
               seabed::law_of(*seabed::sediment_of("medium sand"), config.frequency_hz, 1500.0)},
         line_(receive_line(config)),
         transmit_(transmit_line(config)) {
-    line_.whole.element_length_m = 0.0;  // the head's elements hear alike in all directions before its face
+    line_.whole.element_length_m = 0.0;  // the head's elements receive alike in all directions before its face
   }
 
-  /// What a beam hears: a tone, seen by the transmit line and by the beam.
+  /// What a beam receives: a tone, seen by the transmit line and by the beam.
   Tone tone(double sin_beam) const {
     const auto receive = std::make_shared<array::PatternTable>(line_.whole, line_.wavelength_m, sin_beam);
     const auto transmit = std::make_shared<array::PatternTable>(transmit_, line_.wavelength_m);
@@ -76,7 +76,7 @@ class Theory {
   double time_s(double sine) const {
     return kDepth_m / std::sqrt(1.0 - sine * sine) / 750.0 + 0.5 * config_.pulse_length_s;
   }
-  /// NL + 10 log10(1 / tau) - DI: of a shaded line with elements half a wave apart, which hears nothing behind it.
+  /// NL + 10 log10(1 / tau) - DI: of a shaded line with elements half a wave apart, which receives nothing behind it.
   double noise_upa2() const {
     double sum = 0.0, squares = 0.0;
     for (const double w : line_.whole.weights) sum += w, squares += w * w;
@@ -103,14 +103,14 @@ const std::string kSeabedOnly =
 
 }  // namespace
 
-TEST_CASE("multibeam head: the mean level of a level seabed is that of the area integral, 0-70 degrees, 100-900 kHz") {
+TEST_CASE("multibeam head: level seabed gives the area integral, 0-70 deg, 100-900 kHz") {
   // Over the echo between the first nulls. Rays of reference quality leave less than 0.1 dB.
   for (const double frequency_hz : {100e3, 200e3, 300e3, 450e3, 900e3}) {
-    const Heard heard =
-        hear(frequency_hz, "beams: 15\nswath_deg: 140\nquality: 4\nrange_m: 90\n" + kSeabedOnly, 190_ms);
-    const msg::Ping& ping = heard.pings.at(0);
+    const Received received =
+        receive(frequency_hz, "beams: 15\nswath_deg: 140\nquality: 4\nrange_m: 90\n" + kSeabedOnly, 190_ms);
+    const msg::Ping& ping = received.pings.at(0);
     REQUIRE(ping.amplitude_upa.rows() == 15);
-    const Theory theory(heard.config);
+    const Theory theory(received.config);
     for (std::size_t beam = 0; beam < 15; ++beam) {
       const double angle_rad = double(ping.beam_angle_rad[beam]), sine = std::sin(angle_rad);
       const Tone tone = theory.tone(sine);
@@ -126,12 +126,13 @@ TEST_CASE("multibeam head: the mean level of a level seabed is that of the area 
   }
 }
 
-TEST_CASE("multibeam head: the arc of side lobes stands at the nadir's range, at the level of the integral") {
+TEST_CASE("multibeam head: the arc is at the nadir's range, at the integral's level") {
   // Beams from 30 to 60 degrees during the first pulse from below, through the -30 dB of a shaded line; the mean over
-  // beams, for one may stand in a null. Before it there is silence, after it the side lobes hear less.
-  const Heard heard = hear(300e3, "beams: 49\nswath_deg: 120\nquality: 4\nrange_m: 50\n" + kSeabedOnly, 150_ms);
-  const msg::Ping& ping = heard.pings.at(0);
-  const Theory theory(heard.config);
+  // beams, for one may stand in a null. Before it there is silence, after it the side lobes receive less.
+  const Received received =
+      receive(300e3, "beams: 49\nswath_deg: 120\nquality: 4\nrange_m: 50\n" + kSeabedOnly, 150_ms);
+  const msg::Ping& ping = received.pings.at(0);
+  const Theory theory(received.config);
   const std::size_t first = sample_at(ping, 2.0 * kDepth_m / 1500.0) + 1, later = sample_at(ping, 42.4 / 1500.0);
   double arc = 0.0, expected = 0.0, gap = 0.0, silence = 0.0;
   for (std::size_t beam = 0; beam < 49; ++beam) {
@@ -151,24 +152,25 @@ TEST_CASE("multibeam head: the arc of side lobes stands at the nadir's range, at
   CHECK(silence < 1e-9 * arc);
 }
 
-TEST_CASE("multibeam head: the range at which its signal is as strong as its noise is that of the sonar equation") {
+TEST_CASE("multibeam head: range of equal signal and noise is the sonar equation's") {
   // SNR 0 dB at the beams' axes. Noise is measured where nothing is sent; of 5 beams to either side, 3 pulses and 6
   // pings there are some 180 independent draws, 0.3 dB, where 5 % of the range is 1.5 dB.
   // The source level is that by which theory has it at the stated angle.
-  for (const auto& [frequency_hz, meets_deg] : {std::pair{100e3, 50.0}, {300e3, 55.0}, {450e3, 60.0}}) {
-    const auto listen = [&](double level_db, SimTime until) {
-      return hear(frequency_hz,
-                  "beams: 141\nswath_deg: 140\nquality: 1\nrange_m: 75\nsource_level_db: " + std::to_string(level_db) +
-                      "\neffects: {speckle: false, volume: false, multipath: false, tvg: false}\n",
-                  until);
+  for (const auto& [frequency_hz, crossing_deg] : {std::pair{100e3, 50.0}, {300e3, 55.0}, {450e3, 60.0}}) {
+    const auto receive_echoes = [&](double level_db, SimTime until) {
+      return receive(
+          frequency_hz,
+          "beams: 141\nswath_deg: 140\nquality: 1\nrange_m: 75\nsource_level_db: " + std::to_string(level_db) +
+              "\neffects: {speckle: false, volume: false, multipath: false, tvg: false}\n",
+          until);
     };
-    const Heard silent = listen(-300.0, 190_ms);
+    const Received silent = receive_echoes(-300.0, 190_ms);
     const Theory theory(silent.config);
-    const double sine = std::sin(meets_deg * kDeg);
+    const double sine = std::sin(crossing_deg * kDeg);
     Tone tone = theory.tone(sine);
     tone.source_level_db = 0.0;
     const double source_level_db = db(theory.noise_upa2() / theory.mean_square_upa2(tone, theory.time_s(sine)));
-    const Heard both = listen(source_level_db, 1300_ms);
+    const Received both = receive_echoes(source_level_db, 1300_ms);
     REQUIRE(both.pings.size() == 6);
     double floor = 0.0;
     for (const float a : silent.pings[0].amplitude_upa.flat()) floor += double(a) * double(a);
@@ -192,7 +194,7 @@ TEST_CASE("multibeam head: the range at which its signal is as strong as its noi
       }
       if (sum / count < 2.0 * floor) found_m = range_m(deg);
     }
-    const double expected_m = range_m(meets_deg);
+    const double expected_m = range_m(crossing_deg);
     INFO(frequency_hz << " Hz: " << found_m << " m, expected " << expected_m << " m");
     CHECK(found_m == Approx(expected_m).epsilon(0.05));
   }

@@ -7,8 +7,8 @@
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
-#include "kernels/array/line.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/heads.h"
 
@@ -23,8 +23,8 @@ namespace {
 constexpr double kDepth_m = 20.0;
 constexpr std::size_t kPulse = 2;  // samples
 
-msg::Ping hear(std::uint64_t seed, const frames::Vec3& moved_m, bool speckle) {
-  Scenario world = world_with("head");
+msg::Ping receive(std::uint64_t seed, const frames::Vec3& moved_m, bool speckle) {
+  World world = world_with("head");
   world.seed = seed;
   world.water.profile.sound_speed_mps = 1500.0;
   const std::string yaml =
@@ -61,7 +61,7 @@ std::vector<double> mean_squares() {
   constexpr int kSeeds = 8;
   std::vector<double> mean;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const auto one = amplitudes_of(hear(seed, frames::Vec3::Zero(), false));
+    const auto one = amplitudes_of(receive(seed, frames::Vec3::Zero(), false));
     mean.resize(one.size());
     for (std::size_t i = 0; i < one.size(); ++i) mean[i] += one[i] * one[i] / kSeeds;
   }
@@ -71,7 +71,7 @@ std::vector<double> mean_squares() {
 /// Of mean square 1.
 std::vector<double> speckle(std::uint64_t seed, const frames::Vec3& moved_m) {
   static const std::vector<double> mean = mean_squares();
-  auto amplitudes = amplitudes_of(hear(seed, moved_m, true));
+  auto amplitudes = amplitudes_of(receive(seed, moved_m, true));
   for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] /= std::sqrt(mean[i]);
   return amplitudes;
 }
@@ -91,7 +91,7 @@ constexpr double kWave_m = 1500.0 / 300e3;
 /// Length of the transmit line, m.
 double line_m() { return transmit_line(MultibeamConfig{}).length_m(); }
 
-/// Of the powers of two pings d apart. A line sends and what hears is short along the track: coherence is the
+/// Of the powers of two pings d apart. A line transmits and what receives is short along the track: coherence is the
 /// transform of the transmitted power over the sine u, at 2 d / lambda (van Cittert and Zernike), here of the side
 /// lobes that rays reach. Over a uniform line's it would be the triangle 1 - 2 d / L.
 double along_track(double d_over_l) {
@@ -117,9 +117,9 @@ TEST_CASE("multibeam: pings decorrelate along the track as the transmit pattern 
   }
 }
 
-TEST_CASE("multibeam: a head that rests hears the same seabed again") {
-  const auto once = amplitudes_of(hear(1, frames::Vec3::Zero(), true)),
-             again = amplitudes_of(hear(1, frames::Vec3::Zero(), true));
+TEST_CASE("multibeam: a head at rest receives the same seabed again") {
+  const auto once = amplitudes_of(receive(1, frames::Vec3::Zero(), true)),
+             again = amplitudes_of(receive(1, frames::Vec3::Zero(), true));
   CHECK(once.size() > 150);
   CHECK((once == again));
 }

@@ -9,11 +9,11 @@
 #include "components/echosounder/node.h"
 #include "components/forward_looking/node.h"
 #include "components/multibeam/node.h"
-#include "components/runtime/head/test_seabed.h"
 #include "components/scanning/node.h"
 #include "components/sidescan/node.h"
-#include "kernels/array/shading.h"
-#include "kernels/random/stream.h"
+#include "components/sonar/test_seabed.h"
+#include "kernels/acoustics/array/shading.h"
+#include "kernels/base/random/stream.h"
 #include "tests/physics/heads.h"
 
 // Laws that hold for any legal head, at any place, over any seabed: random ones, always the same.
@@ -153,8 +153,8 @@ std::string echosounder_yaml(Draws& draw) {
          effects_yaml(draw);
 }
 
-Scenario random_world(Draws& draw) {
-  Scenario world = world_with("head");
+World random_world(Draws& draw) {
+  World world = world_with("head");
   Water& water = world.water;
   water.temperature_degc = draw.between(-2, 30);
   water.salinity_psu = draw.between(0, 40);
@@ -225,7 +225,7 @@ struct Run {
 
 template <class Node>
 Run run(const std::string& yaml, Draws& draw, int number) {
-  const Scenario world = random_world(draw);
+  const World world = random_world(draw);
   const msg::Tile tile = random_seabed(draw);
   const Course course = random_course(draw, tile, number);
   NodeUnderTest<Node> head(config_of<Node>(yaml, world, "head"));

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/array/line.h"
-#include "kernels/echo/aperture.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
 #include "tests/physics/dip.h"
 
-// Two equal points, seen by a line of 0.5 degrees that sends and hears, as sums of mean squares: the mean over the
-// points' phases.
+// Two equal points, seen by a line of 0.5 degrees that transmits and receives, as sums of mean squares: the mean over
+// the points' phases.
 
 using namespace ensonify;
 using namespace ensonify::physics;
@@ -19,9 +19,9 @@ namespace {
 constexpr double kSpeed_mps = 1500.0, kRange_m = 50.0;
 constexpr double kWidth_rad = 0.5 * std::numbers::pi / 180.0;
 
-/// What a head at `forward_m` along its track hears of points beside the track, near 50 m to starboard.
-std::vector<double> hear(const std::vector<Vec3>& points_enu_m, double forward_m, const echo::Pulse& pulse,
-                         double period_s) {
+/// What a head at `forward_m` along its track receives of points beside the track, near 50 m to starboard.
+std::vector<double> receive(const std::vector<Vec3>& points_enu_m, double forward_m, const echo::Pulse& pulse,
+                            double period_s) {
   const double waves = array::length_in_waves_for(kWidth_rad);
   const frames::HeadPose head{{0.0, forward_m, 0.0}, frames::enu_from_ned()};
   std::vector<echo::Scatterer> points;
@@ -46,9 +46,9 @@ std::vector<double> hear(const std::vector<Vec3>& points_enu_m, double forward_m
   echo::Image image;
   echo::ApertureReceiver().form(arrivals, channel, echo::SampledPulse(pulse, period_s).squared(),
                                 {first_s, period_s, static_cast<int>(2.0 / kSpeed_mps / period_s)}, image);
-  std::vector<double> heard;
-  for (const auto& p2 : image.row(0)) heard.push_back(static_cast<double>(p2.real()));
-  return heard;
+  std::vector<double> received;
+  for (const auto& p2 : image.row(0)) received.push_back(static_cast<double>(p2.real()));
+  return received;
 }
 
 /// Of two points `apart_m` of slant range apart, at 16 places between samples.
@@ -56,7 +56,7 @@ Dips across_track(const echo::Pulse& pulse, double period_s, double apart_m) {
   Dips dips;
   for (int i = 0; i < 16; ++i) {
     const double near_m = kRange_m + i * 0.5 * kSpeed_mps * period_s / 16;
-    dips.add(dip_db(hear({{near_m, 0.0, 0.0}, {near_m + apart_m, 0.0, 0.0}}, 0.0, pulse, period_s)));
+    dips.add(dip_db(receive({{near_m, 0.0, 0.0}, {near_m + apart_m, 0.0, 0.0}}, 0.0, pulse, period_s)));
   }
   return dips;
 }
@@ -65,8 +65,9 @@ double along_track(double apart_m) {
   std::vector<double> passing;
   const echo::Pulse pulse = echo::rectangular_pulse(100e-6);
   for (double forward_m = -1.0; forward_m <= 1.0; forward_m += 0.02) {
-    const auto heard = hear({{kRange_m, -0.5 * apart_m, 0.0}, {kRange_m, 0.5 * apart_m, 0.0}}, forward_m, pulse, 50e-6);
-    passing.push_back(*std::max_element(heard.begin(), heard.end()));
+    const auto received =
+        receive({{kRange_m, -0.5 * apart_m, 0.0}, {kRange_m, 0.5 * apart_m, 0.0}}, forward_m, pulse, 50e-6);
+    passing.push_back(*std::max_element(received.begin(), received.end()));
   }
   return dip_db(passing);
 }
@@ -81,7 +82,7 @@ TEST_CASE("across track, tones part points 1.2 x c tau / 2 apart and not 0.7 x")
   CHECK(across_track(tone, kPulse_s / 6.0, 0.7 * kCell_m).deepest < 1e-3);
 }
 
-TEST_CASE("at two samples a pulse, points must be 1.5 x c tau / 2 apart to part wherever they lie") {
+TEST_CASE("at two samples a pulse points are resolved from 1.5 x c tau / 2 on") {
   constexpr double kPulse_s = 100e-6, kCell_m = 0.5 * kSpeed_mps * kPulse_s, kPeriod_s = 0.5 * kPulse_s;
   const echo::Pulse tone = echo::rectangular_pulse(kPulse_s);
   CHECK(across_track(tone, kPeriod_s, 1.5 * kCell_m + 1e-3).shallowest > 3.0);

@@ -4,7 +4,7 @@
 
 namespace ensonify::physics {
 
-/// A sidescan of one frequency that hears only the seabed: no noise, no sound by way of the surface. Its beams
+/// A sidescan of one frequency that receives only the seabed: no noise, no sound by way of the surface. Its beams
 /// are 0.5 degrees wide, its pulses 100 us long.
 inline SidescanConfig sidescan_of(double frequency_hz) {
   SidescanConfig config;
@@ -16,14 +16,14 @@ inline SidescanConfig sidescan_of(double frequency_hz) {
   return config;
 }
 
-/// What the head hears at rest, heading north.
+/// What the head receives at rest, heading north.
 inline msg::Ping sidescan_ping(const SidescanConfig& config, trace::Scene& seabed, const frames::Vec3& position_enu_m,
                                std::int64_t ping = 0) {
   frames::PoseHistory at_rest(1'000'000'000);
   at_rest.push(0, {position_enu_m, frames::enu_from_ned()});
   SidescanHead head(config, config.channels[0]);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  return head.listen({ping, SimTime{0}, settings.range_m}, settings, at_rest, seabed).ping;
+  return head.receive_echoes({ping, SimTime{0}, settings.range_m}, settings, at_rest, seabed).ping;
 }
 
 inline double sample_time_s(const msg::Ping& ping, std::size_t sample) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kernels/array/line.h"
+#include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/mills_cross.h"
 #include "tests/physics/sidescan_ping.h"
@@ -60,7 +60,7 @@ double correlation_after(const frames::Vec3& moved_m, int seabeds) {
 
 double line_m() { return array::length_in_waves_for(head(1).channels[0].horizontal_beamwidth_rad) * 1500.0 / 400e3; }
 
-/// Of the powers of two pings d apart along a uniform line that sends and hears, mean over the ranges. Of the
+/// Of the powers of two pings d apart along a uniform line that transmits and receives, mean over the ranges. Of the
 /// scatterers at the sine u seen from between the two places the echoes differ by the phase 2 k d u, and the patterns
 /// are those at u +- d / 2R (van Cittert and Zernike). Far away that is the cubic spline 1 - 6 x^2 + 6 x^3, x = d / L
 /// below 1/2, and 2 (1 - x)^3 above.
@@ -115,14 +115,15 @@ TEST_CASE("speckle is Rayleigh: 40 seeds, and its coefficient of variation") {
   CHECK(squares / n == Approx(1.0).epsilon(0.02));  // N exponentials: 0.33 %
 }
 
-TEST_CASE("a head that rests hears the same seabed again") {
+TEST_CASE("a head at rest receives the same seabed again") {
   const bool again = speckle(head(1), {0.0, 0.0, -12.0}) == speckle(head(1), {0.0, 0.0, -12.0});
   CHECK(again);
 }
 
 TEST_CASE("sidescan: pings decorrelate along the track as the two-way pattern says") {
   // Echoes from 15 to 100 m, three seabeds: 6,800 independent samples, so a correlation has a standard deviation of 1.2
-  // to 2 %. Places that rays aim at wander a little on the seabed, and cells at the rim of what is heard come and go.
+  // to 2 %. Places that rays aim at wander a little on the seabed, and cells at the rim of what is received come and
+  // go.
   for (const double d_over_l : {0.02, 0.1, 0.25, 0.5, 1.05}) {
     const double reached = correlation_after({0.0, d_over_l * line_m(), 0.0}, 3);
     INFO(reached << " after " << d_over_l << " L, theory " << along_track(d_over_l));

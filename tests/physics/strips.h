@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "components/runtime/head/effects.h"
-#include "components/runtime/head/environment.h"
+#include "components/sonar/effects.h"
+#include "components/sonar/environment.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/terrain.h"
 
@@ -42,7 +42,7 @@ msg::Tile striped(const StripedSeabed& of, const Bright& bright) {
 
 /// The strips' sediments, and sums of mean squares: the mean over the strips' phases.
 template <class Config>
-void hear_strips(Config& config) {
+void receive_strips(Config& config) {
   config.world.water.profile.sound_speed_mps = 1500.0;
   config.world.seabed.sediments[0] = seabed::Lambert{-120.0};
   config.world.seabed.sediments[1] = seabed::Lambert{-10.0};

@@ -1,5 +1,5 @@
 """launch/presets/COMPONENT/*.yaml: the component takes each of them, each value has a source that is listed in
-docs/references.bib or is called assumed, and docs/instruments.md tells of each."""
+docs/references.bib or is called assumed, and docs/instruments.md describes each."""
 import os
 import pathlib
 import re
@@ -66,7 +66,7 @@ class Presets(unittest.TestCase):
         for line in ("beams: 256", "beams: 256  # as usual", "beams: 256  # [Nobody]", "beams: 256  # assumed:"):
             self.assertEqual(unsourced(f"# A head.\n{line}\nswath_deg: 130  # assumed: why not\n"), [line])
 
-    def test_the_page_tells_of_each(self):
+    def test_the_page_describes_each(self):
         self.assertEqual([p.name for p in PRESETS if p.name not in PAGE], [])
 
     def test_the_sources_of_the_page_are_listed(self):

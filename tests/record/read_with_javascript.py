@@ -27,7 +27,7 @@ def main():
                                  capture_output=True, text=True, timeout=100)
         if install.returncode != 0:
             skip(f"npm cannot install {PACKAGE}: {install.stderr.strip().splitlines()[-1:]}")
-    script = os.path.join(modules, "read_record.mjs")  # modules are looked for beside the script
+    script = os.path.join(modules, "read_record.mjs")  # modules are searched for beside the script
     shutil.copyfile(os.path.join(os.path.dirname(os.path.abspath(__file__)), "read_record.mjs"), script)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "sample.mcap")

@@ -2,7 +2,7 @@
 // of a type that only a foreign program knows, one without messages.
 #include <iostream>
 
-#include "components/runtime/record/writer.h"
+#include "components/record/writer.h"
 #include "messages/all.h"
 #include "messages/codec.h"
 #include "messages/schema.h"

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <numbers>
 
-#include "kernels/relief/guide.h"
-#include "kernels/relief/restoration.h"
-#include "kernels/relief/spectral_surface.h"
-#include "kernels/relief_statistics/patches.h"
-#include "kernels/relief_statistics/power_spectrum.h"
-#include "kernels/relief_statistics/structure.h"
+#include "kernels/seabed/relief/guide.h"
+#include "kernels/seabed/relief/restoration.h"
+#include "kernels/seabed/relief/spectral_surface.h"
+#include "kernels/seabed/statistics/patches.h"
+#include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/structure.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

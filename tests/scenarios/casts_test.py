@@ -88,9 +88,9 @@ class Casts(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write("".join(f"{z} {c}\n" for z, c in profile))
             file.flush()
-            bent = physics("ray", "--profile", file.name, "--source-depth-m", 1, "--depression-deg", 90 - angle_deg,
+            refracted = physics("ray", "--profile", file.name, "--source-depth-m", 1, "--depression-deg", 90 - angle_deg,
                            "--target-depth-m", bottom_m)
-        straight_m = at(profile, 1) * float(bent["travel_time_s"]) * math.cos(math.radians(angle_deg))
+        straight_m = at(profile, 1) * float(refracted["travel_time_s"]) * math.cos(math.radians(angle_deg))
         return 100 * (straight_m / (bottom_m - 1) - 1)
 
 

@@ -1,4 +1,4 @@
-"""The shipped solids are what make.py writes: closed surfaces that look outwards, a metre across, with their ground at z = 0."""
+"""The shipped solids are what make.py writes: closed surfaces that face outwards, a metre across, with their ground at z = 0."""
 import collections
 import os
 import pathlib
@@ -24,7 +24,7 @@ class Objects(unittest.TestCase):
             made = {path.name: path.read_text(encoding="utf-8") for path in pathlib.Path(folder).iterdir()}
         self.assertEqual(made, {path.name: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.obj")})
 
-    def test_they_are_closed_and_look_outwards(self):
+    def test_they_are_closed_with_outward_normals(self):
         for file in FOLDER.glob("*.obj"):
             with self.subTest(file.name):
                 places, faces = read(file)

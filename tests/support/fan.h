@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/frames/attitude.h"
-#include "kernels/random/stream.h"
-#include "kernels/trace/ray.h"
+#include "kernels/acoustics/trace/ray.h"
+#include "kernels/base/frames/attitude.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::trace {
 
@@ -20,8 +20,8 @@ struct FanShape {
       0.7;  // share of the rows spread equally in slant range on a flat seabed; the rest equally in angle
 };
 
-/// Rays over the transmit volume of a Mills cross, a fixed number whatever they meet: what tests and benchmarks send
-/// where heads ask the seabed (kernels/trace/ray_distribution.h).
+/// Rays over the transmit volume of a Mills cross, a fixed number whatever they hit: what tests and benchmarks send
+/// where heads ask the seabed (kernels/acoustics/trace/ray_distribution.h).
 ///
 /// A direction is (u, sqrt(1-u^2) sin phi, sqrt(1-u^2) cos phi): u the sine of the along-track angle, phi the
 /// across-track angle about the head's x axis. Then dOmega = du dphi exactly. The volume is cut into along x across

@@ -109,7 +109,7 @@ class Disturbed(SystemTest):
 
 
 class Controls(SystemTest):
-    """`compare` finds what it should between whole runs; a planted bit is found in components/runtime/record's own test."""
+    """`compare` finds what it should between whole runs; a planted bit is found in components/record's own test."""
 
     def test_a_time_shift_and_a_lost_message_are_found(self):
         more = "  recorder: { run: recorder, config: { file: run.mcap } }"

@@ -1,4 +1,4 @@
-"""Relief that the mesh has is counted once in the strength of its facets, also where a layer's mask looks at the shape of a guide,
+"""Relief that the mesh has is counted once in the strength of its facets, also where a layer's mask examines the shape of a guide,
 which the pager alone reads: heads take from its tiles what it counted."""
 import unittest
 
@@ -6,8 +6,8 @@ import ensonify
 import numpy as np
 from support import SystemTest
 
-# Mud with posts of 0.1 m, level but for 1 m in a kilometre to the north: an echosounder at 300 kHz hears it at right angles, where
-# slopes that count twice are heard most.
+# Mud with posts of 0.1 m, level but for 1 m in a kilometre to the north: an echosounder at 300 kHz receives it at right angles, where
+# slopes that count twice are received most.
 WORLD = """
 ensonify: scenario/1
 site: {{ latitude_deg: 54.0, longitude_deg: -10.0 }}
@@ -62,27 +62,27 @@ class Facets(SystemTest):
         self.write(f"{name}.scenario.yaml", WORLD.format(mud=mud, sediment=sediment))
         return self.write(f"{name}.yaml", LAUNCH.format(world=name))
 
-    def heard(self, name, *world):
-        """Amplitudes of all pings, and what the tiles told."""
+    def received(self, name, *world):
+        """Amplitudes of all pings, and what the tiles reported."""
         result = self.run_launch(self.written(name, *world), out=name, timeout=120)
         self.assertEqual(result.code, 0, result.stderr)
         with ensonify.Record(result.out / "run.mcap") as record:
-            told = {tuple(tile.facet_mean_square_slope) for _, _, tile in record.messages("pager/tile")}
+            reported = {tuple(tile.facet_mean_square_slope) for _, _, tile in record.messages("pager/tile")}
             pings = [np.array(ping.amplitude_upa[0], dtype=float) for _, _, ping in record.messages("sounder/ping")]
-        self.assertEqual(len(told), 1)
+        self.assertEqual(len(reported), 1)
         self.assertGreater(len(pings), 50)
-        return pings, told.pop()
+        return pings, reported.pop()
 
     def test_a_layer_masked_by_a_guides_depth_counts_as_one_without_a_mask(self):
-        masked, told = self.heard("masked", MASKED)
-        plain, told_of_plain = self.heard("plain", SILT)
-        self.assertEqual(told, told_of_plain)
-        self.assertGreater(told[0], 0)
+        masked, reported = self.received("masked", MASKED)
+        plain, reported_of_plain = self.received("plain", SILT)
+        self.assertEqual(reported, reported_of_plain)
+        self.assertGreater(reported[0], 0)
         for a, b in zip(masked, plain, strict=True):
             np.testing.assert_array_equal(a, b)
-        level, _ = self.heard("level", "{ use: false, plane: {} }")
-        twice, told = self.heard("twice", MASKED, "{ name: medium silt, facet_slope_deg: 0 }")
-        self.assertEqual(told, ())
+        level, _ = self.received("level", "{ use: false, plane: {} }")
+        twice, reported = self.received("twice", MASKED, "{ name: medium silt, facet_slope_deg: 0 }")
+        self.assertEqual(reported, ())
 
         def over_level_db(pings):
             energy = np.mean([np.sum(ping**2) for ping in pings]) / np.mean([np.sum(ping**2) for ping in level])
@@ -93,20 +93,20 @@ class Facets(SystemTest):
         self.assertAlmostEqual(over_level_db(masked), 0.0, delta=0.2)
         self.assertLess(over_level_db(twice), -0.5)
 
-    def test_check_looks_up_in_the_guide_what_part_of_a_class_is_rough(self):
+    def test_check_reads_from_the_guide_what_part_of_a_class_is_rough(self):
         everywhere, half = self.written("masked", MASKED), self.written("half", MASKED.replace("to: 30", "to: 20"))
         self.assertNotIn("mud", self.tool("check", everywhere).stderr)
-        told = self.tool("check", half)
-        self.assertEqual(told.returncode, 0, told.stderr)
-        self.assertRegex(told.stderr, r"(?m)^warning: layer mud holds at 0\.[45]\d of class 0,")
+        reported = self.tool("check", half)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.assertRegex(reported.stderr, r"(?m)^warning: layer mud holds at 0\.[45]\d of class 0,")
 
     def test_check_reads_no_guide_for_a_launch_without_a_pager(self):
         self.written("unread", MASKED)
         self.write("guide.asc", "no raster")
         launch = self.write("unread.yaml", "ensonify: launch/1\nscenario: unread.scenario.yaml\nduration_s: 1\n"
                                            "processes: { boat: { run: vehicle } }\n")
-        told = self.tool("check", launch)
-        self.assertEqual(told.returncode, 0, told.stderr)
+        reported = self.tool("check", launch)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Launches of heads that look ahead and around: their expectations hold, and their records show rock and the shadows behind it."""
+"""Launches of heads that point ahead and around: their expectations hold, and their records show rock and the shadows behind it."""
 import unittest
 
 import numpy as np
@@ -7,7 +7,7 @@ import ensonify
 from support import SOURCE, SystemTest
 
 
-def looks(power, beams, samples):
+def mean_over_block(power, beams, samples):
     """Means over blocks of beams x samples: speckle taken out. What does not fill a block is left out."""
     rows, columns = power.shape[0] // beams, power.shape[1] // samples
     return power[:rows * beams, :columns * samples].reshape(rows, beams, columns, samples).mean(axis=(1, 3))
@@ -25,7 +25,7 @@ class LooksAhead(SystemTest):
         # Within 45 degrees, from 12 to 25 m, every place is seabed. Over 9 beams x 9 samples speckle leaves 0.5 dB.
         beams = np.abs(image.beam_angle_rad) < np.radians(45)
         range_m = image.first_sample_s + np.arange(1000) * image.sample_period_s * image.sound_speed_mps / 2
-        power = looks(np.square(amplitude[beams][:, (range_m > 12) & (range_m < 25)], dtype=float), 9, 9)
+        power = mean_over_block(np.square(amplitude[beams][:, (range_m > 12) & (range_m < 25)], dtype=float), 9, 9)
         level_db = 10 * np.log10(power / np.median(power, axis=0))
         self.assertGreater(level_db.max(), 6)   # rock is 11 dB above sand
         self.assertLess(level_db.min(), -10)    # a shadow is dark

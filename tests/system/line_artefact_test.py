@@ -24,7 +24,7 @@ expect:
   - {{ name: both lines are flown, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 200 }} }}
 """
 CELL_M = 4
-SPIKE_M = 1  # what is further off is a spike, which an operator takes out: an outermost beam that hears the bottom below the keel
+SPIKE_M = 1  # what is further off is a spike, which an operator takes out: an outermost beam that detects the bottom below the keel
 
 
 class Line:

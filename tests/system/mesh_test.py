@@ -1,4 +1,4 @@
-"""What is no heightfield, heard. A quay's wall, driven towards, along and away from: a head hears it where it stands as long as
+"""What is no heightfield, received. A quay's wall, driven towards, along and away from: a head receives it where it stands as long as
 it is near, however the run is run. A scanned coral on sand: an echo where it stands, and a shadow behind."""
 import re
 import shutil
@@ -77,7 +77,7 @@ class Seen:
         bearing = heading_rad + np.asarray(ping.beam_angle_rad)
         moved = np.outer(range_m / ping.sound_speed_mps, pose.velocity_enu_mps[:2])  # half-way between transmission and echo
         self.places = place + moved + range_m[:, None] * np.stack([np.sin(bearing), np.cos(bearing)], axis=1)
-        # Beams within 30 degrees of upright to the wall that meet it well within their range.
+        # Beams within 30 degrees of upright to the wall that hit it well within their range.
         towards = -np.cos(bearing)
         self.at_wall = (towards > np.cos(np.radians(30))) & (self.from_wall_m < (REACH_M - 1.5) * towards)
 
@@ -105,16 +105,16 @@ class Mesh(SystemTest):
         self.assertGreater(len(places), 80)
         north_m = places[:, 1] - WALL_NORTH_M
         # Pans stand 0.215 m to either side and 0.06 m out of line; a cell of range is 0.16 m; 30 degrees aside and 38 m
-        # off a beam 1.2 degrees wide hears the wall 0.2 m nearer by its inner edge.
+        # off a beam 1.2 degrees wide receives the wall 0.2 m nearer by its inner edge.
         self.assertLess(np.abs(north_m).max(), 0.215 + 0.06 + 0.16 + 0.2)
-        # A beam covers a pile of 0.6 m: what it hears first is a pan that stands out, or, where speckle takes it, one that
+        # A beam covers a pile of 0.6 m: what it receives first is a pan that stands out, or, where speckle takes it, one that
         # stands back. So the line through all lies between the middle of the section and its front; 0.05 m for the mean
         # of 80 places 0.2 m off. These deviate its direction by 0.1 degrees.
         slope, middle_m = np.polyfit(places[:, 0] - places[:, 0].mean(), north_m, 1)
         self.assertTrue(-0.05 < middle_m < 0.215 + 0.05, middle_m)
         self.assertLess(abs(np.degrees(np.arctan(slope))), 0.4)
 
-    def test_a_head_hears_the_quay_where_it_stands_while_it_is_near(self):
+    def test_a_head_receives_the_quay_in_place_while_it_is_near(self):
         out = self.run_world(LAUNCH, "first")
         with ensonify.Record(out / "run.mcap") as record:
             poses = {pose.stamp_ns: pose for _, _, pose in record.messages("boat/pose")}
@@ -128,7 +128,7 @@ class Mesh(SystemTest):
         for ping in pings:
             if ping.from_wall_m < REACH_M:
                 self.assertTrue(came[0][0] <= ping.t_s < went[0], ping.t_s)
-            if ping.from_wall_m > REACH_M + 10:  # and what the boat goes between two looks of the pager
+            if ping.from_wall_m > REACH_M + 10:  # and what the boat goes between two updates of the pager
                 self.assertFalse(came[0][0] <= ping.t_s - 0.5 and ping.t_s < went[0], ping.t_s)
         away = [ping for ping in pings if ping.from_wall_m < REACH_M and ping.north]
         self.assertGreater(len(away), 3)
@@ -143,28 +143,28 @@ class Mesh(SystemTest):
         self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
         self.assertRegex(same.stdout, "^same: 22 messages on 1 topics")
 
-    def test_the_first_ping_hears_it_as_loud_as_all_of_it_and_without_it_nothing_stands_there(self):
+    def test_the_first_ping_has_the_level_of_the_whole_mesh_and_none_without_it(self):
         start = "position_m: [20, -66, 0]"
         self.assertIn(start, self.world)
         near = self.world.replace(start, "position_m: [20, -100, 0]").replace("[20, -66]", "[20, -100]")
         short = LAUNCH.replace("duration_s: 22", "duration_s: 1.5")
-        heard = {}
+        received = {}
         self.world = near
         for name, launch, options in (("refined", short, ()), ("whole", short.replace("enabled: true", "enabled: false"), ()),
                                       ("without", short, ("--set", "seabed.meshes={}"))):
             with ensonify.Record(self.run_world(launch, name, *options) / "run.mcap") as record:
                 poses = {pose.stamp_ns: pose for _, _, pose in record.messages("boat/pose")}
-                heard[name] = [Seen(ping, poses[ping.stamp_ns]) for _, _, ping in record.messages("eye/ping")]
-        first = heard["refined"][0]
+                received[name] = [Seen(ping, poses[ping.stamp_ns]) for _, _, ping in record.messages("eye/ping")]
+        first = received["refined"][0]
         self.assertEqual(first.t_s, 0)
         self.assertGreater(first.at_wall.sum(), 20)
         self.assertTrue(first.out[first.at_wall].all())
-        for refined, whole in zip(heard["refined"], heard["whole"], strict=True):
+        for refined, whole in zip(received["refined"], received["whole"], strict=True):
             self.assertLess(abs(10 * np.log10(refined.power_upa2 / whole.power_upa2)), 0.1)
-        self.assertEqual(len(heard["without"]), len(heard["refined"]))
-        self.assertFalse(any(ping.out.any() for ping in heard["without"]))
+        self.assertEqual(len(received["without"]), len(received["refined"]))
+        self.assertFalse(any(ping.out.any() for ping in received["without"]))
 
-    def test_an_imaging_head_beside_the_pier_hears_each_pile_at_its_range_and_bearing(self):
+    def test_an_imaging_head_beside_the_pier_images_each_pile_in_place(self):
         """Its front row stands along north at -106 m, every 5 m from -122 m on, 0.6 m thick. The bottom is 12 m deep: before 11 m
         the piles are all there is."""
         there, bow_east_m, north_m = "position_m: [20, -66, 0], heading_deg: 180", -94.5 - 1.5, -104.5
@@ -187,8 +187,8 @@ class Mesh(SystemTest):
             beam, sample = np.unravel_index(np.argmax(power["piles"][near]), power["piles"][near].shape)
             found_deg, found_m = bearing_deg[near[0][beam, 0]], range_m[near[1][0, sample]]
             with self.subTest(north_m=pile_north_m):
-                # Beams are 2 degrees apart, a pile 3 degrees wide and loudest at its middle. Its first echo is the nearest place; the
-                # vertical beams, tilted by 8 degrees, are loudest 0.1 m farther; a cell is 0.05 m.
+                # Beams are 2 degrees apart, a pile 3 degrees wide and strongest at its middle. Its first echo is the nearest place; the
+                # vertical beams, tilted by 8 degrees, are strongest 0.1 m farther; a cell is 0.05 m.
                 self.assertLess(abs(found_deg - towards_deg), 2.5)
                 self.assertTrue(-0.1 < found_m - away_m < 0.3, found_m - away_m)
                 self.assertGreater(10 * np.log10(power["piles"][near].max() / power["without"][near].max()), 15)
@@ -230,24 +230,24 @@ class Coral(SystemTest):
         self.assertIn("mesh_unprepared mesh=coral", log)
         prepared = self.tool("terrain", "lod", self.folder / "coral.obj")
         self.assertEqual(prepared.returncode, 0, prepared.stderr)
-        heard, log = self.first_image("prepared")
+        received, log = self.first_image("prepared")
         self.assertNotIn("mesh_unprepared", log)
-        np.testing.assert_array_equal(heard, unprepared)
+        np.testing.assert_array_equal(received, unprepared)
         bare, _ = self.first_image("bare", "--set", "seabed.meshes={}")
 
         # Its middle is 0.1 m above the sand, 0.3 m east and 6 m north of the head and 1.9 m below it; it is 0.37 m wide, 3.4
         # degrees from there. The head is so high above the sand that the shadow of its top, 0.22 m up, ends 0.7 m behind it.
         away_m, towards_deg = np.linalg.norm([0.3, 6.0, 1.9]), np.degrees(np.arctan2(0.3, 6.0))
-        beam, sample = np.unravel_index(np.argmax(heard), heard.shape)
+        beam, sample = np.unravel_index(np.argmax(received), received.shape)
         self.assertLess(abs(self.range_m[sample] - away_m), 0.25)
         self.assertLess(abs(self.azimuth_deg[beam] - towards_deg), 1.7 + 0.5)
 
-        def louder_db(from_m, to_m, half_deg):
+        def stronger_db(from_m, to_m, half_deg):
             there = np.ix_(abs(self.azimuth_deg - towards_deg) < half_deg, (self.range_m > away_m + from_m) & (self.range_m < away_m + to_m))
-            return 10 * np.log10(heard[there].mean() / bare[there].mean())
+            return 10 * np.log10(received[there].mean() / bare[there].mean())
 
-        self.assertGreater(louder_db(-0.25, 0.25, 2.0), 12)  # 17 dB of Lambert's law, and a face that is upright
-        self.assertLess(louder_db(0.15, 0.45, 1.4), -5)      # there all of its width shades; what is left are side lobes
+        self.assertGreater(stronger_db(-0.25, 0.25, 2.0), 12)  # 17 dB of Lambert's law, and a face that is upright
+        self.assertLess(stronger_db(0.15, 0.45, 1.4), -5)      # there all of its width shades; what is left are side lobes
 
 
 if __name__ == "__main__":

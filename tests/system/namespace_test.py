@@ -32,13 +32,13 @@ class OtherNamespace(SystemTest):
     def reach_from_there(self, there, port):
         """127.0.0.1:port over there is 127.0.0.1:port here."""
         self.here(unix_to_tcp(str(self.sockets / f"{port}.sock"), port))
-        self.tell(there, f"out {port}")
+        self.send(there, f"out {port}")
 
     def reach_from_here(self, there, port):
-        self.tell(there, f"in {port}")
+        self.send(there, f"in {port}")
         self.here(tcp_to_unix(port, str(self.sockets / f"in.{port}.sock")))
 
-    def tell(self, there, line):
+    def send(self, there, line):
         there.stdin.write(line + "\n")
         there.stdin.flush()
         self.assertEqual(there.stdout.readline().strip(), "done")
@@ -71,7 +71,7 @@ class OtherNamespace(SystemTest):
             self.skipTest("network namespaces are not to be had here (needs root)")
         self.assertNotEqual(os.readlink(f"/proc/{word[1]}/ns/net"), os.readlink("/proc/self/ns/net"))
         self.reach_from_there(there, int(clock.rsplit(":", 1)[1]))
-        self.tell(there, "start")
+        self.send(there, "start")
         for topic, endpoint in self.endpoints(clock).items():
             port = int(endpoint.rsplit(":", 1)[1])
             if topic == "vehicle/pose":
@@ -85,13 +85,13 @@ class OtherNamespace(SystemTest):
 
     def endpoints(self, clock):
         context = zmq.Context()
-        asker = context.socket(zmq.DEALER)
-        asker.linger = 0
-        asker.connect(clock)
+        query = context.socket(zmq.DEALER)
+        query.linger = 0
+        query.connect(clock)
         topics = []
         while not topics:  # known once everybody has said hello
-            asker.send_json({"kind": "registry"})
-            topics = asker.recv_json()["topics"]
+            query.send_json({"kind": "registry"})
+            topics = query.recv_json()["topics"]
         context.destroy(0)
         return {topic["topic"]: topic["sync"] for topic in topics if topic["sync"]}  # the clock's own has a live plane only
 

@@ -27,7 +27,7 @@ def with_sum(body):
 
 
 def blocks(seconds):
-    """Second by second: GGA and HDT as they were logged, and PASHR made of the log's PSXN,23, which tells the same."""
+    """Second by second: GGA and HDT as they were logged, and PASHR made of the log's PSXN,23, which gives the same."""
     found = []
     for line in LOG.read_text().splitlines():
         sentence = line.split(" ", 1)[1]
@@ -80,14 +80,14 @@ class NavFeed(SystemTest):
             health = [message for _, _, message in record.messages("boat/health")]
         self.assertGreater(len(fixes), 5)
         counts = {counter.name: counter.count for counter in health[-1].counters}
-        self.assertGreater(counts["sentences_malformed"], 5)  # told, and nothing came of it
+        self.assertGreater(counts["sentences_malformed"], 5)  # reported, and nothing came of it
         self.assertNotIn("sentences_with_bad_checksum", counts)
 
         # Where the log is at each fix, by the sphere about the site: 1 m in 2 km north and 6 km east of it is enough to
-        # tell the right fix; along the way the boat must meet it to the millimetre.
+        # give the right fix; along the way the boat must reach it to the millimetre.
         t_s = np.array([pose.stamp_ns for pose in poses]) * 1e-9
         way_m = np.array([pose.position_enu_m for pose in poses])
-        met = 0
+        matched = 0
         for fix in fixes:
             logged = min(sent, key=lambda block: abs(block["lat"] - fix.latitude_deg) + abs(block["lon"] - fix.longitude_deg))
             self.assertAlmostEqual(logged["lat"], fix.latitude_deg, places=9)
@@ -98,7 +98,7 @@ class NavFeed(SystemTest):
             at_s = fix.stamp_ns * 1e-9
             if not t_s[0] <= at_s <= t_s[-1] - 0.02:
                 continue
-            met += 1
+            matched += 1
             here_m = [np.interp(at_s, t_s, axis) for axis in way_m.T]
             self.assertLess(np.hypot(here_m[0] - fix.position_enu_m[0], here_m[1] - fix.position_enu_m[1]), 1e-3)
             pose = poses[int(np.argmin(np.abs(t_s - at_s)))]
@@ -108,11 +108,11 @@ class NavFeed(SystemTest):
             self.assertAlmostEqual((heading - logged["heading"] + 180) % 360 - 180, 0, delta=0.05)
             down_stern = math.degrees(math.asin(2 * (x * z - w * y)))  # up component of forward: pitch
             self.assertAlmostEqual(down_stern, logged["pitch"], delta=0.05)
-        self.assertGreater(met, 4)
+        self.assertGreater(matched, 4)
         speeds = np.hypot(*np.array([pose.velocity_enu_mps for pose in poses]).T[:2])
         self.assertTrue(np.all(np.abs(speeds - 9.1 * 0.5144) < 0.5), speeds)  # VTG of the log: 9.1 knots
 
-    def test_a_port_that_is_taken_is_told(self):
+    def test_a_port_that_is_taken_is_reported(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", 0))
             result = self.run_launch(SOURCE / "launch/nav_feed.yaml", "--arg", f"port={taken.getsockname()[1]}")

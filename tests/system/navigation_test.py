@@ -112,10 +112,10 @@ class Copied(SystemTest):
         here = {key: value for key, value in os.environ.items() if key != "ENSONIFY_SHARE"}
         alone = subprocess.run(words, env=here, capture_output=True, text=True, timeout=60)
         self.assertEqual(alone.returncode, 2)
-        self.assertIn('"tactical" is no grade of this instrument; allowed: a file *.yaml (looked for components/navigation/grades in '
+        self.assertIn('"tactical" is no grade of this instrument; allowed: a file *.yaml (searched for components/navigation/grades in '
                       f"no folder: ENSONIFY_SHARE is not set, and above {self.folder} stand neither sources nor share/ensonify)", alone.stderr)
-        told = subprocess.run(words, env={**here, "ENSONIFY_SHARE": SOURCE}, capture_output=True, text=True, timeout=60)
-        self.assertEqual(told.returncode, 0, told.stderr)
+        reported = subprocess.run(words, env={**here, "ENSONIFY_SHARE": SOURCE}, capture_output=True, text=True, timeout=60)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
 
 
 class UnderWater(SystemTest):
@@ -243,9 +243,9 @@ class TwoVehicles(SystemTest):
             self.assertAlmostEqual(np.median(up_m), -20, delta=0.3)  # heights of fixes err by 0.05 m
         self.assertAlmostEqual(np.median(altitude_m), 20 - 8.2, delta=0.1)
         self.assertAlmostEqual(np.mean(depth_m), 8, delta=0.01)
-        heard = [fix for fix in fixes if fix.valid]
-        self.assertGreater(len(heard), 4)
-        for fix in heard:  # 15 m away: centimetres by range and angle, and the boat's own estimate
+        received = [fix for fix in fixes if fix.valid]
+        self.assertGreater(len(received), 4)
+        for fix in received:  # 15 m away: centimetres by range and angle, and the boat's own estimate
             there_m = [np.interp(fix.stamp_ns * 1e-9, t_s, axis) for axis in auv_m.T]
             self.assertLess(np.linalg.norm(np.asarray(fix.position_enu_m) - there_m), 0.6)
 

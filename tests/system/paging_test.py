@@ -1,4 +1,4 @@
-"""A survey whose seabed is paged in and given up again hears what one hears with the whole seabed in memory."""
+"""A survey whose seabed is paged in and given up again receives what one receives with the whole seabed in memory."""
 import contextlib
 import csv
 import io
@@ -91,7 +91,7 @@ class Paged(SystemTest):
         same = self.tool("compare", whole / "heard.mcap", paged / "heard.mcap")
         self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
 
-    def test_what_is_heard_depends_neither_on_what_is_resident_nor_on_how_long_it_takes_to_come(self):
+    def test_pings_depend_neither_on_resident_tiles_nor_on_loading_time(self):
         whole = self.survey("whole", "feed_margin_m: 1000")
         self.assertEqual(releases(whole / "paged.mcap"), 0)
         paged = self.survey("paged", LEAST)
@@ -99,9 +99,9 @@ class Paged(SystemTest):
         self.expect_same(whole, paged)
         self.expect_same(whole, self.hindered_survey("hindered", LEAST))
         with ensonify.Record(paged / "heard.mcap") as record:
-            heard = [soundings.valid.any() for _, _, soundings in record.messages("bow/soundings")]
-        self.assertGreater(len(heard), 50)
-        self.assertTrue(all(heard), "a ping came back empty")
+            received = [soundings.valid.any() for _, _, soundings in record.messages("bow/soundings")]
+        self.assertGreater(len(received), 50)
+        self.assertTrue(all(received), "a ping came back empty")
 
     def heights(self, world):
         """At places of the part, as the seabed of a world has them."""
@@ -110,7 +110,7 @@ class Paged(SystemTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return [(line["elevation_m"], line["sediment"]) for line in csv.DictReader(io.StringIO(done.stdout))]
 
-    def test_a_part_of_the_ten_kilometres_is_heard_as_with_all_of_it_resident_and_as_when_its_tiles_come_from_a_cache(self):
+    def test_a_part_of_ten_kilometres_gives_the_pings_of_all_resident_and_of_a_cache(self):
         part = SURVEY
         for there, here in PART.items():
             self.assertEqual(part.count(there), 1, there)

@@ -25,16 +25,16 @@ class Patch(SystemTest):
         result = self.run_launch(SOURCE / "launch/patch_survey.yaml", "--free", "--in-process", *entered,
                                  "--set", f"mission.steps={MISSION}", "--set", "bow.ping_rate_hz=3", "--set", "bow.quality=0.1", timeout=600)
         self.assertEqual(result.code, 0, result.stderr)
-        told = self.tool("patch", result.out / "patch.mcap", "--json", timeout=120)
-        self.assertEqual(told.returncode, 0, told.stderr)
-        found = json.loads(told.stdout)
+        reported = self.tool("patch", result.out / "patch.mcap", "--json", timeout=120)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        found = json.loads(reported.stdout)
         self.assertTrue(found["converged"])
         self.assertGreater(found["rms_before_m"], 10 * found["rms_after_m"])
         for name, (true, limit) in UNKNOWNS.items():
             with self.subTest(name):
                 value, half = found[name]["value"], found[name]["half_interval_95"]
                 self.assertLess(abs(value - true), limit)
-                # The interval of a survey that tells enough is inside the limit, and holds the truth but for one in 20; twice it, one in 10,000.
+                # The interval of a survey with enough information is inside the limit, and holds the truth but for one in 20; twice it, one in 10,000.
                 self.assertLess(half, 0.8 * limit)
                 self.assertLess(abs(value - true), 2 * half)
                 # Signs: actual less entered, positive if late. An answer of the other sign would miss the truth by ten limits and more.

@@ -1,4 +1,4 @@
-"""What the system tests share: running launches of stub processes, and looking at what is left behind."""
+"""What the system tests share: running launches of stub processes, and examining what is left behind."""
 import json
 import os
 import pathlib

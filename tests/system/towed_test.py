@@ -1,4 +1,4 @@
-"""launch/towed.yaml: a towed sidescan hears the bottom from where the body truly is; aboard it is found by layback or by USBL."""
+"""launch/towed.yaml: a towed sidescan detects the bottom from where the body truly is; aboard it is found by layback or by USBL."""
 import unittest
 
 import ensonify
@@ -18,11 +18,11 @@ class Towed(SystemTest):
 
             t_s, body_m = places("fish/pose")
             vessel_s, vessel_m = places("boat/pose")
-            at_s, believed_m = places("fish/estimate")
+            at_s, estimated_m = places("fish/estimate")
             tracks = [m for _, _, m in record.messages("fish_side/bottom_main")]
         true_m = np.stack([np.interp(at_s, t_s, axis) for axis in body_m.T], axis=1)
         ahead_m = np.stack([np.interp(t_s, vessel_s, axis) for axis in vessel_m.T], axis=1)
-        return t_s, body_m, ahead_m, at_s, believed_m - true_m, tracks
+        return t_s, body_m, ahead_m, at_s, estimated_m - true_m, tracks
 
     def test_by_layback(self):
         t_s, body_m, vessel_m, at_s, error_m, tracks = self.sail("layback")
@@ -34,9 +34,9 @@ class Towed(SystemTest):
         self.assertTrue(np.all(np.abs(error_m[settled, 1]) < 3))
         self.assertLess(np.mean(error_m[settled, 1]), 0)  # a straight cable is longer than one that sags: too far back
         self.assertAlmostEqual(np.mean(error_m[settled, 2]), 0, delta=0.01)  # 5 cm of noise, 700 samples
-        heard = [track.altitude_m for track in tracks if track.stamp_ns > 10e9]
-        self.assertGreater(len(heard), 20)
-        self.assertTrue(all(3 < altitude_m < 22 for altitude_m in heard), heard)
+        received = [track.altitude_m for track in tracks if track.stamp_ns > 10e9]
+        self.assertGreater(len(received), 20)
+        self.assertTrue(all(3 < altitude_m < 22 for altitude_m in received), received)
 
     def test_by_usbl(self):
         t_s, body_m, vessel_m, at_s, error_m, tracks = self.sail("usbl")

@@ -1,5 +1,5 @@
 """The vertical chain of a whole run: soundings reduced by tide gauge and by satellite agree with each other and with the seabed when every
-instrument tells the truth, whatever tide, draught, settlement, waves and datums do."""
+instrument reports the truth, whatever tide, draught, settlement, waves and datums do."""
 import csv
 import unittest
 

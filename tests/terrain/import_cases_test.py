@@ -84,7 +84,7 @@ class Cases(Import):
         # The projection takes the ellipsoid for a sphere: 0.3 % at most.
         self.assertAlmostEqual(report["sources"][0]["cell_m"], 5 * math.cos(latitude), delta=0.02)
 
-    def test_two_files_meet_at_the_antimeridian(self):
+    def test_two_files_join_at_the_antimeridian(self):
         def dip(x, y):
             return -20 - 300.0 * np.abs(np.where(x > 0, x - 180, x + 180))
         west = self.made("west.tif", (179.99, 1e-4, 0, -16.0, 0, -1e-4), (60, 101), 4326, dip)
@@ -155,26 +155,26 @@ class Cases(Import):
         rows, columns = np.nonzero(np.isfinite(heights))
         picked = np.random.default_rng(2).integers(0, len(rows), 400)
         text = "".join(f"{west + (columns[i] + 0.5) * step},{north - (rows[i] + 0.5) * step}\n" for i in picked)
-        told = terrain("sample", folder, "--points", "-", text=text).stdout.splitlines()[1:]
+        reported = terrain("sample", folder, "--points", "-", text=text).stdout.splitlines()[1:]
         wrong, seen = 0, set()
-        for i, line in zip(picked, told):
+        for i, line in zip(picked, reported):
             value, depth = by_gdal[rows[i], columns[i]], -heights[rows[i], columns[i]]
             expected = 2 if value == 7 else 1 if value == 3 else 5 if depth > 20.5 else 4
             seen.add(expected)
-            told_class = line.split(",")[3]
-            wrong += told_class not in ("", str(expected))  # empty: the place of a post on the rim, rounded, lies beyond
+            reported_class = line.split(",")[3]
+            wrong += reported_class not in ("", str(expected))  # empty: the place of a post on the rim, rounded, lies beyond
         self.assertEqual(seen, {1, 2, 4, 5})
         self.assertLessEqual(wrong, 4)  # places on the border of two cells to the last digit
 
-    def test_spikes_are_told_and_taken_out(self):
+    def test_spikes_are_reported_and_removed(self):
         def spiky(x, y):
             z = sea(x, y)
             z[30, 40] += 5
             z[90, 100] -= 3
             return z
         path = self.made(values=spiky)
-        _, told = self.run_import(path)
-        spikes = told["sources"][0]["spikes"]
+        _, reported = self.run_import(path)
+        spikes = reported["sources"][0]["spikes"]
         self.assertEqual([(s["column"], s["row"]) for s in spikes["largest"]], [(40, 30), (100, 90)])
         _, taken = self.run_import(path, "--despike", "--fill", "idw/20", name="taken")
         self.assertEqual((taken["holes"]["count"], taken["holes"]["filled"]), (0, 2))
@@ -232,8 +232,8 @@ class Cases(Import):
         folder, report = self.run_import(mesh, "--crs", "plane", "--origin", "50,-5", "--units", "mm", "--positive", "up",
                                          "--points-cell", 0.25, "--spacing", 0.25)
         # The plane's middle, 5.125 m of the 41 cells, is at the origin: these are (2, 2), (4, 4) and (8, 1.5).
-        told = terrain("sample", folder, "--points", "-", text="-3.125,-3.125\n-1.125,-1.125\n2.875,-3.625\n").stdout.splitlines()[1:]
-        heights = [float(line.split(",")[2]) for line in told]
+        reported = terrain("sample", folder, "--points", "-", text="-3.125,-3.125\n-1.125,-1.125\n2.875,-3.625\n").stdout.splitlines()[1:]
+        heights = [float(line.split(",")[2]) for line in reported]
         for height, known in zip(heights, (-19.8, -17.7, -19.2)):
             self.assertAlmostEqual(height, known, delta=2e-3)
         # What lies under the table is lost: 2 m at its west, where its middle of cells begins, 0.125 m from the edge.
@@ -362,9 +362,9 @@ class Cases(Import):
         folder, report = self.run_import(self.made())
         if shutil.which("gdalinfo") is None:
             self.skipTest("gdalinfo is absent")
-        told = json.loads(subprocess.run(["gdalinfo", "-json", folder / "seabed.vrt"], capture_output=True, check=True).stdout)
-        self.assertIn("Transverse Mercator", told["coordinateSystem"]["wkt"].replace("_", " "))
-        self.assertEqual(told["bands"][0]["unit"], "m")
+        reported = json.loads(subprocess.run(["gdalinfo", "-json", folder / "seabed.vrt"], capture_output=True, check=True).stdout)
+        self.assertIn("Transverse Mercator", reported["coordinateSystem"]["wkt"].replace("_", " "))
+        self.assertEqual(reported["bands"][0]["unit"], "m")
         place = terrain("sample", folder, "--points", "-", text="10,20\n").stdout.splitlines()[1].split(",")
         value = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", folder / "seabed.vrt", "10", "20"],
                                capture_output=True, text=True, check=True).stdout

@@ -36,7 +36,7 @@ class Terrain(SystemTest):
         path.write_text(text, encoding="utf-8")
         return path
 
-    def test_a_survey_of_the_tiles_hears_what_a_survey_of_the_generator_hears(self):
+    def test_a_survey_of_the_tiles_gives_the_pings_of_the_generator(self):
         launch = bay(3, topics="[bow/soundings]")
         generated = self.run_launch(launch, out="generated", timeout=120)
         self.assertEqual(generated.code, 0, generated.stderr)
@@ -72,7 +72,7 @@ class Terrain(SystemTest):
         sampled = [float(line["elevation_m"]) for line in csv.DictReader(io.StringIO(done.stdout))]
         np.testing.assert_allclose(sampled, heights[row, column], atol=LSB_M / 2)
 
-    def test_sample_tells_class_and_slope_and_leaves_the_unknown_empty(self):
+    def test_sample_prints_class_and_slope_and_leaves_the_unknown_empty(self):
         folder = self.build()
         done = terrain("sample", folder, "--points", "-", text="-60, -40\n\n5000,0\n")
         lines = list(csv.DictReader(io.StringIO(done.stdout)))
@@ -105,7 +105,7 @@ class Terrain(SystemTest):
         self.assertEqual(beside.returncode, 2)
         self.assertIn("has no height at 5000, 0", beside.stderr)
 
-    def test_an_irregular_mesh_is_fine_where_the_fan_meets_it_and_is_left_out_beyond_reach(self):
+    def test_an_irregular_mesh_is_fine_in_the_fan_and_left_out_beyond_reach(self):
         harbour = SOURCE / "scenarios/harbour/scenario.yaml"
         words = ["--at", 20, -112, "--altitude", 9, "--heading", 80]
         (quay,) = json.loads(terrain("mesh", harbour, *words).stdout)["meshes"]
@@ -113,7 +113,7 @@ class Terrain(SystemTest):
         self.assertLess(20 * len(quay["triangles"]), quay["triangles_of_all"])
         places, own = np.array(quay["places_enu_m"]), np.array(quay["triangles"])[:quay["of_the_source"]]
         self.assertGreater(len(own), 20)
-        # The fan stands across the heading: 14 m off it meets the wall 14 tan(10 deg) = 2.5 m farther east, 0.8 m wide.
+        # The fan stands across the heading: 14 m off it intersects the wall 14 tan(10 deg) = 2.5 m farther east, 0.8 m wide.
         # Piles are 0.6 m wide.
         east, north, up = places[np.unique(own)].T
         self.assertLess(np.abs(east - 22.5).max(), 0.8 + 4 * 0.6)
@@ -169,16 +169,16 @@ class Terrain(SystemTest):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("is no seabed of layers; only those have marks", refused.stderr)
 
-    def test_facets_of_a_scenario_are_told_with_the_classes_that_are_uneven(self):
+    def test_facets_of_a_scenario_are_reported_with_the_uneven_classes(self):
         def facets_of(layer):
             path = self.folder / "scenario.yaml"
             text = re.sub(r"^    relief: .*$", f"    relief: {{ spectral: {{ as_sediment: medium sand, outer_scale_m: 40 }}{layer} }}",
                           SCENARIO.read_text(encoding="utf-8"), flags=re.M)
             text = re.sub(r"^  sediments: .*$", "  sediments: { 0: medium sand }", text, flags=re.M)
             path.write_text(text, encoding="utf-8")
-            told = terrain("facets", path)
-            self.assertEqual(told.returncode, 0, told.stderr)
-            return told.stdout
+            reported = terrain("facets", path)
+            self.assertEqual(reported.returncode, 0, reported.stderr)
+            return reported.stdout
 
         even = facets_of("")
         self.assertRegex(even, r"(?m)^class 0: .* facet_slope_deg: \d\.\d{4} ")
@@ -291,11 +291,11 @@ class Terrain(SystemTest):
 
     def test_a_scenario_is_sampled_as_the_tiles_made_of_it_are(self):
         text = "".join(f"{x},{y}\n" for x, y in np.random.default_rng(2).uniform(-200, 200, (50, 2)))
-        told = [terrain("sample", seabed, "--points", "-", text=text) for seabed in (SCENARIO, self.build())]
-        self.assertEqual(told[0].returncode, 0, told[0].stderr)
-        self.assertEqual(told[0].stdout, told[1].stdout)
+        reported = [terrain("sample", seabed, "--points", "-", text=text) for seabed in (SCENARIO, self.build())]
+        self.assertEqual(reported[0].returncode, 0, reported[0].stderr)
+        self.assertEqual(reported[0].stdout, reported[1].stdout)
         coarse = terrain("sample", SCENARIO, "--points", "-", "--spacing", 8, text=text)
-        heights = [[float(line["elevation_m"]) for line in csv.DictReader(io.StringIO(done.stdout))] for done in (told[0], coarse)]
+        heights = [[float(line["elevation_m"]) for line in csv.DictReader(io.StringIO(done.stdout))] for done in (reported[0], coarse)]
         difference = np.abs(np.subtract(*heights))
         self.assertGreater(difference.max(), 0.01)  # a mesh of 8 m has not all of it ...
         self.assertLess(np.median(difference), 0.2)  # ... and is the same seabed

@@ -35,13 +35,13 @@ class Doctor(unittest.TestCase):
         code, text, _ = tool("doctor", run_folder=self.folder)
         self.assertRegex(text, r"(?m)^ok    zmq           4\.")
 
-    def test_what_the_tile_cache_holds_is_told(self):
+    def test_the_size_of_the_tile_cache_is_reported(self):
         cache = self.folder / "cache" / "ensonify" / "tiles"
         cache.mkdir(parents=True)
         (cache / "a").write_bytes(bytes(2_000_000))
         (cache / "b").write_bytes(bytes(1_000_000))
-        told = self.findings(env={"XDG_CACHE_HOME": str(self.folder / "cache")})["tile cache"]
-        self.assertEqual((told["level"], told["text"]), ("ok", f"3 MB in {cache}"))
+        reported = self.findings(env={"XDG_CACHE_HOME": str(self.folder / "cache")})["tile cache"]
+        self.assertEqual((reported["level"], reported["text"]), ("ok", f"3 MB in {cache}"))
 
     def test_a_folder_that_cannot_be_used_is_exit_code_2(self):
         findings = self.findings("--out", self.folder / "none")
@@ -72,7 +72,7 @@ class Doctor(unittest.TestCase):
             live = next(f for f in json.loads(text)["findings"] if f["check"] == "live runs")
             self.assertIn(run.directory().name, live["text"])
 
-    def test_a_long_runtime_folder_is_told(self):
+    def test_a_long_runtime_folder_is_reported(self):
         deep = self.folder / ("x" * 60)
         deep.mkdir()
         code, text, _ = tool("doctor", "--json", run_folder=deep)

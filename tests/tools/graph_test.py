@@ -19,7 +19,7 @@ class Graph(unittest.TestCase):
     def graph(self, *words):
         return tool("graph", *words)
 
-    def test_a_live_run_looks_as_its_launch_file_said(self):
+    def test_the_graph_of_a_live_run_is_that_of_its_launch_file(self):
         code, from_file, error = self.graph(self.launch, "--json", "--all")
         self.assertEqual(code, 0, error)
         with LiveRun() as run:

@@ -1,4 +1,4 @@
-"""A run of stubs for the tools to look at, in a run directory of its own. Nothing here sleeps: the tools are asked until
+"""A run of stubs for the tools to examine, in a run directory of its own. Nothing here sleeps: the tools are asked until
 the run is there, and a run that never comes is ended by the test's time limit."""
 import json
 import os

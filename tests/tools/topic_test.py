@@ -59,7 +59,7 @@ class Topic(unittest.TestCase):
         self.assertEqual((code, text), (1, ""))
         self.assertIn("0 of 1 messages came within 0.2 s", error)
 
-    def test_the_clock_tells_how_the_run_keeps_its_pace(self):
+    def test_the_clock_reports_how_the_run_keeps_its_pace(self):
         (entry,) = [topic for topic in self.run_.json("topic", "list") if topic["topic"] == "clock/health"]
         self.assertEqual((entry["type"], entry["publisher"], entry["subscribers"]), ("clock_health/1", "clock", []))
         code, text, _ = self.run_.tool("topic", "echo", "clock/health", "-n", "2", "--json")
@@ -80,7 +80,7 @@ class Topic(unittest.TestCase):
         code, text, _ = self.run_.tool("topic", "echo", "clock/health", "-n", "1")
         self.assertRegex(text, "rate_factor")
 
-    def test_hz_and_bw_tell_the_rates_of_sim_time_exactly(self):
+    def test_hz_and_bw_print_the_rates_of_sim_time_exactly(self):
         (rate,) = self.run_.json("topic", "hz", "auv/pose", "--count", "40")
         self.assertAlmostEqual(rate["sim_hz"], 100.0, delta=1e-6)
         self.assertEqual(rate["received"], 40)
@@ -127,7 +127,7 @@ class Topic(unittest.TestCase):
             self.assertEqual(self.run_.tool("topic", "list", "--run", run)[0], 0)
             self.assertEqual(self.run_.tool("topic", "list", env={"ENSONIFY_RUN": run})[0], 0)
 
-    def test_several_live_runs_must_be_told_apart(self):
+    def test_several_live_runs_need_a_choice(self):
         with LiveRun() as other:
             both = self.run_.folder / "ensonify" / "run-other"
             shutil.copytree(other.directory(), both, ignore=lambda folder, names: set(names) - {"clock.endpoint"})

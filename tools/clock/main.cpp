@@ -6,8 +6,8 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/clock_client.h"
-#include "components/runtime/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/clock/status_text.h"
 

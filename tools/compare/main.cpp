@@ -3,9 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/compare.h"
-#include "components/runtime/run.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
+#include "components/record/compare.h"
+#include "launch/process/run.h"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/config/launch_file.h"
+#include "components/config/data_paths.h"
 #include "components/runtime/protocol.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify {
 

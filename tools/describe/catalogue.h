@@ -7,7 +7,7 @@
 
 namespace ensonify {
 
-/// A kind of process, as its folder under components/ and its program's --check tell.
+/// A kind of process, as its folder under components/ and its program's --check report.
 struct ComponentFacts {
   std::string name;
   std::string about;         // first paragraph of its README
@@ -16,13 +16,13 @@ struct ComponentFacts {
   std::string example;  // "bow in launch/demo.yaml"; "" if no launch file uses the component
   std::vector<OutPort> outs;
   std::vector<InPort> ins;
-  std::string no_ports_because;  // why the program could not tell its ports
+  std::string no_ports_because;  // why the program could not report its ports
 };
 
 /// Names of the components whose programs stand beside this one, sorted.
 std::vector<std::string> component_names();
 
-/// What is known of a component; runs its program with --check.
+/// Facts of a component; runs its program with --check.
 ComponentFacts facts_of(const std::string& component);
 
 }  // namespace ensonify

@@ -17,16 +17,16 @@ everything = json.loads(describe("--json"))
 folders = {f for f in os.listdir(f"{SOURCE}/components") if os.path.exists(f"{SOURCE}/components/{f}/default.yaml")}
 assert set(everything["components"]) == folders, (everything["components"], folders)
 
-told = []
+reported = []
 for component in everything["components"]:
     with open(f"{SOURCE}/components/{component}/default.yaml", encoding="utf-8") as file:
         assert describe(component, "--yaml") == file.read(), component
     facts = json.loads(describe(component, "--json"))
     assert facts["about"] and facts["parameters"] is not None, component
     if "ports" in facts:
-        told.append(component)
+        reported.append(component)
         assert any(p["type"] == "health/1" for p in facts["ports"]["out"]), component
-assert {"vehicle", "multibeam", "recorder"} <= set(told), f"only {told} tell their ports"
+assert {"vehicle", "multibeam", "recorder"} <= set(reported), f"only {reported} tell their ports"
 
 for message in everything["messages"]:
     assert json.loads(describe(message, "--json"))["title"] == message

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/config/config_node.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/run.h"
+#include "components/config/config_error.h"
+#include "components/config/config_node.h"
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
+#include "launch/process/run.h"
 #include "messages/schema.h"
 #include "tools/describe/catalogue.h"
 

@@ -7,7 +7,7 @@ namespace ensonify::doctor {
 
 enum class Level { kOk, kWarn, kFail };
 
-/// What one check found. `advice` is empty when all is well.
+/// Finding of one check. `advice` is empty when all is well.
 struct Finding {
   std::string check;  // one or two words
   Level level = Level::kOk;

@@ -6,16 +6,16 @@
 
 #include "tools/doctor/finding.h"
 
-/// What is good enough. Pure: the facts come from machine.h.
+/// Limits of what is good enough. Pure: the facts come from machine.h.
 namespace ensonify::doctor {
 
 /// `flags`: the "flags" line of /proc/cpuinfo; "" when it cannot be read.
 Finding judge_cpu(const std::string& flags);
 Finding judge_cores(int available);
-/// What may still be used, in bytes, a container's limit included.
+/// Memory that may still be used, in bytes, a container's limit included.
 Finding judge_memory(std::uint64_t available_bytes);
 
-/// What statvfs and access say of a folder.
+/// Facts of a folder by statvfs and access.
 struct Disk {
   std::string folder;
   std::optional<std::uint64_t> free_bytes;  // nothing: it cannot be read

@@ -11,7 +11,7 @@
 #include <memory>
 #include <sstream>
 
-#include "components/runtime/config/data_paths.h"
+#include "components/config/data_paths.h"
 
 namespace ensonify::doctor {
 
@@ -25,7 +25,7 @@ std::string shell_quoted(const std::string& text) {
   return out + "'";
 }
 
-/// What a shell command prints; `ok` tells whether it succeeded.
+/// What a shell command prints; `ok` says whether it succeeded.
 std::string output_of(const std::string& command, bool& ok) {
   std::string text;
   std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -147,10 +147,10 @@ Finding check_python() {
       "      f'pyzmq {zmq.__version__}')\n";
   const std::string path = client.empty() ? "" : "PYTHONPATH=" + shell_quoted(client) + "${PYTHONPATH:+:$PYTHONPATH} ";
   bool ok = false;
-  std::string said = output_of(path + "PYTHONDONTWRITEBYTECODE=1 python3 -c " + shell_quoted(script) + " 2>&1", ok);
-  while (said.ends_with('\n')) said.pop_back();
-  if (ok) return {"python", Level::kOk, said, ""};
-  return {"python", Level::kWarn, said,
+  std::string stated = output_of(path + "PYTHONDONTWRITEBYTECODE=1 python3 -c " + shell_quoted(script) + " 2>&1", ok);
+  while (stated.ends_with('\n')) stated.pop_back();
+  if (ok) return {"python", Level::kOk, stated, ""};
+  return {"python", Level::kWarn, stated,
           "`python3` of a launch file is this one; agents need python3-zmq, python3-msgpack and python3-numpy, or pip "
           "install clients/python"};
 }

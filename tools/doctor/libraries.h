@@ -8,7 +8,7 @@
 
 namespace ensonify::doctor {
 
-/// What the dynamic linker says of one program: library name to path, "" when it is not found.
+/// Libraries of one program by the dynamic linker: library name to path, "" when it is not found.
 using Libraries = std::map<std::string, std::string>;
 /// Reads the linker's trace, lines such as "libzmq.so.5 => /lib/libzmq.so.5 (0x7f...)".
 Libraries read_trace(const std::string& trace);

@@ -4,7 +4,7 @@
 
 namespace ensonify::doctor {
 
-TEST_CASE("the linker's trace tells libraries and what is not found") {
+TEST_CASE("the linker's trace lists libraries and what is not found") {
   const Libraries libraries = read_trace(
       "\tlinux-vdso.so.1 (0x00007f9646ebb000)\n"
       "\tlibzmq.so.5 => /lib/x86_64-linux-gnu/libzmq.so.5 (0x00007f9646cb5000)\n"

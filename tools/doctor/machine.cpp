@@ -12,7 +12,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "components/runtime/config/data_paths.h"
+#include "components/config/data_paths.h"
 #include "tools/doctor/judgement.h"
 
 namespace ensonify::doctor {

@@ -1,11 +1,11 @@
-// ensonify doctor: looks for what commonly goes wrong.
+// ensonify doctor: searches for what commonly goes wrong.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/doctor/libraries.h"
 #include "tools/doctor/machine.h"
@@ -48,7 +48,7 @@ int examine(const std::string& out, bool json) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Looks at this machine and installation for what commonly goes wrong, and says what to do about it.\n"
+      "Checks this machine and installation for what commonly goes wrong, and says what to do about it.\n"
       "Exit code: 0 nothing fails (there may be warnings), 2 something does.",
       "ensonify doctor");
   std::string out = ".";

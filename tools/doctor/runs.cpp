@@ -46,9 +46,9 @@ Finding left_behind(const std::string& folder) {
 Findings check_runs() {
   const std::string folder = runs_folder();
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const bool wished = runtime != nullptr && *runtime == '/';
-  return {judge_socket_path(wished ? std::string(runtime) + "/ensonify" : folder), judge_runs_folder(facts_of(folder)),
-          live(folder), left_behind(folder)};
+  const bool requested = runtime != nullptr && *runtime == '/';
+  return {judge_socket_path(requested ? std::string(runtime) + "/ensonify" : folder),
+          judge_runs_folder(facts_of(folder)), live(folder), left_behind(folder)};
 }
 
 }  // namespace ensonify::doctor

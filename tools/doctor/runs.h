@@ -4,7 +4,7 @@
 
 namespace ensonify::doctor {
 
-/// Where runs keep their sockets, which runs are live, and what dead ones have left behind.
+/// Folders of runs: their sockets, which runs are live, and remains of dead ones.
 Findings check_runs();
 
 }  // namespace ensonify::doctor

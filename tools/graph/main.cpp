@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "components/runtime/config/data_paths.h"
-#include "components/runtime/config/launch_file.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/launch_wiring.h"
+#include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "launch/check_ports.h"
+#include "launch/file/launch_file.h"
+#include "launch/process/launch_wiring.h"
 #include "tools/graph/picture.h"
 #include "tools/graph/render.h"
 

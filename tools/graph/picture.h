@@ -8,7 +8,7 @@
 
 namespace ensonify::graph_tool {
 
-/// Who talks to whom: what is drawn, whether it comes from a launch file or from a live run.
+/// Graph of publishers and subscribers: what is drawn, whether it comes from a launch file or from a live run.
 struct Picture {
   struct Process {
     std::string name;

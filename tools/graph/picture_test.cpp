@@ -38,7 +38,7 @@ Picture picture() {
 
 }  // namespace
 
-TEST_CASE("the wiring as text: what each process reads and publishes, with rates, sizes and delays") {
+TEST_CASE("wiring as text lists each process's ports with rates, sizes and delays") {
   CHECK(to_text(picture()) ==
         "boat (vehicle)\n"
         "  reads pilot/command as command, delayed 100 ms\n"

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "launch/child.h"
 
 extern char** environ;

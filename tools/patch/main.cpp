@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/patch/report.h"
 
@@ -45,7 +45,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--turn-wander", o.settings.turn_wander_s, "the same of attitudes, s")->capture_default_str();
   app.add_option("--together", o.settings.together_s, "stretch of time in which soundings may err together besides, s")
       ->capture_default_str();
-  app.add_option("--position-sd", o.position_sd_m, "of positions, m, where the estimate does not tell")
+  app.add_option("--position-sd", o.position_sd_m, "of positions, m, where the estimate states none")
       ->capture_default_str();
   app.add_option("--height-sd", o.height_sd_m, "of heights, tide and heave, m, likewise")->capture_default_str();
   app.add_option("--level-sd", o.level_sd_deg, "of roll and pitch, degrees, likewise")->capture_default_str();
@@ -80,14 +80,14 @@ std::vector<bool> used_lines(const Options& o, std::size_t there) {
 }
 
 /// The line with what the estimate states of its own errors meanwhile, or where it does not, the options.
-boresight::Line with_deviations(const RunLine& run, const Heard& heard, const Options& o) {
+boresight::Line with_deviations(const RunLine& run, const RecordInput& input, const Options& o) {
   boresight::Line line = run.line;
-  const Stated stated = mean_stated(heard.stated, run.from_s, run.to_s);
-  const bool told = !stated.position_variance_m2.isZero(0.0) && !stated.rotation_variance_rad2.isZero(0.0);
+  const Stated stated = mean_stated(input.stated, run.from_s, run.to_s);
+  const bool reported = !stated.position_variance_m2.isZero(0.0) && !stated.rotation_variance_rad2.isZero(0.0);
   line.position_sd_m =
-      told ? Vec3(stated.position_variance_m2.cwiseSqrt()) : Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m);
-  line.rotation_sd_rad = told ? Vec3(stated.rotation_variance_rad2.cwiseSqrt())
-                              : Vec3(kDegree * Vec3(o.level_sd_deg, o.level_sd_deg, o.heading_sd_deg));
+      reported ? Vec3(stated.position_variance_m2.cwiseSqrt()) : Vec3(o.position_sd_m, o.position_sd_m, o.height_sd_m);
+  line.rotation_sd_rad = reported ? Vec3(stated.rotation_variance_rad2.cwiseSqrt())
+                                  : Vec3(kDegree * Vec3(o.level_sd_deg, o.level_sd_deg, o.heading_sd_deg));
   return line;
 }
 
@@ -95,12 +95,12 @@ int patch(Options& o) {
   choose_unknowns(o);
   o.settings.angle_sd_rad = o.angle_sd_deg * kDegree;
   Finding finding;
-  finding.heard = read_soundings(o.record, o.reading);
-  finding.lines = split_lines(finding.heard.soundings);
+  finding.input = read_soundings(o.record, o.reading);
+  finding.lines = split_lines(finding.input.soundings);
   finding.used = used_lines(o, finding.lines.size());
   std::vector<boresight::Line> lines;
   for (std::size_t n = 0; n < finding.lines.size(); ++n) {
-    if (finding.used[n]) lines.push_back(with_deviations(finding.lines[n], finding.heard, o));
+    if (finding.used[n]) lines.push_back(with_deviations(finding.lines[n], finding.input, o));
   }
   try {
     finding.adjusted = boresight::adjust(lines, o.settings);

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/reader.h"
-#include "kernels/frames/pose.h"
+#include "components/errors/exit_error.h"
+#include "components/record/reader.h"
+#include "kernels/base/frames/pose.h"
 #include "messages/codec.h"
 #include "messages/navigation.h"
 #include "messages/soundings.h"
@@ -109,29 +109,29 @@ Stated mean_stated(const std::vector<Stated>& stated, double from_s, double to_s
   return mean;
 }
 
-Heard read_soundings(const std::filesystem::path& file, const Reading& reading) {
+RecordInput read_soundings(const std::filesystem::path& file, const Reading& reading) {
   record::RecordReader record(file);
-  Heard heard;
-  heard.soundings_topic = chosen(record, msg::Soundings::kType, reading.soundings, file);
-  heard.estimate_topic = chosen(record, msg::Estimate::kType, reading.estimate, file);
+  RecordInput input;
+  input.soundings_topic = chosen(record, msg::Soundings::kType, reading.soundings, file);
+  input.estimate_topic = chosen(record, msg::Estimate::kType, reading.estimate, file);
   Track track;
   record::RecordedMessage message;
   while (record.next(message)) {
-    if (message.channel->topic == heard.soundings_topic) add(decoded<msg::Soundings>(message), heard.soundings);
-    if (message.channel->topic == heard.estimate_topic) {
+    if (message.channel->topic == input.soundings_topic) add(decoded<msg::Soundings>(message), input.soundings);
+    if (message.channel->topic == input.estimate_topic) {
       const auto estimate = decoded<msg::Estimate>(message);
       track.add(estimate);
-      heard.stated.push_back(stated_by(estimate));
+      input.stated.push_back(stated_by(estimate));
     }
   }
-  std::erase_if(heard.soundings,
+  std::erase_if(input.soundings,
                 [&](const Sounding& s) { return !track.covers(s.time_s) || !s.place_enu_m.allFinite(); });
-  heard.accepted = heard.soundings.size();
-  const std::size_t step = heard.accepted / std::max<std::size_t>(1, reading.most) + 1;
-  for (std::size_t i = 0; i * step < heard.accepted; ++i) heard.soundings[i] = heard.soundings[i * step];
-  heard.soundings.resize((heard.accepted + step - 1) / step);
-  for (Sounding& s : heard.soundings) add_motion(s, track);
-  return heard;
+  input.accepted = input.soundings.size();
+  const std::size_t step = input.accepted / std::max<std::size_t>(1, reading.most) + 1;
+  for (std::size_t i = 0; i * step < input.accepted; ++i) input.soundings[i] = input.soundings[i * step];
+  input.soundings.resize((input.accepted + step - 1) / step);
+  for (Sounding& s : input.soundings) add_motion(s, track);
+  return input;
 }
 
 }  // namespace ensonify::patch_tool

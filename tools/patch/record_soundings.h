@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/boresight/adjust.h"
+#include "kernels/survey/boresight/adjust.h"
 
 namespace ensonify::patch_tool {
 
@@ -14,7 +14,7 @@ struct Reading {
   std::size_t most = 1'000'000;  // soundings kept, thinned evenly
 };
 
-/// What the estimate says of its own errors. Zero: it does not tell.
+/// Errors that the estimate states. Zero: none stated.
 struct Stated {
   double time_s = 0.0;
   frames::Vec3 position_variance_m2 = frames::Vec3::Zero();    // east, north, up
@@ -24,8 +24,8 @@ struct Stated {
 /// The mean of what is stated between two times; zero where nothing is.
 Stated mean_stated(const std::vector<Stated>& stated, double from_s, double to_s);
 
-/// What a record holds for a patch test: nothing but what instruments said.
-struct Heard {
+/// Input of a patch test from a record: reports of instruments alone.
+struct RecordInput {
   std::string soundings_topic, estimate_topic;
   std::vector<boresight::Sounding> soundings;  // accepted ones, in order of time
   std::size_t accepted = 0;                    // before thinning
@@ -34,6 +34,6 @@ struct Heard {
 
 /// Throws UserError for a file that is no record, and for one without a single topic of soundings/1 or estimate/1 where
 /// none is named; the text lists what there is.
-Heard read_soundings(const std::filesystem::path& record, const Reading& reading);
+RecordInput read_soundings(const std::filesystem::path& record, const Reading& reading);
 
 }  // namespace ensonify::patch_tool

@@ -16,5 +16,5 @@ TEST_CASE("what the estimate states of its errors is taken line by line") {
   CHECK(mean_stated(stated, 0, 10).rotation_variance_rad2.z() == Approx(3));
   CHECK(mean_stated(stated, 15, 45).rotation_variance_rad2.z() == Approx(1));
   CHECK(mean_stated(stated, 0, 40).position_variance_m2.x() == Approx(0.5));
-  CHECK(mean_stated(stated, 50, 60).rotation_variance_rad2 == Vec3::Zero());  // not told
+  CHECK(mean_stated(stated, 50, 60).rotation_variance_rad2 == Vec3::Zero());  // not given
 }

@@ -40,7 +40,7 @@ std::string as_text(const Finding& f) {
   for (std::size_t n = 0; n < f.lines.size(); ++n) text += line_text(f.lines[n], n + 1, f.used[n]);
   text += fmt::format(
       "{} soundings of {} in {} cells; about the cells' planes {:.3f} m before, {:.3f} m after, {} rounds{}\n",
-      a.soundings, f.heard.accepted, a.cells, a.rms_before_m, a.rms_after_m, a.rounds,
+      a.soundings, f.input.accepted, a.cells, a.rms_before_m, a.rms_after_m, a.rounds,
       a.converged ? "" : ", NOT CONVERGED");
   const boresight::Unknowns found = boresight::unknowns_of(a.offsets);
   for (std::size_t k = 0; k < boresight::kUnknowns; ++k) {
@@ -79,8 +79,8 @@ std::string as_json(const Finding& f) {
   json["rms_after_m"] = a.rms_after_m;
   json["rounds"] = a.rounds;
   json["converged"] = a.converged;
-  json["soundings_topic"] = f.heard.soundings_topic;
-  json["estimate_topic"] = f.heard.estimate_topic;
+  json["soundings_topic"] = f.input.soundings_topic;
+  json["estimate_topic"] = f.input.estimate_topic;
   return json.dump(2) + "\n";
 }
 

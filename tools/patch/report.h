@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "kernels/boresight/adjust.h"
+#include "kernels/survey/boresight/adjust.h"
 #include "tools/patch/record_soundings.h"
 #include "tools/patch/split_lines.h"
 
 namespace ensonify::patch_tool {
 
-/// What a patch test found, and from what.
+/// Result of a patch test, and its input.
 struct Finding {
-  Heard heard;                 // its soundings have gone into `lines`
+  RecordInput input;           // its soundings have gone into `lines`
   std::vector<RunLine> lines;  // all that were found
   std::vector<bool> used;      // of the lines
   boresight::Adjusted adjusted;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kernels/boresight/adjust.h"
+#include "kernels/survey/boresight/adjust.h"
 
 namespace ensonify::patch_tool {
 

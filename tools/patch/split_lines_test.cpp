@@ -45,4 +45,4 @@ TEST_CASE("runs are split where the vehicle turns or stops pinging") {
   CHECK(lines[2].line.soundings.size() == 100);
 }
 
-TEST_CASE("nothing heard, no lines") { CHECK(split_lines({}).empty()); }
+TEST_CASE("no soundings, no lines") { CHECK(split_lines({}).empty()); }

@@ -1,9 +1,9 @@
-#include "kernels/motion/disturbance.h"
+#include "kernels/vehicle/motion/disturbance.h"
 
 #include <memory>
 #include <numbers>
 
-#include "kernels/motion/disturbance_presets.h"
+#include "kernels/vehicle/motion/disturbance_presets.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

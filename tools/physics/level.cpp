@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "kernels/acoustics/sonar_equation.h"
 #include "kernels/seabed/lambert.h"
-#include "kernels/sonar_equation/sonar_equation.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

@@ -1,7 +1,7 @@
-// ensonify physics: any kernel's values, for whoever wants to look or compare.
+// ensonify physics: any kernel's values, for whoever wants to inspect or compare.
 #include <CLI/CLI.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/physics/verbs.h"
 

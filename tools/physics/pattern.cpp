@@ -3,9 +3,9 @@
 #include <memory>
 #include <numbers>
 
-#include "kernels/array/aperture.h"
-#include "kernels/array/near_field.h"
-#include "kernels/array/sectors.h"
+#include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/near_field.h"
+#include "kernels/acoustics/array/sectors.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

@@ -122,7 +122,7 @@ near(value("reflection", "material", "--material", "metal"), 0.935, 1e-3)
 near(value("total_db", "surface", "--wind-speed-mps", "8", "--frequency-hz", "70e3", "--grazing-deg", "30"), -24.5, 0.1)
 near(value("rms_height_m", "surface", "--wind-speed-mps", "10"), 2.13 / 4, 2e-3)
 
-# Bent paths: straight in uniform water, a closed form in a gradient, a path that never arrives, a file that is none.
+# Refracted paths: straight in uniform water, a closed form in a gradient, a path that never arrives, a file that is none.
 uniform = ["ray", "--water", "linear", "--gradient-per-s", "0", "--target-depth-m", "50"]
 near(value("path_length_m", *uniform), 100, 1e-6)
 near(value("tube_m2", *uniform), 1e4, 1e-3)

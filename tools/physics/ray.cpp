@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "kernels/refraction/path_table.h"
-#include "kernels/refraction/thermocline.h"
+#include "kernels/water/refraction/path_table.h"
+#include "kernels/water/refraction/thermocline.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {
@@ -120,7 +120,7 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   verb.choice(
       "until", in->until,
       {{"depth", Until::kDepth}, {"time", Until::kTime}, {"distance", Until::kDistance}, {"point", Until::kPoint}},
-      "where the path ends: point finds the launch that meets the target depth at the distance");
+      "where the path ends: point finds the launch that reaches the target depth at the distance");
   verb.choice("method", in->method, {{"exact", Method::kExact}, {"table", Method::kTable}},
               "exact arcs, or (until depth) the table that rays of a ping use");
   verb.number("surface_speed_mps", in->surface_speed_mps, SoundSpeedProfile::kSlowest_mps,

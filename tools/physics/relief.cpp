@@ -7,13 +7,13 @@
 #include <tuple>
 #include <utility>
 
-#include "kernels/relief/bodies.h"
-#include "kernels/relief/combine.h"
-#include "kernels/relief/intermittency.h"
-#include "kernels/relief/marks.h"
-#include "kernels/relief/ripples.h"
-#include "kernels/relief/seabed.h"
-#include "kernels/relief/spectral_surface.h"
+#include "kernels/seabed/relief/bodies.h"
+#include "kernels/seabed/relief/combine.h"
+#include "kernels/seabed/relief/intermittency.h"
+#include "kernels/seabed/relief/marks.h"
+#include "kernels/seabed/relief/ripples.h"
+#include "kernels/seabed/relief/seabed.h"
+#include "kernels/seabed/relief/spectral_surface.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

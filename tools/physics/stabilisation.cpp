@@ -1,4 +1,4 @@
-#include "kernels/array/stabilisation.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 #include <cmath>
 #include <limits>
@@ -38,7 +38,7 @@ struct Inputs {
   double largest_roll_rate_degps() const { return roll_amplitude_deg * 2.0 * std::numbers::pi / roll_period_s; }
 };
 
-/// Steers as the instrument would, then looks where the beam is with the true attitude.
+/// Steers as the instrument would, then checks where the beam is with the true attitude.
 Verb::Row hold(const Inputs& in) {
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   const array::Stabilisation stabilisation{.pitch = true, .yaw = false, .roll = in.roll_stabilised};

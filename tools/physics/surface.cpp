@@ -1,7 +1,7 @@
 #include <memory>
 #include <numbers>
 
-#include "kernels/surface/sea_surface.h"
+#include "kernels/acoustics/sea_surface.h"
 #include "tools/physics/decibel.h"
 #include "tools/physics/verbs.h"
 

@@ -1,4 +1,4 @@
-#include "kernels/vertical/tide.h"
+#include "kernels/vehicle/vertical/tide.h"
 
 #include <memory>
 #include <numbers>

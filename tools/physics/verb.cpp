@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/physics/sweep.h"
 
 namespace ensonify::physics {

@@ -44,7 +44,7 @@ class Verb {
   /// Chooses this name of a choice whatever was given for it: for an option that stands instead of it.
   void choose(const std::string& column, const std::string& name);
 
-  /// What is computed from the variables as they are set. std::invalid_argument is the user's mistake.
+  /// Value computed from the variables as they are set. std::invalid_argument is the user's mistake.
   void results(std::vector<std::string> columns, std::function<Row()> compute);
 
   /// A flag or option of another kind goes here.

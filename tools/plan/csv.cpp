@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::plan {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/csv.h"
 #include "tools/plan/readers.h"
 

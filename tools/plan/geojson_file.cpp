@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/readers.h"
 
 namespace ensonify::plan {

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/line_files.h"
 #include "tools/plan/verbs.h"
 

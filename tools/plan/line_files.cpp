@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/readers.h"
 
 namespace ensonify::plan {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kShortest_m = 1.0;
 
-/// What no vehicle can fly, told with the line's number.
+/// What no vehicle can run, reported with the line's number.
 void check(const LineSet& set, const std::string& path) {
   if (set.lines.empty()) throw UserError(path + ": holds no lines");
   for (std::size_t i = 0; i < set.lines.size(); ++i) {

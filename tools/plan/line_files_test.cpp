@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 using namespace ensonify;
 using namespace ensonify::plan;
@@ -49,7 +49,7 @@ TEST_CASE("Hypack lines are world metres, or geodetic with their reference syste
   CHECK(placed.lines[0].places[0][1] == Approx(-9.524).margin(0.002));
 }
 
-TEST_CASE("records that Hypack writes behind a line's places are passed over, others are told with their line") {
+TEST_CASE("Hypack records after a line's positions are skipped, others reported by line") {
   CHECK(
       read_lines(written("t.lnw", "LNS 1\nLIN 2\nPTS 0 0\nPTS 0 9\nLBP 0 0\nLNN 5\nTPL 1 2\nEOL\n"), "").lines.size() ==
       1);
@@ -138,7 +138,7 @@ std::string gpx_of(const std::string& points) { return "<gpx version=\"1.1\"><rt
 
 }  // namespace
 
-TEST_CASE("places of KML and GPX that are no places are told with their line, place and cause") {
+TEST_CASE("invalid positions of KML and GPX are reported with line, place and cause") {
   CHECK(read_lines(written("a.kml", kml_of("-9,53 -9,+53.1,4e1")), "").lines[0].places[1] ==
         std::array<double, 2>{53.1, -9});
   CHECK(refused("b.kml", kml_of("-9,53 -9,abc")) == "b.kml: line 1: place 2: \"abc\" is no number");

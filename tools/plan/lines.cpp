@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/source_of.h"
 #include "kernels/survey/cost.h"
+#include "scenarios/world/world.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
 
@@ -32,8 +32,8 @@ struct Options {
 /// Depths below the head: of the scenario's seabed, or one depth.
 survey::DepthAt depth_of(const Options& o) {
   if (o.scenario.empty()) return [depth_m = o.depth_m - o.head_depth_m](const survey::Vec2&) { return depth_m; };
-  const Scenario scenario = read_scenario(o.scenario);
-  const std::shared_ptr<source::TerrainSource> terrain = source::source_of({scenario.site, scenario.seabed, "", 1, {}});
+  const World world = read_world(o.scenario);
+  const std::shared_ptr<source::TerrainSource> terrain = source::source_of({world.site, world.seabed, "", 1, {}});
   return [terrain, head_m = o.head_depth_m](const survey::Vec2& place) { return -terrain->height_m(place) - head_m; };
 }
 
@@ -87,7 +87,7 @@ Verb add_lines(CLI::App& parent) {
       "time, data and cost that they take.");
   app->add_option("--corner", o->corners, "corner of the area, east and north in world metres; three or more")
       ->required();
-  auto* scenario = app->add_option("--scenario", o->scenario, "scenario file whose seabed tells the depths");
+  auto* scenario = app->add_option("--scenario", o->scenario, "scenario file whose seabed gives the depths");
   auto* depth = app->add_option("--depth", o->depth_m, "instead: one depth below chart datum, m");
   depth->check(CLI::Range(0.1, 11000.0));
   scenario->excludes(depth);
@@ -108,7 +108,7 @@ Verb add_lines(CLI::App& parent) {
       ->check(CLI::Range(0.1, 1e5));
   app->add_flag("--fixed", o->fixed, "one distance between all lines, the one that the shallowest place asks for");
   app->add_option("--shortest", o->shortest_m, "of a line, m")->check(CLI::Range(1.0, 1e5))->capture_default_str();
-  app->add_option("--row", o->row_m, "distance along lines at which the bottom is looked at, m")
+  app->add_option("--row", o->row_m, "distance along lines at which the bottom is sampled, m")
       ->check(CLI::Range(0.1, 1e4))
       ->capture_default_str();
   app->add_option("--speed", o->run.speed_mps, "on lines, m/s")->check(CLI::Range(0.01, 30.0))->capture_default_str();
@@ -125,7 +125,7 @@ Verb add_lines(CLI::App& parent) {
       ->capture_default_str();
   app->add_flag("--json", o->json, "print JSON");
   app->add_flag("--csv", o->csv, "print CSV");
-  return {app, [o, scenario, depth] {
+  return {app, [o, world, depth] {
             if (scenario->count() + depth->count() == 0) {
               throw UserError("no depths; allowed: --scenario FILE or --depth M");
             }

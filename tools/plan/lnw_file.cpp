@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/readers.h"
 
 namespace ensonify::plan {

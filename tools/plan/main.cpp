@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/plan/verbs.h"
 

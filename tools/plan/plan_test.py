@@ -57,7 +57,7 @@ class Plan(unittest.TestCase):
                                  (["lines", *AREA, "--depth", "nan"], "--depth"),
                                  (["lines", "--corner", "0", "0", "--corner", "200", "100", "--corner", "200", "0",
                                    "--corner", "0", "300", "--depth", "20"],
-                                  "crosses itself: the side from corner 1 (0, 0) meets the one from corner 3 (200, 0)"),
+                                  "crosses itself: the side from corner 1 (0, 0) crosses the one from corner 3 (200, 0)"),
                                  (["lines", "--corner", "0", "0", "--corner", "40000", "0", "--corner", "40000", "100",
                                    "--scenario", str(SOURCE / "scenarios/slope/scenario.yaml")],
                                   "m lies outside the terrain; allowed: an area"),

@@ -21,7 +21,7 @@ struct LineSet {
 /// A number of a plan with its unit in its name.
 using Numbers = std::vector<std::pair<std::string, double>>;
 
-/// How a plan is printed.
+/// Format of a printed plan.
 enum class Format { kYaml, kJson, kCsv };
 
 /// The lines as a mission (yaml, mission/1, with the numbers as comments), as JSON with the numbers beside them, or as
@@ -31,7 +31,7 @@ std::string plan_text(const LineSet& set, const Numbers& numbers, std::optional<
 /// Numbers alone: "name: value" lines, a JSON object, or CSV of two rows.
 std::string numbers_text(const Numbers& numbers, Format format);
 
-/// Of `--json` and `--csv`.
+/// Flags `--json` and `--csv`.
 inline Format format_of(bool json, bool csv) { return json ? Format::kJson : csv ? Format::kCsv : Format::kYaml; }
 
 }  // namespace ensonify::plan

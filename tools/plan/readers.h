@@ -7,7 +7,7 @@
 namespace ensonify::plan {
 
 // One reader for each kind of file that read_lines() takes (line_files.h says what each reads). Each throws UserError
-// with the place of what it cannot read; what no vehicle can fly they leave to read_lines().
+// with the place of what it cannot read; what no vehicle can run they leave to read_lines().
 
 LineSet read_lnw(const std::string& path);
 LineSet read_csv(const std::string& path, bool projected);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
 
@@ -51,7 +51,7 @@ Verb add_sidescan(CLI::App& parent) {
   app->add_option("--overlap", o->overlap, "of neighbouring images")
       ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str();
-  app->add_option("--object", o->object_m, "height of an object whose shadow is told, m")
+  app->add_option("--object", o->object_m, "height of an object whose shadow is printed, m")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   app->add_flag("--json", o->json, "print JSON");

@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "kernels/survey/feature.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
@@ -48,7 +48,7 @@ Verb add_speed(CLI::App& parent) {
   app->add_option("--feature", o->feature_m, "its length along and width across the track, m")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  app->add_option("--pings", o->pings, "pings that must meet it")->check(CLI::Range(1, 1000))->capture_default_str();
+  app->add_option("--pings", o->pings, "pings that must hit it")->check(CLI::Range(1, 1000))->capture_default_str();
   app->add_option("--depth", o->depth_m, "of the bottom below the head, m")
       ->check(CLI::Range(0.1, 11000.0))
       ->required();
@@ -69,7 +69,7 @@ Verb add_speed(CLI::App& parent) {
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   app->add_flag("--touch", o->touch,
-                "count pings whose footprint touches the feature, not only those whose axis meets it");
+                "count pings whose footprint touches the feature, not only those whose axis hits it");
   app->add_flag("--json", o->json, "print JSON");
   app->add_flag("--csv", o->csv, "print CSV");
   return {app, [o] { return speed(*o); }};

@@ -10,7 +10,7 @@
 #include <memory>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/plan/readers.h"
 
 namespace ensonify::plan {

@@ -14,12 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/tile_posts.h"
-#include "components/runtime/terrain/tile_set_source.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/overview.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
+#include "components/terrain/tile_posts.h"
+#include "components/terrain/tile_set_source.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/overview.h"
 
 namespace ensonify::terrain_tool {
 namespace {
@@ -54,8 +54,8 @@ class Progress {
   void done(std::size_t count) {
     using namespace std::chrono;
     const auto now = steady_clock::now();
-    if (now - told_ < seconds(2)) return;
-    told_ = now;
+    if (now - reported_ < seconds(2)) return;
+    reported_ = now;
     const double spent_s = duration<double>(now - began_).count();
     fmt::print(stderr, "{} of {} tiles, about {:.0f} s left\n", count, all_,
                spent_s / static_cast<double>(count) * static_cast<double>(all_ - count));
@@ -63,7 +63,7 @@ class Progress {
 
  private:
   std::size_t all_;
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), told_ = began_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), reported_ = began_;
 };
 
 /// Makes what is missing, in parallel; which thread makes a tile changes nothing in it.

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "components/runtime/terrain/terrain_source.h"
-#include "components/runtime/tiles/tile_set.h"
+#include "components/terrain/terrain_source.h"
+#include "components/terrain/tiles/tile_set.h"
 
 namespace CLI {
 class App;
@@ -11,7 +11,7 @@ class App;
 
 namespace ensonify::terrain_tool {
 
-/// What the verbs that write tiles have in common on the command line.
+/// Options common to the verbs that write tiles.
 struct BakeOptions {
   std::string folder;
   int cells = 1024;

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "components/runtime/config/config_node.h"
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/source_of.h"
+#include "components/config/config_node.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/source_of.h"
+#include "scenarios/world/world.h"
 #include "tools/terrain/bake.h"
 #include "tools/terrain/facets.h"
 #include "tools/terrain/verbs.h"
@@ -37,8 +37,8 @@ std::string source_text(const Options& options) {
 }
 
 int build(const Options& options) {
-  const Scenario scenario = read_scenario(options.scenario);
-  const source::TerrainOptions terrain{scenario.site, scenario.seabed, options.raster_crs, options.raster_band,
+  const World world = read_world(options.scenario);
+  const source::TerrainOptions terrain{world.site, world.seabed, options.raster_crs, options.raster_band,
                                        options.raster_nodata};
   const auto source = source::source_of(terrain);
   claim(options.bake.folder, source_text(options));
@@ -52,7 +52,7 @@ int build(const Options& options) {
   if (!bake(*source, options.scenario, options.bake.threads, set)) return kExitInterrupted;
   fmt::print("{}: {} tiles of {} x {} posts {} m apart\n", set.folder, set.tiles.size(), set.grid.cells + 1,
              set.grid.cells + 1, set.grid.spacing_m);
-  print_facets(scenario.seabed, source->meshed_relief());  // a scenario on the tiles knows no layers
+  print_facets(world.seabed, source->meshed_relief());  // a scenario on the tiles knows no layers
   return kExitOk;
 }
 

@@ -6,20 +6,20 @@
 #include <memory>
 #include <string>
 
-#include "components/runtime/config/facet_slope.h"
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/layers_source.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/layers_source.h"
+#include "scenarios/world/facet_slope.h"
+#include "scenarios/world/world.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
 namespace {
 
 int facets(const std::string& file) {
-  const Scenario scenario = read_scenario(file);
-  if (scenario.seabed.kind != Seabed::Kind::kLayers)
+  const World world = read_world(file);
+  if (world.seabed.kind != Seabed::Kind::kLayers)
     throw UserError(file + ": is no seabed of layers; of others the scenario says facet_slope_deg itself");
-  print_facets(scenario.seabed, source::LayersSource(scenario.seabed, scenario.site.origin).meshed_relief());
+  print_facets(world.seabed, source::LayersSource(world.seabed, world.site.origin).meshed_relief());
   return kExitOk;
 }
 

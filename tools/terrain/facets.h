@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/runtime/config/scenario_seabed.h"
-#include "components/runtime/terrain/meshed_relief.h"
+#include "components/terrain/meshed_relief.h"
+#include "scenarios/world/seabed.h"
 
 namespace ensonify::terrain_tool {
 

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "components/runtime/tiles/sha256.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/sha256.h"
 #include "tools/terrain/bake.h"
 #include "tools/terrain/import/file_words.h"
 #include "tools/terrain/import/fill.h"
@@ -25,7 +25,7 @@ namespace {
 
 using namespace terrain_import;
 
-/// The command line as it was typed; its words are told in source.yaml.
+/// The command line as it was typed; its words are reported in source.yaml.
 struct Words {
   std::vector<std::string> files;
   FileOptions all;  // what is said of all files
@@ -254,7 +254,7 @@ Verb add_import(CLI::App& parent) {
       "import",
       "Makes a tile set of survey files (docs/import.md): any raster that GDAL reads, or scattered points. What was "
       "done "
-      "and lost is told and written to import.json. An import that was stopped goes on where it was.");
+      "and lost is printed and written to import.json. An import that was stopped goes on where it was.");
   add_file_options(*app, *words);
   add_world_options(*app, *words);
   add_sediment_options(*app, *words);

@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/tile_set_source.h"
-#include "components/runtime/tiles/overview.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/tile_set_source.h"
+#include "components/terrain/tiles/overview.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {

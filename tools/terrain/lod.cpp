@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/prepared_mesh.h"
-#include "components/runtime/tiles/file_bytes.h"
-#include "kernels/frames/attitude.h"
-#include "kernels/progressive/cut.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/prepared_mesh.h"
+#include "components/terrain/tiles/file_bytes.h"
+#include "kernels/base/frames/attitude.h"
+#include "kernels/mesh/progressive/cut.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
@@ -84,17 +84,17 @@ int lod(const Options& options) {
   const frames::Vec3& origin = hierarchy.mesh.origin_enu_m;
   float farthest_m = 0.0F;
   for (const auto& split : hierarchy.splits) farthest_m = std::max(farthest_m, split.deviation_m);
-  nlohmann::ordered_json told{{"file", path},
-                              {"cached", prepared.cached},
-                              {"source_sha256", prepared.lod.source_sha256},
-                              {"origin_m", {origin.x(), origin.y(), origin.z()}},
-                              {"vertices", hierarchy.mesh.vertex_m.size()},
-                              {"triangles", hierarchy.mesh.triangle.size()},
-                              {"splits", hierarchy.splits.size()},
-                              {"coarsest_triangles", hierarchy.coarsest.size()},
-                              {"coarsest_deviation_m", std::stod(fmt::format("{:.4g}", farthest_m))}};
-  if (!options.at.empty()) told["ping"] = ping_of(hierarchy, options);
-  fmt::print("{}\n", told.dump(2));
+  nlohmann::ordered_json reported{{"file", path},
+                                  {"cached", prepared.cached},
+                                  {"source_sha256", prepared.lod.source_sha256},
+                                  {"origin_m", {origin.x(), origin.y(), origin.z()}},
+                                  {"vertices", hierarchy.mesh.vertex_m.size()},
+                                  {"triangles", hierarchy.mesh.triangle.size()},
+                                  {"splits", hierarchy.splits.size()},
+                                  {"coarsest_triangles", hierarchy.coarsest.size()},
+                                  {"coarsest_deviation_m", std::stod(fmt::format("{:.4g}", farthest_m))}};
+  if (!options.at.empty()) reported["ping"] = ping_of(hierarchy, options);
+  fmt::print("{}\n", reported.dump(2));
   return kExitOk;
 }
 
@@ -105,7 +105,7 @@ Verb add_lod(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "lod",
       "Prepares a mesh (OBJ, PLY) for level of detail: vertex splits and what lies below each, in a file that is made "
-      "again only when the mesh has changed. With --at it tells how many triangles a ping from there would have.");
+      "again only when the mesh has changed. With --at it prints how many triangles a ping from there would have.");
   app->add_option("mesh", options->mesh, "OBJ or PLY; x east, y north, z up")->required()->check(CLI::ExistingFile);
   app->add_option("--out", options->out, "file (default: the mesh's name and .lod)");
   app->add_option("--unit-m", options->unit_m, "metres in the mesh's unit")
@@ -114,7 +114,7 @@ Verb add_lod(CLI::App& parent) {
   app->add_option("--at", options->at, "EAST NORTH UP in m, as the mesh counts: where the head is")->expected(3);
   app->add_option("--ping-out", options->ping_out, "OBJ file for that ping's mesh")->needs("--at");
   app->add_option("--heading", options->heading_deg, "degrees from north")->capture_default_str();
-  app->add_option("--pitch", options->pitch_deg, "degrees, bow up; 90 looks along the heading")->capture_default_str();
+  app->add_option("--pitch", options->pitch_deg, "degrees, bow up; 90 points along the heading")->capture_default_str();
   app->add_option("--swath", options->swath_deg, "degrees")->check(CLI::Range(1.0, 180.0))->capture_default_str();
   app->add_option("--beam", options->beamwidth_deg, "width of the transmission, degrees")
       ->check(CLI::Range(0.1, 90.0))

@@ -1,7 +1,7 @@
 // ensonify terrain: seabeds on disk.
 #include <CLI/CLI.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/terrain/verbs.h"
 

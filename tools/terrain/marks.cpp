@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/layered_seabed.h"
-#include "kernels/frames/local_projection.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/layered_seabed.h"
+#include "kernels/base/frames/local_projection.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 
@@ -69,8 +69,8 @@ Verb add_marks(CLI::App& parent) {
   auto options = std::make_shared<Options>();
   CLI::App* app = parent.add_subcommand(
       "marks",
-      "Prints the middle lines of a generated seabed's trawl scars and anchor drags, the ground truth for who looks "
-      "for them, as CSV in m from the origin. Listed is what meets the seabed (furrows of a pair follow each other, "
+      "Prints the middle lines of a generated seabed's trawl scars and anchor drags, the ground truth for who searches "
+      "for them, as CSV in m from the origin. Listed is what lies in the seabed (furrows of a pair follow each other, "
       "but one may lie outside), whether or not a mask, later layers or its age hide it; depth_m is what is left of "
       "it.");
   app->add_option("seabed", options->seabed, "scenario file")->required();

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/prepared_mesh.h"
-#include "components/runtime/terrain/tile_posts.h"
-#include "kernels/array/line.h"
-#include "kernels/frames/attitude.h"
-#include "kernels/lod/patch.h"
-#include "kernels/progressive/cut.h"
-#include "kernels/trace/views.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/prepared_mesh.h"
+#include "components/terrain/tile_posts.h"
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/trace/views.h"
+#include "kernels/base/frames/attitude.h"
+#include "kernels/mesh/lod/patch.h"
+#include "kernels/mesh/progressive/cut.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

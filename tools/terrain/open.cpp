@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "components/runtime/config/scenario.h"
-#include "components/runtime/terrain/tile_set_source.h"
+#include "components/terrain/tile_set_source.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify::terrain_tool {
 
@@ -15,14 +15,14 @@ Opened open_seabed(const std::string& scenario_or_folder) {
     opened.lsb_m = opened.terrain->lsb_m().value_or(opened.lsb_m);
     return opened;
   }
-  const Scenario scenario = read_scenario(scenario_or_folder);
-  const source::TerrainOptions options{scenario.site, scenario.seabed, "", 1, {}};
+  const World world = read_world(scenario_or_folder);
+  const source::TerrainOptions options{world.site, world.seabed, "", 1, {}};
   opened.terrain = source::source_of(options);
   opened.spacing_m = source::post_spacing_m(options, *opened.terrain);
   opened.lsb_m = source::lsb_m(options, *opened.terrain);
-  opened.meshes = scenario.seabed.meshes;
-  opened.seed = scenario.seed;
-  if (scenario.seabed.kind == Seabed::Kind::kLayers) opened.layered = scenario.seabed.layered;
+  opened.meshes = world.seabed.meshes;
+  opened.seed = world.seed;
+  if (world.seabed.kind == Seabed::Kind::kLayers) opened.layered = world.seabed.layered;
   return opened;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/source_of.h"
+#include "components/terrain/source_of.h"
 
 namespace ensonify::terrain_tool {
 

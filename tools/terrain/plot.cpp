@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/tiles/file_bytes.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/tiles/file_bytes.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

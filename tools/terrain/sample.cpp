@@ -10,7 +10,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

@@ -10,10 +10,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
-#include "kernels/relief_statistics/patches.h"
-#include "kernels/relief_statistics/power_spectrum.h"
-#include "kernels/relief_statistics/structure.h"
+#include "components/errors/exit_error.h"
+#include "kernels/seabed/statistics/patches.h"
+#include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/structure.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 
@@ -131,7 +131,7 @@ ordered_json truth_of(const Opened& seabed, const Square& square) {
   truth["share_of_class"] = classes;
   truth["slope_deg"] = slopes_of(z);
   const auto patches = relief_statistics::patchiness(z);
-  if (patches.patches == 0) return truth;  // level, or a plane's rounding: nothing to tell
+  if (patches.patches == 0) return truth;  // level, or a plane's rounding: nothing to report
   const double pi = std::numbers::pi;
   const auto scaling = relief_statistics::scaling_exponents(z);
   const auto law = relief_statistics::fit_power_law(relief_statistics::radial_spectrum(z, 256),

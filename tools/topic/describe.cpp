@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "messages/schema.h"
 #include "tools/topic/select.h"
 #include "tools/topic/topic.h"

@@ -5,8 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/exit_error.h"
+#include "components/config/config_error.h"
+#include "components/errors/exit_error.h"
+#include "components/errors/nearest_name.h"
 #include "components/runtime/tool.h"
 #include "tools/topic/pretty.h"
 #include "tools/topic/select.h"

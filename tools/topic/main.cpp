@@ -1,4 +1,4 @@
-// ensonify topic: looks at the topics of a live run, on the live plane only.
+// ensonify topic: examines the topics of a live run, on the live plane only.
 #include <CLI/CLI.hpp>
 
 #include "components/runtime/tool.h"
@@ -67,11 +67,11 @@ int run(const CLI::App& app, const Options& options) {
 int main(int argc, char** argv) {
   using namespace ensonify::topic_tool;
   CLI::App app(
-      "Looks at the topics of a live run. What is asked for here can never slow the run: a slow reader loses\n"
-      "messages instead, and is told how many. Nothing is kept for a late one either: it sees what is published from\n"
+      "Shows the topics of a live run. What is requested here can never slow the run: a slow reader loses\n"
+      "messages instead, and is shown how many. Nothing is kept for a late one either: it sees what is published from\n"
       "then on; what was said before, such as a chart, only a record holds. Facts fixed for the run (launch, "
       "scenario,\n"
-      "...) can be had at any time from `ensonify clock get`. The topic clock/health tells about once a second of "
+      "...) can be had at any time from `ensonify clock get`. The topic clock/health reports about once a second of "
       "wall\n"
       "time how the run keeps its pace.\n"
       "Exit code: 0 done, 1 fewer messages came than were asked for, 2 no such run, topic or field.",

@@ -16,7 +16,7 @@ struct Interval {
   double jitter_s = 0.0;  // standard deviation
 };
 
-/// What a topic carries, over the last messages seen. Rates count what was published, not only what we were given: the
+/// Traffic of a topic over the last messages seen. Rates count what was published, not only what we were given: the
 /// live plane drops, and the sequence numbers say how much.
 struct Traffic {
   std::uint64_t received = 0;  // since the start

@@ -6,7 +6,7 @@ namespace ensonify::topic_tool {
 
 using std::chrono::milliseconds;
 
-TEST_CASE("a run at twice real time shows 10 Hz in sim time and 20 Hz in wall time, without jitter") {
+TEST_CASE("a run at twice real time shows 10 Hz sim and 20 Hz wall time, without jitter") {
   Meter meter(100);
   for (int n = 0; n < 11; ++n) {
     meter.add(WallTime{} + n * milliseconds(50), n * 100_ms, static_cast<std::uint64_t>(n), 1000);

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/topic/meter.h"
 #include "tools/topic/select.h"
@@ -78,7 +78,7 @@ class Reporter {
     if (std::fflush(stdout) != 0) throw DataLost("standard output cannot be written");
   }
 
-  /// 0 if a rate can be told of at least one topic.
+  /// 0 if a rate can be reported of at least one topic.
   int finish() {
     report();
     std::string silent;

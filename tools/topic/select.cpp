@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
+#include "components/errors/nearest_name.h"
 
 namespace ensonify::topic_tool {
 

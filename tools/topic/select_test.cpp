@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::topic_tool {
 
@@ -24,7 +24,7 @@ std::vector<std::string> names(const std::vector<TopicEntry>& topics) {
 
 }  // namespace
 
-TEST_CASE("topics are chosen by name and by pattern, each once, in the order of the registry") {
+TEST_CASE("topics are chosen by name and pattern, each once, in the registry's order") {
   using Names = std::vector<std::string>;
   CHECK(names(select(bay(), {"bow/ping"})) == Names{"bow/ping"});
   CHECK(names(select(bay(), {"bow/*"})) == Names{"bow/ping", "bow/soundings"});

@@ -9,7 +9,7 @@
 
 namespace ensonify::topic_tool {
 
-/// What the user asked for; each verb uses its own.
+/// Options of the user; each verb uses its own.
 struct Options {
   std::string run;
   bool json = false;
@@ -28,7 +28,7 @@ int echo(const Options& options);
 int hz(const Options& options);
 int bw(const Options& options);
 
-/// When to leave, or nothing for never.
+/// Time to leave, or nothing for never.
 std::optional<bus::Observer::WallTime> deadline(const Options& options);
 /// Listens to the live plane of these topics.
 bus::Observer observe(const std::vector<TopicEntry>& topics);

@@ -141,11 +141,11 @@ class Mark(Message):
 
 @dataclass(eq=False)
 class NextLine(Message):
-    """The line that an adaptive survey is to fly next.
+    """The line that an adaptive survey is to run next.
 
     stamp_ns [ns]: time of the decision, sim time
     number [1]: index of the line in the survey, the first is 0 and known beforehand
-    done: whether nothing is left to fly; the line means nothing then
+    done: whether nothing is left to run; the line means nothing then
     start_enu_m [m]: where to begin it: east, north
     end_enu_m [m]: where to end it
     """
@@ -163,14 +163,14 @@ class Coverage(Message):
     """What soundings have covered so far, by estimate: cells of a rectangle.
 
     stamp_ns [ns]: time of validity, sim time
-    lines [1]: number of lines flown
+    lines [1]: number of lines run
     corner_enu_m [m]: the rectangle's rear port corner: east, north
     heading_grid_rad [rad]: forward along the rectangle, clockwise from grid north
     cell_m [m]: side of a cell
     needed [1]: accepted soundings that a covered cell has at least
     covered [1]: share of the cells that are covered
     overlapped [1]: redundancy: how often a covered cell was covered, by lines, on average
-    track_m [m]: length of all lines flown, without turns
+    track_m [m]: length of all lines run, without turns
     elapsed_s [s]: from the first sounding to the last
     soundings [1]: accepted soundings of each cell (starboard x forward), as far as it can count
     height_m [m]: mean height of each cell's accepted soundings, up from chart datum; NaN: none
@@ -237,7 +237,7 @@ class MissionState(Message):
 
     stamp_ns [ns]: time of the state, sim time
     state: run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done
-    line [1]: index of the runline being flown, -1 before the first
+    line [1]: index of the runline being run, -1 before the first
     line_count [1]: number of runlines in the mission
     cross_track_m [m]: estimated distance right of the runline, positive to starboard
     distance_to_go_m [m]: distance to the end of the runline
@@ -281,8 +281,8 @@ class Position(Message):
     longitude_deg [deg]: longitude of the same point, WGS 84, positive east
     sigma_horizontal_m [m]: stated standard deviation, each horizontal axis
     sigma_vertical_m [m]: stated standard deviation, up
-    quality [1]: as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not told
-    hdop [1]: horizontal dilution of precision; 0 not told
+    quality [1]: as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given
+    hdop [1]: horizontal dilution of precision; 0 not given
     height_above_geoid_m [m]: of the body origin, as in NMEA's GGA
     geoid_above_ellipsoid_m [m]: undulation at the same place, WGS 84, as in NMEA's GGA
     """
@@ -321,7 +321,7 @@ class Estimate(Message):
     position_enu_m [m]: estimated body origin in the world frame: east, north, up
     enu_from_body [1]: estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU
     velocity_enu_mps [m/s]: estimated velocity of the body origin
-    position_covariance_enu_m2 [m2]: covariance of the position's error, row by row; all zero: not told
+    position_covariance_enu_m2 [m2]: covariance of the position's error, row by row; all zero: not given
     velocity_covariance_enu_m2ps2 [m2/s2]: the same of the velocity
     rotation_covariance_enu_rad2 [rad2]: the same of the attitude: of the small rotation about east, north, up from estimate to truth
     """
@@ -421,7 +421,7 @@ class Depth(Message):
 
 @dataclass(eq=False)
 class Altitude(Message):
-    """What an altimeter hears of the bottom.
+    """What an altimeter measures: distance to the bottom.
 
     stamp_ns [ns]: time of measurement, by the instrument's clock
     valid: whether anything answered
@@ -459,7 +459,7 @@ class Ctd(Message):
     depth_m [m]: of the probe below the water level
     temperature_degc [degC]: of the water
     salinity_psu [psu]: of the water, practical salinity
-    sound_speed_mps [m/s]: reckoned from the three before
+    sound_speed_mps [m/s]: computed from the three before
     """
 
     TYPE = "ctd/1"
@@ -475,7 +475,7 @@ class UsblFix(Message):
     """Where an ultra-short baseline system finds another vehicle's transponder.
 
     stamp_ns [ns]: time that the place belongs to, by the instrument's clock
-    valid: whether the transponder was heard; else the rest is zero
+    valid: whether the transponder replied; else the rest is zero
     range_m [m]: from array to transponder, by the sound speed that the system uses
     place_body_m [m]: transponder less array, along the carrier's body axes as mounting was measured
     position_enu_m [m]: transponder in the world frame, by the carrier's own estimate
@@ -583,7 +583,7 @@ class Ping(Message):
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
-    kind: of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not told
+    kind: of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not given
     sample_period_s [s]: time between samples
     first_sample_s [s]: time of the first sample after transmission
     beam_angle_rad [rad]: receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of the kinds forward_looking and scanning from its forward axis
@@ -656,7 +656,7 @@ class Ping(Message):
 
 @dataclass(eq=False)
 class BottomTrack(Message):
-    """Where a head hears the bottom first, by its own echoes: what a slant range is corrected with. Never the truth.
+    """The first bottom return of a head, by its own echoes: what a slant range is corrected with. Never the truth.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -681,7 +681,7 @@ class BottomTrack(Message):
 
 @dataclass(eq=False)
 class Transmit(Message):
-    """A head transmitted: other heads may hear it.
+    """A head transmitted: other heads may receive it.
 
     stamp_ns [ns]: time of transmission, sim time; of a sector that is sent later in the ping, its own
     ping [1]: ping number of this head, from 0; the same of all sectors of a ping
@@ -689,7 +689,7 @@ class Transmit(Message):
     pulse_length_s [s]: pulse length
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
-    next_ns [ns]: when the head means to transmit next, sim time; 0: it does not know
+    next_ns [ns]: when the head intends to transmit next, sim time; 0: unknown
     """
 
     TYPE = "transmit/1"
@@ -707,7 +707,7 @@ class SonarSettings(Message):
     """A command to a head: settings from its next ping on. NaN or empty text leaves a setting as it is.
 
     stamp_ns [ns]: time of the command, sim time
-    range_m [m]: range to listen to; 0: the head chooses, where it can
+    range_m [m]: range of reception; 0: the head chooses, where it can
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
     pulse_length_s [s]: pulse length; 0: the head chooses, where it can
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O at range R in m
@@ -748,13 +748,13 @@ class Soundings(Message):
     quality_db [dB]: signal to noise ratio of the detection
     range_sd_m [m]: predicted standard deviation of the range, sonar only; empty: not predicted
     angle_sd_rad [rad]: predicted standard deviation of the angle, sonar only; empty: not predicted
-    window_s [s]: length of the window that the detection used; empty: not told
+    window_s [s]: length of the window that the detection used; empty: not given
     kind [1]: 1 by amplitude, 2 by phase (of a blend, the one that weighs more), 0 neither; empty: 1
-    flags [1]: why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side lobe; empty: not told
+    flags [1]: why an entry is not valid, added up: 1 weak, 2 cut off by the range, 4 out of the gate, 8 uncertain, 16 side lobe; empty: not given
     valid [1]: 1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
-    tvu_m [m]: predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not told
-    thu_m [m]: the same of the horizontal error, as a radius; empty: not told
+    tvu_m [m]: predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not given
+    thu_m [m]: the same of the horizontal error, as a radius; empty: not given
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
@@ -828,7 +828,7 @@ class Soundings(Message):
 
 @dataclass(eq=False)
 class Snippets(Message):
-    """The amplitudes around each detection, uncorrected: as the receiver heard them, no law taken out.
+    """The amplitudes around each detection, uncorrected: as received, no law taken out.
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
@@ -1010,7 +1010,7 @@ class TileRelease(Message):
 
 @dataclass(eq=False)
 class Mesh(Message):
-    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits tell how to coarsen it (docs/seabed/irregular-meshes.md).
+    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits say how to coarsen it (docs/seabed/irregular-meshes.md).
 
     number [1]: by which it is released
     name: in the scenario
@@ -1052,7 +1052,7 @@ class MeshRelease(Message):
 
 @dataclass(eq=False)
 class Chart(Message):
-    """What is known of the terrain as a whole, as a chart would tell: mission planning may use it.
+    """What is known of the terrain as a whole, as on a chart: mission planning may use it.
 
     origin_latitude_deg [deg]: geodetic latitude of the world's origin, WGS 84 (a scenario may leave it to the raster)
     origin_longitude_deg [deg]: longitude of the world's origin, WGS 84

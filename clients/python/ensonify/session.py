@@ -13,7 +13,7 @@ from ensonify import wire
 LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
 LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of its readers
 FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
-WAKE_MS = 1000  # how often a waiting participant looks whether the clock is still there
+WAKE_MS = 1000  # how often a waiting participant checks whether the clock is still there
 
 _EVENTS, _POLLIN, _SNDMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE)  # plain numbers: pyzmq's enums cost more than the calls
 
@@ -92,7 +92,7 @@ class Session:
         """Says HELLO and returns the WELCOME once every edge into this process is subscribed and every edge out of it
         is proven."""
         self._sync.setsockopt(zmq.SNDHWM, sum(queue_length(*out["rate"]) for out in hello["out"]))
-        self._tell({**hello, "kind": "hello", "name": self.name, **self.endpoints})
+        self._send_control({**hello, "kind": "hello", "name": self.name, **self.endpoints})
         welcome = self._await_json("welcome")
         self.epoch, self.rank = welcome["epoch"], welcome["rank"]
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
@@ -131,7 +131,7 @@ class Session:
                     tokens.discard(token)
                     proven.append(token)
             if proven:
-                self._tell({"kind": "proven", "tokens": proven})
+                self._send_control({"kind": "proven", "tokens": proven})
 
     # --- running
 
@@ -189,11 +189,11 @@ class Session:
 
     def bye(self) -> None:
         """Answers the end."""
-        self._tell({"kind": "bye"})
+        self._send_control({"kind": "bye"})
 
     def fail(self, code: int, message: str) -> None:
-        """Tells the clock why this process leaves."""
-        self._tell({"kind": "failed", "code": code, "message": message})
+        """Reports to the clock why this process leaves."""
+        self._send_control({"kind": "failed", "code": code, "message": message})
 
     def close(self) -> None:
         """Lets what has been sent leave, then gives every socket back."""
@@ -206,7 +206,7 @@ class Session:
 
     # --- inside
 
-    def _tell(self, what: dict) -> None:
+    def _send_control(self, what: dict) -> None:
         self._control.send(json.dumps(what, separators=(",", ":")).encode())
 
     def _receive_control(self) -> bytes:

@@ -45,7 +45,7 @@ class TinyClock(threading.Thread):
         identity, data = self.router.recv_multipart()
         return identity, json.loads(data) if data[:1] == b"{" else data
 
-    def _tell(self, identity, message):
+    def _send_control(self, identity, message):
         self.router.send_multipart([identity, json.dumps(message).encode()])
 
     def _join(self):
@@ -64,7 +64,7 @@ class TinyClock(threading.Thread):
                 name = self.wiring[f'{member["hello"]["name"]}.{port["port"]}']
                 self.edges.append({"topic": name, "to": rank, "in": port, "token": f"e{len(self.edges)}"})
         for rank in range(len(self.members)):
-            self._tell(self.members[rank]["identity"], self._welcome(rank))
+            self._send_control(self.members[rank]["identity"], self._welcome(rank))
         unproven = {edge["token"] for edge in self.edges}
         while unproven:
             _, message = self._receive()
@@ -118,7 +118,7 @@ class TinyClock(threading.Thread):
                 self.failed = message
                 break
             elif message["kind"] == "registry":
-                self._tell(identity, {"kind": "registry", "topics": self._registry()})
+                self._send_control(identity, {"kind": "registry", "topics": self._registry()})
         self._end()
 
     def _registry(self):
@@ -135,7 +135,7 @@ class TinyClock(threading.Thread):
 
     def _end(self):
         for member in self.members:
-            self._tell(member["identity"], {"kind": "end", "code": 3 if self.failed else 0})
+            self._send_control(member["identity"], {"kind": "end", "code": 3 if self.failed else 0})
         leaving = len(self.members) - (1 if self.failed else 0)
         while leaving:
             _, message = self._receive()

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <thread>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/link.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/bus/sockets.h"
-#include "components/runtime/exit_error.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -67,7 +67,7 @@ struct Pair {
 
 }  // namespace
 
-TEST_CASE("a message arrives whole over ipc and tcp, its arrays as views of the received frames") {
+TEST_CASE("a message arrives whole over ipc and tcp, its arrays viewing received frames") {
   for (const bool tcp : {false, true}) {
     Pair pair(tcp);
     const msg::Tile sent = tile_of(129);
@@ -84,7 +84,7 @@ TEST_CASE("a message arrives whole over ipc and tcp, its arrays as views of the 
   }
 }
 
-TEST_CASE("what is larger than declared, or of another type, ends the receiver with data lost") {
+TEST_CASE("a message too large or of another type ends the receiver with data lost") {
   Pair small(false, 1000);
   small.publisher.publish(packet_of(tile_of(129)));
   CHECK_THROWS_AS(small.subscriber.wait_arrived({{3, 1}}), DataLost);
@@ -121,7 +121,7 @@ TEST_CASE("a full sync queue holds the publisher back instead of losing a messag
   for (std::uint64_t seq = 0; seq < kMessages; ++seq) REQUIRE(packets[seq].envelope.seq == seq);
 }
 
-TEST_CASE("no frame is made of what nobody hears; what somebody hears is held until the flush") {
+TEST_CASE("frames are made only for subscribed topics, and held until the flush") {
   Pair pair(false);
   msg::Packet packet = packet_of(tile_of(33));  // an array of more than 4 KiB: frames share it
   const auto& owner = packet.body.arrays[0].owner;
@@ -139,7 +139,7 @@ TEST_CASE("no frame is made of what nobody hears; what somebody hears is held un
   CHECK(pair.subscriber.take().size() == 1);
 }
 
-TEST_CASE("an audience hears what it has asked for until the last who asked has left") {
+TEST_CASE("a topic stays subscribed until its last subscriber has left") {
   zmq::context_t context;
   zmq::socket_t xpub(context, zmq::socket_type::xpub), first(context, zmq::socket_type::sub),
       second(context, zmq::socket_type::sub);
@@ -147,24 +147,24 @@ TEST_CASE("an audience hears what it has asked for until the last who asked has 
   first.connect("inproc://topics");
   second.connect("inproc://topics");
   const std::string pose("boat/pose\0", 10);
-  bus::Audience audience;
-  CHECK(audience.empty());
+  bus::Subscribers subscribers;
+  CHECK(subscribers.empty());
   first.set(zmq::sockopt::subscribe, pose);
   second.set(zmq::sockopt::subscribe, pose);
-  CHECK(audience.read(xpub) == std::vector<std::string>{pose});
-  CHECK(audience.hears("boat/pose"));
-  CHECK_FALSE(audience.hears("boat/poses"));
-  CHECK_FALSE(audience.hears("boat"));
+  CHECK(subscribers.read(xpub) == std::vector<std::string>{pose});
+  CHECK(subscribers.has_subscriber("boat/pose"));
+  CHECK_FALSE(subscribers.has_subscriber("boat/poses"));
+  CHECK_FALSE(subscribers.has_subscriber("boat"));
   first.set(zmq::sockopt::unsubscribe, pose);
-  CHECK(audience.read(xpub).empty());
-  CHECK(audience.hears("boat/pose"));
+  CHECK(subscribers.read(xpub).empty());
+  CHECK(subscribers.has_subscriber("boat/pose"));
   second.set(zmq::sockopt::unsubscribe, pose);
   second.set(zmq::sockopt::subscribe, "");  // a viewer of everything
-  CHECK(audience.read(xpub) == std::vector<std::string>{""});
-  CHECK(audience.hears("boat"));
+  CHECK(subscribers.read(xpub) == std::vector<std::string>{""});
+  CHECK(subscribers.has_subscriber("boat"));
   second.set(zmq::sockopt::unsubscribe, "");
-  audience.read(xpub);
-  CHECK(audience.empty());
+  subscribers.read(xpub);
+  CHECK(subscribers.empty());
 }
 
 TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
@@ -187,8 +187,8 @@ TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
   const auto expect_next = [&](std::size_t seq) {
     std::vector<zmq::message_t> frames;
     REQUIRE(bus::receive_frames(subscriber, frames));
-    const msg::Packet heard = bus::to_packet(std::move(frames));
-    CHECK(heard.envelope.seq == seq);
+    const msg::Packet arrived = bus::to_packet(std::move(frames));
+    CHECK(arrived.envelope.seq == seq);
   };
   std::size_t seq = 0;
   for (; seq < count - 1 - (1 << 14) / bytes; ++seq) expect_next(seq);
@@ -222,7 +222,7 @@ TEST_CASE("addresses that cannot be used are the user's mistake, with the reason
   CHECK_THROWS_WITH(bus::Router({false, folder.path + "/nowhere", ""}), Catch::Contains("cannot bind"));
 }
 
-TEST_CASE("the router answers whoever asks, and gives up waiting when told") {
+TEST_CASE("the router answers every request, and stops waiting on command") {
   Folder folder;
   bus::Router router({false, folder.path, ""});
   CHECK_FALSE(router.wait(std::chrono::steady_clock::now()));
@@ -234,8 +234,8 @@ TEST_CASE("the router answers whoever asks, and gives up waiting when told") {
       }
     }
   });
-  bus::Asker asker(router.endpoint());
-  CHECK(asker.ask("hello", std::chrono::seconds(10)) == "hello!");
+  bus::ClockQuery query(router.endpoint());
+  CHECK(query.ask("hello", std::chrono::seconds(10)) == "hello!");
   clock.join();
   CHECK_FALSE(router.send("nobody", "x"));
 }

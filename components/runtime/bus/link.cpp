@@ -9,14 +9,14 @@
 #include <thread>
 #include <zmq.hpp>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
-#include "components/runtime/exit_error.h"
 
 namespace ensonify::bus {
 
 namespace {
-constexpr int kLookAroundMs = 500;                 // how soon a lost clock is noticed
+constexpr int kPollMs = 500;                       // how soon a lost clock is noticed
 constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better under way while its publisher works on
 }  // namespace
 
@@ -27,7 +27,7 @@ struct Link::Sockets {
         live(context, zmq::socket_type::xpub),
         monitor(context, zmq::socket_type::pair) {
     clock.set(zmq::sockopt::routing_id, name);
-    clock.set(zmq::sockopt::rcvtimeo, kLookAroundMs);
+    clock.set(zmq::sockopt::rcvtimeo, kPollMs);
     connect_control(clock, clock_endpoint);
     const std::string watch = "inproc://clock-monitor";
     if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
@@ -40,9 +40,9 @@ struct Link::Sockets {
   zmq::socket_t monitor;
   std::string sync_endpoint;
   std::string live_endpoint;
-  Audience participants;
-  Audience viewers;
-  bool looked_for_viewers = false;                // since the last flush: asking costs a system call
+  Subscribers participants;
+  Subscribers viewers;
+  bool polled_viewers = false;                    // since the last flush: asking costs a system call
   std::vector<std::vector<zmq::message_t>> held;  // for participants, until the next flush
   std::size_t held_bytes = 0;
 };
@@ -124,7 +124,7 @@ Link::Link(const std::string& name, const std::string& clock_endpoint, const Add
   sockets_->sync.set(zmq::sockopt::xpub_nodrop, true);
   sockets_->sync.set(zmq::sockopt::sndbuf, kKernelBuffer);
   sockets_->sync.set(zmq::sockopt::linger, kLingerMs);
-  sockets_->sync_endpoint = bind(sockets_->sync, address, name + ".sync");
+  sockets_->sync_endpoint = bind_to(sockets_->sync, address, name + ".sync");
   sockets_->live_endpoint = bind_live(sockets_->live, address, name);
 }
 
@@ -182,14 +182,14 @@ std::vector<msg::Packet> Link::take() {
 
 void Link::publish(const msg::Packet& packet) {
   Sockets& s = *sockets_;
-  if (!s.looked_for_viewers) s.viewers.read(s.live);
-  s.looked_for_viewers = true;
-  const bool heard = s.participants.hears(packet.topic);
-  if (!heard && s.viewers.empty()) return;
+  if (!s.polled_viewers) s.viewers.read(s.live);
+  s.polled_viewers = true;
+  const bool subscribed = s.participants.has_subscriber(packet.topic);
+  if (!subscribed && s.viewers.empty()) return;
 
   std::vector<zmq::message_t> frames = to_frames(packet);
   if (!s.viewers.empty()) send_frames(s.live, frames);
-  if (!heard) return;
+  if (!subscribed) return;
   s.held.push_back(std::move(frames));
   s.held_bytes += packet.body.size();
   if (s.held_bytes > kHoldAtMostBytes) flush();
@@ -200,7 +200,7 @@ void Link::flush() {
   for (std::vector<zmq::message_t>& frames : s.held) send_frames(s.sync, frames);
   s.held.clear();
   s.held_bytes = 0;
-  s.looked_for_viewers = false;
+  s.polled_viewers = false;
 }
 
 }  // namespace ensonify::bus

@@ -12,7 +12,7 @@
 
 namespace ensonify::bus {
 
-/// Where sockets are bound: in the run directory (`ipc`) or on the loopback interface (`tcp`, a port chosen at bind or
+/// Transport of sockets: in the run directory (`ipc`) or on the loopback interface (`tcp`, a port chosen at bind or
 /// the one given).
 struct Address {
   bool tcp = false;
@@ -42,7 +42,7 @@ class Link {
   const std::string& live_endpoint() const;
 
   void send_control(std::string_view text);
-  /// What happened next. Blocks; `clock_lost` when the clock's socket went away.
+  /// The next event. Blocks; `clock_lost` when the clock's socket went away.
   struct Event {
     enum Kind { kControl, kTokens, kClockLost } kind = kControl;
     std::string control;
@@ -50,12 +50,12 @@ class Link {
   };
   Event wait();
 
-  /// The clock's next message; nothing after a while without one. Half the price of wait(), which then tells why.
+  /// The clock's next message; nothing after a while without one. Half the price of wait(), which then states why.
   std::optional<std::string> wait_control();
 
   /// Starts receiving. The token of each topic is subscribed after the topic itself.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
-  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread met.
+  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw.
   using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
   void wait_arrived(const TopicCounts& counts);
   /// Everything received since the last call, in order per topic.

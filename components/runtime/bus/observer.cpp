@@ -4,9 +4,9 @@
 #include <set>
 #include <zmq.hpp>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
-#include "components/runtime/exit_error.h"
 
 namespace ensonify::bus {
 
@@ -63,7 +63,7 @@ std::optional<msg::Packet> Observer::next(std::optional<WallTime> until) {
     }
     zmq::pollitem_t items[] = {{sockets_->data.handle(), 0, ZMQ_POLLIN, 0},
                                {sockets_->monitor.handle(), 0, ZMQ_POLLIN, 0}};
-    if (zmq_poll(items, 2, left_ms) < 0) return std::nullopt;  // a signal: the caller looks why
+    if (zmq_poll(items, 2, left_ms) < 0) return std::nullopt;  // a signal: the caller checks why
     if (items[1].revents != 0) sockets_->note_leavers();
   }
 }

@@ -20,7 +20,7 @@ bool receive(zmq::socket_t& socket, Router::Message& message, zmq::recv_flags fl
   zmq::message_t text;
   try {
     if (!socket.recv(from, flags)) return false;
-  } catch (const zmq::error_t&) {  // a signal: the caller looks why
+  } catch (const zmq::error_t&) {  // a signal: the caller checks why
     return false;
   }
   message.from = from.to_string();
@@ -38,7 +38,7 @@ struct Router::Sockets {
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::router};
   zmq::socket_t live{context, zmq::socket_type::xpub};
-  Audience viewers;
+  Subscribers viewers;
   int alarm = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);  // zmq_poll alone knows milliseconds only
   std::string endpoint;
   std::string live_endpoint;
@@ -52,7 +52,7 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::rcvtimeo, static_cast<int>(kCoarse.count()));
   socket.set(zmq::sockopt::sndhwm, 0);
   socket.set(zmq::sockopt::rcvhwm, 0);
-  sockets_->endpoint = bind(socket, address, "clock");
+  sockets_->endpoint = bind_to(socket, address, "clock");
   sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
 }
 
@@ -85,7 +85,7 @@ bool Router::send(const std::string& to, std::string_view text) {
     sockets_->socket.send(zmq::buffer(to), zmq::send_flags::sndmore);
     sockets_->socket.send(zmq::buffer(text));
     return true;
-  } catch (const zmq::error_t&) {  // EHOSTUNREACH: the peer is gone; the launcher tells why
+  } catch (const zmq::error_t&) {  // EHOSTUNREACH: the peer is gone; the launcher states why
     return false;
   }
 }
@@ -99,18 +99,18 @@ void Router::publish_live(const msg::Packet& packet) {
   send_frames(sockets_->live, frames);
 }
 
-struct Asker::Sockets {
+struct ClockQuery::Sockets {
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::dealer};
 };
 
-Asker::Asker(const std::string& clock_endpoint) : sockets_(std::make_unique<Sockets>()) {
+ClockQuery::ClockQuery(const std::string& clock_endpoint) : sockets_(std::make_unique<Sockets>()) {
   connect_control(sockets_->socket, clock_endpoint);
   sockets_->socket.set(zmq::sockopt::linger, 0);
 }
-Asker::~Asker() = default;
+ClockQuery::~ClockQuery() = default;
 
-std::optional<std::string> Asker::ask(std::string_view request, std::chrono::milliseconds patience) {
+std::optional<std::string> ClockQuery::ask(std::string_view request, std::chrono::milliseconds patience) {
   sockets_->socket.send(zmq::buffer(request));
   zmq::pollitem_t item{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0};
   zmq::message_t answer;

@@ -26,7 +26,7 @@ class Router {
     std::string from;  // routing id: a participant's name, or one that ZeroMQ made up for a tool
     std::string text;
   };
-  /// The next message; nothing at `until`, after a signal, or now and then before: look at the time and call again.
+  /// The next message; nothing at `until`, after a signal, or now and then before: check the time and call again.
   std::optional<Message> wait(std::optional<WallTime> until);
   /// False if that peer is gone.
   bool send(const std::string& to, std::string_view text);
@@ -41,10 +41,10 @@ class Router {
 };
 
 /// A tool's end: asks the clock and waits for the answer.
-class Asker {
+class ClockQuery {
  public:
-  explicit Asker(const std::string& clock_endpoint);
-  ~Asker();
+  explicit ClockQuery(const std::string& clock_endpoint);
+  ~ClockQuery();
   /// The answer, or nothing when none came within `patience`.
   std::optional<std::string> ask(std::string_view request, std::chrono::milliseconds patience);
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::bus {
 
-std::string bind(zmq::socket_t& socket, const Address& address, const std::string& name) {
+std::string bind_to(zmq::socket_t& socket, const Address& address, const std::string& name) {
   constexpr std::size_t kLongestSocketPath = 107;
   const std::string path = address.run_dir + "/" + name;
   if (!address.tcp && path.size() > kLongestSocketPath) {
@@ -28,10 +28,10 @@ std::string bind_live(zmq::socket_t& socket, const Address& address, const std::
   constexpr int kLiveQueue = 4;
   socket.set(zmq::sockopt::sndhwm, kLiveQueue);
   socket.set(zmq::sockopt::linger, 0);
-  return bind(socket, address, process + ".live");
+  return bind_to(socket, address, process + ".live");
 }
 
-std::vector<std::string> Audience::read(zmq::socket_t& xpub) {
+std::vector<std::string> Subscribers::read(zmq::socket_t& xpub) {
   constexpr char kSubscribe = 1;  // ZeroMQ's first byte; 0 takes it back when the last subscriber of it has gone
   std::vector<std::string> fresh;
   zmq::message_t message;
@@ -44,7 +44,7 @@ std::vector<std::string> Audience::read(zmq::socket_t& xpub) {
   return fresh;
 }
 
-bool Audience::hears(const std::string& topic) const {
+bool Subscribers::has_subscriber(const std::string& topic) const {
   const std::string_view frame(topic.c_str(), topic.size() + 1);
   return std::any_of(prefixes_.begin(), prefixes_.end(),
                      [&](const std::string& prefix) { return frame.starts_with(prefix); });

@@ -16,18 +16,18 @@ inline constexpr int kKernelBuffer = 1 << 20;  // fewer switches between process
 
 /// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, not on the loopback
 /// interface, or a socket path is longer than the system's 107 bytes.
-std::string bind(zmq::socket_t& socket, const Address& address, const std::string& name);
+std::string bind_to(zmq::socket_t& socket, const Address& address, const std::string& name);
 
 /// Makes an XPUB the live plane of a process: a tiny queue, nothing is waited for. Binds it and returns its endpoint.
 std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process);
 
-/// What the subscribers of an XPUB have asked for, so that what nobody hears need not be sent.
-class Audience {
+/// Topics that the subscribers of an XPUB have requested, so that what has no subscriber need not be sent.
+class Subscribers {
  public:
   /// Reads what they have said since the last call; returns what is asked for now and was not before.
   std::vector<std::string> read(zmq::socket_t& xpub);
   bool empty() const { return prefixes_.empty(); }
-  bool hears(const std::string& topic) const;
+  bool has_subscriber(const std::string& topic) const;
 
  private:
   std::set<std::string> prefixes_;  // of frame 0: a topic with the NUL that ends it, or less

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "components/runtime/assert.h"
+#include "components/errors/assert.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {

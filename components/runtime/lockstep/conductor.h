@@ -34,7 +34,7 @@ class Conductor {
   /// Pacing, pause and step: nobody acts after `cap`. Lowering it takes nothing back.
   void set_cap(SimTime cap) { cap_ = cap; }
 
-  /// Who may run now and was not running. Marks them as running.
+  /// Participants that may run now and were not running. Marks them as running.
   std::vector<Grant> grants();
   /// `participant` has run its grant and promises to publish nothing before `next`.
   void done(std::size_t participant, SimTime next);
@@ -51,7 +51,7 @@ class Conductor {
   SimTime granted(std::size_t participant) const { return state_[participant].granted; }
   SimTime end() const { return end_; }
   SimTime cap() const { return cap_; }
-  /// Earliest event that waits for the cap alone, kNever if none does: when pacing has to look again.
+  /// Earliest event that waits for the cap alone, kNever if none does: when pacing has to check again.
   SimTime next_capped() const;
   /// Those whose promise holds `participant` back now: for stall reports.
   std::vector<std::size_t> waits_for(std::size_t participant) const;

@@ -39,7 +39,7 @@ TEST_CASE("a producer may run a window ahead of its consumers, not more") {
   CHECK(horizon_of(conductor.grants(), 0) == 1_s);
 }
 
-TEST_CASE("the cap holds everybody, and next_capped tells pacing when to look again") {
+TEST_CASE("the cap holds all participants, and next_capped gives pacing its next time") {
   Conductor conductor = loop();
   conductor.set_cap(SimTime{-1});
   CHECK(conductor.grants().empty());

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scenario.h"
+#include "components/config/config_reader.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

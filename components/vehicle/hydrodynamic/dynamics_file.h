@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kernels/motion/helm.h"
+#include "kernels/vehicle/motion/helm.h"
 
 namespace ensonify {
 

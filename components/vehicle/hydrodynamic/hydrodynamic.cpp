@@ -43,7 +43,7 @@ motion::BodyState HydrodynamicDynamics::stepped(SimTime dt) const {
   command.height_m += water_.tide.at(seconds(grid_)).height_m;
   const Eigen::VectorXd orders = motion::orders(helm_, body_, state_, command, water);
   // Through the step, and any part of it, the water is as in the middle of it: as at its start, it would lag behind
-  // what moving() tells, and on a tide of 1.5 m the hull would be metres from the integral of its accelerations after
+  // what moving() gives, and on a tide of 1.5 m the hull would be metres from the integral of its accelerations after
   // ten minutes.
   const motion::BodyState middle = body_.step(state_, orders, water, seconds(kStep) / 2);
   return body_.step(state_, orders, around(middle, grid_ + kStep / 2), seconds(dt));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/vehicle/dynamics.h"
-#include "kernels/motion/helm.h"
+#include "kernels/vehicle/motion/helm.h"
 
 namespace ensonify {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "components/runtime/config/config_error.h"
+#include "components/config/config_error.h"
 #include "components/vehicle/integrated.h"
 
 using namespace ensonify;
@@ -94,7 +94,7 @@ TEST_CASE("the launch floats upright on its waterline and makes ten knots") {
   CHECK(steady("survey_launch", {20, 0}, 60).through_water(0) == Approx(5.0).epsilon(0.01));
 }
 
-TEST_CASE("every vehicle comes to the heading and the speed it is told, and holds its depth in a cross current") {
+TEST_CASE("vehicles reach commanded heading and speed, and hold depth in a cross current") {
   const struct {
     const char* name;
     double speed_mps, height_m;
@@ -115,7 +115,7 @@ TEST_CASE("every vehicle comes to the heading and the speed it is told, and hold
   }
 }
 
-TEST_CASE("told to go faster than it can, a vehicle goes as fast as it can and keeps its depth and heading") {
+TEST_CASE("commanded too fast, a vehicle runs at its highest speed on depth and heading") {
   const struct {
     const char* name;
     double top_mps, height_m;
@@ -137,7 +137,7 @@ TEST_CASE("told to go faster than it can, a vehicle goes as fast as it can and k
   }
 }
 
-TEST_CASE("the highest speed is where thrust balances drag, and circles are as tight as rudder or helm make them") {
+TEST_CASE("the highest speed balances thrust and drag; rudder or helm set the turn radius") {
   const auto ability = [](const char* name) {
     const HydrodynamicVehicle vehicle = read_dynamics(file(name));
     return std::pair(motion::Body(vehicle.body), vehicle.helm);
@@ -184,7 +184,7 @@ TEST_CASE("what moves between two poses is the integral of what they say of it")
   CHECK((after.velocity_enu_mps - before.velocity_enu_mps - gain).norm() < 1e-6);
 }
 
-TEST_CASE("600 s of a launch's accelerations and turn rates, on a tide and in a stream, integrate to her pose") {
+TEST_CASE("600 s of a launch's accelerations and rates, in tide and stream, give her pose") {
   VehicleConfig config = config_of("survey_launch");
   config.water.tide = vertical::Tide(vertical::HarmonicTide{2.0, {{1.405189e-4, 1.5, 0.0}}});
   config.water.floats = vertical::Loading{{{0, 0.0}, {9, 0.3}}, 0.0, -1e-6};
@@ -199,7 +199,7 @@ TEST_CASE("600 s of a launch's accelerations and turn rates, on a tide and in a 
   CHECK(off.attitude_rad < 1e-3 * kDegree);
 }
 
-TEST_CASE("600 s of an AUV's dives and climbs through a sheared current, on a gauge's tide, integrate to its pose") {
+TEST_CASE("600 s of an AUV's motion through sheared current and tide integrate to its pose") {
   VehicleConfig config = config_of("remus_100");
   config.water.tide = vertical::Tide(vertical::GaugeReadings{{{0, 1.0}, {360, 1.074}, {720, 1.149}, {1080, 1.222}}});
   config.water.current.profile = {{2.0, {0.1, 0.4}}, {12.0, {0.3, 0.4}}, {22.0, {0.5, -0.1}}};
@@ -212,7 +212,7 @@ TEST_CASE("600 s of an AUV's dives and climbs through a sheared current, on a ga
   CHECK(off.attitude_rad < 1e-3 * kDegree);
 }
 
-TEST_CASE("the REMUS class dives at a pitch of 15 degrees, as fast as its speed times the sine of it") {
+TEST_CASE("the REMUS class dives at 15 degrees of pitch, at its speed times the sine") {
   HydrodynamicDynamics auv(config_of("remus_100"), {{0, 0, -2}, 0.5, 2.0}, 0_s);
   auv.command(0.5, 2.0, 60.0);
   auv.advance(60_s);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/vehicle/dynamics.h"
-#include "kernels/vertical/floating.h"
+#include "kernels/vehicle/vertical/floating.h"
 
 namespace ensonify {
 
@@ -16,10 +16,10 @@ class KinematicDynamics : public Dynamics {
   frames::MovingPose moving() const override;
 
  private:
-  /// Of the waterline of what floats, and of the reference point of what does not: settlement does not count.
+  /// Depth of the waterline of what floats, of the reference point of what does not: settlement does not count.
   double depth_below_datum_m(const motion::State& state, double t_s) const;
   void move(SimTime now);
-  /// How far the current carries it from now on: by Simpson's rule over the depths on the way where it is sheared.
+  /// Drift by the current from now on: by Simpson's rule over the depths on the way where it is sheared.
   frames::Vec2 drift_enu_m(SimTime until) const;
 
   motion::Limits limits_;

@@ -35,7 +35,7 @@ vertical::Tide read_every_six_minutes(double first_s) {
 
 }  // namespace
 
-TEST_CASE("600 s of dives and climbs through a sheared current: what is told of it integrates to the pose") {
+TEST_CASE("600 s of published motion in dives through sheared current integrate to the pose") {
   VehicleConfig config = steerable();
   config.water.current.profile = {{2.0, {0.1, 0.4}}, {12.0, {0.3, 0.4}}, {22.0, {0.5, -0.1}}};
   config.water.current.streams = {{{0.5, 0.1}, kM2_radps, 0.4}};
@@ -58,7 +58,7 @@ TEST_CASE("through a sheared current the pose rate does not change the path") {
   CHECK((often.moving().pose.position_enu_m - once.moving().pose.position_enu_m).norm() < 1e-6);
 }
 
-TEST_CASE("600 s on a gauge's tide, from a reading and between two, afloat and submerged, integrate to the pose") {
+TEST_CASE("600 s on a gauge's tide, afloat and submerged, integrate to the pose") {
   for (const double first_s : {0.0, -123.4}) {
     for (const bool floats : {true, false}) {
       VehicleConfig config = steerable();
@@ -72,7 +72,7 @@ TEST_CASE("600 s on a gauge's tide, from a reading and between two, afloat and s
   }
 }
 
-TEST_CASE("at each instant what is told of a steered vehicle is the derivative of where it is") {
+TEST_CASE("a steered vehicle's published motion is the derivative of its position") {
   VehicleConfig config = steerable();
   config.water.current.profile = {{2.0, {0.1, 0.4}}, {12.0, {0.3, 0.4}}, {22.0, {0.5, -0.1}}};
   config.water.tide = read_every_six_minutes(-123.4);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """How often does a filter that is exactly right keep "mean NEES of 100 runs inside its 95 % band at 90 % of the epochs"?
 
-A linear twin of kernels/navigation_filter/consistency_test.cpp: 28 errors driven by the very noise that a Kalman filter is told,
+A linear twin of kernels/instruments/navigation_filter/consistency_test.cpp: 28 errors driven by the very noise that a Kalman filter is given,
 on the same mission, fibre-optic grade. The filter is right by construction, so what its hundreds of runs do is luck alone.
 
   consistency.py [--runs 10000] [--measured FILE] [--picture FILE]

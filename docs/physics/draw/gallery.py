@@ -21,7 +21,7 @@ for folder in ("tools/plot", "clients/python"):
 import ensonify  # noqa: E402
 from ensonify_plot import geometry, grid, pictures, water_column, waterfall  # noqa: E402
 from ensonify_plot.forward_looking import AMBER, polar_panel  # noqa: E402
-from ensonify_plot.heard import Span, choose_ping, pings_in  # noqa: E402
+from ensonify_plot.received import Span, choose_ping, pings_in  # noqa: E402
 from ensonify_plot.level import Gain, gain_for, level_db  # noqa: E402
 from ensonify_plot.ping import ECHOES, FINDS, fan_image  # noqa: E402
 from ensonify_plot.stack import stacked  # noqa: E402
@@ -32,7 +32,7 @@ ALL = Span()
 
 @dataclass(frozen=True)
 class Artefact:
-    """One pair. `always` is set in both runs, `on` and `off` in one each. `draw` puts a record on axes and tells what the colour bar
+    """One pair. `always` is set in both runs, `on` and `off` in one each. `draw` puts a record on axes and gives what the colour bar
     shows; `draw_off` where the right side is drawn in another way. Colours run between percentiles of both sides, or `limits`."""
 
     name: str
@@ -64,12 +64,12 @@ def the(record: ensonify.Record, message_type: type) -> str:
 def waterfall_panel(record, axes, ground: bool):
     """Time upwards; `ground` as `ensonify plot waterfall --ground`."""
     pings, tracks = waterfall.read(record, None, ALL, ALL, False)
-    pings = [heard for heard in pings if heard.ping.ping in tracks]
+    pings = [received for received in pings if received.ping.ping in tracks]
     gain = gain_for("auto", pings[0].ping, waterfall.LEVELLED)
-    known_m = [tracks[heard.ping.ping].altitude_m for heard in pings]
+    known_m = [tracks[received.ping.ping].altitude_m for received in pings]
     altitudes_m = known_m if ground else [0.0] * len(pings)
     reach_m = max(float(geometry.ground_range_m(pings[0].end_m, altitude_m)) for altitude_m in altitudes_m)
-    stack = stacked([heard.t_s for heard in pings], waterfall.lines_of(pings, altitudes_m, gain, reach_m / 300, 300))
+    stack = stacked([received.t_s for received in pings], waterfall.lines_of(pings, altitudes_m, gain, reach_m / 300, 300))
     drawn = axes.imshow(level_db(stack.rows), extent=(-reach_m, reach_m, stack.begin_s, stack.end_s), origin="lower", aspect="auto",
                         cmap=waterfall.COPPER, interpolation="nearest")
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
@@ -90,7 +90,7 @@ def echogram(record, axes):
     pings = list(pings_in(record, the(record, ensonify.Ping), ALL, ALL))
     gain = Gain(20.0, pings[0].ping.gain_absorption_dbpm)
     reach_m = pings[0].end_m
-    stack = stacked([heard.t_s for heard in pings], water_column.lines_of(pings, [0] * len(pings), gain, reach_m / 500, 500))
+    stack = stacked([received.t_s for received in pings], water_column.lines_of(pings, [0] * len(pings), gain, reach_m / 500, 500))
     drawn = axes.imshow(level_db(stack.rows).T, extent=(stack.begin_s, stack.end_s, reach_m, 0.0), aspect="auto", cmap=ECHOES,
                         interpolation="nearest")
     axes.set(xlabel="time (s)", ylabel="range below the sounder (m)")
@@ -132,9 +132,9 @@ def strength(record, axes):
 
 def section(record, axes):
     """The fan of a multibeam's ping, as deep as the bottom."""
-    heard = choose_ping(record, the(record, ensonify.Ping))
-    gain = gain_for("auto", heard.ping, Gain(30.0))
-    fan = fan_image(heard, gain, 26.0)
+    received = choose_ping(record, the(record, ensonify.Ping))
+    gain = gain_for("auto", received.ping, Gain(30.0))
+    fan = fan_image(received, gain, 26.0)
     drawn = axes.imshow(fan.level_db, extent=fan.extent_m, aspect="equal", cmap=ECHOES, interpolation="nearest")
     axes.set(xlabel="starboard of the head (m)", ylabel="below the head (m)")
     return drawn, gain.label()
@@ -142,9 +142,9 @@ def section(record, axes):
 
 def ahead(record, axes):
     """A forward-looking image as the sea lies ahead."""
-    heard = choose_ping(record, the(record, ensonify.Ping))
-    gain = gain_for("auto", heard.ping, Gain(30.0))
-    image, extent = polar_panel(heard, heard.power_upa2 * np.power(10.0, gain.db(heard.range_m) / 10))
+    received = choose_ping(record, the(record, ensonify.Ping))
+    gain = gain_for("auto", received.ping, Gain(30.0))
+    image, extent = polar_panel(received, received.power_upa2 * np.power(10.0, gain.db(received.range_m) / 10))
     drawn = axes.imshow(image, extent=extent, origin="lower", cmap=AMBER, interpolation="nearest")
     axes.set(xlabel="starboard of the head (m)", ylabel="ahead of the head (m)")
     return drawn, gain.label()

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/record/reader.h"
+#include "components/errors/exit_error.h"
+#include "components/record/reader.h"
 #include "messages/codec.h"
 
 using namespace ensonify;

@@ -2,7 +2,7 @@
 
 namespace ensonify {
 
-StubConfig StubConfig::read(ConfigReader& from, const Scenario&, const std::string&) {
+StubConfig StubConfig::read(ConfigReader& from) {
   StubConfig config;
   from.optional("rate_hz", config.rate_hz, 1, 1000);
   from.optional("read_every_byte", config.read_every_byte);

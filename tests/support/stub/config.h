@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config/config_reader.h"
-#include "components/runtime/config/scenario.h"
+#include "components/config/config_reader.h"
 #include "components/runtime/sim_time.h"
 
 namespace ensonify {
@@ -35,7 +34,7 @@ struct StubConfig {
   std::optional<double> die_s;     // kills itself with SIGKILL
   std::optional<double> stop_s;    // stops itself with SIGSTOP
 
-  static StubConfig read(ConfigReader& from, const Scenario& scenario, const std::string& process);
+  static StubConfig read(ConfigReader& from);
 };
 
 }  // namespace ensonify

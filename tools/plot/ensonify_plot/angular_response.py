@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import ensonify
-from ensonify_plot.heard import Span, process_of, settings_line
+from ensonify_plot.received import Span, process_of, settings_line
 from ensonify_plot.level import Gain
 from ensonify_plot.pictures import new_figure
 from ensonify_plot.survey import UserError
@@ -31,14 +31,14 @@ class Response:
 def area_m2(range_m, beam_rad, incidence_rad, transmit_rad: float, receive_rad: float):
     """Footprint of a beam on a level bottom from its one-way -3 dB widths: it widens by 1 / cos of the steering, and on the
     ground by 1 / cos of the incidence. The level of a sounding is its echo's energy over the pulse length: all of the
-    footprint sends it (`kernels/detect/bottom.h`), however short the pulse."""
+    footprint sends it (`kernels/acoustics/detect/bottom.h`), however short the pulse."""
     widths = np.square(ONE_WAY_EQUIVALENT) * transmit_rad * receive_rad
     return np.square(range_m) * widths / (np.cos(beam_rad) * np.cos(incidence_rad))
 
 
 def incidence_rad(s: ensonify.Soundings) -> np.ndarray:
     """Angle from the vertical of each sounding, seen from the head, positive to starboard: by where the soundings lie if the
-    message tells the head's place, else the beam's angle. On a level bottom its complement is the grazing angle."""
+    message gives the head's place, else the beam's angle. On a level bottom its complement is the grazing angle."""
     poses = s.pose_position_enu_m
     if poses.ndim != 2 or len(poses) == 0:
         return np.asarray(s.beam_angle_rad, float)
@@ -48,19 +48,19 @@ def incidence_rad(s: ensonify.Soundings) -> np.ndarray:
 
 def own_strength_db(s: ensonify.Soundings, settings, absorption_dbpm: float) -> np.ndarray:
     """Strength from the level of each detection: EL - SL + 40 log R + 2 A R - 10 log area; the area only where the settings
-    tell the beam widths."""
+    give the beam widths."""
     range_m = s.travel_time_s * settings.sound_speed_mps / 2
     source_db = settings.source_level_db
     if settings.sectors and s.sector.size:
         source_db = np.array([each.source_level_db for each in settings.sectors])[s.sector]
     strength = s.backscatter_db - source_db + Gain(40.0, absorption_dbpm).db(range_m)
-    if tells_widths(settings):
+    if reports_widths(settings):
         widths_rad = settings.transmit_beamwidth_rad, settings.receive_beamwidth_rad
         strength = strength - 10 * np.log10(area_m2(range_m, s.beam_angle_rad, incidence_rad(s), *widths_rad))
     return strength
 
 
-def tells_widths(settings) -> bool:
+def reports_widths(settings) -> bool:
     """Whether beam widths are known."""
     return settings.transmit_beamwidth_rad > 0 and settings.receive_beamwidth_rad > 0
 
@@ -72,7 +72,7 @@ def settings_of(record: ensonify.Record, topic: str, s: ensonify.Soundings):
     pings = [other for other in record.topics_of(ensonify.Ping) if process_of(other) == process_of(topic)]
     found = next((m.content for m in record.messages(*pings)), None) if pings else None
     if found is None or not found.sound_speed_mps > 0:
-        raise UserError(f"{record.file}: {topic} does not tell its settings (sound_speed_mps is 0), nor does a recorded ping "
+        raise UserError(f"{record.file}: {topic} does not state its settings (sound_speed_mps is 0), nor does a recorded ping "
                         f"of {process_of(topic)}: levels cannot be made up for range")
     return found
 
@@ -99,9 +99,9 @@ def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span,
     if not len(angle):
         raise UserError(f"{record.file}: none of the {sum(len(s.valid) for s in messages):,} entries of {topic} is an accepted "
                         "sounding with a level")
-    unit, corrections = _said(common, by_head, taken_dbpm)
-    told = first.pose_position_enu_m.ndim == 2 and len(first.pose_position_enu_m) > 0
-    angles = "straight line from head to sounding" if told else "beam angle from the head's down axis: no pose is recorded"
+    unit, corrections = _state(common, by_head, taken_dbpm)
+    reported = first.pose_position_enu_m.ndim == 2 and len(first.pose_position_enu_m) > 0
+    angles = "straight line from head to sounding" if reported else "beam angle from the head's down axis: no pose is recorded"
     ends = [(s.ping, s.stamp_ns * 1e-9) for s in (first, messages[-1])]
     return Response(np.pi / 2 - np.abs(angle), strength, angle > 0, unit, corrections, angles, ends, topic, settings_line(common))
 
@@ -123,14 +123,14 @@ def _extent(record, topic) -> str:
             else "it holds none")
 
 
-def _said(settings, by_head: bool, absorption_dbpm: float) -> tuple:
+def _state(settings, by_head: bool, absorption_dbpm: float) -> tuple:
     """(quantity of the curve, corrections in words)."""
     strength = "backscattering strength (dB re 1 m² per m²)"
     if by_head:
         return strength, "strength as the head computed it: by its settings, on a flat seabed"
     absorption = f"2 R · {absorption_dbpm * 1e3:g} dB/km" if absorption_dbpm else "no absorption (none is stated)"
     done = f"corrected for source level, 40 log R, {absorption}"
-    if tells_widths(settings):
+    if reports_widths(settings):
         return strength, f"{done}, footprint of the beam; not for beam patterns"
     return "strength of the footprint (dB re 1 m²)", f"{done}; not for area (beam widths are not recorded)"
 

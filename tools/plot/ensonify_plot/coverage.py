@@ -1,4 +1,4 @@
-"""An adaptive survey from above: what soundings have covered, the depths found, the lines flown, and lines that were planned."""
+"""An adaptive survey from above: what soundings have covered, the depths found, the lines run, and lines that were planned."""
 import json
 import pathlib
 
@@ -10,7 +10,7 @@ from ensonify_plot.survey import UserError
 
 
 def coverage_picture(record: ensonify.Record, plan: str | None):
-    """Depth with the lines flown above, soundings of each cell below; with a plan its lines above both."""
+    """Depth with the lines run above, soundings of each cell below; with a plan its lines above both."""
     topics = record.topics_of(ensonify.Coverage)
     if not topics:
         raise UserError("the record has no coverage/1; record the topic of a coverage process")

@@ -31,7 +31,7 @@ def sample_at(range_m: np.ndarray, first_range_m: float, step_m: float, samples:
 
 
 def polar_image(power: np.ndarray, angle_rad, first_range_m: float, step_m: float, across_m, along_m) -> np.ndarray:
-    """Beam x sample `power` at the points (across, along), NaN where no beam looks. Angles count from the along axis (down for
+    """Beam x sample `power` at the points (across, along), NaN where no beam points. Angles count from the along axis (down for
     a fan, forward for a forward-looking head), positive to starboard."""
     across, along = np.broadcast_arrays(across_m, along_m)
     beam = beam_at(np.asarray(angle_rad, float), np.arctan2(across, along))
@@ -71,7 +71,7 @@ def slant_range_m(ground_range_m, altitude_m):
 def ground_line(power: np.ndarray, first_range_m: float, step_m: float, altitude_m: float, cell_m: float, cells: int):
     """One side of a waterfall over ground range: cell j reaches from j to j + 1 times `cell_m` and gets the mean power of the
     samples that fall in it, or the sample nearest to its centre where none does; NaN where there is none. Altitude 0 leaves
-    slant range. As `kernels/detect/bottom_track.h` does it."""
+    slant range. As `kernels/acoustics/detect/bottom_track.h` does it."""
     range_m = first_range_m + np.arange(len(power)) * step_m
     on_ground = range_m >= altitude_m
     cell = np.floor(ground_range_m(range_m, altitude_m) / cell_m).astype(np.int64)
@@ -85,7 +85,7 @@ def ground_line(power: np.ndarray, first_range_m: float, step_m: float, altitude
 
 def vertical_rad(enu_from_head) -> float:
     """Angle in the head's athwartships plane from its down axis to the vertical, positive to starboard: the beam of this angle
-    looks straight down. `enu_from_head` is a quaternion w, x, y, z."""
+    points straight down. `enu_from_head` is a quaternion w, x, y, z."""
     w, x, y, z = enu_from_head
     # World down (0, 0, -1) in head axes: minus the third row of the rotation's matrix.
     starboard, down = -2 * (y * z + w * x), -(1 - 2 * (x * x + y * y))

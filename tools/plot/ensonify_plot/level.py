@@ -8,7 +8,7 @@ NEAREST_M = 1.0  # nearer than this a gain is held
 
 @dataclass(frozen=True)
 class Gain:
-    """S log10 R + 2 A R with R in metres, no nearer than 1 m (as `kernels/echo/gain.h`)."""
+    """S log10 R + 2 A R with R in metres, no nearer than 1 m (as `kernels/acoustics/echo/gain.h`)."""
 
     spreading_db: float = 0.0
     absorption_dbpm: float = 0.0

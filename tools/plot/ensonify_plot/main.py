@@ -8,7 +8,7 @@ import numpy as np
 
 import ensonify
 from ensonify_plot import files, grid, pictures, reduction, uncertainty
-from ensonify_plot.heard import choose_ping, heads_with_soundings, process_of, soundings_of
+from ensonify_plot.received import choose_ping, heads_with_soundings, process_of, soundings_of
 from ensonify_plot.ping import ping_picture
 from ensonify_plot.results import Writer, folder_of, open_record
 from ensonify_plot.summary import depth_statistics, run_facts
@@ -87,11 +87,11 @@ def draw_a_ping(record: ensonify.Record, out: Writer) -> None:
     if not any(process_of(topic) in heads_with_soundings(record) for topic in record.topics_of(ensonify.Ping)):
         return
     try:
-        heard = choose_ping(record, multibeam_topic(record, None, or_first=True))
+        received = choose_ping(record, multibeam_topic(record, None, or_first=True))
     except UserError as error:
         print(f"ensonify plot: no ping.png: {error}", file=sys.stderr)
         return
-    out.picture("ping.png", ping_picture(heard, soundings_of(record, heard)))
+    out.picture("ping.png", ping_picture(received, soundings_of(record, received)))
 
 
 def chosen_cell(survey: Survey, given: float | None) -> float:
@@ -143,13 +143,13 @@ def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
 
 def coverage(survey: Survey, frame: grid.Frame) -> dict:
     """Share of the surveyed area that has soundings. The area is the convex hull of what was seen on the runlines (or, if
-    the record does not tell these, at any time)."""
+    the record does not state these, at any time)."""
     s = survey.soundings
     on_line = np.zeros(len(s), bool)
     for begin, end in survey.on_line_s:
         on_line |= (s.t_s >= begin) & (s.t_s <= end)
-    told = bool(on_line.any())
-    part = on_line if told else np.ones(len(s), bool)
+    reported = bool(on_line.any())
+    part = on_line if reported else np.ones(len(s), bool)
     cells = frame.cols * frame.rows
     index = frame.index(s.east_m, s.north_m)
     covered_on_line = np.bincount(index[part], minlength=cells).reshape(frame.rows, frame.cols) > 0
@@ -158,7 +158,7 @@ def coverage(survey: Survey, frame: grid.Frame) -> dict:
     share = np.count_nonzero(covered & area) / max(np.count_nonzero(area), 1)
     return {"share": share, "area_m2": float(np.count_nonzero(area) * frame.cell_m**2),
             "with_soundings_m2": float(np.count_nonzero(covered) * frame.cell_m**2),
-            "of": "convex hull of the soundings on the runlines" if told else "convex hull of all soundings"}
+            "of": "convex hull of the soundings on the runlines" if reported else "convex hull of all soundings"}
 
 
 def in_words(summary: dict) -> str:

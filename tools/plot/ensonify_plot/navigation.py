@@ -18,7 +18,7 @@ class Track:
     t_s: np.ndarray
     position_enu_m: np.ndarray  # (n, 3)
     enu_from_body: np.ndarray   # (n, 4), w x y z
-    sigma_m: np.ndarray         # (n, 3), NaN where not told
+    sigma_m: np.ndarray         # (n, 3), NaN where not given
     sigma_heading_rad: np.ndarray
 
     def angles_rad(self) -> np.ndarray:
@@ -58,7 +58,7 @@ def errors_of(estimate: Track, truth: Track) -> tuple:
 
 
 def allan_deviation(readings: np.ndarray, interval_s: float) -> tuple:
-    """Averaging times (s) and overlapping Allan deviation, octave by octave, as `kernels/inertial/allan.h`."""
+    """Averaging times (s) and overlapping Allan deviation, octave by octave, as `kernels/instruments/inertial/allan.h`."""
     integral = np.concatenate([[0.0], np.cumsum(readings) * interval_s])
     times, deviations, m = [], [], 1
     while 9 * m <= len(readings):
@@ -137,9 +137,9 @@ def _draw_errors(place, heading, estimate, truth):
     for sign in (-3, 3):
         heading.plot(t_s, np.degrees(sign * estimate.sigma_heading_rad[inside]), color="tab:blue", linewidth=0.8,
                      linestyle="--")
-    told = np.isfinite(estimate.sigma_m).any()
+    reported = np.isfinite(estimate.sigma_m).any()
     place.set(xlabel="sim time (s)", ylabel="m")
-    place.legend(title="dashed: 3 sigma of the filter" if told else "the filter tells no sigma", loc="upper left")
+    place.legend(title="dashed: 3 sigma of the filter" if reported else "the filter states no sigma", loc="upper left")
     heading.set(xlabel="sim time (s)", ylabel="degrees")
     for axes in (place, heading):
         axes.grid(alpha=0.3)

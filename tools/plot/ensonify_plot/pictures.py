@@ -99,7 +99,7 @@ def map_size_in(frame: Frame) -> tuple:
 
 
 def draw_track(axes, survey) -> None:
-    """The vehicle's track, begun with a dot; the runlines stand out from the turns where the record tells them."""
+    """The vehicle's track, begun with a dot; the runlines stand out from the turns where the record gives them."""
     t_s, east, north = survey.track_t_s, survey.track_east_m, survey.track_north_m
     if not t_s.size:
         return
@@ -219,10 +219,10 @@ def _draw_by_angle(axes, soundings, error_m):
     axes.fill_between(middle, mean - 2 * spread, mean + 2 * spread, color="#3a86bd", alpha=0.3, linewidth=0,
                       label="mean ± 2 standard deviations")
     axes.plot(middle, mean, color="#2b2a66", linewidth=1.2, label="mean")
-    told = np.isfinite(soundings.tvu_m)
-    if told.any():
+    reported = np.isfinite(soundings.tvu_m)
+    if reported.any():
         with np.errstate(invalid="ignore", divide="ignore"):
-            tvu_m = np.bincount(number[told], soundings.tvu_m[told], 65) / np.bincount(number[told], minlength=65)
+            tvu_m = np.bincount(number[reported], soundings.tvu_m[reported], 65) / np.bincount(number[reported], minlength=65)
         for side, label in ((1, "predicted TVU, 95 %"), (-1, None)):
             axes.plot(middle, side * tvu_m, color="#c0392b", linewidth=1.0, linestyle="--", label=label)
     axes.axhline(0, color="black", linewidth=0.8)

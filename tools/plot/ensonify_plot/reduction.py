@@ -27,22 +27,22 @@ def reduce(survey: Survey, record: ensonify.Record, gauge: str | None, settlemen
     estimates = record.topics_of(ensonify.Estimate)
     if len(estimates) != 1:
         raise UserError(f"{record.file}: holds {len(estimates)} topics of estimate/1; to take its heights off soundings one is needed")
-    believed = [m.content for m in record.messages(estimates[0])]
-    believed_s = _seconds(believed)
+    estimated = [m.content for m in record.messages(estimates[0])]
+    estimated_s = _seconds(estimated)
     if gauge:
-        speed_mps = np.array([np.hypot(*m.velocity_enu_mps[:2]) for m in believed])
+        speed_mps = np.array([np.hypot(*m.velocity_enu_mps[:2]) for m in estimated])
         t_s, heave_m = _heave(record)
-        height_m = water_level_m(gauge, record, t_s) - settled_m(settlement, np.interp(t_s, believed_s, speed_mps)) + heave_m
+        height_m = water_level_m(gauge, record, t_s) - settled_m(settlement, np.interp(t_s, estimated_s, speed_mps)) + heave_m
     else:
         t_s, height_m = _heights_by_satellite(record, separation, survey.origin)
     s = survey.soundings
     anew_m = np.interp(s.t_s, t_s, height_m, left=np.nan, right=np.nan)
-    believed_m = np.interp(s.t_s, believed_s, [m.position_enu_m[2] for m in believed])
+    estimated_m = np.interp(s.t_s, estimated_s, [m.position_enu_m[2] for m in estimated])
     known = np.isfinite(anew_m)
     if not known.any():
         raise UserError(f"{record.file}: no sounding lies between the first and the last height")
     kept = {field.name: getattr(s, field.name)[known] for field in dataclasses.fields(s)}
-    kept["up_m"] = kept["up_m"] + (anew_m - believed_m)[known]
+    kept["up_m"] = kept["up_m"] + (anew_m - estimated_m)[known]
     survey.soundings = type(s)(**kept)
     return "by tide gauge" if gauge else "by satellite"
 
@@ -115,7 +115,7 @@ def _cells_of(grid: gdal.Dataset, path: str, east_m: np.ndarray, north_m: np.nda
     x, y, crs = east_m, north_m, grid.GetSpatialRef()
     if crs is not None:
         if origin is None:
-            raise UserError(f"{path}: has a coordinate system, and the record does not tell where the world is (no chart/1)")
+            raise UserError(f"{path}: has a coordinate system, and the record does not state where the world is (no chart/1)")
         crs.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
         into = osr.CoordinateTransformation(world_crs(origin), crs)
         x, y, _ = np.array(into.TransformPoints(np.column_stack([east_m, north_m]))).T

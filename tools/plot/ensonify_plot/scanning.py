@@ -7,7 +7,7 @@ import numpy as np
 import ensonify
 from ensonify_plot import geometry
 from ensonify_plot.forward_looking import AMBER, LEVELLED, PERCENTILES, polar_panel, range_arcs
-from ensonify_plot.heard import Heard, heard, must_sound, place_of
+from ensonify_plot.received import ReceivedPing, received, require_soundings, place_of
 from ensonify_plot.level import gain_for, limits_of
 from ensonify_plot.ping import Show, bar
 from ensonify_plot.pictures import new_figure
@@ -19,7 +19,7 @@ SAME_STEP = 0.01  # a hundredth of the range, half a pixel
 
 
 def is_scanning(_: str, ping: ensonify.Ping) -> bool:
-    """Of a ping that does not tell its kind: a single beam."""
+    """Of a ping that does not state its kind: a single beam."""
     return ping.beam_angle_rad.size == 1
 
 
@@ -29,22 +29,22 @@ def turn_of(record: ensonify.Record, topic: str, number: int | None, t_s: float 
     end = place_of(record, topic, number, t_s, lambda count: count - 1)
     rows, last = {}, None
     for message in itertools.islice(record.messages(topic), end + 1):
-        last = heard(topic, message.content)
+        last = received(topic, message.content)
         if len(last.angle_rad) != 1:
             raise UserError(f"{record.file}: ping {last.ping.ping} of {topic} has {len(last.angle_rad)} beams; a scanning head has one")
         rows[round(float(last.angle_rad[0]) / SAME_RAD)] = last
     turn = [row for row in rows.values() if fits(row, last)]
-    must_sound(f"{record.file}: {topic}, up to ping {last.ping.ping}", np.array([row.power_upa2.max() for row in turn]))
+    require_soundings(f"{record.file}: {topic}, up to ping {last.ping.ping}", np.array([row.power_upa2.max() for row in turn]))
     return sorted(turn, key=lambda row: row.ping.ping)
 
 
-def fits(row: Heard, last: Heard) -> bool:
+def fits(row: ReceivedPing, last: ReceivedPing) -> bool:
     """Whether a row stands in one picture with the last: as many samples, as far apart but for a sound speed that changed a little."""
     return row.power_upa2.shape == last.power_upa2.shape and abs(row.step_m / last.step_m - 1) < SAME_STEP
 
 
-def assembled(turn: list) -> Heard:
-    """The rows as one ping with many beams, in the order of their angles, which rise beyond 180 degrees where the head looked
+def assembled(turn: list) -> ReceivedPing:
+    """The rows as one ping with many beams, in the order of their angles, which rise beyond 180 degrees where the head pointed
     astern: the widest gap between two directions is where they end."""
     angle = np.array([row.angle_rad[0] for row in turn])
     order = np.argsort(angle)
@@ -53,11 +53,11 @@ def assembled(turn: list) -> Heard:
     rising = angle[order]
     rising = np.where(rising < rising[0], rising + 2 * np.pi, rising)
     last = turn[-1]
-    return Heard(last.topic, last.ping, np.concatenate([turn[i].power_upa2 for i in order]), rising, last.first_range_m, last.step_m)
+    return ReceivedPing(last.topic, last.ping, np.concatenate([turn[i].power_upa2 for i in order]), rising, last.first_range_m, last.step_m)
 
 
 def moved(turn: list) -> list:
-    """How far the head went while it looked around, by its own estimate: the picture is not corrected for it."""
+    """How far the head went while it scanned, by its own estimate: the picture is not corrected for it."""
     poses = [row.ping for row in (turn[0], turn[-1])]
     if any(p.pose_position_enu_m.ndim != 2 or not len(p.pose_position_enu_m) for p in poses):
         return []
@@ -86,12 +86,12 @@ def scan_picture(turn: list, show: Show):
     return figure
 
 
-def covers(whole: Heard, angle_rad: float) -> bool:
-    """Whether the head looked there."""
+def covers(whole: ReceivedPing, angle_rad: float) -> bool:
+    """Whether the head pointed there."""
     return bool(geometry.beam_at(whole.angle_rad, np.array([angle_rad]))[0] >= 0)
 
 
-def bearings(axes, whole: Heard) -> None:
+def bearings(axes, whole: ReceivedPing) -> None:
     """Spokes every 30 degrees, named by their angle from the head's forward axis; starboard is positive."""
     for degrees in range(-150, 181, 30):
         at_rad = math.radians(degrees)

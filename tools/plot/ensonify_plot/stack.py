@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ensonify_plot import geometry
-from ensonify_plot.heard import Heard
+from ensonify_plot.received import ReceivedPing
 
 MOST_PINGS = 800  # across a picture; more are averaged in groups, in power
 
@@ -28,7 +28,7 @@ def stacked(t_s: list, lines: list) -> Stack:
     return Stack(np.where((ping >= 0)[:, None], lines[ping], np.nan), begin_s, end_s, size)
 
 
-def span_headline(figure, what: str, first: Heard, last: Heard, remarks: list) -> None:
+def span_headline(figure, what: str, first: ReceivedPing, last: ReceivedPing, remarks: list) -> None:
     """Two lines over a picture: what, which pings of which head when; with which settings, of the first ping."""
     span = (f"pings {first.ping.ping} to {last.ping.ping}, t = {first.t_s:.3f} to {last.t_s:.3f} s")
     figure.suptitle("\n".join([f"{what}: {first.head}, {span}", first.facts(), *remarks]), fontsize=9.5, x=0.02, ha="left")
@@ -36,18 +36,18 @@ def span_headline(figure, what: str, first: Heard, last: Heard, remarks: list) -
 
 @dataclass
 class Track:
-    """What runs along the time axis: ping numbers and, where the pings tell their poses, the distance covered."""
+    """What runs along the time axis: ping numbers and, where the pings give their poses, the distance covered."""
 
     t_s: np.ndarray
     ping: np.ndarray
-    position_enu_m: np.ndarray | None  # None: not told
+    position_enu_m: np.ndarray | None  # None: not given
 
     @staticmethod
     def of(pings: list) -> "Track":
         """From pings in order."""
-        told = all(heard.ping.pose_position_enu_m.ndim == 2 and len(heard.ping.pose_position_enu_m) for heard in pings)
-        return Track(np.array([heard.t_s for heard in pings]), np.array([heard.ping.ping for heard in pings], float),
-                     np.array([heard.ping.pose_position_enu_m[0] for heard in pings]) if told else None)
+        reported = all(received.ping.pose_position_enu_m.ndim == 2 and len(received.ping.pose_position_enu_m) for received in pings)
+        return Track(np.array([received.t_s for received in pings]), np.array([received.ping.ping for received in pings], float),
+                     np.array([received.ping.pose_position_enu_m[0] for received in pings]) if reported else None)
 
     def scale(self) -> tuple:
         """(label, values at t_s), rising, for a second axis."""

@@ -27,7 +27,7 @@ class Soundings:
     north_m: np.ndarray
     up_m: np.ndarray  # from chart datum
     backscatter_db: np.ndarray
-    tvu_m: np.ndarray  # predicted at 95 %; NaN: not told
+    tvu_m: np.ndarray  # predicted at 95 %; NaN: not given
     thu_m: np.ndarray
 
     def __len__(self) -> int:
@@ -36,7 +36,7 @@ class Soundings:
 
 @dataclass
 class Survey:
-    """What a record tells about a survey."""
+    """What a record says about a survey."""
 
     soundings: Soundings
     heads: list  # topic names without the port
@@ -45,9 +45,9 @@ class Survey:
     track_t_s: np.ndarray
     track_east_m: np.ndarray
     track_north_m: np.ndarray
-    on_line_s: list  # (begin, end) of each runline, sim time; empty if the record does not tell
+    on_line_s: list  # (begin, end) of each runline, sim time; empty if the record does not state
     seabed: Seabed
-    origin: tuple | None  # latitude, longitude in degrees of the world's origin, None if the record does not tell
+    origin: tuple | None  # latitude, longitude in degrees of the world's origin, None if the record does not state
     end_s: float = 0.0
     info: dict = field(default_factory=dict)
 

@@ -1,4 +1,4 @@
-"""Where the soundings of a record truly are: where the beam's axis, from where the head truly was, meets the true seabed.
+"""Where the soundings of a record truly are: where the beam's axis, from where the head truly was, hits the true seabed.
 
 For a multibeam of one transmit sector that states it (`sectors: [{ share: 1 }]`), in water of one sound speed. What a record does not
 hold, the true mounting and the water's speed, is given.
@@ -48,7 +48,7 @@ class Judged:
     tvu_m: np.ndarray
     thu_m: np.ndarray
     up_error_m: np.ndarray  # less the seabed below the place that the sounding claims
-    level_error_m: np.ndarray  # n x 2, east and north: less where the beam's axis met the seabed; NaN where that was not found
+    level_error_m: np.ndarray  # n x 2, east and north: less where the beam's axis hit the seabed; NaN where that was not found
 
 
 class Poses:
@@ -82,7 +82,7 @@ def dot(a, b):
 
 
 def on_both_cones(transmit_axis, sin_transmit, receive_axis, sin_receive, down):
-    """The unit vectors with these sines from the planes across two axes, on the side of `down`, as kernels/georeference has them."""
+    """The unit vectors with these sines from the planes across two axes, on the side of `down`, as kernels/survey/georeference has them."""
     cosine = dot(transmit_axis, receive_axis)
     in_plane = ((sin_transmit - cosine * sin_receive)[:, None] * transmit_axis +
                 (sin_receive - cosine * sin_transmit)[:, None] * receive_axis) / (1 - cosine**2)[:, None]
@@ -92,7 +92,7 @@ def on_both_cones(transmit_axis, sin_transmit, receive_axis, sin_receive, down):
 
 
 def axis_on_seabed(seabed: Seabed, transmit: Head, receive: Head, sin_transmit, sin_receive, about_m) -> np.ndarray:
-    """Where beams' axes meet the seabed, n x 3; NaN where the search, from `about_m` along the ray, does not settle. Each array's cone
+    """Where beams' axes hit the seabed, n x 3; NaN where the search, from `about_m` along the ray, does not settle. Each array's cone
     starts where the head was when it worked."""
     transmit_axis, down = transmit.enu_from_head[:, :, 0], transmit.enu_from_head[:, :, 2]
     receive_axis = receive.enu_from_head[:, :, 1]

@@ -11,14 +11,14 @@ ORDERS = (("Exclusive Order", 0.15, 0.0075, 1.0, 0.0), ("Special Order", 0.25, 0
 
 def stated(tvu_m, thu_m, depth_m) -> dict | None:
     """Medians of the predicted TVU and THU, the share of soundings that keeps each order's limits, and the strictest order that 95 %
-    of the soundings keep (None: not even order 2). None if no sounding tells."""
-    told = np.isfinite(tvu_m) & np.isfinite(thu_m)
-    if not told.any():
+    of the soundings keep (None: not even order 2). None if no sounding gives."""
+    reported = np.isfinite(tvu_m) & np.isfinite(thu_m)
+    if not reported.any():
         return None
-    tvu_m, thu_m, depth_m = tvu_m[told], thu_m[told], depth_m[told]
+    tvu_m, thu_m, depth_m = tvu_m[reported], thu_m[reported], depth_m[reported]
     shares = {order: float(np.mean((tvu_m <= np.hypot(a, b * depth_m)) & (thu_m <= m + share * depth_m)))
               for order, a, b, m, share in ORDERS}
-    return {"soundings": int(told.sum()), "tvu_m": float(np.median(tvu_m)), "thu_m": float(np.median(thu_m)), "share_that_keeps": shares,
+    return {"soundings": int(reported.sum()), "tvu_m": float(np.median(tvu_m)), "thu_m": float(np.median(thu_m)), "share_that_keeps": shares,
             "order": next((order for order, share in shares.items() if share >= 0.95), None)}
 
 

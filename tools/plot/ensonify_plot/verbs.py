@@ -6,7 +6,7 @@ import ensonify
 from ensonify_plot import angular_response, scanning, water_column, waterfall
 from ensonify_plot.coverage import coverage_picture
 from ensonify_plot.forward_looking import forward_looking_picture
-from ensonify_plot.heard import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
+from ensonify_plot.received import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
                                  soundings_of)
 from ensonify_plot.level import Gain
 from ensonify_plot.lod import add_lod
@@ -28,7 +28,7 @@ def add_verbs(verbs) -> None:
     _colours(ping, "none")
     fan = _verb(verbs, "fan", plot_fan,
                 "One multibeam ping as a section: across track against depth (m), same scale both ways, in dB re 1 uPa. Upright by "
-                "the measured attitude if the ping tells it.")
+                "the measured attitude if the ping states it.")
     _one_ping(fan)
     _colours(fan, "none")
     fls = _verb(verbs, "fls", plot_fls,
@@ -76,7 +76,7 @@ def _add_water_column(verbs) -> None:
 
 def _add_coverage(verbs) -> None:
     command = _verb(verbs, "coverage", plot_coverage,
-                    "An adaptive survey from above: depths (m) with the lines flown, and the soundings of each cell.")
+                    "An adaptive survey from above: depths (m) with the lines run, and the soundings of each cell.")
     command.add_argument("--plan", metavar="FILE", help="lines of `ensonify plan lines --json` to draw above; default: none")
 
 
@@ -187,24 +187,24 @@ def downward_topic(record: ensonify.Record, asked: str | None) -> str:
     def fits(topic, ping):
         return process_of(topic) in sounding if sounding else not waterfall.is_sidescan(topic, ping)
 
-    return choose_topic(record, asked, of_kinds(("multibeam", "echosounder"), fits), "pings of a head that looks down")
+    return choose_topic(record, asked, of_kinds(("multibeam", "echosounder"), fits), "pings of a head that points down")
 
 
 def plot_ping(options) -> int:
     """`ensonify plot ping`."""
     record = open_record(options.record)
-    heard = choose_ping(record, multibeam_topic(record, options.topic, or_first=True), options.ping, options.t)
-    figure = ping_picture(heard, soundings_of(record, heard), _show(options))
-    save_picture(record, options.out, f"ping_{heard.ping.ping}.png", figure)
+    received = choose_ping(record, multibeam_topic(record, options.topic, or_first=True), options.ping, options.t)
+    figure = ping_picture(received, soundings_of(record, received), _show(options))
+    save_picture(record, options.out, f"ping_{received.ping.ping}.png", figure)
     return 0
 
 
 def plot_fan(options) -> int:
     """`ensonify plot fan`."""
     record = open_record(options.record)
-    heard = choose_ping(record, multibeam_topic(record, options.topic), options.ping, options.t)
-    figure = fan_picture(heard, soundings_of(record, heard), _show(options))
-    save_picture(record, options.out, f"fan_{heard.ping.ping}.png", figure)
+    received = choose_ping(record, multibeam_topic(record, options.topic), options.ping, options.t)
+    figure = fan_picture(received, soundings_of(record, received), _show(options))
+    save_picture(record, options.out, f"fan_{received.ping.ping}.png", figure)
     return 0
 
 
@@ -217,8 +217,8 @@ def plot_fls(options) -> int:
         return ping.beam_angle_rad.size > 2 and process_of(topic) not in sounding
 
     topic = choose_topic(record, options.topic, of_kinds(("forward_looking",), fits), "forward-looking pings")
-    heard = choose_ping(record, topic, options.ping, options.t)
-    save_picture(record, options.out, f"fls_{heard.ping.ping}.png", forward_looking_picture(heard, _show(options)))
+    received = choose_ping(record, topic, options.ping, options.t)
+    save_picture(record, options.out, f"fls_{received.ping.ping}.png", forward_looking_picture(received, _show(options)))
     return 0
 
 
@@ -245,9 +245,9 @@ def plot_water_column(options) -> int:
     record = open_record(options.record)
     if options.ping.single or options.t.single:
         topic = multibeam_topic(record, options.topic)
-        heard = choose_ping(record, topic, options.ping.first, options.t.first)
-        figure = water_column.beam_picture(heard, soundings_of(record, heard), _show(options))
-        save_picture(record, options.out, f"water_column_{heard.ping.ping}.png", figure)
+        received = choose_ping(record, topic, options.ping.first, options.t.first)
+        figure = water_column.beam_picture(received, soundings_of(record, received), _show(options))
+        save_picture(record, options.out, f"water_column_{received.ping.ping}.png", figure)
         return 0
     pings = list(pings_in(record, downward_topic(record, options.topic), options.ping, options.t))
     figure = water_column.stack_picture(record, pings, options.angle, _show(options))

@@ -3,7 +3,7 @@ import numpy as np
 
 import ensonify
 from ensonify_plot import geometry
-from ensonify_plot.heard import Heard, must_sound, one_of_process
+from ensonify_plot.received import ReceivedPing, require_soundings, one_of_process
 from ensonify_plot.level import Gain, gain_for, level_db, limits_of
 from ensonify_plot.ping import ECHOES, EMPTY, FINDS, PERCENTILES, Show, bar, draw_beams, headline, levels
 from ensonify_plot.pictures import new_figure
@@ -14,63 +14,63 @@ CELLS = 500  # in range
 FARTHEST_RAD = np.radians(15.0)  # a head may roll or be mounted aslant; farther off its beam is not what was asked for
 
 
-def beam_picture(heard: Heard, soundings: ensonify.Soundings | None, show: Show):
+def beam_picture(received: ReceivedPing, soundings: ensonify.Soundings | None, show: Show):
     """One ping, beam against slant range, its detections on top."""
-    gain = gain_for(show.gain, heard.ping, Gain())
-    limits = limits_of(levels(heard, gain), show.limits_db, PERCENTILES)
+    gain = gain_for(show.gain, received.ping, Gain())
+    limits = limits_of(levels(received, gain), show.limits_db, PERCENTILES)
     figure = new_figure(9.5, 6.5)
     axes = figure.subplots()
-    bar(figure, draw_beams(axes, heard, gain, limits, soundings), axes, gain, limits)
-    headline(figure, "Water column", heard)
+    bar(figure, draw_beams(axes, received, gain, limits, soundings), axes, gain, limits)
+    headline(figure, "Water column", received)
     return figure
 
 
-def beam_towards(heard: Heard, from_vertical_rad: float) -> int:
-    """Index of the beam nearest to an angle from the vertical, or from the head's down axis if the ping tells no attitude. Raises
-    UserError if none looks there."""
-    angle = heard.angle_rad - (heard.vertical_rad() or 0.0)
+def beam_towards(received: ReceivedPing, from_vertical_rad: float) -> int:
+    """Index of the beam nearest to an angle from the vertical, or from the head's down axis if the ping gives no attitude. Raises
+    UserError if none points there."""
+    angle = received.angle_rad - (received.vertical_rad() or 0.0)
     beam = int(np.argmin(np.abs(angle - from_vertical_rad)))
     if abs(angle[beam] - from_vertical_rad) > FARTHEST_RAD:
         first_deg, last_deg = np.degrees([angle.min(), angle.max()])
-        raise UserError(f"ping {heard.ping.ping} of {heard.topic} has no beam near {np.degrees(from_vertical_rad):+g}° from straight "
+        raise UserError(f"ping {received.ping.ping} of {received.topic} has no beam near {np.degrees(from_vertical_rad):+g}° from straight "
                         f"down; its beams run from {first_deg:+.0f}° to {last_deg:+.0f}°")
     return beam
 
 
 def lines_of(pings: list, beams: list, gain: Gain, cell_m: float, cells: int) -> np.ndarray:
     """Ping x range cell: mean power of the chosen beam of each ping."""
-    return np.array([geometry.ground_line(heard.power_upa2[beam] * np.power(10.0, gain.db(heard.range_m) / 10),
-                                          heard.first_range_m, heard.step_m, 0.0, cell_m, cells)
-                     for heard, beam in zip(pings, beams)])
+    return np.array([geometry.ground_line(received.power_upa2[beam] * np.power(10.0, gain.db(received.range_m) / 10),
+                                          received.first_range_m, received.step_m, 0.0, cell_m, cells)
+                     for received, beam in zip(pings, beams)])
 
 
 def detections_of(record: ensonify.Record, pings: list, beams: list) -> tuple:
     """(time of transmission, slant range) of what was detected in the chosen beam of each ping."""
     topic = one_of_process(record, pings[0].topic, ensonify.Soundings)
-    chosen = {heard.ping.ping: (heard, beam) for heard, beam in zip(pings, beams)}
+    chosen = {received.ping.ping: (received, beam) for received, beam in zip(pings, beams)}
     found = []
     for message in record.messages(topic) if topic else ():
         s = message.content
         if s.ping not in chosen:
             continue
-        heard, beam = chosen[s.ping]
+        received, beam = chosen[s.ping]
         entries = (s.beam if s.beam.size else np.arange(len(s.valid))) == beam
         for time_s in s.travel_time_s[entries & (s.valid == 1)]:
-            found.append((heard.t_s, float(time_s) * heard.ping.sound_speed_mps / 2))
+            found.append((received.t_s, float(time_s) * received.ping.sound_speed_mps / 2))
     return tuple(np.array(found).reshape(-1, 2).T)
 
 
 def stack_picture(record: ensonify.Record, pings: list, from_vertical_deg: float, show: Show):
     """Range downwards, time to the right."""
     gain = gain_for(show.gain, pings[0].ping, Gain())
-    beams = [beam_towards(heard, np.radians(from_vertical_deg)) for heard in pings]
-    loudest = np.array([heard.power_upa2[beam].max() for heard, beam in zip(pings, beams)])
-    must_sound(f"{record.file}: {pings[0].topic}, beam {beams[0]}", loudest)
+    beams = [beam_towards(received, np.radians(from_vertical_deg)) for received in pings]
+    strongest = np.array([received.power_upa2[beam].max() for received, beam in zip(pings, beams)])
+    require_soundings(f"{record.file}: {pings[0].topic}, beam {beams[0]}", strongest)
     t_s, range_m = detections_of(record, pings, beams)
-    reach_m = max(heard.end_m for heard in pings)
+    reach_m = max(received.end_m for received in pings)
     if len(range_m):
         reach_m = min(reach_m, 1.5 * range_m.max())  # what lies deeper is noise, or the bottom once more
-    stack = stacked([heard.t_s for heard in pings], lines_of(pings, beams, gain, reach_m / CELLS, CELLS))
+    stack = stacked([received.t_s for received in pings], lines_of(pings, beams, gain, reach_m / CELLS, CELLS))
     image = level_db(stack.rows)
     limits = limits_of(image, show.limits_db, PERCENTILES)
     figure = new_figure(11.5, 6.0)

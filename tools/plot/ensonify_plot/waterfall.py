@@ -4,7 +4,7 @@ from matplotlib.colors import LinearSegmentedColormap
 
 import ensonify
 from ensonify_plot import geometry
-from ensonify_plot.heard import Span, choose_topic, must_sound, of_kinds, one_of_process, pings_in
+from ensonify_plot.received import Span, choose_topic, require_soundings, of_kinds, one_of_process, pings_in
 from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
 from ensonify_plot.ping import EMPTY, FINDS, Show, bar
 from ensonify_plot.pictures import new_figure
@@ -13,7 +13,7 @@ from ensonify_plot.survey import UserError
 
 COPPER = LinearSegmentedColormap.from_list("copper", ["#000000", "#3a1d08", "#8a4b12", "#cf8a2c", "#f3c870", "#fff6dc"])
 PERCENTILES = (2, 99.7)  # of the seabed
-WITH_COLUMN = (25, 99.7)  # of all, where nobody tells the water column from the seabed
+WITH_COLUMN = (25, 99.7)  # of all, where nothing separates the water column from the seabed
 LEVELLED = Gain(30.0)  # a seabed cut by the pulse, where the head has no gain law
 CELLS = 480  # of a side
 
@@ -28,19 +28,19 @@ def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span,
     """(pings, valid bottom tracks by ping number) of a span."""
     topic = choose_topic(record, topic, of_kinds(("sidescan",), is_sidescan), "sidescan pings (one beam to port, one to starboard)")
     pings = list(pings_in(record, topic, numbers, times))
-    odd = next((heard for heard in pings if not is_sidescan(topic, heard.ping)), None)
+    odd = next((received for received in pings if not is_sidescan(topic, received.ping)), None)
     if odd:
         raise UserError(f"{record.file}: ping {odd.ping.ping} of {topic} has {len(odd.angle_rad)} beams; a waterfall needs one to "
                         "port (beam_angle_rad below 0) and one to starboard")
     for side, beam in (("port", np.argmin), ("starboard", np.argmax)):
-        must_sound(f"{record.file}: {topic}, {side}, pings {pings[0].ping.ping} to {pings[-1].ping.ping}",
-                   np.array([heard.power_upa2[beam(heard.angle_rad)].max() for heard in pings]))
+        require_soundings(f"{record.file}: {topic}, {side}, pings {pings[0].ping.ping} to {pings[-1].ping.ping}",
+                   np.array([received.power_upa2[beam(received.angle_rad)].max() for received in pings]))
     source = one_of_process(record, topic, ensonify.BottomTrack)
     tracks = {m.content.ping: m.content for m in record.messages(source)} if source else {}
-    tracks = {heard.ping.ping: tracks[heard.ping.ping] for heard in pings
-              if heard.ping.ping in tracks and tracks[heard.ping.ping].valid}
+    tracks = {received.ping.ping: tracks[received.ping.ping] for received in pings
+              if received.ping.ping in tracks and tracks[received.ping.ping].valid}
     if ground and not tracks:
-        why = f"{source} tells no bottom for these pings" if source else f"no bottom_track/1 of {pings[0].head} was recorded"
+        why = f"{source} has no bottom for these pings" if source else f"no bottom_track/1 of {pings[0].head} was recorded"
         raise UserError(f"{record.file}: {why}; without the instrument's own bottom track there is no ground range; leave out "
                         "--ground for slant range")
     return pings, tracks
@@ -49,11 +49,11 @@ def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span,
 def lines_of(pings: list, altitudes_m: list, gain: Gain, cell_m: float, cells: int) -> np.ndarray:
     """Ping x cell, port mirrored to the left of starboard. An altitude of NaN leaves its line empty."""
     lines = np.full((len(pings), 2 * cells), np.nan, np.float32)
-    for line, heard, altitude_m in zip(lines, pings, altitudes_m):
+    for line, received, altitude_m in zip(lines, pings, altitudes_m):
         if not np.isfinite(altitude_m):
             continue
-        power = heard.power_upa2 * np.power(10.0, gain.db(heard.range_m) / 10)
-        sides = [geometry.ground_line(power[beam(heard.angle_rad)], heard.first_range_m, heard.step_m, altitude_m, cell_m,
+        power = received.power_upa2 * np.power(10.0, gain.db(received.range_m) / 10)
+        sides = [geometry.ground_line(power[beam(received.angle_rad)], received.first_range_m, received.step_m, altitude_m, cell_m,
                                       cells) for beam in (np.argmin, np.argmax)]
         line[:] = np.concatenate([sides[0][::-1], sides[1]])
     return lines
@@ -62,12 +62,12 @@ def lines_of(pings: list, altitudes_m: list, gain: Gain, cell_m: float, cells: i
 def waterfall_picture(pings: list, tracks: dict, ground: bool, show: Show):
     """Time runs upwards, so that port is left and starboard right as on deck."""
     gain = gain_for(show.gain, pings[0].ping, LEVELLED)
-    known_m = [tracks[heard.ping.ping].altitude_m if heard.ping.ping in tracks else np.nan for heard in pings]
+    known_m = [tracks[received.ping.ping].altitude_m if received.ping.ping in tracks else np.nan for received in pings]
     altitudes_m = known_m if ground else [0.0] * len(pings)
-    reach_m = max(float(geometry.ground_range_m(heard.end_m, altitude)) if np.isfinite(altitude) else 0.0
-                  for heard, altitude in zip(pings, altitudes_m))
+    reach_m = max(float(geometry.ground_range_m(received.end_m, altitude)) if np.isfinite(altitude) else 0.0
+                  for received, altitude in zip(pings, altitudes_m))
     cell_m = reach_m / CELLS
-    stack = stacked([heard.t_s for heard in pings], lines_of(pings, altitudes_m, gain, cell_m, CELLS))
+    stack = stacked([received.t_s for received in pings], lines_of(pings, altitudes_m, gain, cell_m, CELLS))
     image = level_db(stack.rows)
     limits = colours(image, reach_m, 0.0 if ground else np.nanmax(known_m) if tracks else None, show)
     figure = new_figure(10.5, 8.0)
@@ -97,15 +97,15 @@ def colours(image, reach_m: float, column_m: float | None, show: Show) -> Limits
 
 def remarks(pings: list, known_m: list, ground: bool, averaged: int) -> list:
     """What a reader must know of how the picture was made."""
-    said = []
+    notes = []
     if ground:
         blank = int(np.count_nonzero(~np.isfinite(known_m)))
-        said.append("level bottom at the instrument's own bottom track, "
+        notes.append("level bottom at the instrument's own bottom track, "
                     f"{np.nanmin(known_m):.1f} to {np.nanmax(known_m):.1f} m below"
                     + (f"; {blank} of {len(pings)} pings without one are left empty" if blank else ""))
     if averaged > 1:
-        said.append(f"{averaged} pings averaged per row")
-    return ["; ".join(said)] if said else []
+        notes.append(f"{averaged} pings averaged per row")
+    return ["; ".join(notes)] if notes else []
 
 
 def dress(axes, pings: list, ground: bool) -> None:
@@ -118,7 +118,7 @@ def dress(axes, pings: list, ground: bool) -> None:
 
 def draw_bottom(axes, pings: list, altitude_m: list) -> None:
     """The first bottom as the instrument tracked it, on both sides."""
-    t_s = [heard.t_s for heard in pings]
+    t_s = [received.t_s for received in pings]
     for side in (-1, 1):
         axes.plot(side * np.array(altitude_m), t_s, color=FINDS, linewidth=0.8,
                   label="first bottom by the instrument's bottom track" if side > 0 else None)

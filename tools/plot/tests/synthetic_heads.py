@@ -145,7 +145,7 @@ def multibeam(points=((0.0, 10.0),), ping=0, beams=128, samples=600, range_m=30.
     amplitude = np.full((beams, samples), SILENCE_UPA, "f4")
     for at_rad, at_m in points:
         amplitude[np.argmin(np.abs(angle - at_rad)), int(round(at_m / step_m))] = 1e4
-    told = {} if roll_rad is None else {"pose_time_s": np.zeros(1), "pose_enu_from_head": level_pose(roll_rad),
+    reported = {} if roll_rad is None else {"pose_time_s": np.zeros(1), "pose_enu_from_head": level_pose(roll_rad),
                                         "pose_position_enu_m": np.array([[0.0, 0.2 * ping, 0.0]])}
     return "bow/ping", ensonify.Ping(stamp_ns=ping * 10**8, ping=ping, sample_period_s=2 * step_m / SOUND_SPEED_MPS,
-                                     beam_angle_rad=angle.astype("f4"), amplitude_upa=amplitude, range_m=range_m, **told, **applied())
+                                     beam_angle_rad=angle.astype("f4"), amplitude_upa=amplitude, range_m=range_m, **reported, **applied())

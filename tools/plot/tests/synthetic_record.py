@@ -26,7 +26,7 @@ def tiles(west_m, south_m, east_m, north_m, posts=129, spacing_m=0.5):
 
 
 def soundings_of(ping, t_ns, east_m, north_m, heading, angles, noise_m, bias_m, random):
-    """Where straight rays meet the seabed, with Gaussian depth errors."""
+    """Where straight rays hit the seabed, with Gaussian depth errors."""
     across = np.tan(angles) * 20.0
     for _ in range(4):  # the seabed is gentle: a fixed point
         x, y = east_m + across * np.cos(heading), north_m - across * np.sin(heading)

@@ -58,7 +58,7 @@ def write(file, with_truth=True, seconds=60):
                 put("nav/imu", ensonify.InertialIncrements(stamp_ns=stamp_ns, interval_s=STEP_S,
                                                            angle_rad=tuple(1e-4 * random.standard_normal(3)),
                                                            velocity_mps=tuple(1e-3 * random.standard_normal(3))))
-        for number in range(3):  # the last says that nothing is left to fly
+        for number in range(3):  # the last says that nothing is left to run
             put("covered/next_line", ensonify.NextLine(stamp_ns=number, number=number, done=number == 2,
                                                      start_enu_m=(10.0 * number, 0.0), end_enu_m=(10.0 * number, 120.0)))
         writer.finish()
@@ -134,10 +134,10 @@ class Picture(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "nav.mcap")
             write(file, seconds=0)
-            said = io.StringIO()
-            with contextlib.redirect_stderr(said):
+            printed = io.StringIO()
+            with contextlib.redirect_stderr(printed):
                 self.assertEqual(main(["navigation", file]), 2)
-            self.assertIn("none of pose/1, estimate/1 and inertial_increments/1 was recorded", said.getvalue())
+            self.assertIn("none of pose/1, estimate/1 and inertial_increments/1 was recorded", printed.getvalue())
 
 
 if __name__ == "__main__":

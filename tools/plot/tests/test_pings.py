@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
 from ensonify_plot import angular_response, geometry, scanning, stack, water_column, waterfall  # noqa: E402
 from ensonify_plot.forward_looking import polar_panel, rectangular_panel  # noqa: E402
-from ensonify_plot.heard import Span, heard  # noqa: E402
+from ensonify_plot.received import Span, received  # noqa: E402
 from ensonify_plot.level import Gain, level_db, limits_of  # noqa: E402
 from ensonify_plot.main import main  # noqa: E402
 from ensonify_plot.ping import fan_image  # noqa: E402
@@ -131,7 +131,7 @@ class Levels(unittest.TestCase):
         settings = {"sample_period_s": 2 / 1500.0, "first_sample_s": 2 * 10 / 1500.0, "sound_speed_mps": 1500.0,
                     "gain_spreading_db": 40.0, "gain_absorption_dbpm": 0.05, "gain_offset_db": 3.0, "count_upa": 0.5}
         ping = ensonify.Ping(beam_angle_rad=np.zeros(1, "f4"), amplitude_count=np.full((1, 91), 1000, "u2"), **settings)
-        level = level_db(heard("x/ping", ping).power_upa2)[0]
+        level = level_db(received("x/ping", ping).power_upa2)[0]
         # At 10 m the gain is 40 + 1 + 3 dB, at 100 m 80 + 10 + 3 dB; 1000 counts of 0.5 uPa are 53.979 dB.
         np.testing.assert_allclose(level[[0, 90]], 53.979 - np.array([44, 93]), atol=1e-3)
 
@@ -141,10 +141,10 @@ class Places(unittest.TestCase):
     def test_a_target_in_the_fan(self):
         for roll in (None, 0.0, 0.15):
             topic, ping = made.multibeam([(np.radians(20.0), 20.0)], roll_rad=roll)
-            fan = fan_image(heard(topic, ping), Gain(), 30.0)
+            fan = fan_image(received(topic, ping), Gain(), 30.0)
             self.assertEqual(fan.upright, roll is not None)
             x, y = place_of_brightest(fan.level_db, (*fan.extent_m[:2], fan.extent_m[2], fan.extent_m[3]), from_top=True)
-            angle = np.radians(20.0) - (roll or 0.0)  # starboard down: the starboard beam looks more steeply
+            angle = np.radians(20.0) - (roll or 0.0)  # starboard down: the starboard beam points more steeply
             # A sample is 0.05 m long, a beam 1 degree (0.35 m at 20 m) wide, a pixel about 0.06 m.
             self.assertAlmostEqual(np.hypot(x, y), 20.0, delta=0.1)
             self.assertAlmostEqual(np.arctan2(x, y), angle, delta=np.radians(0.7))
@@ -153,7 +153,7 @@ class Places(unittest.TestCase):
 
     def test_targets_in_the_forward_looking_image(self):
         (topic, ping), = made.forward_looking(targets=((-0.4, 18.0),))
-        one = heard(topic, ping)
+        one = received(topic, ping)
         power = np.where(np.hypot(*np.meshgrid(one.range_m - 18, 100 * (one.angle_rad + 0.4))) < 2, one.power_upa2, 1.0)
         x, y = place_of_brightest(*polar_panel(one, power), from_top=False)
         # Speckle moves the brightest pixel within the target: 0.25 m in range, 0.012 rad in azimuth.
@@ -180,7 +180,7 @@ class Places(unittest.TestCase):
             self.assertAlmostEqual(np.isfinite(image).mean(), np.pi / 4, delta=0.01)
 
     def test_a_scanned_sector_astern_is_drawn_astern(self):
-        turn = [heard(topic, ping) for topic, ping in made.scanning(pings=100, first_deg=135.0)]
+        turn = [received(topic, ping) for topic, ping in made.scanning(pings=100, first_deg=135.0)]
         self.assertAlmostEqual(np.ptp(scanning.assembled(turn).angle_rad), np.radians(99 * 0.9))
         image, (left, right, low, high) = polar_panel(scanning.assembled(turn), scanning.assembled(turn).power_upa2)
         self.assertAlmostEqual(low, -10.0, delta=0.1)
@@ -192,7 +192,7 @@ class Places(unittest.TestCase):
             if isinstance(message, ensonify.BottomTrack):
                 altitudes.append(message.altitude_m)
             else:
-                pings.append(heard("fish/ping", message))
+                pings.append(received("fish/ping", message))
         level = level_db(waterfall.lines_of(pings, altitudes, Gain(30.0, 0.1), 0.25, 180))
         target = level[:, 180 + 121]  # 30.25 to 30.5 m to starboard: just behind it
         self.assertLess(target[7:14].max(), target[:7].min() - 5)  # shadow
@@ -210,13 +210,13 @@ class Places(unittest.TestCase):
 
     def test_a_ping_without_bottom_stays_empty_over_ground(self):
         (_, message), = (pair for pair in made.sidescan(pings=1, bottom_track=False))
-        lines = waterfall.lines_of([heard("fish/ping", message)] * 2, [np.nan, 12.0], Gain(), 0.5, 100)
+        lines = waterfall.lines_of([received("fish/ping", message)] * 2, [np.nan, 12.0], Gain(), 0.5, 100)
         self.assertTrue(np.isnan(lines[0]).all())
         self.assertTrue(np.isfinite(lines[1]).all())
 
-    def test_the_beam_that_looks_down(self):
+    def test_the_beam_that_points_down(self):
         topic, ping = made.multibeam([(0.15, 12.0)], roll_rad=0.15)
-        rolled = heard(topic, ping)
+        rolled = received(topic, ping)
         beam = water_column.beam_towards(rolled, 0.0)
         self.assertAlmostEqual(rolled.angle_rad[beam], 0.15, delta=np.radians(0.51))
         line = water_column.lines_of([rolled], [beam], Gain(), 0.1, 300)[0]
@@ -253,8 +253,8 @@ class AngularResponse(unittest.TestCase):
         self.assertIn("2 R · 100 dB/km", wrong.corrections)
 
     def test_the_heads_own_strengths_come_first(self):
-        told = np.full(256, -30.0, "f4")
-        response = self.read(backscatter_strength_db=told, pings=2)
+        reported = np.full(256, -30.0, "f4")
+        response = self.read(backscatter_strength_db=reported, pings=2)
         np.testing.assert_array_equal(response.strength_db, -30.0)
         self.assertIn("as the head computed it", response.corrections)
 
@@ -328,7 +328,7 @@ class Commands(unittest.TestCase):
             ("waterfall", self.fish, "--t", "5:"): "no ping of fish/ping lies in what was asked for; there are 12, from 0 (t = 0.000 s) to 11 (t = 1.100 s)",
             ("waterfall", self.fish, "--ping", "5:3"): "5:3: allowed: a number, or A:B with A <= B",
             ("waterfall", self.untracked, "--ground"): "no bottom_track/1 of fish was recorded; without the instrument's own bottom track there is no ground range",
-            ("waterfall", self.lost, "--ground"): "fish/bottom_track tells no bottom for these pings; without",
+            ("waterfall", self.lost, "--ground"): "fish/bottom_track has no bottom for these pings; without",
             ("water-column", self.heads, "--ping", "4"): "all amplitudes are zero",
             ("water-column", self.heads, "--angle", "100"): "100: allowed: a number in [-90, 90]",
             ("water-column", self.heads, "--angle", "85", "--ping", ":2"):

@@ -235,7 +235,7 @@ class Parts(unittest.TestCase):
 
     def test_the_sun_stands_in_the_north_west(self):
         north, east = np.mgrid[0:9, 0:9].astype(float)
-        slope = (east - north) / np.sqrt(2)  # 45 degrees, falling to the north-west: the sun's rays meet it at right angles
+        slope = (east - north) / np.sqrt(2)  # 45 degrees, falling to the north-west: the sun's rays hit it at right angles
         np.testing.assert_allclose(hillshade(slope, 1.0, 1.0), 1.0)
         np.testing.assert_allclose(hillshade(-slope, 1.0, 1.0), 0.0, atol=1e-12)
 

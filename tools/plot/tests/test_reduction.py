@@ -44,7 +44,7 @@ class Gauge(InAFolder):
         text = "time,height_m\n# a gauge\n2025-06-01T11:50:00Z,1.0\n2025-06-01T12:10:00Z;1.4\n2025-06-01T12:20:00+00:00\t1.2\n"
         np.testing.assert_allclose(self.level_m(text, -600, 0, 600, 900), [1.0, 1.2, 1.4, 1.3])
 
-    def test_what_is_no_reading_is_told_with_its_line(self):
+    def test_an_invalid_reading_is_reported_with_its_line(self):
         good = "2025-06-01T11:50:00Z,1.0\n"
         for line in ("2025-06-01T12:10:00Z,nan", "2025-06-01T12:10:00Z", "2025-06-01T12:10:00,1.4", "noon,1.4", "2025-06-01T11:50:00Z,1.4"):
             with self.subTest(line), self.assertRaisesRegex(UserError, r"tide.csv:2: is no reading later than those before; allowed: a UTC time"):
@@ -104,9 +104,9 @@ class Refused(InAFolder):
         tide = self.written("tide.csv", "1969-01-01T00:00:00Z,1.0\n1971-01-01T00:00:00Z,1.0\n")
         for words, cause in ((["--gauge", tide], "neither delayed_heave/1 nor attitude/1"), (["--separation", tide], "holds no position/1"),
                              (["--settlement", "0:0"], "--settlement: needs --gauge"), (["--gauge", "no.csv"], "neither delayed")):
-            with self.subTest(words), contextlib.redirect_stderr(io.StringIO()) as said:
+            with self.subTest(words), contextlib.redirect_stderr(io.StringIO()) as printed:
                 self.assertEqual(main(["survey", file, *words]), 2)
-                self.assertIn(cause, said.getvalue())
+                self.assertIn(cause, printed.getvalue())
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Where beams truly meet the seabed: planes, against closed forms."""
+"""Where beams truly hit the seabed: planes, against closed forms."""
 import unittest
 
 import numpy as np
@@ -28,7 +28,7 @@ class AxisOnSeabed(unittest.TestCase):
         for roll_deg, slope in ((0, 0), (5, 0), (-3, 0.1)):
             at = head((roll_deg, 0, 0), n=25)
             place = axis_on_seabed(plane(slope), at, at, np.zeros(25), np.sin(angle), np.full(25, 25.0))
-            # Starboard down, a beam to starboard looks nearer to the vertical.
+            # Starboard down, a beam to starboard points nearer to the vertical.
             tangent = np.tan(angle - np.radians(roll_deg))
             depth = 20.0 / (1 + slope * tangent)
             np.testing.assert_allclose(place, np.column_stack([depth * tangent, np.zeros(25), -depth]), atol=2e-3)
@@ -38,7 +38,7 @@ class AxisOnSeabed(unittest.TestCase):
         place = axis_on_seabed(plane(0), at, at, np.array([np.sin(np.radians(4))]), np.zeros(1), np.array([19.0]))
         np.testing.assert_allclose(place, [[20 * np.tan(np.radians(8)), 0, -20]], atol=2e-3)
 
-    def test_each_array_looks_from_where_it_was(self):
+    def test_each_array_is_placed_where_it_was(self):
         transmit, receive = head(), head(position_m=(0.1, 0.3, 0.0))
         place = axis_on_seabed(plane(0), transmit, receive, np.zeros(1), np.zeros(1), np.array([20.0]))
         # In the plane across the bow where it transmitted and in that along the bow where it received.

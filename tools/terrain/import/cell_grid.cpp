@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::terrain_import {
 

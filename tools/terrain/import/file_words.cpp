@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::terrain_import {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/fill_holes.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/fill_holes.h"
 
 namespace ensonify::terrain_import {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "components/runtime/config/config_error.h"
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/mesh_file.h"
+#include "components/config/config_error.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/mesh_file.h"
 #include "tools/terrain/import/cell_grid.h"
 #include "tools/terrain/import/values.h"
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/raster_source.h"
-#include "kernels/frames/local_projection.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/raster_source.h"
+#include "kernels/base/frames/local_projection.h"
 #include "tools/terrain/import/cell_grid.h"
 
 namespace ensonify::terrain_import {

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/terrain_source.h"
-#include "kernels/survey_grid/holes.h"
+#include "components/terrain/terrain_source.h"
+#include "kernels/survey/grid/holes.h"
 #include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {
 
-/// What one file gave to the whole.
+/// Contribution of one file to the whole.
 struct Share {
   double cell_m = 0.0;             // the shorter side of its cells in the world
   double surveyed_m2 = 0.0;        // its cells that hold a value

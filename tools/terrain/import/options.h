@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/raster_file.h"
+#include "components/terrain/raster_file.h"
 
 namespace ensonify::terrain_import {
 
-/// What the user says of one file, or of all of them.
+/// Options for one file, or for all of them.
 struct FileOptions {
   std::string path;
   std::string crs;                // instead of the file's own; "plane"; "" takes the file's
@@ -23,13 +23,13 @@ struct FileOptions {
 
 enum class PointMethod { kMean, kLowest, kHighest, kLinear };
 
-/// How cells are made of what is no raster.
+/// Options for making cells of what is no raster.
 struct PointOptions {
   PointMethod method = PointMethod::kMean;
   double cell_m = 0.0;  // 0: such that a cell holds four points on the average
 };
 
-/// What is done about a survey's artefacts, in the file's own cells.
+/// Treatment of a survey's artefacts, in the file's own cells.
 struct CleanOptions {
   bool despike = false;   // spikes become holes
   bool destripe = false;  // bands along survey lines are taken out
@@ -44,7 +44,7 @@ struct FillOptions {
   double reach_m = 0.0;  // holes that reach farther from what is known stay holes
 };
 
-/// Where the sediment classes of posts come from; the first that knows one decides: class raster, backscatter, rules.
+/// Source of the sediment classes of posts; the first that knows one decides: class raster, backscatter, rules.
 struct SedimentOptions {
   std::uint8_t otherwise = 0;
   std::string class_raster;

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 #include "tools/terrain/import/cell_grid.h"
 #include "tools/terrain/import/values.h"
 

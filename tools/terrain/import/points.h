@@ -6,7 +6,7 @@
 
 namespace ensonify::terrain_import {
 
-/// What became of scattered points.
+/// Result of gridding scattered points.
 struct PointFacts {
   std::int64_t points = 0;
   std::string method;

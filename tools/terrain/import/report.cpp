@@ -31,7 +31,7 @@ std::string crs_of(const SurveyFile& file) {
 /// Cells lie where a file has them, posts only between four of them: a rim is lost around every hole.
 double lost_m2(const Share& share) { return std::max(0.0, share.surveyed_m2 - share.known_m2); }
 
-/// The shortest wave that a file's heights are believed to show, m.
+/// The shortest wave that a file's heights are assumed to show, m.
 double band_start_m(const SurveyFile& file, const Share& share) {
   return std::max(file.removed_below_cells, file.band.begins_cells) * share.cell_m;
 }

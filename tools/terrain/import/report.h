@@ -12,7 +12,7 @@ namespace ensonify::terrain_import {
 
 inline constexpr const char* kReport = "import.json";
 
-/// What whole steps do to the heights.
+/// Effect of whole steps on the heights.
 struct StepFacts {
   double lsb_m = 0.0;
   double largest_m = 0.0, rms_m = 0.0;  // errors

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "components/runtime/exit_error.h"
-#include "components/runtime/terrain/raster_source.h"
+#include "components/errors/exit_error.h"
+#include "components/terrain/raster_source.h"
 #include "tools/terrain/import/file_words.h"
 
 namespace ensonify::terrain_import {

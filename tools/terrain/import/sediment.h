@@ -6,7 +6,7 @@
 
 namespace ensonify::terrain_import {
 
-/// How many posts have each class; holes count for none.
+/// Number of posts of each class; holes count for none.
 using ClassPosts = std::array<std::int64_t, 256>;
 
 /// Gives each post of the mosaic its sediment class: from the class raster (nearest cell), else from the backscatter

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "components/runtime/terrain/mesh_file.h"
+#include "components/terrain/mesh_file.h"
 #include "tools/terrain/import/cell_grid.h"
 #include "tools/terrain/import/mesh_cells.h"
 

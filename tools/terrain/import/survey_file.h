@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/survey_grid/band.h"
-#include "kernels/survey_grid/spikes.h"
-#include "kernels/survey_grid/stripes.h"
+#include "kernels/survey/grid/band.h"
+#include "kernels/survey/grid/spikes.h"
+#include "kernels/survey/grid/stripes.h"
 #include "tools/terrain/import/options.h"
 #include "tools/terrain/import/points.h"
 #include "tools/terrain/import/values.h"
@@ -31,17 +31,18 @@ struct SurveyFile {
   double removed_below_cells = 0.0;  // waves that were taken out; 0: none
 };
 
-/// What messages say sets a file's reference system.
+/// Name, for messages, of the option that sets a file's reference system.
 inline constexpr const char* kCrsSetting = "--crs EPSG:... (or --crs plane --origin LAT,LON for metres on a plane)";
 
 inline constexpr const char* kCutting = "with --bounds WEST,SOUTH,EAST,NORTH (degrees)";
 
-/// How a file, or another raster beside it, is opened.
+/// Options for opening a file, or another raster beside it.
 source::RasterOptions raster_options(const FileOptions& file, const std::optional<frames::Geodetic>& origin,
                                      const std::optional<source::GeodeticBox>& box);
 
-/// Reads a file, looks for spikes, stripes and smoothing in its own cells, and does about them what was asked. Its
-/// heights do not hold its datum yet. Throws UserError for what cannot be imported. `number` tells it from others.
+/// Reads a file, searches for spikes, stripes and smoothing in its own cells, and does about them what was asked. Its
+/// heights do not hold its datum yet. Throws UserError for what cannot be imported. `number` distinguishes it from
+/// others.
 SurveyFile read_survey_file(const FileOptions& file, const ImportOptions& options, int number);
 
 /// Takes out waves shorter than two posts, if posts lie farther apart than cells; what is there already is kept.

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/runtime/exit_error.h"
+#include "components/errors/exit_error.h"
 
 namespace ensonify::terrain_import {
 namespace {
@@ -87,7 +87,7 @@ void refuse_lonely_marks(const source::RasterFile& file, std::span<const float> 
   }
 }
 
-bool says(const std::string& words, const char* word) { return words.find(word) != std::string::npos; }
+bool states(const std::string& words, const char* word) { return words.find(word) != std::string::npos; }
 
 /// True: down. Gives the reason, too.
 std::pair<bool, std::string> sign_of(const source::RasterFile& file, const FileOptions& options, const Range& range) {
@@ -95,13 +95,13 @@ std::pair<bool, std::string> sign_of(const source::RasterFile& file, const FileO
   if (options.positive == "down") return {true, "--positive down"};
   const auto& hints = file.hints();
   const bool mostly_negative = 2 * range.negative > range.known;
-  const bool down = hints.vertical_down || says(hints.words, "positive=down") || says(hints.words, "depth");
-  const bool up = says(hints.words, "positive=up") || says(hints.words, "elevation") || says(hints.words, "altitude") ||
-                  says(hints.words, "height");
+  const bool down = hints.vertical_down || states(hints.words, "positive=down") || states(hints.words, "depth");
+  const bool up = states(hints.words, "positive=up") || states(hints.words, "elevation") ||
+                  states(hints.words, "altitude") || states(hints.words, "height");
   const std::string choice =
       fmt::format(" (values from {:.6g} to {:.6g}); say which it is: --positive down for depths, up for elevations",
                   range.lowest, range.highest);
-  if (mostly_negative && says(hints.words, "positive=down"))
+  if (mostly_negative && states(hints.words, "positive=down"))
     file.refuse("counts its values positive down, and most are negative" + choice);
   if (mostly_negative) return {false, "most values are negative"};  // read as depths they would be dry
   if (down == up) file.refuse("does not say whether its values are depths or elevations" + choice);

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/terrain/raster_file.h"
+#include "components/terrain/raster_file.h"
 #include "tools/terrain/import/options.h"
 
 namespace ensonify::terrain_import {
 
-/// How a file's values became elevations in metres, up.
+/// Conversion of a file's values to elevations in metres, up.
 struct ValueFacts {
   bool down = false;     // they were depths
   std::string down_why;  // who said so

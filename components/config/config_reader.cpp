@@ -1,0 +1,162 @@
+#include "components/config/config_reader.h"
+
+#include "components/config/reader_state.h"
+#include "components/errors/nearest_name.h"
+
+namespace ensonify {
+
+ConfigReader::ConfigReader(ConfigDocument document, const std::string& path) {
+  auto documents = std::make_shared<Documents>();
+  State& root = documents->open(std::move(document), path, true);
+  state_ = std::shared_ptr<State>(std::move(documents), &root);
+}
+
+ConfigReader ConfigReader::from_file(const std::string& path) { return ConfigReader(parse_config_file(path)); }
+
+ConfigReader ConfigReader::from_text(const std::string& text, const std::string& file) {
+  return ConfigReader(parse_config(text, file));
+}
+
+ConfigReader ConfigReader::also(ConfigDocument document, const std::string& path) const {
+  return ConfigReader(std::shared_ptr<State>(state_, &state_->documents->open(std::move(document), path, false)));
+}
+
+ConfigReader ConfigReader::child(const ConfigNode& node, const std::string& path) const {
+  if (!node.is_map() && !node.is_null()) {
+    state_->documents->problems.push_back({node.place, path, described(node) + ", not a map of keys"});
+  }
+  auto& maps = state_->documents->maps;
+  maps.push_back({state_->documents, node.is_map() ? &node : nullptr, path});
+  return ConfigReader(std::shared_ptr<State>(state_, &maps.back()));
+}
+
+const ConfigNode* ConfigReader::take(std::string_view key, bool must, const std::string& allowed) const {
+  if (state_->map == nullptr) {
+    return nullptr;
+  }
+  state_->known.insert(std::string(key));
+  const ConfigNode* found = state_->map->find(std::string(key));
+  if (found == nullptr && must) {
+    state_->documents->problems.push_back(
+        {state_->map->place, state_->path_of(key), "is missing; allowed: " + allowed});
+  }
+  if (found != nullptr && found->is_null()) {
+    state_->documents->problems.push_back({found->place, state_->path_of(key), "has no value; allowed: " + allowed});
+    return nullptr;
+  }
+  return found;
+}
+
+ConfigReader ConfigReader::section(std::string_view key) const {
+  static const ConfigNode kMissing;
+  const ConfigNode* found = take(key, true, "a map of keys");
+  return child(found != nullptr ? *found : kMissing, state_->path_of(key));
+}
+
+std::optional<ConfigReader> ConfigReader::optional_section(std::string_view key) const {
+  const ConfigNode* found = take(key, false, "a map of keys");
+  return found == nullptr ? std::nullopt : std::optional(child(*found, state_->path_of(key)));
+}
+
+std::vector<ConfigReader> ConfigReader::list(std::string_view key) const {
+  const ConfigNode* found = take(key, false, "a list");
+  std::vector<ConfigReader> readers;
+  if (found == nullptr) {
+    return readers;
+  }
+  if (!found->is_list()) {
+    problem(key, described(*found) + ", not a list");
+    return readers;
+  }
+  for (std::size_t i = 0; i < found->items.size(); ++i) {
+    readers.push_back(child(found->items[i], state_->path_of(key) + "[" + std::to_string(i) + "]"));
+  }
+  return readers;
+}
+
+std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(std::string_view key) const {
+  const ConfigNode* found = take(key, false, "a map of keys");
+  std::vector<std::pair<std::string, ConfigReader>> readers;
+  if (found == nullptr) {
+    return readers;
+  }
+  if (!found->is_map()) {
+    problem(key, described(*found) + ", not a map of keys");
+    return readers;
+  }
+  for (const auto& entry : found->entries) {
+    readers.emplace_back(entry.key, child(entry.value, state_->path_of(key) + "." + entry.key));
+  }
+  return readers;
+}
+
+const ConfigNode* ConfigReader::node(std::string_view key) const {
+  if (state_->map == nullptr) {
+    return nullptr;
+  }
+  state_->known.insert(std::string(key));
+  return state_->map->find(std::string(key));
+}
+
+const ConfigNode& ConfigReader::node() const {
+  static const ConfigNode kMissing;
+  return state_->map != nullptr ? *state_->map : kMissing;
+}
+
+bool ConfigReader::has(std::string_view key) const { return node(key) != nullptr; }
+
+void ConfigReader::problem(std::string_view key, const std::string& message) const {
+  if (state_->map == nullptr) {
+    return;
+  }
+  const ConfigNode* found = state_->map->find(std::string(key));
+  state_->documents->problems.push_back(
+      {found != nullptr ? found->place : state_->map->place, state_->path_of(key), message});
+}
+
+void ConfigReader::add(const ConfigError& error) const {
+  state_->documents->problems.insert(state_->documents->problems.end(), error.problems().begin(),
+                                     error.problems().end());
+}
+
+bool ConfigReader::good() const { return state_->documents->problems.empty(); }
+
+std::vector<std::string> ConfigReader::known_keys() const { return {state_->known.begin(), state_->known.end()}; }
+
+std::size_t ConfigReader::problem_count() const { return state_->documents->problems.size(); }
+
+void ConfigReader::finish() const {
+  if (!state_->is_document) {
+    return;
+  }
+  std::vector<ConfigProblem> problems = state_->documents->problems;
+  for (const State& map : state_->documents->maps) {
+    if (map.map == nullptr) {
+      continue;
+    }
+    const std::vector<std::string> known(map.known.begin(), map.known.end());
+    for (const auto& entry : map.map->entries) {
+      if (map.known.count(entry.key) != 0) {
+        continue;
+      }
+      const std::string nearest = nearest_name(entry.key, known);
+      const std::string hint = known.empty()     ? ""
+                               : nearest.empty() ? "; known keys: " + joined(known)
+                                                 : "; did you mean " + nearest + "?";
+      problems.push_back({entry.place, map.path_of(entry.key), "is not a known key" + hint});
+    }
+  }
+  if (!problems.empty()) {
+    throw ConfigError(std::move(problems));
+  }
+}
+
+void read_format(ConfigReader& from, const std::string& known_format) {
+  std::string format;
+  from.required("ensonify", format);
+  if (!format.empty() && format != known_format) {
+    from.problem("ensonify", format + " is not a format known here; allowed: " + known_format);
+  }
+}
+
+}  // namespace ensonify

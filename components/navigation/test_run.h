@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/config/config_reader.h"
+#include "components/navigation/node.h"
+#include "components/runtime/testing/node_under_test.h"
+
+// What tests of instruments share: a configuration of a few sections, and a vehicle that moves in a circle.
+namespace ensonify::test_run {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180.0;
+
+/// What a configuration may list.
+inline const std::vector<std::string> kSections{"gnss",  "imu",       "motion_sensor", "heading", "velocity_log",
+                                                "depth", "altimeter", "sound_speed",   "ctd",     "current_profiler",
+                                                "usbl",  "usbl_fixes"};
+
+inline NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 1) {
+  ConfigReader from = ConfigReader::from_text(yaml, "nav.yaml");
+  NavigationConfig config;
+  config.instruments = read_instruments(from);
+  from.finish();
+  config.process = "nav";
+  config.seed = seed;
+  config.origin = frames::Geodetic{44.0, -63.0};
+  return config;
+}
+
+/// What is left of a magnetic compass's deviation, as the grade says how much: the filter is given that, not which.
+inline std::string deviation(std::uint64_t seed) {
+  const random::Stream drawn(seed, "deviation");
+  std::string text = "deviation_deg: [";
+  for (const auto& [i, sigma_deg] : {std::pair{0, 0.1}, {1, 0.4}, {2, 0.3}, {3, 0.2}, {4, 0.1}}) {
+    text += (i > 0 ? ", " : "") + std::to_string(sigma_deg * drawn.normal(static_cast<std::uint64_t>(i)));
+  }
+  return text + "]";
+}
+
+/// A circle of 100 m at 2 m/s, rolling 5 degrees in 6 s, at `height(t)`.
+template <class Height>
+msg::Pose circling(SimTime at, const Height& height) {
+  const double t = seconds(at), turn = 2.0 / 100.0, heading = turn * t;
+  const double roll = 5 * kDegree * std::sin(2 * kPi * t / 6),
+               roll_rate = 5 * kDegree * 2 * kPi / 6 * std::cos(2 * kPi * t / 6);
+  msg::Pose pose;
+  pose.stamp_ns = at.count();
+  pose.position_enu_m = {100.0 - 100.0 * std::cos(heading), 100.0 * std::sin(heading), height(t)};
+  pose.velocity_enu_mps = {2.0 * std::sin(heading), 2.0 * std::cos(heading),
+                           (height(t + 1e-3) - height(t - 1e-3)) / 2e-3};
+  pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{heading, 0.0, roll}));
+  const frames::Vec3 rates = frames::body_rates_radps({heading, 0.0, roll}, {turn, 0.0, roll_rate});
+  pose.rate_body_radps = {rates.x(), rates.y(), rates.z()};
+  return pose;
+}
+
+inline constexpr auto kLevel = [](double) { return -1.0; };
+
+template <class Height>
+void run_for(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
+  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", circling(i * 10_ms, height));
+}
+
+}  // namespace ensonify::test_run

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "components/sonar/settings.h"
+#include "kernels/acoustics/echo/image.h"
+#include "kernels/acoustics/echo/pulse.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// Complex samples per pulse of a tone, or per 1 / B of a chirp. Fewer would let echoes fall between them. Rectangular
+/// tones that arrive 1.2 pulses apart leave a fifth of a pulse between them: from 6 on, a sample finds it wherever
+/// it lies.
+constexpr double kFewestPerPulse = 2.0, kMostPerPulse = 20.0;
+
+/// The pulse of a head that records a limited number of samples per beam, whatever its range: an imaging head, whose
+/// operator sees a picture of some hundred rows. samples_per_pulse are taken per 1 / B; where they would not reach the
+/// range, B is lowered: a chirp sweeps less, a tone lasts longer. An operator may hold a length: it then is that of the
+/// pulse at every range which it suits.
+struct PulseDesign {
+  bool chirp = false;                            // a linear sweep and its matched filter; else a tone
+  double length_s = 100e-6;                      // unless held; of a tone, the shortest
+  double longest_s = 20e-3;                      // that can be held
+  double tapered_fraction = 0.0;                 // of a tone's length, that rises and falls
+  double bandwidth_hz = 0.0;                     // that a chirp sweeps at most
+  echo::Window window = echo::Window::kHamming;  // of its filter
+  double samples_per_pulse = kFewestPerPulse;    // of a tone, or per 1 / B of a chirp
+  int most_samples = 2000;                       // per beam
+
+  bool operator==(const PulseDesign&) const = default;
+};
+
+/// Reads what such pulses have in common: pulse_length_s, longest_pulse_length_s, tapered_fraction,
+/// samples_per_pulse and most_samples. Whether it is a chirp is known.
+void read_pulse(ConfigReader& from, PulseDesign& design);
+
+/// Pulse and sampling at one range.
+struct RangedPulse {
+  double length_s = 0.0;
+  double band_hz = 0.0;  // resolution is c / 2 of it
+  echo::Sampling sampling;
+
+  /// From transmission to the end of the last echo.
+  double reception_s() const { return sampling.count * sampling.period_s + length_s; }
+  bool operator==(const RangedPulse& other) const {
+    return length_s == other.length_s && band_hz == other.band_hz && sampling.count == other.sampling.count;
+  }
+};
+
+/// range_m > 0, by the sound speed that the head assumes; held_s is 0 where no length is held. A chirp of less than 4
+/// cycles of B x length would be none, and a tone shorter than its samples_per_pulse would fall between them: both
+/// are made longer.
+RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_speed_mps, double held_s = 0.0);
+
+/// Lets commands hold a length, and a length of 0 follow the range again.
+void allow_held_pulses(const PulseDesign& design, double sound_speed_mps, SettingLimits& limits);
+
+/// No pulse that can be sent at any range up to this one is received for longer.
+double longest_reception_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps);
+
+echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse);
+
+}  // namespace ensonify

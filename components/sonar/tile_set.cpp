@@ -1,0 +1,51 @@
+#include "components/sonar/tile_set.h"
+
+#include <utility>
+
+#include "components/terrain/mesh_message.h"
+#include "kernels/acoustics/trace/reserve.h"
+
+namespace ensonify {
+namespace {
+
+terrain::TileKey key_of(std::int64_t col, std::int64_t row) {
+  return {static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)};
+}
+
+}  // namespace
+
+void TileSet::insert(const msg::Tile& message) {
+  terrain::Tile tile;
+  tile.origin_enu_m = {message.origin_east_m, message.origin_north_m};
+  tile.spacing_m = message.spacing_m;
+  tile.columns = static_cast<std::int32_t>(message.height_m.cols());
+  tile.rows = static_cast<std::int32_t>(message.height_m.rows());
+  const auto height = message.height_m.flat();
+  const auto sediment = message.sediment.flat();
+  trace::make_room(tile.height_m, height.size());
+  tile.height_m.assign(height.begin(), height.end());
+  tile.sediment.assign(sediment.begin(), sediment.end());
+
+  grid_.spacing_m = tile.spacing_m;
+  grid_.cells = tile.columns - 1;
+  grid_.origin_enu_m = tile.origin_enu_m - grid_.side_m() * frames::Vec2(static_cast<double>(message.col),
+                                                                         static_cast<double>(message.row));
+  if (scene_.empty()) scene_.centre_near(tile.origin_enu_m);  // where the head will be: nothing is built twice
+  scene_.insert(key_of(message.col, message.row), std::move(tile));
+  scene_.set_facet_mean_square_slope(message.facet_mean_square_slope.flat());
+}
+
+void TileSet::release(const msg::TileRelease& release) { scene_.remove(key_of(release.col, release.row)); }
+
+void TileSet::insert(const msg::Mesh& message) {
+  scene_.insert(message.number,
+                trace::IrregularMesh{hierarchy_of(message), static_cast<std::uint8_t>(message.sediment)});
+}
+
+void TileSet::release(const msg::MeshRelease& release) { scene_.remove(release.number); }
+
+bool TileSet::covers(const frames::Vec2& place_enu_m) const {
+  return !scene_.empty() && scene_.contains(grid_.key_at(place_enu_m));
+}
+
+}  // namespace ensonify

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/acoustics/trace/views.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/water/refraction/path_table.h"
+
+namespace ensonify {
+
+/// Rays through the water of a run: bent by its profile, or straight where the speed of sound is one everywhere or
+/// refraction is switched off. Depths of the profile count from z = 0.
+class WaterPaths {
+ public:
+  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction)
+      : profile_(profile), refracted_(refraction && profile.knots().size() > 1) {}
+
+  /// The speed of sound at the head, m/s.
+  double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
+
+  /// Makes the seabed as a transmission needs it that sends rays by this distribution from this pose: fine where it
+  /// points, and its coordinates near the head.
+  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::RayDistribution& rays,
+             double max_range_m) const {
+    seabed.centre_near(head.position_enu_m.head<2>());
+    if (!seabed.detail().enabled) return;
+    const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
+    const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
+    const lod::Water water = refracted_ ? trace::water_above(profile_, depth_m(head), deepest_m) : lod::Water{};
+    seabed.adapt(trace::views_of(rays.volume(), head, max_range_m, water, seabed.detail().side_lobes));
+  }
+
+  /// trace::Scene::trace through this water.
+  void trace(const trace::Scene& seabed, const frames::HeadPose& head, std::span<const trace::Ray> rays,
+             double max_range_m, std::vector<trace::Hit>& hits) {
+    const auto range_m = static_cast<float>(max_range_m);
+    if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
+    seabed.tabulate(profile_, head, depth_m(head), range_m, table_);
+    seabed.trace(head, rays, range_m, hits, table_);
+  }
+
+  /// Path table of the last trace; null where paths are straight.
+  const refraction::PathTable* refracted() const { return refracted_ ? &table_ : nullptr; }
+
+ private:
+  static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
+
+  refraction::SoundSpeedProfile profile_;
+  bool refracted_;
+  refraction::PathTable table_;
+};
+
+}  // namespace ensonify

@@ -1,0 +1,128 @@
+#include "components/terrain/layers_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/config/config_error.h"
+#include "components/terrain/guide_file.h"
+
+namespace ensonify::source {
+namespace {
+
+using relief::Window;
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+Extent extent_of(const LayeredSeabed& seabed) {
+  const Vec2 low = seabed.centre_enu_m - 0.5 * seabed.size_m, high = seabed.centre_enu_m + 0.5 * seabed.size_m;
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+/// The nodes of a level from the last at or before `low` to the first at or after `high`.
+Window window_around(int level, double spacing_m, const Vec2& low, const Vec2& high) {
+  const double step_m = relief::node_spacing_m(spacing_m, level);
+  const auto first = [&](double m) { return static_cast<std::int64_t>(std::floor(m / step_m)); };
+  const auto count = [&](double from, double to) {
+    return static_cast<int>(static_cast<std::int64_t>(std::ceil(to / step_m)) - first(from)) + 2;
+  };
+  return {level, first(low.x()), first(low.y()), count(low.x(), high.x()), count(low.y(), high.y())};
+}
+
+}  // namespace
+
+LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
+    : description_(seabed),
+      fields_(fields_of(seabed.layered, seabed.post_spacing_m, guide_files(seabed.layered, origin))),
+      extent_(extent_of(seabed.layered)),
+      origin_(origin) {
+  probe();
+  if (lowest_m_ >= 0.0) {
+    throw ConfigError(
+        {ConfigProblem{{"", 0, 0},
+                       "seabed.layers",
+                       "make a seabed that is nowhere under water; a layer such as plane gives its depth"}});
+  }
+}
+
+void LayersSource::probe() {
+  constexpr double kProbes = 256.0;  // per side: enough for the range of depths that a chart gives
+  const double side_m = std::max(extent_.east_m - extent_.west_m, extent_.north_m - extent_.south_m);
+  const int level =
+      std::max(0, static_cast<int>(std::ceil(std::log2(side_m / (kProbes * description_.post_spacing_m)))));
+  const terrain::Tile tile = tile_of(window_around(
+      level, description_.post_spacing_m, {extent_.west_m, extent_.south_m}, {extent_.east_m, extent_.north_m}));
+  lowest_m_ = std::numeric_limits<double>::max();
+  highest_m_ = std::numeric_limits<double>::lowest();
+  for (std::int32_t row = 0; row < tile.rows; ++row) {
+    for (std::int32_t column = 0; column < tile.columns; ++column) {
+      const auto place = tile.position_enu_m(column, row);
+      if (!extent_.contains(place.head<2>())) continue;
+      lowest_m_ = std::min(lowest_m_, place.z());
+      highest_m_ = std::max(highest_m_, place.z());
+    }
+  }
+}
+
+terrain::Tile LayersSource::tile_of(const Window& window) const {
+  const double step_m = relief::node_spacing_m(description_.post_spacing_m, window.level);
+  terrain::Tile tile{{static_cast<double>(window.east) * step_m, static_cast<double>(window.north) * step_m},
+                     step_m,
+                     window.columns,
+                     window.rows,
+                     std::vector<float>(window.size()),
+                     std::vector<std::uint8_t>(window.size())};
+  fields_.seabed.fill(window, tile.height_m, tile.sediment);
+  return tile;
+}
+
+void LayersSource::sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
+  if (posts.spacing_m == description_.post_spacing_m) {
+    fields_.seabed.fill({0, posts.first_east, posts.first_north, posts.columns, posts.rows}, height_m, sediment);
+  } else {
+    const int level =
+        std::max(0, static_cast<int>(std::floor(std::log2(posts.spacing_m / description_.post_spacing_m))));
+    const terrain::Tile tile =
+        tile_of(window_around(level, description_.post_spacing_m, {posts.east_m(0), posts.north_m(0)},
+                              {posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)}));
+    std::size_t k = 0;
+    for (int row = 0; row < posts.rows; ++row) {
+      for (int column = 0; column < posts.columns; ++column, ++k) {
+        const Vec2 place(posts.east_m(column), posts.north_m(row));
+        height_m[k] = static_cast<float>(terrain::height_m(tile, place).value_or(kNone));
+        sediment[k] = terrain::sediment_at(tile, place);
+      }
+    }
+  }
+  if (extent_.contains({posts.east_m(0), posts.north_m(0)}) &&
+      extent_.contains({posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)})) {
+    return;
+  }
+  std::size_t k = 0;
+  for (int row = 0; row < posts.rows; ++row) {
+    for (int column = 0; column < posts.columns; ++column, ++k) {
+      if (extent_.contains({posts.east_m(column), posts.north_m(row)})) continue;
+      height_m[k] = kNone;
+      sediment[k] = 0;
+    }
+  }
+}
+
+double LayersSource::height_m(const Vec2& place) const {
+  if (!extent_.contains(place)) return kNone;
+  constexpr std::int64_t kSide = 64;  // posts made at a time: neighbours are asked for next
+  const std::scoped_lock lock(mutex_);
+  if (near_) {
+    if (const auto height = terrain::height_m(*near_, place)) return *height;
+  }
+  const auto first = [&](double m) {
+    return static_cast<std::int64_t>(std::floor(m / (static_cast<double>(kSide) * description_.post_spacing_m))) *
+           kSide;
+  };
+  terrain::Tile tile = tile_of({0, first(place.x()), first(place.y()), kSide + 1, kSide + 1});
+  for (float& height : tile.height_m) height = terrain::on_lattice(height, description_.lsb_m);
+  near_ = std::make_shared<const terrain::Tile>(std::move(tile));
+  return terrain::height_m(*near_, place).value_or(kNone);
+}
+
+}  // namespace ensonify::source

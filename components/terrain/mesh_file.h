@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/base/frames/attitude.h"
+
+namespace ensonify::source {
+
+/// A surface of triangles as a file has it, in the file's units.
+struct MeshFile {
+  std::vector<frames::Vec3> vertex;
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+};
+
+/// Whether the name ends as those of meshes do: .obj, .ply.
+bool is_mesh_file(const std::string& path);
+
+/// Wavefront OBJ (its v and f lines; colours, normals, textures and groups are ignored) and PLY (ASCII or binary little
+/// endian; a vertex has x, y, z, a face a list of them). Faces of more than three corners become fans; those that have
+/// a corner twice are left out. Throws ConfigError with file, line and what is allowed.
+MeshFile read_mesh_file(const std::string& path);
+
+}  // namespace ensonify::source

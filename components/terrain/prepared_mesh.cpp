@@ -1,0 +1,115 @@
+#include "components/terrain/prepared_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "components/config/config_error.h"
+#include "components/terrain/mesh_file.h"
+#include "components/terrain/tiles/lattice_png.h"
+#include "components/terrain/tiles/sha256.h"
+#include "kernels/mesh/progressive/collapse.h"
+
+namespace ensonify::source {
+namespace {
+
+/// In metres, about a whole number of them in its middle.
+progressive::TriangleMesh metres_of(const MeshFile& file, double unit_m) {
+  Eigen::AlignedBox3d box;
+  for (const frames::Vec3& place : file.vertex) box.extend(place * unit_m);
+  progressive::TriangleMesh mesh;
+  if (!box.isEmpty()) mesh.origin_enu_m = box.center().array().round() + 0.0;  // no -0
+  for (const frames::Vec3& place : file.vertex)
+    mesh.vertex_m.emplace_back((place * unit_m - mesh.origin_enu_m).cast<float>());
+  mesh.triangle = file.triangle;
+  return mesh;
+}
+
+/// What was made of this very file before; nothing if it was not, or is damaged.
+std::optional<LodFile> made_before(const std::string& path, const std::string& made_from, double unit_m) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    LodFile lod = read_lod_file(path);
+    if (lod.source_sha256 == made_from && lod.unit_m == unit_m) return lod;
+  } catch (const tiles::TileError&) {  // made again
+  }
+  return std::nullopt;
+}
+
+progressive::Hierarchy hierarchy_of(progressive::TriangleMesh mesh) {
+  const auto collapses = progressive::collapses_of(mesh);
+  return progressive::hierarchy_of(std::move(mesh), collapses);
+}
+
+bool is_on(const std::vector<std::uint8_t>& classes, const Vec2& place, const TerrainSource& ground) {
+  if (classes.empty()) return true;
+  const double spacing_m = ground.native_spacing_m();
+  const PostBlock nearest{std::llround(place.x() / spacing_m), std::llround(place.y() / spacing_m), 1, 1, spacing_m};
+  float height_m = 0.0F;
+  std::uint8_t sediment = 0;
+  ground.sample(nearest, {&height_m, 1}, {&sediment, 1});
+  return std::find(classes.begin(), classes.end(), sediment) != classes.end();
+}
+
+[[noreturn]] void refuse(const SeabedMesh& mesh, const std::string& why) {
+  throw ConfigError({ConfigProblem{mesh.strewn->place, "seabed.meshes." + mesh.name + ".strewn", why}});
+}
+
+/// As many places of copies as the scenario asks for.
+std::vector<progressive::Copy> places_of(const SeabedMesh& mesh, const random::Stream& stream,
+                                         const TerrainSource& ground) {
+  constexpr std::uint64_t kDrawsPerCopy = 1000;
+  const StrewnCopies& strewn = *mesh.strewn;
+  const auto count = static_cast<std::size_t>(strewn.count);
+  std::vector<progressive::Copy> copies;
+  for (std::uint64_t draw = 0; draw < kDrawsPerCopy * count && copies.size() < count; ++draw) {
+    progressive::Copy copy = progressive::drawn(strewn.where, stream, draw);
+    const Vec2 place = copy.position_enu_m.head<2>();
+    copy.position_enu_m.z() = ground.height_m(place);
+    if (std::isfinite(copy.position_enu_m.z()) && is_on(strewn.on, place, ground)) copies.push_back(copy);
+  }
+  if (copies.size() < count)
+    refuse(mesh, fmt::format("found ground for {} of {} copies; widen the rectangle, or `on`", copies.size(), count));
+  return copies;
+}
+
+progressive::Hierarchy strewn_over(const TerrainSource& ground, const SeabedMesh& mesh, const random::Stream& stream,
+                                   const progressive::Hierarchy& one) {
+  constexpr std::size_t kMost = 2'000'000;
+  const std::size_t vertices = one.mesh.vertex_m.size() * static_cast<std::size_t>(mesh.strewn->count);
+  if (vertices > kMost) refuse(mesh, fmt::format("makes {} vertices; allowed: {}", vertices, kMost));
+  return progressive::copies_of(one, places_of(mesh, stream, ground));
+}
+
+}  // namespace
+
+std::string lod_path_of(const std::string& mesh_path) { return mesh_path + ".lod"; }
+
+PreparedMesh prepared_mesh(const std::string& mesh_path, double unit_m, const std::string& lod_path) {
+  const std::string made_from = tiles::sha256_of_file(mesh_path);
+  if (auto lod = made_before(lod_path, made_from, unit_m)) return {std::move(*lod), true};
+  progressive::TriangleMesh mesh = metres_of(read_mesh_file(mesh_path), unit_m);
+  if (const std::string fault = fault_of(mesh); !fault.empty())
+    throw ConfigError({ConfigProblem{{mesh_path, 0, 0}, "", fault}});
+  return {LodFile{hierarchy_of(std::move(mesh)), made_from, unit_m}, false};
+}
+
+PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed, const TerrainSource& ground) {
+  constexpr std::size_t kAtOnce = 2000;  // vertices whose splits are made in a tenth of a second
+  const random::Stream stream{seed, "seabed/meshes/" + mesh.name};
+  if (mesh.wall) return {hierarchy_of(progressive::mesh_of(*mesh.wall, stream))};
+  PreparedMesh one;
+  if (mesh.bars.empty()) one = prepared_mesh(mesh.file, mesh.unit_m, lod_path_of(mesh.file));
+  else one = {{hierarchy_of(progressive::mesh_of(mesh.bars)), "", 1.0}, true};
+  progressive::Hierarchy& hierarchy = one.lod.hierarchy;
+  const bool worth_preparing = !one.cached && hierarchy.mesh.vertex_m.size() > kAtOnce;
+  if (mesh.strewn) return {strewn_over(ground, mesh, stream, hierarchy), worth_preparing};
+  return {progressive::placed(std::move(hierarchy), mesh.position_enu_m, mesh.heading_rad), worth_preparing};
+}
+
+}  // namespace ensonify::source

@@ -1,0 +1,154 @@
+#include "components/terrain_pager/mission_track.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+#include "components/terrain_pager/mission_places.h"
+
+namespace ensonify::pager {
+namespace {
+
+constexpr int kOrbitSides = 32;           // of a polygon for an orbit: within 0.5 % of its radius
+constexpr double kMostInRectangle = 1e4;  // places of an adaptive survey that are examined
+constexpr double kFinest_m = 0.5;         // between lines over a small one
+
+/// How far the lowest head of a vehicle is below its reference point; 0 where all are above.
+double lowest_head_m(const Vehicle& vehicle) {
+  double lowest_m = 0.0;
+  for (const auto& [head, mounting] : vehicle.mountings)
+    lowest_m = std::max(lowest_m, mounting.actual.position_body_m.z());
+  return lowest_m;
+}
+
+/// Goes through a mission as the pilot does.
+class Walk {
+ public:
+  Walk(const Mission& mission, const MissionPlaces& where, double lowest_head_m, std::vector<Vec2> from)
+      : mission_(mission), where_(where), lowest_head_m_(lowest_head_m), at_(std::move(from)) {
+    if (!mission.altitude_m) depth_m_ = mission.depth_m;
+    altitude_m_ = mission.altitude_m;
+  }
+
+  MissionTrack track() && {
+    round();
+    const bool another_depth = depth_m_ != (mission_.altitude_m ? std::nullopt : std::optional(mission_.depth_m));
+    if (mission_.repeat > 1 && another_depth) round();
+    if (mission_.adaptive) follow_all_of(*mission_.adaptive);
+    return std::move(track_);
+  }
+
+ private:
+  void round() {
+    runlines_ = 0;
+    for (std::size_t i = 0; i < mission_.steps.size(); ++i) {
+      here_ = where_.step(i);
+      std::visit([this](const auto& step) { go(step); }, mission_.steps[i]);
+    }
+  }
+
+  void go(const FollowLine& line) {
+    const auto& points = line.points_enu_m;
+    const std::size_t last = points.size() - 1;
+    const Vec2 before = runlines::extended({points[0], points[1]}, mission_.run_in_m, 0.0).start_enu_m;
+    const Vec2 behind = runlines::extended({points[last - 1], points[last]}, 0.0, mission_.run_out_m).end_enu_m;
+    if (mission_.run_in_m > 0.0) add("mission run-in", {before, points[0]});
+    for (std::size_t i = 0; i < last; ++i)
+      add(fmt::format("mission runline {}", ++runlines_), {points[i], points[i + 1]}).surveyed = true;
+    if (mission_.run_out_m > 0.0) add("mission run-out", {points[last], behind});
+    at_ = {behind};
+  }
+  void go(const PassPlace& pass) { visit({pass.place_enu_m}); }
+  void go(const KeepPlace& keep) {
+    if (keep.place_enu_m) visit({*keep.place_enu_m});
+  }
+  void go(const FollowOrbit& orbit) {
+    at_.clear();
+    for (int i = 0; i < kOrbitSides; ++i) {
+      const double bearing = 2.0 * std::numbers::pi * i / kOrbitSides;
+      at_.emplace_back(orbit.centre_enu_m + orbit.radius_m * Vec2(std::sin(bearing), std::cos(bearing)));
+    }
+    for (std::size_t i = 0; i < at_.size(); ++i) add("mission orbit", {at_[i], at_[(i + 1) % at_.size()]});
+  }
+  void go(const GoAt& order) {
+    depth_m_ = depth_after(order, depth_m_);
+    if (order.depth_m) altitude_m_.reset();
+    if (order.altitude_m) altitude_m_ = order.altitude_m;
+    if (order.depth_m) visit(at_);
+  }
+  void go(const SetSonar&) {}
+  void go(const SetMark&) {}
+
+  /// Lines all over the rectangle, for coverage alone decides where they are run.
+  void follow_all_of(const AdaptivePlan& plan) {
+    const double spacing_m = std::sqrt(plan.length_m * plan.width_m / kMostInRectangle);
+    const double further_m = std::max(mission_.run_in_m, mission_.run_out_m);  // they are run either way
+    const int count = static_cast<int>(std::ceil(plan.width_m / std::max(spacing_m, kFinest_m)));
+    AdaptivePlan moved = plan;
+    for (int i = 0; i <= count; ++i) {
+      moved.first_line_m = plan.width_m * i / count;
+      Leg& leg = add("mission adaptive", runlines::extended(first_line(moved), further_m, further_m));
+      leg.surveyed = true;
+      leg.spacing_m = spacing_m;
+    }
+  }
+
+  double reach_m() const { return depth_m_.value_or(0.0) + lowest_head_m_; }
+  Leg& add(std::string key, const runlines::Runline& line) {
+    track_.legs.push_back({line, reach_m(), altitude_m_, here_, std::move(key)});
+    return track_.legs.back();
+  }
+  void visit(std::vector<Vec2> places) {
+    for (const Vec2& place : places) track_.places.push_back({place, reach_m(), here_, "mission"});
+    at_ = std::move(places);
+  }
+
+  const Mission& mission_;
+  const MissionPlaces& where_;
+  double lowest_head_m_;
+  std::vector<Vec2> at_;  // where the vehicle may be now
+  std::optional<double> depth_m_, altitude_m_;
+  ConfigPlace here_;
+  int runlines_ = 0;
+  MissionTrack track_;
+};
+
+}  // namespace
+
+MissionTrack track_of(const TerrainPagerConfig& config) {
+  const MissionPlaces where = mission_places(config.scenario_file, config.scenario_text);
+  const std::vector<runlines::Runline>& runlines = config.mission.runlines;
+  std::vector<VisitedPlace> starts;
+  std::vector<Vec2> from;
+  double least_reach_m = config.vehicles.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (const Vehicle& vehicle : config.vehicles) {
+    least_reach_m = std::min(least_reach_m, lowest_head_m(vehicle));
+    if (!vehicle.start) {
+      if (!runlines.empty()) from.push_back(runlines::extended(runlines[0], config.mission.run_in_m, 0.0).start_enu_m);
+      continue;
+    }
+    const frames::Vec3& place = vehicle.start->position_enu_m;  // up from the water level
+    from.push_back(place.head<2>());
+    starts.push_back({place.head<2>(), lowest_head_m(vehicle) + (vehicle.floats ? 0.0 : -place.z()),
+                      where.start(vehicle.name), "vehicles." + vehicle.name + ".start"});
+  }
+  MissionTrack track = Walk(config.mission, where, least_reach_m, from).track();
+  track.places.insert(track.places.end(), starts.begin(), starts.end());
+  track.lowest_water_m = lowest_water_m(config.tide, config.duration);
+  return track;
+}
+
+double lowest_water_m(const vertical::Tide& tide, std::optional<SimTime> duration) {
+  constexpr double kStep_s = 300.0, kLongest_s = 30 * 86400.0;
+  const double until_s = duration ? std::min(seconds(*duration), kLongest_s) : kLongest_s;
+  double lowest_m = std::min(tide.at(0.0).height_m, tide.at(until_s).height_m);
+  for (double t_s = kStep_s; t_s < until_s; t_s += kStep_s) lowest_m = std::min(lowest_m, tide.at(t_s).height_m);
+  return lowest_m;
+}
+
+}  // namespace ensonify::pager

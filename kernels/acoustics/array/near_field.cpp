@@ -1,0 +1,58 @@
+#include "kernels/acoustics/array/near_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/acoustics/array/fresnel.h"
+#include "kernels/acoustics/array/line.h"
+
+namespace ensonify::array {
+namespace {
+
+constexpr double kStraight = 1e-4;  // |b| of a front that counts as straight: pi b / 12 = 3e-5 of the amplitude
+
+}  // namespace
+
+std::complex<double> near_field_amplitude(const LineArray& array, double wavelength_m, double sine, double sin_steer,
+                                          double range_m, double focus_m) {
+  const double k = 2.0 * std::numbers::pi / wavelength_m;
+  const double tilt = k * (sine - sin_steer);
+  const double bend = 0.5 * k * ((1.0 - sine * sine) / range_m - (1.0 - sin_steer * sin_steer) / focus_m);
+  std::complex<double> sum = 0.0;
+  double sum_of_weights = 0.0;
+  double x = -0.5 * array.spacing_m * (array.elements() - 1);
+  for (const double w : array.weights) {
+    sum += std::polar(1.0, x * (tilt - x * bend)) * w;
+    sum_of_weights += w;
+    x += array.spacing_m;
+  }
+  return sum * (sinc(array.element_length_m / wavelength_m * sine) / sum_of_weights);
+}
+
+std::complex<double> near_field_line_amplitude(double length_m, double wavelength_m, double sine, double range_m,
+                                               double focus_m) {
+  const double s = sine * length_m / wavelength_m;
+  const double signed_bend = length_m * length_m / wavelength_m * ((1.0 - sine * sine) / range_m - 1.0 / focus_m);
+  const double b = std::abs(signed_bend);
+  if (b < kStraight) return sinc(s);
+  // -b t^2 / 2 + s t = -b / 2 (t - s / b)^2 + s^2 / (2 b)
+  const double scale = std::sqrt(2.0 * b);
+  const auto span = fresnel_integral(scale * (0.5 - s / b)) - fresnel_integral(scale * (-0.5 - s / b));
+  const std::complex<double> amplitude = std::polar(1.0 / scale, std::numbers::pi * s * s / b) * std::conj(span);
+  return signed_bend > 0.0 ? amplitude : std::conj(amplitude);  // the line is symmetrical in t
+}
+
+BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,
+                                      double focus_m) {
+  const auto pattern = [&](double u) {
+    return std::norm(near_field_amplitude(array, wavelength_m, u, sin_steer, range_m, focus_m));
+  };
+  return half_power_edges(pattern, sin_steer, std::min(0.01, wavelength_m / (64.0 * array.length_m())));
+}
+
+double near_field_range_m(const LineArray& array, double wavelength_m) {
+  return array.length_m() * array.length_m() / wavelength_m;
+}
+
+}  // namespace ensonify::array

@@ -1,0 +1,137 @@
+#include "kernels/acoustics/detect/testing/accuracy.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+using namespace ensonify;
+using namespace ensonify::detect;
+
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+/// 20 m, 1 degree, 100 us. The gate is an operator's: a quarter of the depth either way, so that 8 dB suffice at 10 dB.
+std::vector<Accuracy> accuracy_at(double snr_db, std::vector<double> angles_deg, double tilt_rad, int pings) {
+  PlaneSurvey survey;
+  survey.snr_db = snr_db;
+  survey.tilt_rad = tilt_rad;
+  for (const double deg : angles_deg) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
+  Settings settings = settings_for(survey);
+  settings.seabed_tilt_rad = tilt_rad;
+  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 8.0 : 13.0};
+  return accuracy(survey, settings, pings);
+}
+
+const std::vector<double> kAngles{0, 3, 5, 7, 10, 12, 15, 20, 25, 30, -30, 45, 60, -60, 65, 70};
+
+}  // namespace
+
+TEST_CASE("a plane is detected without bias, at the theoretical sd, which is predicted") {
+  for (const double snr_db : {20.0, 10.0}) {
+    for (const Accuracy& a : accuracy_at(snr_db, kAngles, 0.0, 100)) {
+      const double angle_deg = std::abs(a.angle_rad) / kDeg;
+      INFO(snr_db << " dB, " << a.angle_rad / kDeg << " deg: found " << a.found << ", bias " << 100 * a.bias
+                  << " %, sd " << 100 * a.sd << " %, predicted " << 100 * a.predicted_sd << " %, allowed "
+                  << 150 * theoretical_sd(a.angle_rad, snr_db) << " %");
+      // A beam near nadir receives one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
+      // 47 % of the pings.
+      CHECK(a.found > (angle_deg > 25 ? 0.9 : 0.4));
+      // The mean of 40 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
+      CHECK(std::abs(a.bias) < (angle_deg > 60.5 ? 1.5e-3 : 5e-4));
+      CHECK(a.sd < 1.5 * theoretical_sd(a.angle_rad, snr_db));
+      // 95 % of the errors within 5 cm of 20 m.
+      if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
+      // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
+      // by.
+      // At 10 dB a faded echo now and then errs by more than its own scatter gives.
+      CHECK(a.predicted_sd / a.sd > (snr_db > 15.0 ? 0.7 : 0.6));
+      CHECK(a.predicted_sd / a.sd < (angle_deg < 15.5 ? 2.0 : 1.4));
+    }
+  }
+}
+
+TEST_CASE("near nadir two samples a pulse suffice, and the detector knows how exactly") {
+  // Depths over one sample, so that pulses begin anywhere between two. 200 errors or more: their rms within 5 %.
+  const std::vector<double> angles_deg{0, 2, 3, 4, 5, 6};
+  std::vector<double> squares(angles_deg.size()), predicted(angles_deg.size());
+  constexpr int kDepths = 8;
+  for (int i = 0; i < kDepths; ++i) {
+    PlaneSurvey survey;
+    survey.period_s = 50e-6;
+    survey.depth_m = 20.0 + 0.0375 * i / kDepths;
+    for (const double deg : angles_deg) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
+    const auto by_angle = accuracy(survey, settings_for(survey), 32);
+    for (std::size_t k = 0; k < angles_deg.size(); ++k) {
+      squares[k] += (std::pow(by_angle[k].bias, 2) + std::pow(by_angle[k].sd, 2)) / kDepths;
+      predicted[k] += std::pow(by_angle[k].predicted_sd, 2) / kDepths;
+    }
+  }
+  for (std::size_t k = 0; k < angles_deg.size(); ++k) {
+    const double error_m = 20.0 * std::sqrt(squares[k]), stated_m = 20.0 * std::sqrt(predicted[k]);
+    INFO(angles_deg[k] << " deg: " << 1e3 * error_m << " mm, predicted " << 1e3 * stated_m);
+    CHECK(error_m < 0.0145);  // 50 us over sqrt(12) are 10.8 mm
+    CHECK(stated_m / error_m > 0.8);
+    CHECK(stated_m / error_m < 1.6);
+  }
+}
+
+TEST_CASE("phase takes over from amplitude where it becomes the better") {
+  const auto by_angle = accuracy_at(20.0, kAngles, 0.0, 60);
+  double crossed_deg = 0.0;
+  for (const Accuracy& a : by_angle) {
+    const double angle_deg = std::abs(a.angle_rad) / kDeg;
+    INFO(a.angle_rad / kDeg << " deg: sd " << 100 * a.sd << " %, amplitude alone " << 100 * a.amplitude_sd
+                            << " %, weight of phase " << a.phase_weight);
+    if (angle_deg < 5.5) CHECK(a.phase_weight < 0.5);
+    if (angle_deg > 24.5) CHECK(a.phase_weight > 0.95);
+    if (a.phase_weight < 0.5) crossed_deg = std::max(crossed_deg, angle_deg);
+    CHECK(a.sd < 1.3 * a.amplitude_sd);  // the choice never costs much; 60 errors leave 13 % of doubt in a ratio of sds
+    if (angle_deg > 19.5) CHECK(a.sd < 0.4 * a.amplitude_sd);
+  }
+  CHECK(crossed_deg >= 5.0);  // 1 degree and 100 us: between 7 and 10; longer pulses and narrower beams, later
+  CHECK(crossed_deg < 25.0);
+}
+
+TEST_CASE("a tilted plane is unbiased where the detector is given the tilt") {
+  for (const Accuracy& a : accuracy_at(20.0, {-50, -30, 30, 45, 60, 70}, 10 * kDeg, 60)) {
+    INFO(a.angle_rad / kDeg << " deg: bias " << 100 * a.bias << " %, sd " << 100 * a.sd << " %");
+    CHECK(std::abs(a.bias) < 3e-4);
+    CHECK(a.predicted_sd / a.sd > 0.7);
+    CHECK(a.predicted_sd / a.sd < 1.6);
+  }
+}
+
+// What docs/physics/draw/detection.py draws.
+TEST_CASE("print accuracy by angle", "[.accuracy-csv]") {
+  std::puts("snr_db,angle_deg,bias,sd,predicted_sd,amplitude_sd,phase_weight,found,expected_sd");
+  std::vector<double> angles;
+  for (int deg = 0; deg <= 70; deg += deg < 20 ? 2 : 5) angles.push_back(deg);
+  for (const double snr_db : {20.0, 10.0}) {
+    for (const Accuracy& a : accuracy_at(snr_db, angles, 0.0, 300)) {
+      std::printf("%g,%g,%g,%g,%g,%g,%g,%g,%g\n", snr_db, a.angle_rad / kDeg, a.bias, a.sd, a.predicted_sd,
+                  a.amplitude_sd, a.phase_weight, a.found, theoretical_sd(a.angle_rad, snr_db));
+    }
+  }
+}
+TEST_CASE("print phase ramps", "[.ramp-csv]") {
+  PlaneSurvey survey;
+  for (const double deg : {15, 30, 45, 60}) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
+  PlaneEcho echo;
+  echo.ping(survey, {11, "plane"}, 0);
+  std::vector<Detection> found;
+  detect_bottom(settings_for(survey), survey.sin_beams, echo.amplitudes(survey), echo.halves(), found);
+  std::puts("angle_deg,time_s,amplitude_upa,phase_rad,detected_s,true_s");
+  const int samples = echo.amplitudes(survey).samples;
+  for (std::size_t beam = 0; beam < found.size(); ++beam) {
+    const Detection& d = found[beam];
+    for (int k = d.snippet_first; k < d.snippet_first + d.snippet_count; ++k) {
+      const std::size_t i = beam * static_cast<std::size_t>(samples) + static_cast<std::size_t>(k);
+      std::printf("%g,%.9g,%g,%g,%.9g,%.9g\n", std::asin(survey.sin_beams[beam]) / kDeg,
+                  k * survey.period_s - 0.5 * survey.pulse_length_s, echo.amplitude_upa[i],
+                  std::arg(echo.positive_upa[i] * std::conj(echo.negative_upa[i])), d.two_way_s,
+                  two_way_s(survey, survey.sin_beams[beam]));
+    }
+  }
+}

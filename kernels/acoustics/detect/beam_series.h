@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <span>
+
+/// Internal to this folder: what one beam received, and the seabed it expects.
+namespace ensonify::detect {
+
+/// One beam against time. The halves are empty where there is amplitude alone.
+struct BeamSeries {
+  std::span<const float> amplitude_upa;
+  std::span<const std::complex<float>> positive_upa, negative_upa;
+  double start_s, period_s, pulse_length_s;
+
+  int samples() const { return static_cast<int>(amplitude_upa.size()); }
+  double time_s(int k) const { return start_s + k * period_s; }
+  /// Sample k holds the echoes that began within a pulse before it; this is the middle of that interval.
+  double echo_s(int k) const { return time_s(k) - 0.5 * pulse_length_s; }
+  int index_from(double t_s) const {  // the first sample at or after t
+    return static_cast<int>(std::clamp(std::ceil((t_s - start_s) / period_s), 0.0, static_cast<double>(samples())));
+  }
+  int samples_per_pulse() const { return std::max(1, static_cast<int>(std::lround(pulse_length_s / period_s))); }
+  double power(int k) const {
+    const double a = amplitude_upa[static_cast<std::size_t>(k)];
+    return a * a;
+  }
+  std::complex<double> interferogram(int k) const {
+    const auto i = static_cast<std::size_t>(k);
+    return std::complex<double>(positive_upa[i]) * std::conj(std::complex<double>(negative_upa[i]));
+  }
+};
+
+/// A plane seabed across the track, as a beam expects it: the echo from the angle beta comes at nearest / cos(beta -
+/// tilt), where `nearest` is the two-way time along the plane's normal.
+class ExpectedSeabed {
+ public:
+  /// half_width: of the receive beam at half power, in sine.
+  ExpectedSeabed(double sin_beam, double tilt_rad, double half_width)
+      : sin_beam_(sin_beam),
+        cos_beam_(std::max(std::sqrt(std::max(1.0 - sin_beam * sin_beam, 0.0)), half_width)),
+        tilt_rad_(tilt_rad),
+        sin_tilt_(std::sin(tilt_rad)),
+        cos_tilt_(std::cos(tilt_rad)),
+        incidence_rad_(std::asin(std::clamp(sin_beam, -1.0, 1.0)) - tilt_rad),
+        half_width_(half_width) {}
+
+  double sin_beam() const { return sin_beam_; }
+  double cos_beam() const { return cos_beam_; }
+  double half_width() const { return half_width_; }
+  /// Cosine of the incidence on the plane's normal; a beam along the plane or above it is taken as almost along it.
+  double cos_incidence() const { return std::max(std::cos(incidence_rad_), half_width_); }
+  double sin_incidence() const { return std::sin(incidence_rad_); }
+  double tan_incidence() const { return std::abs(sin_incidence()) / cos_incidence(); }
+
+  /// Duration of the plane's echo between the half-power edges of the beam, without the pulse.
+  double footprint_s(double two_way_s) const { return two_way_s * tan_incidence() * 2.0 * half_width_ / cos_beam_; }
+
+  /// The sine from which an echo comes at t, if the one at the axis comes at `axis_s`. Before the plane's nearest point
+  /// echoes there is none: then the sine of its normal.
+  double sine_at(double t_s, double axis_s) const {
+    const double cosine = std::min(nearest_s(axis_s) / t_s, 1.0);
+    return sin_tilt_ * cosine + std::copysign(cos_tilt_, incidence_rad_) * std::sqrt(1.0 - cosine * cosine);
+  }
+  /// The inverse: when an echo comes from `sine`, if the one at the axis comes at `axis_s`.
+  double time_at(double sine, double axis_s) const {
+    const double cosine = std::cos(std::asin(std::clamp(sine, -1.0, 1.0)) - tilt_rad_);
+    return nearest_s(axis_s) / std::max(cosine, 0.5 * half_width_);
+  }
+  double nearest_s(double axis_s) const { return axis_s * cos_incidence(); }
+
+ private:
+  double sin_beam_, cos_beam_, tilt_rad_, sin_tilt_, cos_tilt_, incidence_rad_, half_width_;
+};
+
+/// A time from one method, with its predicted standard deviation.
+struct Estimate {
+  bool found = false;
+  double two_way_s = 0.0;
+  double sd_s = 0.0;
+};
+
+}  // namespace ensonify::detect

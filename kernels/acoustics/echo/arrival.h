@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/base/frames/pose.h"
+
+namespace ensonify::echo {
+
+/// 10^(db / 10).
+inline double power_ratio(double db) { return std::exp(0.1 * std::numbers::ln10 * db); }
+
+/// A plane wave that comes to the receiver: one scatterer by one path, or another source.
+struct Arrival {
+  double time_s = 0.0;                                        // of its first sound, after the start of transmission
+  std::complex<float> pressure_upa;                           // envelope, rms; phase at the carrier
+  Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // to where it comes from, unit, in the receiver's frame
+};
+
+/// Track of the receiver while echoes come back: poses at start_s + i * period_s after transmission, straight lines
+/// between, the nearest one outside.
+struct ReceiveTrack {
+  double start_s = 0.0;
+  double period_s = 1.0;
+  std::span<const frames::HeadPose> poses;  // one is enough for a receiver at rest
+};
+
+/// The receiver's track made ready for many look-ups.
+class Receivers {
+ public:
+  /// Throws std::invalid_argument without a pose.
+  void set(const ReceiveTrack& track);
+
+  struct At {
+    frames::Vec3 position_enu_m;
+    Eigen::Matrix3f head_from_enu;
+  };
+  /// Attitude between two poses: the mean of the matrices, right to the square of the turn between them.
+  At at(double time_s) const;
+
+ private:
+  double start_s_ = 0.0, period_s_ = 1.0;
+  std::vector<At> poses_;
+};
+
+/// Use of arrivals: sums of pressure with speckle, or sums of mean-square pressure.
+enum class Sum { kPressure, kMeanSquare };
+
+struct Carrier {
+  double frequency_hz = 300e3;
+  double absorption_dbpm = 0.07;  // along the path
+  Sum sum = Sum::kPressure;
+};
+
+/// The direct echoes of scatterers, one arrival each, in their order; appended to `arrivals`.
+///
+/// Time: out from the place of transmission and back to where the receiver is at arrival, each the straight distance
+/// times the ray's slowness (exact in isovelocity water, first order in the shift of the receiver otherwise).
+/// Direction: the ray's own at the head, turned as the straight line is. Mean square: what the scatterer sends back,
+/// over the tube's area on the way back (reciprocity), with absorption both ways. Phase: -2 pi f t and that of the
+/// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0.
+void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, std::span<const Scatterer> scatterers,
+                       const Receivers& receivers, std::vector<Arrival>& arrivals);
+
+/// The pressure of an echo of this mean square, arriving at this time from a scatterer of this response.
+std::complex<float> echo_pressure(const Carrier& carrier, double mean_square_upa2, double time_s,
+                                  std::complex<float> response);
+
+}  // namespace ensonify::echo

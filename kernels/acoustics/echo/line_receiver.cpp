@@ -1,0 +1,324 @@
+#include "kernels/acoustics/echo/line_receiver.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/base/random/gaussian.h"
+
+namespace ensonify::echo {
+namespace {
+
+constexpr int kBlock = TimeIndex::kBlock;
+constexpr int kWidth = Spreading::kWidth;
+constexpr double kNegligible = 1e-16;  // of electronic to isotropic noise: float's rounding hides it
+constexpr int kLeft = kWidth / 2 - 1;  // points of a tap before the one that holds the number
+
+/// Number k of a sample draws from counter (sample << 24) + k / 2: arrays of up to 2^25 cells do not overlap.
+std::uint64_t counter_of(int sample) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(sample)) << 24; }
+
+/// Whether the first set of weights is the sum of the other two, to the bit.
+bool is_sum(std::span<const std::vector<float>> weights) {
+  if (weights.size() != 3) return false;
+  for (std::size_t m = 0; m < weights[0].size(); ++m) {
+    if (weights[0][m] != weights[1][m] + weights[2][m]) return false;
+  }
+  return true;
+}
+
+float component_sd(double mean_square) { return static_cast<float>(std::sqrt(0.5 * mean_square)); }
+
+float* floats(std::complex<float>* numbers) { return reinterpret_cast<float*>(numbers); }
+const float* floats(const std::complex<float>* numbers) { return reinterpret_cast<const float*>(numbers); }
+
+}  // namespace
+
+ElementLine element_line(const array::LineArray& array, double wavelength_m, const Eigen::Vector3f& axis_head) {
+  return {array.elements(), array.spacing_m / wavelength_m, axis_head};
+}
+
+std::vector<float> beam_weights(std::span<const double> weights, std::span<const double> whole) {
+  const double sum = std::accumulate(whole.begin(), whole.end(), 0.0);
+  if (!(std::abs(sum) > 0.0)) throw std::invalid_argument("the weights of a beam must not sum to 0");
+  std::vector<float> scaled;
+  for (const double weight : weights) scaled.push_back(static_cast<float>(weight / sum));
+  return scaled;
+}
+
+std::vector<float> beam_weights(std::span<const double> weights) { return beam_weights(weights, weights); }
+
+std::vector<float> power_weights(std::span<const float> weights) {
+  const auto count = static_cast<std::ptrdiff_t>(weights.size());
+  std::vector<float> power;
+  for (std::ptrdiff_t lag = 1 - count; lag < count; ++lag) {
+    double sum = 0.0;
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -lag); i < std::min(count, count - lag); ++i) {
+      sum += static_cast<double>(weights[static_cast<std::size_t>(i)]) * weights[static_cast<std::size_t>(i + lag)];
+    }
+    power.push_back(static_cast<float>(sum));
+  }
+  return power;
+}
+
+ElementLine power_line(const ElementLine& line) {
+  return {2 * line.elements - 1, line.spacing_in_waves, line.axis_head};
+}
+
+LineReceiver::LineReceiver(const ElementLine& line)
+    : line_(line),
+      cells_(fft::Transform::fast_size(std::max(2 * line.elements, 2 * kWidth))),
+      stride_(cells_ + kWidth),
+      to_elements_(cells_, fft::Transform::Sign::kPlus),
+      to_beams_(cells_, fft::Transform::Sign::kMinus),
+      white_(std::abs(line.spacing_in_waves - 0.5) < 0.005) {
+  if (line.elements < 1 || !(line.spacing_in_waves > 0.0)) {
+    throw std::invalid_argument("a line array needs elements and a spacing above 0");
+  }
+  const int half = line.elements / 2;
+  std::vector<float> at_distance(static_cast<std::size_t>(half) + 1);  // from the middle, in elements
+  tbb::parallel_for(0, half + 1, [&](int m) {
+    at_distance[static_cast<std::size_t>(m)] =
+        static_cast<float>(1.0 / Spreading::transform(2.0 * std::numbers::pi * m / cells_));
+  });
+  for (int m = 0; m < line.elements; ++m)
+    unspread_.push_back(at_distance[static_cast<std::size_t>(std::abs(m - half))]);
+  for (int cell = 0; cell < cells_ && !white_; ++cell)
+    isotropic_share_.push_back(static_cast<float>(std::sqrt(share_of_sphere(cell))));
+}
+
+/// Part of all directions whose sine falls into a cell, aliases included: equal solid angles are equal sines.
+double LineReceiver::share_of_sphere(int cell) const {
+  const double width = 1.0 / (cells_ * line_.spacing_in_waves), period = 1.0 / line_.spacing_in_waves;
+  double covered = 0.0;
+  const int aliases = static_cast<int>(std::ceil(line_.spacing_in_waves)) + 1;
+  for (int alias = -aliases; alias <= aliases; ++alias) {
+    const double middle = cell_sine(cell) + alias * period;
+    covered += std::max(0.0, std::min(1.0, middle + 0.5 * width) - std::max(-1.0, middle - 0.5 * width));
+  }
+  return 0.5 * covered;
+}
+
+double LineReceiver::cell_sine(int cell) const {
+  const int signed_cell = cell < (cells_ + 1) / 2 ? cell : cell - cells_;
+  return signed_cell / (cells_ * line_.spacing_in_waves);
+}
+
+/// Place on the periodic grid, 0..cells.
+float LineReceiver::grid_place(float sine) const {
+  const double turns = line_.spacing_in_waves * static_cast<double>(sine);
+  return static_cast<float>((turns - std::floor(turns)) * cells_);
+}
+
+void LineReceiver::check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const {
+  const auto samples = static_cast<std::size_t>(std::max(input.sampling.count, 0));
+  bool fits = weights.size() == images && (input.gain.empty() || input.gain.size() == input.arrivals.size());
+  for (const auto& one : weights) fits = fits && one.size() == static_cast<std::size_t>(line_.elements);
+  if (!fits)
+    throw std::invalid_argument(
+        "a line receiver needs one image per set of weights, one weight per element, one gain per arrival");
+  const Background& background = input.background;
+  if (!background.volume_upa2.empty() && background.volume_upa2.size() != samples * static_cast<std::size_t>(cells_)) {
+    throw std::invalid_argument("volume reverberation needs one number per sample and cell of the sine grid");
+  }
+  if ((background.isotropic_upa2 > 0.0 && !background.isotropic) ||
+      (background.electronic_upa2 > 0.0 && !background.electronic) ||
+      (!background.volume_upa2.empty() && !background.volume)) {
+    throw std::invalid_argument("background sound needs a stream to draw from");
+  }
+}
+
+void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
+                        std::span<const std::vector<float>> weights, std::span<Image> images) {
+  check(input, weights, images.size());
+  index_.set(input.arrivals, input.pulse, input.sampling);
+  steer_.clear();
+  for (const float sine : sin_beams) {
+    const float place = grid_place(sine);
+    const int whole = std::min(static_cast<int>(place), cells_ - 1);
+    steer_.push_back({whole, spreading_.taps(place - static_cast<float>(whole))});
+  }
+  for (Image& image : images) {
+    trace::make_room(image.envelope_upa, sin_beams.size() * static_cast<std::size_t>(input.sampling.count));
+    image.resize(static_cast<int>(sin_beams.size()), input.sampling.count);
+  }
+
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  if (memory_.size() < threads) memory_.resize(threads);
+  const auto row = static_cast<std::size_t>(stride_);
+  tbb::parallel_for(std::size_t{0}, memory_.size(), [&](std::size_t thread) {
+    Memory& memory = memory_[thread];
+    memory.grid.resize(kBlock * row);
+    memory.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
+    memory.spectrum.resize(row);
+    memory.field.resize(row);
+    if (input.background.volume_upa2.empty()) return;
+    memory.sum.resize(row);
+    memory.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
+  });
+  const bool halved = is_sum(weights);
+  tbb::parallel_for(0, index_.blocks(), [&](int block) {
+    form_block(input, block, weights, halved,
+               memory_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())], images);
+  });
+}
+
+void LineReceiver::spread(const Input& input, int block, Memory& memory) const {
+  std::fill(memory.grid.begin(), memory.grid.end(), std::complex<float>{});
+  index_.each(block, input.pulse, [&](std::uint32_t i, int first, std::span<const float> envelope) {
+    const Arrival& arrival = input.arrivals[i];
+    const float place = grid_place(arrival.direction_head.dot(line_.axis_head));
+    const int whole = std::min(static_cast<int>(place), cells_ - 1);
+    Spreading::Taps taps = spreading_.taps(place - static_cast<float>(whole));
+    const float gain = input.gain.empty() ? 1.0F : input.gain[i];
+    const float re = gain * arrival.pressure_upa.real(), im = gain * arrival.pressure_upa.imag();
+    for (int k = 0; k < kWidth; ++k) {
+      taps[2 * k] *= re;
+      taps[2 * k + 1] *= im;
+    }
+    float* cell = floats(memory.grid.data() + (first - block * kBlock) * stride_ + whole);
+    for (const float e : envelope) {
+      Eigen::Map<Spreading::Taps>(cell) += e * taps;
+      cell += 2 * stride_;
+    }
+  });
+}
+
+/// Volume reverberation's draws for every sample that a block's pulses reach back to, mean square 1.
+void LineReceiver::draw_volume(const Input& input, int block, Memory& memory) const {
+  const Background& background = input.background;
+  const int rows = kBlock + input.pulse.support() - 1;
+  const int first = block * kBlock - input.pulse.support() + 1;
+  std::fill(memory.draws.begin(), memory.draws.end(), std::complex<float>{});
+  for (int r = 0; r < rows; ++r) {
+    const auto first_draw = static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+    const auto row = std::span(memory.draws).subspan(first_draw, static_cast<std::size_t>(cells_));
+    random::add_gaussian(*background.volume, background.ping, counter_of(first + r), component_sd(1.0), row);
+  }
+}
+
+/// Sound from all directions at once in one sample, on the sine grid (without spreading).
+void LineReceiver::draw_field(const Input& input, int block, int sample, Memory& memory) const {
+  const Background& background = input.background;
+  const auto cells = static_cast<std::size_t>(cells_);
+  std::complex<float>* field = memory.field.data();
+  std::fill_n(field, cells, std::complex<float>{});
+  if (background.isotropic_upa2 > 0.0 && !white_) {
+    random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
+                         component_sd(background.isotropic_upa2), std::span(field, cells));
+    for (std::size_t c = 0; c < cells; ++c) field[c] *= isotropic_share_[c];
+  }
+  if (!background.volume_upa2.empty()) {
+    const float* mean_square = background.volume_upa2.data() + static_cast<std::size_t>(sample) * cells;
+    const auto envelope = input.pulse.row(SampledPulse::kPhases / 2);
+    float energy = 0.0F;
+    for (const float e : envelope) energy += e * e;
+    std::complex<float>* sum = memory.sum.data();
+    std::fill_n(sum, cells, std::complex<float>{});
+    for (int k = 0; k < input.pulse.support(); ++k) {  // what arrived k samples ago is in the pulse's k-th sample
+      const int row = sample - block * kBlock + input.pulse.support() - 1 - k;
+      const std::complex<float>* draws =
+          memory.draws.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_);
+      const float e = envelope[static_cast<std::size_t>(k)];
+      for (std::size_t c = 0; c < cells; ++c) sum[c] += e * draws[c];
+    }
+    for (std::size_t c = 0; c < cells; ++c) field[c] += std::sqrt(mean_square[c] / energy) * sum[c];
+  }
+}
+
+/// From one row of the spread grid to the elements' signals.
+void LineReceiver::to_elements(const Input& input, int block, int sample, Memory& memory) const {
+  const int r = sample - block * kBlock;
+  std::complex<float>* row = memory.grid.data() + static_cast<std::ptrdiff_t>(r) * stride_;
+  std::complex<float>* grid = row + kLeft;
+  for (int i = 0; i < kLeft; ++i) row[i + cells_] += row[i];
+  for (int i = kLeft; i < kWidth; ++i) row[i] += row[i + cells_];
+  std::complex<float>* spectrum = memory.spectrum.data();
+  to_elements_(grid, spectrum);
+
+  const int M = line_.elements;
+  std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
+  for (int m = 0; m < M; ++m) elements[m] = spectrum[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
+  const Background& background = input.background;
+  if ((background.isotropic_upa2 > 0.0 && !white_) || !background.volume_upa2.empty()) {
+    draw_field(input, block, sample, memory);
+    to_elements_(memory.field.data(), spectrum);
+    for (int m = 0; m < M; ++m) elements[m] += spectrum[harmonic(m)];
+  }
+  if (background.isotropic_upa2 > 0.0 && white_) {
+    random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
+                         component_sd(background.isotropic_upa2), std::span(elements, static_cast<std::size_t>(M)));
+  }
+  if (background.electronic_upa2 > kNegligible * background.isotropic_upa2) {
+    random::add_gaussian(*background.electronic, background.ping, counter_of(sample),
+                         component_sd(background.electronic_upa2), std::span(elements, static_cast<std::size_t>(M)));
+  }
+}
+
+/// Element signals of a block, weighted, onto the grid that beams read.
+void LineReceiver::to_beam_grid(int samples, std::span<const float> weights, Memory& memory) const {
+  const int M = line_.elements;
+  std::complex<float>* spectrum = memory.spectrum.data();
+  std::fill_n(spectrum, cells_, std::complex<float>{});  // and so it stays between the elements' harmonics
+  for (int r = 0; r < samples; ++r) {
+    std::complex<float>* row = memory.grid.data() + static_cast<std::ptrdiff_t>(r) * stride_;
+    const std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
+    for (int m = 0; m < M; ++m) {
+      const auto i = static_cast<std::size_t>(m);
+      spectrum[harmonic(m)] = elements[m] * (weights[i] * unspread_[i]);
+    }
+    to_beams_(spectrum, row + kLeft);
+    for (int i = 0; i < kLeft; ++i) row[i] = row[i + cells_];
+    for (int i = kLeft; i < kWidth; ++i) row[i + cells_] = row[i];
+  }
+}
+
+void LineReceiver::read_beams(int block, int samples, const Memory& memory, Image& image) const {
+  for (int beam = 0; beam < image.beams; ++beam) {
+    const Steer& steer = steer_[static_cast<std::size_t>(beam)];
+    std::complex<float>* out = image.row(beam).data() + block * kBlock;
+    const float* cell = floats(memory.grid.data() + steer.first);
+    for (int r = 0; r < samples; ++r, cell += 2 * stride_) {
+      const Spreading::Taps product = steer.taps * Eigen::Map<const Spreading::Taps>(cell);
+      const Eigen::Array4f sum = product.segment<4>(0) + product.segment<4>(4) + product.segment<4>(8);
+      out[r] = {sum[0] + sum[2], sum[1] + sum[3]};
+    }
+  }
+}
+
+void LineReceiver::form_block(const Input& input, int block, std::span<const std::vector<float>> weights, bool halved,
+                              Memory& memory, std::span<Image> images) const {
+  const Background& background = input.background;
+  const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
+  const bool silent = background.isotropic_upa2 <= 0.0 && background.electronic_upa2 <= 0.0 &&
+                      background.volume_upa2.empty() && !index_.any(block);
+  if (silent) {
+    for (Image& image : images) {
+      for (int beam = 0; beam < image.beams; ++beam)
+        std::fill_n(image.row(beam).data() + first, samples, std::complex<float>{});
+    }
+    return;
+  }
+  spread(input, block, memory);
+  if (!background.volume_upa2.empty()) draw_volume(input, block, memory);
+  for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, memory);
+  for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
+    to_beam_grid(samples, weights[i], memory);
+    read_beams(block, samples, memory, images[i]);
+  }
+  if (!halved) return;
+  for (int beam = 0; beam < images[0].beams; ++beam) {
+    const std::complex<float>* one = images[1].row(beam).data() + first;
+    const std::complex<float>* other = images[2].row(beam).data() + first;
+    std::complex<float>* whole = images[0].row(beam).data() + first;
+    for (int k = 0; k < samples; ++k) whole[k] = one[k] + other[k];
+  }
+}
+
+}  // namespace ensonify::echo

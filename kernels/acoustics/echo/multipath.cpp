@@ -1,0 +1,169 @@
+#include "kernels/acoustics/echo/multipath.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/acoustics/sea_surface.h"
+
+namespace ensonify::echo {
+namespace {
+
+using frames::Vec3;
+
+constexpr std::size_t kPerTask = 1024;
+constexpr double kLeastReflection = 1e-5;
+
+Vec3 mirrored(const Vec3& point, double level_m) { return {point.x(), point.y(), 2.0 * level_m - point.z()}; }
+
+/// What all paths of one ping share.
+struct Paths {
+  const Carrier& carrier;
+  const MultipathHead& head;
+  const SurfaceMirror& surface;
+  const frames::HeadPose& pose;
+  const Receivers& receivers;
+  double source_upa2m2 = power_ratio(head.source_level_db);  // on the axis
+  double bottom_mirror = std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
+
+  /// Mean-square pressure at 1 m that leaves towards a point or an image, uPa^2 m^2.
+  double source_towards(const Vec3& target) const {
+    const Vec3 direction = pose.enu_from_head.conjugate() * (target - pose.position_enu_m).normalized();
+    return source_upa2m2 * head.transmit(direction.cast<float>());
+  }
+
+  /// The arrival that left a scatterer (or its image) at `from` with mean square `at_1m`, after `out_m` of path, with
+  /// the reflections' amplitude `reflected` already in it.
+  Arrival arrive(double at_1m, double reflected, double out_m, const Vec3& from, std::complex<float> response) const {
+    const double guess_m = (from - pose.position_enu_m).norm();
+    const Receivers::At receiver = receivers.at((out_m + guess_m) / surface.sound_speed_mps);
+    const Vec3 back = from - receiver.position_enu_m;
+    const double back_m = std::max(back.norm(), 1e-3), total_m = out_m + back_m;
+    const double mean_square =
+        at_1m * reflected * reflected * power_ratio(-carrier.absorption_dbpm * total_m) / (back_m * back_m);
+    Arrival arrival;
+    arrival.time_s = total_m / surface.sound_speed_mps;
+    arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -response : response);
+    arrival.direction_head = receiver.head_from_enu * (back / back_m).cast<float>();
+    return arrival;
+  }
+
+  double reflection(const Vec3& from, const Vec3& to) const {
+    const Vec3 leg = to - from;
+    return surface_reflection(surface, carrier.frequency_hz, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
+  }
+
+  /// seabed - surface, then surface - seabed.
+  std::array<Arrival, 2> one_bounce(const Scatterer& scatterer) const {
+    const Vec3& place = scatterer.position_enu_m;
+    const Vec3 image = mirrored(place, surface.level_enu_m);
+    const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
+    const double V = reflection(pose.position_enu_m, image);
+    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
+    return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
+            arrive(insonified, V, bounced_m, place, scatterer.response)};
+  }
+
+  /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order.
+  std::array<Arrival, 2> second_bottom(const Scatterer& scatterer) const {
+    const Vec3& place = scatterer.position_enu_m;
+    // Seen from the head, the scatterer mirrored at the surface and then at the seabed's level.
+    const Vec3 image = mirrored(mirrored(place, surface.level_enu_m), place.z());
+    const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
+    const double V = reflection(pose.position_enu_m, image) * bottom_mirror;
+    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
+    return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
+            arrive(insonified, V, bounced_m, place, scatterer.response)};
+  }
+
+  /// The head's own sound by way of mirrors. It seems to come from `image` and left as if for `target`, the images of
+  /// the source and of the receiver. The carrier's phase is the path's; no draw.
+  Arrival mirror_echo(const Vec3& image, const Vec3& target, double reflected) const {
+    const double whole_m = (image - pose.position_enu_m).norm();
+    const Receivers::At receiver = receivers.at(whole_m / surface.sound_speed_mps);
+    const Vec3 back = image - receiver.position_enu_m;
+    const double path_m = std::max(back.norm(), 1e-3);
+    const double mean_square = source_towards(target) * reflected * reflected *
+                               power_ratio(-carrier.absorption_dbpm * path_m) / (path_m * path_m);
+    Arrival arrival;
+    arrival.time_s = path_m / surface.sound_speed_mps;
+    arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -1.0F : 1.0F);
+    arrival.direction_head = receiver.head_from_enu * (back / path_m).cast<float>();
+    return arrival;
+  }
+};
+
+/// Of the surface on the way to any of the scatterers: waves leave most where it is hit at the lowest angle.
+double strongest_reflection(const Paths& paths, std::span<const Scatterer> scatterers) {
+  double least_sine = 1.0;
+  for (const Scatterer& scatterer : scatterers) {
+    const Vec3 leg = mirrored(scatterer.position_enu_m, paths.surface.level_enu_m) - paths.pose.position_enu_m;
+    least_sine = std::min(least_sine, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
+  }
+  return std::abs(surface_reflection(paths.surface, paths.carrier.frequency_hz, least_sine));
+}
+
+}  // namespace
+
+double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing) {
+  const double wavenumber_radpm = 2.0 * std::numbers::pi * frequency_hz / surface.sound_speed_mps;
+  const double grazing_rad = std::asin(std::clamp(sin_grazing, 0.0, 1.0));
+  return surface::coherent_reflection(wavenumber_radpm, surface.rms_height_m, grazing_rad) *
+         std::pow(10.0, -0.05 * surface.bounce_loss_db);
+}
+
+void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                   const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
+                   const Receivers& receivers, std::vector<Arrival>& arrivals) {
+  const double level_m = surface.level_enu_m;
+  if (pose.position_enu_m.z() >= level_m) return;
+  const Paths paths{carrier, head, surface, pose, receivers};
+  const bool mirrors = strongest_reflection(paths, scatterers) >= kLeastReflection;
+  const std::size_t each = mirrors ? (parts.one_bounce ? 2U : 0U) + (parts.second_bottom ? 2U : 0U) : 0U;
+  const std::size_t before = arrivals.size();
+  arrivals.resize(before + each * scatterers.size());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, each == 0 ? 0 : scatterers.size(), kPerTask),
+      [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          Arrival* out = arrivals.data() + before + each * i;
+          std::fill_n(out, each, Arrival{});
+          if (scatterers[i].position_enu_m.z() >= level_m) continue;
+          if (parts.one_bounce) {
+            for (const Arrival& arrival : paths.one_bounce(scatterers[i])) *out++ = arrival;
+          }
+          if (parts.second_bottom) {
+            for (const Arrival& arrival : paths.second_bottom(scatterers[i])) *out++ = arrival;
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  if (parts.surface_echo) {
+    const double V = surface_reflection(surface, carrier.frequency_hz, 1.0);
+    const Vec3 above = mirrored(pose.position_enu_m, level_m);
+    arrivals.push_back(paths.mirror_echo(above, above, V));
+  }
+}
+
+void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                       double bottom_level_enu_m, const frames::HeadPose& pose, const Receivers& receivers,
+                       std::vector<Arrival>& arrivals) {
+  const Vec3& place = pose.position_enu_m;
+  if (place.z() >= surface.level_enu_m || place.z() <= bottom_level_enu_m) return;
+  const Paths paths{carrier, head, surface, pose, receivers};
+  const double V = surface_reflection(surface, carrier.frequency_hz, 1.0);
+  const double B = paths.bottom_mirror;
+  const auto bottom = [&](const Vec3& point) { return mirrored(point, bottom_level_enu_m); };
+  const auto top = [&](const Vec3& point) { return mirrored(point, surface.level_enu_m); };
+  const Vec3 down_up = top(bottom(place)), up_down = bottom(top(place)), twice = bottom(down_up);
+  arrivals.push_back(paths.mirror_echo(bottom(place), bottom(place), B));
+  arrivals.push_back(paths.mirror_echo(down_up, up_down, B * V));  // leaves downwards, comes from above
+  arrivals.push_back(paths.mirror_echo(up_down, down_up, B * V));
+  arrivals.push_back(paths.mirror_echo(twice, twice, B * V * B));
+}
+
+}  // namespace ensonify::echo

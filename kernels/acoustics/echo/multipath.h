@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "kernels/acoustics/echo/arrival.h"
+
+namespace ensonify::echo {
+
+/// The sea surface as a mirror: flat, at a level. Between the head and it the water is taken as isovelocity.
+struct SurfaceMirror {
+  double level_enu_m = 0.0;         // z of the surface
+  double sound_speed_mps = 1500.0;  // along the added paths
+  double bounce_loss_db = 0.0;      // of each reflection, besides roughness: bubbles
+  double rms_height_m = 0.0;        // of the waves: a coherent reflection has exp(-2 (k sigma sin(grazing))^2) left
+};
+
+/// A power pattern: 1 on its axis; the argument is a unit vector in the head's frame.
+using Pattern = std::function<double(const Eigen::Vector3f& direction_head)>;
+
+/// Which paths to add.
+struct MultipathParts {
+  bool one_bounce = true;     // seabed - surface and surface - seabed
+  bool second_bottom = true;  // seabed - surface - seabed, with one of the two seabed bounces a mirror's
+  bool surface_echo = true;   // up and down again
+};
+
+/// Data of the head for the added paths. Poses are those of transmission; the receiver moves little in the
+/// time of a bounce, and its attitude at arrival is used.
+struct MultipathHead {
+  double source_level_db = 220.0;  // on the transmit axis
+  Pattern transmit;
+  double bottom_mirror_loss_db = 15.0;  // of a specular bounce off the seabed
+};
+
+/// Coherent amplitude of one reflection by the surface, with sign: what waves leave (kernels/acoustics) and bubbles let
+/// through.
+double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
+
+/// Number of arrivals of add_multipath, for each scatterer, at most.
+inline constexpr std::size_t kMostMultipathEach = 4;
+
+/// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.
+///
+/// With z mirrored at the surface (the head's depth d, a scatterer's depth D), for each scatterer:
+///   seabed - surface: out directly, back from the scatterer's image;
+///   surface - seabed: out from the head's image, back directly. The two are of one length and carry the scatterer's
+///     one response, so they add as pressures: 6.02 dB above one of them where the patterns are equal;
+///   seabed - surface - seabed: one leg direct, the other from the head's image in the surface, mirrored again in the
+///     level of the seabed below the head (depth of the bounce: the scatterer's own), with `bottom_mirror_loss_db`;
+///     both orders.
+/// And once, with the head's own image: the echo of the surface overhead, the coherent part only (its scattering is
+/// that of rays traced to it).
+/// Level: source level and transmit pattern in the direction of departure, scattering cross section (that of
+/// backscattering at the hit), one over the squares of both straight legs, absorption along them, the surface's and the
+/// bottom's reflections. Nothing is added for a head or a scatterer above the surface, nor for scatterers where waves
+/// leave less than 1e-5 of the amplitude on every way to them (-100 dB: then it costs nothing). With Sum::kMeanSquare
+/// the two of a pair add as powers, 3.01 dB below what they are.
+void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                   const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
+                   const Receivers& receivers, std::vector<Arrival>& arrivals);
+
+/// Echoes of a flat mirror of a seabed: 2 H, bottom - surface and surface - bottom (2 D each, coherent), and bottom -
+/// surface - bottom 2 (H + D), for altitude H and depth D below the surface. For seabeds that reflect rather than
+/// scatter; scatterers bring the rest. EL = SL - 20 log L - alpha L - losses [Lurton2010, ch. 3].
+void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                       double bottom_level_enu_m, const frames::HeadPose& pose, const Receivers& receivers,
+                       std::vector<Arrival>& arrivals);
+
+}  // namespace ensonify::echo

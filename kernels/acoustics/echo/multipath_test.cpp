@@ -1,0 +1,154 @@
+#include "kernels/acoustics/echo/multipath.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+using namespace ensonify;
+using namespace ensonify::echo;
+using frames::Vec3;
+
+constexpr double kSpeed = 1500.0, kAlpha = 0.05;
+static const Carrier kCarrier{100e3, kAlpha};
+
+/// An omnidirectional head of 200 dB, `depth_m` below a surface at 1.5 m, at rest.
+struct Geometry {
+  double depth_m, altitude_m;
+  SurfaceMirror surface{1.5, kSpeed};
+  MultipathHead head{200.0, [](const Eigen::Vector3f&) { return 1.0; }, 12.0};
+  frames::HeadPose pose{{3.0, -2.0, 1.5 - depth_m}, frames::enu_from_ned()};
+  Receivers receivers;
+
+  Geometry(double depth, double altitude) : depth_m(depth), altitude_m(altitude) {
+    receivers.set({0, 1, std::span(&pose, 1)});
+  }
+  double bottom_m() const { return pose.position_enu_m.z() - altitude_m; }
+
+  /// One scatterer at a ground range of the head, of cross section 1 cm^2.
+  Scatterer at(double ground_m) const {
+    Scatterer one;
+    one.position_enu_m = {pose.position_enu_m.x() + ground_m, pose.position_enu_m.y(), bottom_m()};
+    one.slowness_spm = float(1 / kSpeed);
+    one.cross_section_m2 = 1e-4F;
+    one.scattered_upa2m2 = 1e-4F * 1e20F / float(std::pow(ground_m, 2) + altitude_m * altitude_m);
+    one.response = {0.6F, -0.8F};
+    return one;
+  }
+  std::vector<Arrival> multipath(double ground_m, const MultipathParts& parts) const {
+    const Scatterer one = at(ground_m);
+    std::vector<Arrival> arrivals;
+    add_multipath(kCarrier, head, surface, parts, pose, std::span(&one, 1), receivers, arrivals);
+    return arrivals;
+  }
+};
+
+static double level_db(const Arrival& arrival) { return 10 * std::log10(std::norm(arrival.pressure_upa)); }
+
+TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as pressures") {
+  const Geometry geometry(4.0, 20.0);
+  const double x = 30.0, D = 24.0, d = 4.0;
+  const double R1 = std::hypot(x, 20.0), R2 = std::hypot(x, D + d);
+  const auto ghosts = geometry.multipath(x, {true, false, false});
+  REQUIRE(ghosts.size() == 2);
+  const double want_db = 200 - 40 - 20 * std::log10(R1 * R2) - kAlpha * (R1 + R2);
+  for (const Arrival& ghost : ghosts) {
+    CHECK(ghost.time_s == Approx((R1 + R2) / kSpeed).epsilon(1e-7));
+    CHECK(level_db(ghost) == Approx(want_db).margin(0.001));
+  }
+  CHECK(ghosts[0].direction_head.z() == Approx(-(D + d) / R2).epsilon(1e-5));  // seabed - surface comes from above
+  CHECK(ghosts[1].direction_head.z() == Approx(20.0 / R1).epsilon(1e-5));
+  CHECK(20 * std::log10(std::abs(ghosts[0].pressure_upa + ghosts[1].pressure_upa)) ==
+        Approx(want_db + 6.0206).margin(0.01));
+  // The direct echo's phase, later by the longer way and turned over by the surface.
+  std::vector<Arrival> direct;
+  const Scatterer one = geometry.at(x);
+  add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
+  const auto turn = std::polar(1.0, -2 * std::numbers::pi * 100e3 * (ghosts[0].time_s - direct[0].time_s));
+  const auto ratio = std::complex<double>(ghosts[0].pressure_upa) / std::complex<double>(direct[0].pressure_upa);
+  CHECK(std::abs(std::arg(-ratio / turn)) < 1e-3);
+}
+
+TEST_CASE("the second bottom echo comes after both heights of water") {
+  const Geometry geometry(4.0, 20.0);
+  const auto second = geometry.multipath(0.0, {false, true, false});
+  REQUIRE(second.size() == 2);
+  const double long_m = 20.0 + 2 * 24.0;  // of the leg by way of the seabed and the surface: H + 2 D
+  for (const Arrival& arrival : second) {
+    CHECK(arrival.time_s == Approx(2 * (20.0 + 24.0) / kSpeed).epsilon(1e-7));
+    CHECK(level_db(arrival) == Approx(200 - 40 - 20 * std::log10(20.0 * long_m) - kAlpha * 88 - 12).margin(0.001));
+    CHECK(arrival.direction_head.z() == Approx(1.0));  // from below
+  }
+}
+
+TEST_CASE("mirror echoes are those of image sources") {
+  const Geometry geometry(4.0, 20.0);
+  std::vector<Arrival> echoes = geometry.multipath(10.0, {false, false, true});
+  add_mirror_echoes(kCarrier, geometry.head, geometry.surface, geometry.bottom_m(), geometry.pose, geometry.receivers,
+                    echoes);
+  REQUIRE(echoes.size() == 5);
+  // Surface 2 d, bottom 2 H, either order 2 D, bottom - surface - bottom 2 (H + D); seabed loss 12 dB each time.
+  const double length_m[] = {8, 40, 48, 48, 88}, loss_db[] = {0, 12, 12, 12, 24}, down[] = {-1, 1, -1, 1, 1};
+  for (int i = 0; i < 5; ++i) {
+    CHECK(echoes[i].time_s == Approx(length_m[i] / kSpeed).epsilon(1e-9));
+    CHECK(level_db(echoes[i]) ==
+          Approx(200 - 20 * std::log10(length_m[i]) - kAlpha * length_m[i] - loss_db[i]).margin(0.001));
+    CHECK(echoes[i].direction_head.z() == Approx(down[i]));
+  }
+  // Seen from a hull (depth 0): second less first bottom echo is -(6.02 + 2 alpha H + BL).
+  const Geometry hull(1e-6, 20.0);
+  std::vector<Arrival> two;
+  add_mirror_echoes(kCarrier, hull.head, hull.surface, hull.bottom_m(), hull.pose, hull.receivers, two);
+  CHECK(level_db(two[3]) - level_db(two[0]) == Approx(-(6.0206 + 2 * kAlpha * 20 + 12)).margin(0.001));
+}
+
+TEST_CASE("paths leave and arrive where the patterns say") {
+  // A head that sends downwards only: nothing goes to the surface first; what comes back from above is still received.
+  Geometry geometry(4.0, 20.0);
+  geometry.head.transmit = [](const Eigen::Vector3f& direction) { return direction.z() > 0 ? 1.0 : 0.0; };
+  const auto ghosts = geometry.multipath(30.0, {true, false, true});
+  CHECK(std::norm(ghosts[0].pressure_upa) > 0);
+  CHECK(ghosts[1].pressure_upa == std::complex<float>{});
+  CHECK(ghosts[2].pressure_upa == std::complex<float>{});
+}
+
+TEST_CASE("waves and bubbles take the coherent reflection away") {
+  const SurfaceMirror calm{0, kSpeed}, rough{0, kSpeed, 3.0, 2e-3};
+  CHECK(surface_reflection(calm, 300e3, 0.7) == Approx(-1));  // pressure release
+  // 2 k sigma sin = 2 x 1256.6 x 0.002 x 0.5 = 2.513: exp(-2.513^2 / 2) is -27.4 dB, bubbles 3 dB more.
+  CHECK(20 * std::log10(-surface_reflection(rough, 300e3, 0.5)) == Approx(-27.43 - 3).margin(0.01));
+}
+
+TEST_CASE("where waves leave nothing, nothing is added") {
+  // At 30 m the surface is hit at 43 degrees: 2 k sigma sin = 4 leaves e^-8, 3e-4; 6 leaves 2e-8.
+  Geometry geometry(4.0, 20.0);
+  const double sine = 28.0 / std::hypot(28.0, 30.0), wavenumber = 2.0 * std::numbers::pi * 100e3 / kSpeed;
+  geometry.surface.rms_height_m = 4.0 / (2.0 * wavenumber * sine);
+  CHECK(geometry.multipath(30.0, {true, true, false}).size() == 4);
+  geometry.surface.rms_height_m = 6.0 / (2.0 * wavenumber * sine);
+  CHECK(geometry.multipath(30.0, {true, true, false}).empty());
+}
+
+TEST_CASE("nothing is added for a head in the air") {
+  const Geometry above(-0.5, 20.0);
+  CHECK(above.multipath(10.0, {}).empty());
+  std::vector<Arrival> none;
+  add_mirror_echoes(kCarrier, above.head, above.surface, above.bottom_m(), above.pose, above.receivers, none);
+  CHECK(none.empty());
+}
+
+TEST_CASE("ghosts for the picture", "[.echo-multipath-csv]") {
+  const Geometry geometry(4.0, 20.0);
+  std::puts("ground_m,direct_s,direct_db,bounce_s,bounce_db,second_s,second_db");
+  for (double x = 0; x <= 80; x += 4) {
+    std::vector<Arrival> direct;
+    const Scatterer one = geometry.at(x);
+    add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
+    const auto more = geometry.multipath(x, {true, true, false});
+    const auto pair_db = [&](int i) {
+      return 20 * std::log10(std::abs(more[i].pressure_upa + more[i + 1].pressure_upa));
+    };
+    std::printf("%g,%.8f,%.4f,%.8f,%.4f,%.8f,%.4f\n", x, direct[0].time_s, level_db(direct[0]), more[0].time_s,
+                pair_db(0), more[2].time_s, pair_db(2));
+  }
+}

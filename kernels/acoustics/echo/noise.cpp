@@ -1,0 +1,19 @@
+#include "kernels/acoustics/echo/noise.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "kernels/base/random/gaussian.h"
+
+namespace ensonify::echo {
+
+void add_noise(double level_db, std::uint64_t ping, const random::Stream& stream, Image& image) {
+  const auto sd = static_cast<float>(std::sqrt(0.5 * std::pow(10.0, 0.1 * level_db)));
+  if (sd == 0.0F) return;
+  tbb::parallel_for(0, image.beams, [&](int beam) {
+    random::add_gaussian(stream, ping, static_cast<std::uint64_t>(beam) << 32, sd, image.row(beam));
+  });
+}
+
+}  // namespace ensonify::echo

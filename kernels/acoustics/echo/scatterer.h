@@ -1,0 +1,83 @@
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/acoustics/echo/partition.h"
+#include "kernels/acoustics/trace/ray.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/base/random/stream.h"
+
+namespace ensonify::echo {
+
+/// One transmission and what its rays hit. The spans have one entry per ray.
+struct Transmission {
+  frames::HeadPose pose;
+  std::span<const trace::Ray> rays;
+  std::span<const trace::Hit> hits;
+  /// Mean-square pressure at 1 m in the ray's direction, uPa^2 m^2: source level with the transmit pattern.
+  std::span<const float> source_upa2m2;
+  /// Scattering cross section per unit area and solid angle at the hit, a ratio (seabed kernel).
+  std::span<const float> backscatter;
+};
+
+/// A patch of seabed that answers as one point.
+struct Scatterer {
+  frames::Vec3 position_enu_m = frames::Vec3::Zero();
+  Eigen::Vector3f bend_enu = Eigen::Vector3f::Zero();  // the ray's direction at the head, less the straight line's
+  float slowness_spm = 0.0F;                           // travel time over straight distance
+  float stretch = 1.0F;                                // path length over straight distance
+  float spreading = 1.0F;                              // area of the ray tube over the square of the straight distance
+  float sin_grazing = 0.0F;
+  float scattered_upa2m2 = 0.0F;  // mean-square pressure at 1 m that it sends back, before absorption
+  float cross_section_m2 = 0.0F;  // what it would scatter of a plane wave: sum of sigma dA
+  std::complex<float> response;   // its random part: complex Gaussian, mean square 1
+};
+
+/// From hits to scatterers.
+///
+/// The world is cut into cubic cells of `cell_m`. All rays that hit one cell add their energy to one scatterer. Its
+/// place (in the cell, on the facet) and its response depend on (stream, cell) only. So a ping repeated from the same
+/// pose with the same rays repeats bit by bit, and when the head moves, the same scatterers answer with other travel
+/// times: the sum decorrelates by these, as a real seabed's does. That needs some four rays per cell; with fewer, the
+/// scatterers that a ping finds change from ping to ping and it decorrelates sooner. Energy is right in any case.
+///
+/// A cell's response is Gaussian, as that of a patch of many wavelengths: the sum of a few cells has the speckle of an
+/// incoherent seabed. Choose cells of at most half the range resolution and a quarter of the footprint. The spacing of
+/// cells is exact to 2^20 cells from the world's origin; beyond they repeat.
+class Scatterers {
+ public:
+  /// Throws std::invalid_argument unless cell_m > 0.
+  Scatterers(double cell_m, const random::Stream& stream);
+
+  /// The scatterers of a transmission in a fixed order; valid until the next call.
+  ///
+  /// A ray of solid angle dOmega that hits the seabed at grazing angle theta insonifies dA = tube dOmega / sin(theta)
+  /// with source / tube, so it sends back source sigma dOmega / sin(theta), whatever the path: spreading out is counted
+  /// by the rays themselves. sin(theta) below 0.001 counts as that.
+  std::span<const Scatterer> find(const Transmission& transmission);
+
+ private:
+  struct Insonified {  // by one ray, then by all rays of a cell
+    std::uint64_t cell;
+    std::uint32_t ray;
+    float scattered_upa2m2, cross_section_m2;
+  };
+  std::uint64_t cell_at(const frames::Vec3& position_enu_m) const;
+  Insonified insonified_by(const Transmission& transmission, std::size_t ray) const;
+  std::size_t merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const;
+  Scatterer scatterer(const Transmission& transmission, const Insonified& insonified) const;
+
+  double cell_m_, per_cell_;
+  random::Stream stream_;
+  std::vector<Insonified> insonified_;
+  Partition<Insonified> by_cell_;
+  std::vector<std::size_t> merged_start_;
+  std::vector<std::vector<std::int32_t>> tables_;  // one per thread
+  std::vector<Scatterer> found_;
+};
+
+}  // namespace ensonify::echo

@@ -1,0 +1,235 @@
+#include "kernels/acoustics/echo/scatterer.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
+#include "kernels/base/testing/allocations.h"
+
+using namespace ensonify;
+using namespace ensonify::echo;
+using frames::Vec3;
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kDepth = 20.0, kSpeed = 1500.0, kFrequency = 300e3, kWave = kSpeed / kFrequency;
+constexpr double kLines = 50.76;  // length of the transmit line in waves: 1 deg
+
+/// Rays of a strip about 45 deg to starboard, the same for every ping, and the flat seabed that they hit.
+struct Strip {
+  std::vector<trace::Ray> rays;
+  std::vector<float> source, backscatter;
+
+  Strip() {
+    const random::Stream jitter{4, "rays"};
+    constexpr int kAlong = 200, kAcross = 180;
+    const double reach = 3.0 / kLines, from = 44 * kDeg, to = 46 * kDeg;
+    for (int j = 0; j < kAcross; ++j) {
+      for (int i = 0; i < kAlong; ++i) {
+        const double u = reach * (2 * (i + jitter.uniform(i, j, 0)) / kAlong - 1);
+        const double phi = from + (to - from) * (j + jitter.uniform(i, j, 1)) / kAcross;
+        const double beside = std::sqrt(1 - u * u);
+        rays.push_back({Vec3(u, beside * std::sin(phi), beside * std::cos(phi)).cast<float>(),
+                        float(2 * reach / kAlong * (to - from) / kAcross)});
+        source.push_back(float(1e20 * array::line_power(kLines, u)));
+        backscatter.push_back(0.01F);
+      }
+    }
+  }
+
+  std::vector<trace::Hit> hits(const frames::HeadPose& pose) const {
+    std::vector<trace::Hit> found;
+    for (const trace::Ray& ray : rays) {
+      const Vec3 direction = pose.enu_from_head * ray.direction_head.cast<double>();
+      trace::Hit hit;
+      const double range = (kDepth + pose.position_enu_m.z()) / -direction.z();
+      hit.position_enu_m = pose.position_enu_m + range * direction;
+      hit.arrival_enu = direction.cast<float>();
+      hit.range_m = hit.path_length_m = float(range);
+      hit.travel_time_s = float(range / kSpeed);
+      hit.tube_m2 = float(range * range);
+      hit.sin_grazing = float(-direction.z());
+      found.push_back(hit);
+    }
+    return found;
+  }
+
+  /// What an omnidirectional receiver beside the transmitter receives.
+  std::vector<std::complex<float>> echo(const Vec3& position_enu_m, std::uint64_t seed, double cell_m = 0.03) const {
+    const frames::HeadPose pose{position_enu_m, frames::enu_from_ned()};
+    const auto surface_hits = hits(pose);
+    Scatterers scatterers(cell_m, {seed, "seabed"});
+    Receivers receivers;
+    receivers.set({0, 1, std::span(&pose, 1)});
+    std::vector<Arrival> arrivals;
+    add_direct_echoes({kFrequency, 0.07}, position_enu_m,
+                      scatterers.find({pose, rays, surface_hits, source, backscatter}), receivers, arrivals);
+    ApertureReceiver receiver;
+    Image image;
+    const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);
+    const std::vector<std::span<const float>> open(1);
+    receiver.form(arrivals, open, pulse, {37.3e-3, 50e-6, 18}, image);  // 44.2 to 45.5 deg
+    return image.envelope_upa;
+  }
+};
+
+static const Strip& strip() {
+  static const Strip value;
+  return value;
+}
+
+/// Magnitude of the correlation of echoes at two places, over all samples and some seabeds.
+static double coherence(const Vec3& a, const Vec3& b, int seabeds) {
+  std::complex<double> cross;
+  double first = 0, second = 0;
+  for (int seed = 0; seed < seabeds; ++seed) {
+    const auto p = strip().echo(a, seed), q = strip().echo(b, seed);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      cross += std::complex<double>(p[k]) * std::conj(std::complex<double>(q[k]));
+      first += std::norm(p[k]);
+      second += std::norm(q[k]);
+    }
+  }
+  return std::abs(cross) / std::sqrt(first * second);
+}
+
+TEST_CASE("a repeated ping repeats bit by bit") {
+  CHECK(strip().echo({0.1, 0.2, 0}, 1) == strip().echo({0.1, 0.2, 0}, 1));
+  CHECK(strip().echo({0.1, 0.2, 0}, 1) != strip().echo({0.1, 0.2, 0}, 2));
+}
+
+TEST_CASE("along-track, echoes decorrelate over half the transmit aperture") {
+  // Scatterers at along-track sine u change their two-way phase by 2 k d u. Weighted with sinc^2(L u / lambda) that is
+  // the triangle 1 - 2 d / L (van Cittert and Zernike). Each estimate is of some 9 pulses x 12 seabeds: sd 0.1 where
+  // the triangle is low, 0.05 where it is 0.5. Cells with few rays take away another 3 % each.
+  const double L = kLines * kWave;
+  const Vec3 start(0.3, -0.2, 0.0);
+  CHECK(coherence(start, start + Vec3(0, L / 16, 0), 12) == Approx(0.875).margin(0.06));
+  CHECK(coherence(start, start + Vec3(0, L / 4, 0), 12) == Approx(0.5).margin(0.13));
+  CHECK(coherence(start, start + Vec3(0, 0.55 * L, 0), 12) < 0.25);
+}
+
+TEST_CASE("along the range, echoes decorrelate over half a pulse's length of water") {
+  // Towards the strip by dr: the windows overlap by 1 - 2 dr / (c tau) and the phase turns by 2 k dr as a whole.
+  const Vec3 start(0.3, -0.2, 0.0), towards = Vec3(1, 0, -1).normalized();
+  CHECK(coherence(start, start + 0.01 * towards, 12) > 0.75);  // 0.87, less the turn between 44 and 46 deg
+  CHECK(coherence(start, start + 0.09 * towards, 12) < 0.25);
+}
+
+TEST_CASE("speckle is Rayleigh") {
+  // Samples one pulse apart are independent. Kolmogorov and Smirnov's test at 5 %, on N = 9 x 16 amplitudes of known
+  // mean square (the mean over all): 40 of them, of which 2 are expected to fail; 6 or fewer do in 99.7 % of cases.
+  std::vector<std::vector<double>> sets;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (int set = 0; set < 40; ++set) {
+    auto& powers = sets.emplace_back();
+    for (int seed = 0; seed < 8; ++seed) {
+      const auto echo = strip().echo({0, 0, 0}, 1000 + 8 * set + seed);
+      for (std::size_t k = 0; k < echo.size(); k += 2) powers.push_back(std::norm(echo[k]));
+    }
+    for (const double power : powers) sum += power;
+    count += powers.size();
+  }
+  int rejected = 0;
+  double squares = 0.0;
+  for (auto& powers : sets) {
+    std::sort(powers.begin(), powers.end());
+    double distance = 0.0;
+    const double n = double(powers.size());
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+      const double expected = 1 - std::exp(-powers[i] / (sum / double(count)));
+      distance = std::max({distance, std::abs(double(i) / n - expected), std::abs(double(i + 1) / n - expected)});
+      squares += powers[i] * powers[i];
+    }
+    rejected += distance > 1.358 / std::sqrt(n);
+  }
+  CHECK(rejected <= 6);
+  const double mean = sum / double(count);  // scintillation index 1; 2880 samples: sd of it 4.3 %
+  CHECK(squares / double(count) / (mean * mean) - 1 == Approx(1.0).margin(0.15));
+}
+
+TEST_CASE("the energy of all rays arrives, whatever the cells") {
+  const frames::HeadPose pose{};
+  const auto hits = strip().hits(pose);
+  double want = 0.0, area = 0.0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const double insonified = strip().rays[i].solid_angle_sr / hits[i].sin_grazing * 0.01;
+    want += strip().source[i] * insonified;
+    area += hits[i].range_m * hits[i].range_m * insonified;
+  }
+  for (const double cell_m : {0.003, 0.03, 0.5}) {
+    Scatterers scatterers(cell_m, {1, "seabed"});
+    double sum = 0.0, cross_section = 0.0;
+    const auto found = scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter});
+    for (const Scatterer& one : found) {
+      sum += one.scattered_upa2m2;
+      cross_section += one.cross_section_m2;
+      REQUIRE(one.position_enu_m.z() == Approx(-kDepth).margin(1e-9));  // on the seabed, however coarse the cell
+    }
+    CHECK(sum == Approx(want).epsilon(1e-5));
+    CHECK(cross_section == Approx(area).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("responses are complex Gaussians of mean square 1") {
+  const frames::HeadPose pose{};
+  const auto hits = strip().hits(pose);
+  Scatterers scatterers(0.02, {1, "seabed"});
+  double n = 0, power = 0, square = 0;
+  std::complex<double> sum;
+  for (const Scatterer& one : scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter})) {
+    n += 1;
+    power += std::norm(one.response);
+    square += std::norm(one.response) * std::norm(one.response);
+    sum += std::complex<double>(one.response);
+  }
+  REQUIRE(n > 5000);  // sd of the mean of an exponential 1/sqrt(n) = 1.4 %, of its square's 2.2 x that of 2; 4 sd
+  CHECK(power / n == Approx(1.0).margin(0.056));
+  CHECK(square / n == Approx(2.0).margin(0.25));
+  CHECK(std::abs(sum / n) < 0.056);
+}
+
+TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
+  const frames::HeadPose pose{};
+  const auto hits = strip().hits(pose);
+  Scatterers scatterers(0.03, {1, "seabed"});
+  const auto places = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<Vec3> all;
+    for (const Scatterer& one : scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter})) {
+      all.push_back(one.position_enu_m);
+    }
+    return all;
+  };
+  CHECK(places(1) == places(2));
+  const long before = allocations();
+  scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter});
+  CHECK(allocations() - before == 0);
+  CHECK_THROWS_AS(Scatterers(0.0, {1, "seabed"}), std::invalid_argument);
+}
+
+TEST_CASE("coherence and speckle for the picture", "[.echo-speckle-csv]") {
+  const double L = kLines * kWave;
+  const Vec3 start(0.3, -0.2, 0.0);
+  std::puts("kind,x,y");
+  for (int i = 0; i <= 14; ++i) {
+    std::printf("0,%.4f,%.5f\n", i * 0.05, coherence(start, start + Vec3(0, 0.05 * i * L, 0), 40));
+  }
+  std::vector<double> powers;
+  double sum = 0.0;
+  for (int seed = 0; seed < 300; ++seed) {
+    const auto echo = strip().echo({0, 0, 0}, 5000 + seed);
+    for (std::size_t k = 0; k < echo.size(); k += 2) powers.push_back(std::norm(echo[k])), sum += powers.back();
+  }
+  std::sort(powers.begin(), powers.end());
+  const double n = double(powers.size());
+  for (std::size_t i = 0; i < powers.size(); i += 9) {
+    std::printf("1,%.5f,%.5f\n", std::sqrt(powers[i] / (sum / n)), (double(i) + 0.5) / n);
+  }
+}

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "kernels/acoustics/trace/ground_lattice.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
+
+namespace ensonify::trace {
+namespace {
+
+using frames::Vec2;
+using frames::Vec3;
+
+constexpr double kLeastFall = 0.01;   // sine of the angle at which rays fall on the plane
+constexpr double kMostStretch = 2.0;  // farthest over nearest place of a part
+constexpr double kRestOfBulge = 0.3;  // of an edge's, beyond the two chords that stand for it: a quarter and a little
+
+/// What a part of the volume covers on a plane, from the point below the head. Edges of one angle are straight lines
+/// there, those of one sine are not, and have a corner in their middle.
+struct Footprint {
+  std::array<Vec2, 6> outline_m;
+  Vec2 along_phi_m, along_u_m;  // mean edges
+  double area_m2, bulge_m;      // how far the outline may lie inside the edges
+};
+
+/// Of directions (enu) in the outline's order: three of the low sine as angles rise, three of the high one as they
+/// fall. None where the plane is seen too flat.
+std::optional<Footprint> footprint_of(const std::array<Vec3, 6>& directions, double below_m) {
+  Footprint f;
+  double least_fall = 1.0, most_fall = 0.0;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double fall = -directions[k].z();
+    if (!(fall >= kLeastFall)) return std::nullopt;
+    least_fall = std::min(least_fall, fall), most_fall = std::max(most_fall, fall);
+    f.outline_m[k] = below_m / fall * directions[k].head<2>();
+  }
+  const auto& p = f.outline_m;
+  f.along_phi_m = 0.5 * (p[2] - p[0] + p[3] - p[5]);
+  f.along_u_m = 0.5 * (p[5] - p[0] + p[3] - p[2]);
+  f.area_m2 = std::abs(f.along_phi_m.x() * f.along_u_m.y() - f.along_phi_m.y() * f.along_u_m.x());
+  f.bulge_m = kRestOfBulge * std::max((p[1] - 0.5 * (p[0] + p[2])).norm(), (p[4] - 0.5 * (p[3] + p[5])).norm());
+  if (most_fall > kMostStretch * least_fall || !(f.area_m2 > 0.0)) return std::nullopt;
+  return f;
+}
+
+}  // namespace
+
+bool RayDistribution::aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const {
+  const bool forward = volume_.axis == TransmitVolume::Axis::kForward;
+  const double low = part.low_sine, high = part.high_sine, below_m = part.need.plane_m;
+  const Vec2 from(std::cos(part.low_rad), std::sin(part.low_rad)), to(std::cos(part.high_rad), std::sin(part.high_rad));
+  const Vec2 middle = (from + to).normalized();
+  const auto direction = [&](double u, const Vec2& angle) {
+    const double beside = std::sqrt(1.0 - u * u), side = beside * angle.y(), zero = beside * angle.x();
+    return Vec3(probes.enu_from_head * (forward ? Vec3(u, side, zero) : Vec3(zero, side, u)));
+  };
+  auto footprint = footprint_of({direction(low, from), direction(low, middle), direction(low, to), direction(high, to),
+                                 direction(high, middle), direction(high, from)},
+                                below_m);
+  if (!footprint) return false;
+  const double phi_m = footprint->along_phi_m.norm();
+  const GroundLattice lattice(footprint->along_phi_m, phi_m / part.along_angle,
+                              footprint->area_m2 / phi_m / part.along_sine);
+  const Vec2 head_m = lattice.on_axes(probes.head.position_enu_m.head<2>());
+  for (Vec2& corner : footprint->outline_m) corner = lattice.on_axes(corner) + head_m;
+
+  // A place's direction times its distance, and which side of the part's edges it is on.
+  const Eigen::Matrix3d head_from_enu = probes.enu_from_head.transpose();
+  const Vec3 first = head_from_enu.leftCols<2>() * lattice.first_axis_enu(),
+             second = head_from_enu.leftCols<2>() * lattice.second_axis_enu(), down = -below_m * head_from_enu.col(2);
+  const double block_m3 = below_m * lattice.block_m2();
+  lattice.within(stream_, footprint->outline_m, footprint->bulge_m, [&](double first_m, double second_m, double share) {
+    const Vec3 there = (first_m - head_m.x()) * first + (second_m - head_m.y()) * second + down;
+    const double along = forward ? there.x() : there.z(), side = there.y(), zero = forward ? there.z() : there.x();
+    if (side * from.x() < zero * from.y() || side * to.x() >= zero * to.y()) return;
+    const double away_m = there.norm();
+    if (along < low * away_m || along >= high * away_m) return;
+    const double per_m = 1.0 / away_m, solid_angle_sr = block_m3 * share * per_m * per_m * per_m;  // below dA / away^3
+    rays.push_back({(per_m * there).cast<float>(), static_cast<float>(solid_angle_sr)});
+    part.to_places_sr += solid_angle_sr;
+  });
+  return !rays.empty();
+}
+
+}  // namespace ensonify::trace

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "kernels/base/frames/attitude.h"
+#include "kernels/base/random/row.h"
+
+namespace ensonify::trace {
+
+/// Places of the world to aim rays at, so that a ping's rays hit the seabed where those of the ping before did.
+///
+/// A jittered lattice on a horizontal plane, of about one place per first_m x second_m. So that pings whose rays are
+/// spaced a little differently still share places, spacings are powers of two of a metre and the axes stand at
+/// multiples of 15 degrees; what is too many is left out of each block of 2 x 2 in an order that belongs to the block.
+/// Each place is at random within the middle half of its cell of the lattice: more even than chance, yet no pattern.
+class GroundLattice {
+ public:
+  /// The first axis lies within 7.5 degrees of `along`, a direction (of any length above 0, either sense).
+  GroundLattice(const frames::Vec2& along_enu, double first_m, double second_m);
+
+  /// From east and north to the lattice's axes, and back. A turn about the world's origin.
+  frames::Vec2 on_axes(const frames::Vec2& place_enu) const;
+  const frames::Vec2& first_axis_enu() const { return first_axis_; }
+  double block_m2() const { return 4.0 * first_m_ * second_m_; }
+  frames::Vec2 second_axis_enu() const { return {-first_axis_.y(), first_axis_.x()}; }
+
+  /// visit(first_m, second_m, share), on the lattice's axes, with the share of its block that is a place's, for every
+  /// place within a convex outline (on these axes too) that is grown by margin_m, and for some more around it; always
+  /// in the same order. A place is a function of (stream, lattice, block).
+  template <class Visit>
+  void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+              const Visit& visit) const;
+
+ private:
+  struct Reach {
+    double low_m, high_m;
+  };
+  static Reach reach(std::span<const frames::Vec2> outline_m, double low_m, double high_m);
+  template <class Visit>
+  void visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second,
+                   const Visit& visit) const;
+
+  frames::Vec2 first_axis_;
+  double first_m_, second_m_;  // of the lattice
+  double places_per_block_;    // above 1, at most 4
+  std::uint64_t name_;         // of the lattice among all
+};
+
+inline frames::Vec2 GroundLattice::on_axes(const frames::Vec2& place_enu) const {
+  return {first_axis_.dot(place_enu), second_axis_enu().dot(place_enu)};
+}
+
+template <class Visit>
+void GroundLattice::visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second,
+                                const Visit& visit) const {
+  // Blocks with one place more lie evenly among the others: the additive recurrence of the plastic number
+  // [Roberts2018].
+  const double turn = 0.7548776662466927 * block_first + 0.5698402909980532 * block_second;
+  const int places = static_cast<int>(places_per_block_ + (turn - std::floor(turn)));
+  // Of each word one cell's place, in the middle half of it, from the low bits; the order of cells from the top ones.
+  const std::uint32_t first = bits[2] >> 30, third = bits[2] >> 29 & 1U ? 1U : 2U;
+  const std::array<std::uint32_t, 4> order{first, first ^ 3U, first ^ third, first ^ third ^ 3U};  // diagonals first
+  const double share = 1.0 / places;
+  for (int k = 0; k < places; ++k) {
+    const std::uint32_t cell = order[static_cast<std::size_t>(k)], word = bits[cell];
+    visit(first_m_ * (2.0 * block_first + (cell & 1U) + 0.25 + 0x1p-14 * (word & 0x1fff)),
+          second_m_ * (2.0 * block_second + (cell >> 1) + 0.25 + 0x1p-14 * (word >> 13 & 0x1fff)), share);
+  }
+}
+
+template <class Visit>
+void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+                           const Visit& visit) const {
+  double low = outline_m[0].y(), high = low;
+  for (const frames::Vec2& corner : outline_m) low = std::min(low, corner.y()), high = std::max(high, corner.y());
+  const double per_first = 0.5 / first_m_, per_second = 0.5 / second_m_;
+  const auto last_row = static_cast<std::int64_t>(std::floor((high + margin_m) * per_second));
+  for (auto j = static_cast<std::int64_t>(std::floor((low - margin_m) * per_second)); j <= last_row; ++j) {
+    const auto second = static_cast<double>(j);
+    const Reach row = reach(outline_m, second / per_second - margin_m, (second + 1.0) / per_second + margin_m);
+    if (!(row.low_m <= row.high_m)) continue;
+    const auto end = static_cast<std::int64_t>(std::floor((row.high_m + margin_m) * per_first)) + 1;
+    const random::Row bits(stream, (static_cast<std::uint64_t>(j) << 20) ^ name_);
+    for (auto i = static_cast<std::int64_t>(std::floor((row.low_m - margin_m) * per_first)); i < end; ++i) {
+      visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), second, visit);
+    }
+  }
+}
+
+}  // namespace ensonify::trace

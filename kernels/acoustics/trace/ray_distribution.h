@@ -1,0 +1,160 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/acoustics/trace/facet_rays.h"
+#include "kernels/acoustics/trace/ray.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/base/random/stream.h"
+
+namespace ensonify::trace {
+
+/// One of the two coordinates of a direction, and what the head does along it.
+struct Span {
+  double low = 0.0, high = 0.0;            // rays go from here to there
+  double main_low = 0.0, main_high = 0.0;  // the main lobe, null to null: full density; less beyond, as 1 / distance^2
+  double beam = 0.0;                       // -3 dB width of what beams resolve, or of the lobe where nothing does
+};
+
+/// Transmit volume of a head, in its own frame: u is the sine of the angle from the plane across an axis of the head,
+/// phi the angle around that axis, towards starboard. Then dOmega = du dphi exactly.
+struct TransmitVolume {
+  enum class Axis {
+    kForward,  // phi = 0 points down: across-track angle of a multibeam or a sidescan (phi < 0 is to port)
+    kDown      // phi = 0 points forward: azimuth of a forward-looking or scanning head; u is the sine of the depression
+  };
+  Axis axis = Axis::kForward;
+  Span sine;       // u, within -1..1
+  Span angle_rad;  // phi, at most a full circle
+};
+
+/// Narrow along-track, wide across-track: transmit and receive lines L / lambda waves long, and rays to
+/// `reach` lambda / L fore and aft (1 is the first null). half_swath_rad is to port and starboard.
+TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receive_length_in_waves,
+                                  double half_swath_rad, double reach = 8.0);
+
+struct RaySettings {
+  /// In the main lobe, a resolution cell (range resolution x beam, -3 dB) gets 12 rays times this on average and a
+  /// facet 10. At kNormal every cell within -10 dB has at least 10, and of 1000 facets in the main lobe 999 are hit;
+  /// kPreview is for a quick preview and kReference to compare with.
+  double quality = kNormal;
+  double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
+  std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
+  std::size_t fewest_rays = 0;        // at normal quality, else that times the quality: cells share in what is missing
+
+  static constexpr double kPreview = 0.25, kNormal = 1.0, kReference = 4.0;
+};
+
+/// Rays over a transmit volume, denser where the seabed asks for it.
+///
+/// The volume is cut into some thousand cells of direction. One probe ray to each corner gives how far away and how
+/// wide apart the seabed is that a cell sees; from that follows how many rays the cell needs, so that each resolution
+/// cell (range resolution x beam) and each facet that it sees gets the number that the quality asks for. Where
+/// neighbouring corners see different things (the edge of a boulder, the end of a shadow) they are far apart and the
+/// cell gets many rays; at grazing incidence likewise.
+///
+/// Where a cell sees ground below, its rays aim at places of the world (ground_lattice.h) on the
+/// horizontal plane next to what they see: a head that moved a little has rays to the same places, so its echoes come
+/// from the same scatterers. Elsewhere, and where a cell has fewer than forty rays, it is cut into as many equal
+/// strata, with one ray at a random place in each. Either way rays are a fair sample of the volume whatever the
+/// density, all together carry its solid angle exactly, and the same pose over the same tiles has the same rays.
+///
+/// Small things that probes may miss come as objects (Scene::objects()). Each of their facets in the volume has rays of
+/// its own (facet_rays.h): 16 at normal quality, at least one in the main lobe, and more where it is larger than
+/// what is resolved.
+///
+/// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
+/// in the main lobe, and a third more beyond it; not with the number of beams. A corner that hits nothing counts as
+/// lying on the plane of the farthest facet that its cell sees, and no farther than the range. A cell that sees nothing
+/// has one ray.
+class RayDistribution {
+ public:
+  /// Throws std::invalid_argument for empty or overlapping spans, and for settings that are not positive.
+  RayDistribution(const TransmitVolume& volume, const RaySettings& settings, const random::Stream& stream);
+
+  /// Turns the volume from now on: to a sine, as phase shifts along the axis do, and by an angle about the axis.
+  /// Neither changes solid angles; sines beyond -1 and 1 are lost. (0, 0) is the volume as given.
+  void steer(double sine, double angle_rad);
+
+  /// Directions of the rays, as steered.
+  TransmitVolume volume() const;
+
+  /// The rays traced first; their solid angles are 0. They change with steer().
+  std::span<const Ray> probes() const { return probes_; }
+
+  /// The rays for what the probes hit within max_range_m, and for the objects' facets. Neighbours follow each other,
+  /// as packets want it. Through bent water `bent` is what Scene::tabulate made for this head. Throws
+  /// std::invalid_argument unless there is one hit per probe.
+  void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, std::span<const Object> objects,
+            float max_range_m, std::vector<Ray>& rays, const refraction::PathTable* refracted = nullptr);
+
+  /// After the rays of the last fill have been traced: only then do those to objects carry a solid angle, and do hits
+  /// that do not count become misses. Throws std::invalid_argument unless there is one hit per ray.
+  void settle(std::span<Ray> rays, std::span<Hit> hits) const { facets_.settle(rays, hits); }
+
+  /// Share of the rays required by the quality in the last fill: 1; less where most_rays limits them, more where
+  /// there are fewest_rays.
+  double share() const { return share_; }
+
+ private:
+  static constexpr double kRaysPerCell = 12.0;  // of resolution, at normal quality
+  struct Need {
+    double rays = 1.0, sine_to_angle = 1.0;  // strata, and their number along u over that along phi
+    double plane_m = 0.0;                    // how far below the head the plane lies that they aim at; 0: none
+  };
+  struct View {
+    const frames::HeadPose& head;
+    Eigen::Matrix3d enu_from_head;
+    std::span<const Hit> hits;
+    double max_range_m;
+  };
+  struct Part {  // of the volume: a cell
+    double low_sine, high_sine, low_rad, high_rad;
+    Need need;
+    std::uint32_t along_sine = 1, along_angle = 1;  // strata
+    double to_places_sr = 0.0;                      // that rays carry to places; 0: none aims at any
+    std::size_t first_ray = 0;                      // of its rays among all
+    double solid_angle_sr() const { return (high_sine - low_sine) * (high_rad - low_rad); }
+  };
+  struct Corners;
+  std::size_t columns() const { return angle_edges_rad_.size() - 1; }
+  std::size_t corner(std::size_t i, std::size_t j) const { return i * angle_edges_rad_.size() + j; }
+  double importance_of(std::size_t cell) const;
+  void aim();
+  bool find_corners(std::size_t i, std::size_t j, const View& probes, Corners& corners) const;
+  Need need(std::size_t i, std::size_t j, const View& probes) const;
+  /// Two triangles to a square of the posts' spacing.
+  static double facing_facets_per_sr(double range_m, double facet_m) {
+    return 2.0 * range_m * range_m / (facet_m * facet_m);
+  }
+  /// Sine and angle of a direction, the angle in the turn about the volume's middle.
+  std::array<double, 2> coordinates_of(const frames::Vec3& direction_head) const;
+  double rays_to_facet(const std::array<frames::Vec3, 3>& corners_head_m) const;
+  bool holds(const frames::Vec3& direction_head) const;
+  bool touches(const frames::Vec3& middle_head_m, double radius_m) const;
+  std::size_t cut(double share);
+  void fill_part(std::size_t index, const View& probes);
+  void gather(std::vector<Ray>& rays, std::size_t more);
+  /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
+  /// is seen too flat.
+  bool aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const;
+  void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
+
+  TransmitVolume volume_;
+  RaySettings settings_;
+  random::Stream stream_;
+  double steered_sine_ = 0.0, steered_rad_ = 0.0;
+  std::vector<double> volume_sines_, volume_angles_rad_;  // edges of the cells, as given ...
+  std::vector<double> sine_edges_, angle_edges_rad_;      // ... and as steered
+  std::vector<Ray> probes_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<Ray>> rays_;  // of each part
+  FacetRays facets_;
+  double share_ = 1.0;
+};
+
+}  // namespace ensonify::trace

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/base/random/gauss_markov.h"
+#include "kernels/base/random/stream.h"
+
+namespace ensonify::sensors {
+
+/// Errors of a sensor of one quantity, in its unit. Zero switches an error off and moves no other draw.
+struct ScalarErrors {
+  double bias = 0.0;        // measured less true, as it is
+  double bias_sigma = 0.0;  // standard deviation of a further bias that is drawn once
+  double scale = 0.0;       // standard deviation, 1, drawn once
+  double wander = 0.0;      // standard deviation of a Gauss-Markov error
+  double wander_s = 300.0;  // > 0, its correlation time
+  double white = 0.0;       // standard deviation of each sample's own error
+  double resolution = 0.0;  // readings are multiples of it
+  double lag_s = 0.0;       // first-order response: a step is followed with this time constant
+
+  bool operator==(const ScalarErrors&) const = default;
+};
+
+/// A sensor of one quantity: pressure depth, altitude, sound speed, temperature, conductivity and their like.
+class ScalarSensor {
+ public:
+  ScalarSensor(const ScalarErrors& errors, const random::Stream& stream);
+
+  /// The reading dt after the one before it (the first: any dt >= 0). Exact for a true value that moved in a straight
+  /// line, whatever the lag.
+  double measure(double truth, double dt_s);
+
+ private:
+  ScalarErrors errors_;
+  random::Stream stream_;
+  random::GaussMarkov wander_;
+  double response_ = 0.0, truth_ = 0.0;  // of the sensing element, and of the water, at the sample before
+  std::uint64_t n_ = 0;
+};
+
+}  // namespace ensonify::sensors

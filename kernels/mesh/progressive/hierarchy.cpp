@@ -1,0 +1,192 @@
+#include "kernels/mesh/progressive/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace ensonify::progressive {
+namespace {
+
+using Eigen::AlignedBox3f;
+using Eigen::Vector3f;
+
+/// Distance of a point from a triangle [Ericson2005, 5.1.5].
+float distance_m(const Vector3f& p, const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+  const Vector3f ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const float d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d1 <= 0.0F && d2 <= 0.0F) return ap.norm();
+  if (d3 >= 0.0F && d4 <= d3) return bp.norm();
+  if (d6 >= 0.0F && d5 <= d6) return cp.norm();
+  const float va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0F && d1 >= 0.0F && d3 <= 0.0F) return (ap - d1 / (d1 - d3) * ab).norm();
+  if (vb <= 0.0F && d2 >= 0.0F && d6 <= 0.0F) return (ap - d2 / (d2 - d6) * ac).norm();
+  if (va <= 0.0F && d4 >= d3 && d5 >= d6) return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
+  const float whole = va + vb + vc;
+  return whole > 0.0F ? (ap - vb / whole * ab - vc / whole * ac).norm() : std::min(ap.norm(), bp.norm());
+}
+
+/// Follows the triangles while vertices are moved onto others.
+class Shrinking {
+ public:
+  explicit Shrinking(const TriangleMesh& mesh)
+      : mesh_(mesh), corners_(mesh.triangle), star_(mesh.vertex_m.size()), there_(mesh.vertex_m.size(), 1) {
+    for (std::uint32_t t = 0; t < corners_.size(); ++t) {
+      for (const std::uint32_t corner : corners_[t]) star_[corner].push_back(t);
+    }
+  }
+
+  /// The triangles that go.
+  std::vector<std::uint32_t> collapse(const Collapse& one) {
+    if (one.removed >= there_.size() || one.kept >= there_.size() || one.removed == one.kept ||
+        there_[one.removed] == 0 || there_[one.kept] == 0)
+      throw std::invalid_argument("hierarchy: a collapse names a vertex that is not there");
+    there_[one.removed] = 0;
+    std::vector<std::uint32_t> gone, moved;
+    for (const std::uint32_t t : star_[one.removed]) {
+      auto& corners = corners_[t];
+      const bool both = std::find(corners.begin(), corners.end(), one.kept) != corners.end();
+      (both ? gone : moved).push_back(t);
+      if (!both) std::replace(corners.begin(), corners.end(), one.removed, one.kept);
+    }
+    for (const std::uint32_t t : gone) {
+      for (const std::uint32_t corner : corners_[t]) {
+        if (corner != one.removed) std::erase(star_[corner], t);
+      }
+    }
+    star_[one.removed] = {};
+    star_[one.kept].insert(star_[one.kept].end(), moved.begin(), moved.end());
+    return gone;
+  }
+
+  /// Of a vertex from the triangles around another one; from that one itself if it has none.
+  float distance_from_m(std::uint32_t vertex, std::uint32_t middle) const {
+    const auto& at = mesh_.vertex_m;
+    float least_m = (at[vertex] - at[middle]).norm();
+    for (const std::uint32_t t : star_[middle]) {
+      const auto& [a, b, c] = corners_[t];
+      least_m = std::min(least_m, distance_m(at[vertex], at[a], at[b], at[c]));
+    }
+    return least_m;
+  }
+
+  /// Which are left, in order.
+  std::vector<std::uint32_t> left() const {
+    std::vector<std::uint32_t> triangles;
+    for (const auto& star : star_) triangles.insert(triangles.end(), star.begin(), star.end());
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    return triangles;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<Triangle> corners_;
+  std::vector<std::vector<std::uint32_t>> star_;  // triangles around each vertex
+  std::vector<std::uint8_t> there_;
+};
+
+/// Around all triangles that have a vertex for a corner.
+std::vector<AlignedBox3f> boxes_around(const TriangleMesh& mesh) {
+  std::vector<AlignedBox3f> boxes(mesh.vertex_m.size());
+  for (const Triangle& corners : mesh.triangle) {
+    for (const std::uint32_t corner : corners) {
+      for (const std::uint32_t other : corners) boxes[corner].extend(mesh.vertex_m[other]);
+    }
+  }
+  for (std::size_t v = 0; v < boxes.size(); ++v) boxes[v].extend(mesh.vertex_m[v]);
+  return boxes;
+}
+
+/// Bottom up: children have higher numbers.
+void bound(Hierarchy& hierarchy) {
+  const std::vector<AlignedBox3f> around = boxes_around(hierarchy.mesh);
+  for (auto split = hierarchy.splits.rbegin(); split != hierarchy.splits.rend(); ++split) {
+    split->box_m = around[split->removed];
+    for (const std::int32_t child : split->child) {
+      if (child != kNone) split->box_m.extend(hierarchy.splits[static_cast<std::size_t>(child)].box_m);
+    }
+  }
+}
+
+}  // namespace
+
+Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
+  if (const std::string fault = fault_of(mesh); !fault.empty()) throw std::invalid_argument("mesh: " + fault);
+  const auto count = static_cast<std::int32_t>(collapses.size());
+  Hierarchy made;
+  made.splits.resize(collapses.size());
+  made.split_of.assign(mesh.vertex_m.size(), kNone);
+  std::vector<std::int32_t> last(mesh.vertex_m.size(), kNone);  // split, of the latest collapse into a vertex
+  Shrinking shrinking(mesh);
+  for (std::int32_t s = count - 1; s >= 0; --s) {  // the finest is collapsed first and comes back last
+    const Collapse& one = collapses[static_cast<std::size_t>(count - 1 - s)];
+    Split& split = made.splits[static_cast<std::size_t>(s)];
+    const auto gone = shrinking.collapse(one);
+    split.removed = one.removed;
+    split.kept = one.kept;
+    split.child = {last[one.kept], last[one.removed]};
+    split.first_born = static_cast<std::uint32_t>(made.born.size());
+    split.born = static_cast<std::uint32_t>(gone.size());
+    made.born.insert(made.born.end(), gone.begin(), gone.end());
+    float below_m = 0.0F;
+    for (const std::int32_t child : split.child) {
+      if (child == kNone) continue;
+      Split& finer = made.splits[static_cast<std::size_t>(child)];
+      finer.parent = s;
+      below_m = std::max(below_m, finer.deviation_m);
+    }
+    split.deviation_m = below_m + shrinking.distance_from_m(one.removed, one.kept);
+    made.split_of[one.removed] = s;
+    last[one.kept] = s;
+  }
+  made.coarsest = shrinking.left();
+  made.mesh = std::move(mesh);
+  bound(made);
+  return made;
+}
+
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad) {
+  TriangleMesh& mesh = hierarchy.mesh;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(-clockwise_rad, frames::Vec3::UnitZ()).toRotationMatrix();
+  const frames::Vec3 origin_enu_m = turn * mesh.origin_enu_m + by_enu_m;
+  for (Eigen::Vector3f& vertex : mesh.vertex_m) vertex = (turn * vertex.cast<double>()).cast<float>();
+  mesh.origin_enu_m = origin_enu_m;
+  bound(hierarchy);
+  return hierarchy;
+}
+
+std::string fault_of(const Hierarchy& hierarchy) {
+  if (const std::string fault = fault_of(hierarchy.mesh); !fault.empty()) return fault;
+  const std::size_t vertices = hierarchy.mesh.vertex_m.size(), triangles = hierarchy.mesh.triangle.size();
+  const auto count = static_cast<std::int32_t>(hierarchy.splits.size());
+  if (hierarchy.split_of.size() != vertices) return "not every vertex has an entry in split_of";
+  for (std::int32_t s = 0; s < count; ++s) {
+    const Split& split = hierarchy.splits[static_cast<std::size_t>(s)];
+    const bool there = split.removed < vertices && split.kept < vertices && split.removed != split.kept &&
+                       split.parent >= kNone && split.parent < s &&
+                       std::size_t{split.first_born} + split.born <= hierarchy.born.size();
+    const bool children = std::all_of(split.child.begin(), split.child.end(), [&](std::int32_t child) {
+      return child == kNone || (s < child && child < count);
+    });
+    if (!there || !children || hierarchy.split_of[split.removed] != s || !std::isfinite(split.deviation_m) ||
+        !split.box_m.min().allFinite() || !split.box_m.max().allFinite())
+      return "split " + std::to_string(s) + " does not fit the others";
+    const std::int32_t above = hierarchy.split_of[split.kept];
+    if (above >= s) return "split " + std::to_string(s) + " goes to a vertex that comes back later";
+  }
+  const auto brought = std::count_if(hierarchy.split_of.begin(), hierarchy.split_of.end(),
+                                     [](std::int32_t split) { return split != kNone; });
+  if (brought != count) return "a vertex comes back by a split that is not its own";
+  if (hierarchy.coarsest.size() + hierarchy.born.size() != triangles) return "triangles do not come once each";
+  std::vector<std::uint8_t> comes(triangles, 0);
+  for (const auto* list : {&hierarchy.coarsest, &hierarchy.born}) {
+    for (const std::uint32_t triangle : *list) {
+      if (triangle >= triangles || comes[triangle]++ != 0) return "triangles do not come once each";
+    }
+  }
+  return "";
+}
+
+}  // namespace ensonify::progressive

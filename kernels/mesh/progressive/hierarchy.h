@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/mesh/progressive/collapse.h"
+#include "kernels/mesh/progressive/mesh.h"
+
+namespace ensonify::progressive {
+
+constexpr std::int32_t kNone = -1;
+
+/// A collapse undone: brings a vertex back. It can be undone once its parent is; two at most have it for parent, the
+/// collapse into the same vertex before it, and the last one into the vertex that it removes.
+struct Split {
+  std::uint32_t removed = 0, kept = 0;  // vertices
+  std::int32_t parent = kNone;          // a split of lower number
+  std::array<std::int32_t, 2> child = {kNone, kNone};
+  std::uint32_t first_born = 0, born = 0;  // triangles that come back with it, in Hierarchy::born
+  float deviation_m = 0.0F;   // of the removed vertex from the surface without it, and what its children add: an
+                              // estimate of the distance between the surfaces; never less than a child's
+  Eigen::AlignedBox3f box_m;  // of all source triangles that change when this or a split below it is not undone
+};
+
+/// A mesh and the tree of its splits. Any set of splits that holds the parent of each split that it holds is a
+/// surface: source triangles whose corners have become one are left out, others stand on what their corners have
+/// become. So two triangles that shared an edge still do, and there is no crack, whatever the set [Luebke1997].
+struct Hierarchy {
+  TriangleMesh mesh;
+  std::vector<Split> splits;            // coarsest first
+  std::vector<std::uint32_t> born;      // source triangles by the split that brings them
+  std::vector<std::uint32_t> coarsest;  // source triangles that are there without any split
+  std::vector<std::int32_t> split_of;   // by vertex: the split that brings it back; kNone: always there
+};
+
+/// Throws std::invalid_argument with fault_of, or when a collapse names a vertex that is gone.
+Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses);
+
+/// The same surface elsewhere: turned about the vertical through its origin, clockwise as seen from above, and moved.
+/// Vertices are rounded to float once more, boxes are those of the vertices as they then are.
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad);
+
+/// Fault of a hierarchy that came from elsewhere; empty if nothing is wrong. Allowed is what hierarchy_of
+/// makes: a mesh without fault, numbers of things that are there, parents before children.
+std::string fault_of(const Hierarchy& hierarchy);
+
+}  // namespace ensonify::progressive

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/config/config_node.h"
+#include "components/config/config_reader.h"
+#include "components/runtime/sim_time.h"
+#include "scenarios/scenario_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace ensonify {
+
+inline constexpr const char* kLaunchFormat = "launch/1";
+
+/// Options of a launch on the command line. Whoever reads the same file with the same options gets the same
+/// Launch: the launcher hands to_arguments() to every process.
+struct LaunchOptions {
+  std::string file;
+  std::vector<std::string> args;  // "raster=FILE", arguments of the launch file
+  std::vector<std::string> sets;  // "bow.frequency_hz=2e5": process, scenario section or clock, then the key
+  std::string record;             // adds a recorder that writes this file; "" adds none
+  std::string out = "out";        // folder of results, `$(out)` in launch files
+};
+
+/// Adds LAUNCH (or --launch, for the processes of a run), --arg, --set, --record and --out to a program's options.
+void add_options(CLI::App& app, LaunchOptions& options, bool launch_is_positional);
+
+/// The options that give another program the same launch: "--launch", FILE, "--arg", ...
+std::vector<std::string> to_arguments(const LaunchOptions& options);
+
+/// One process of a launch.
+struct ProcessSpec {
+  std::string name;
+  std::string component;          // native: the program ensonify-<component>; "" for a foreign program
+  std::vector<std::string> argv;  // of a foreign program
+  ConfigDocument config;          // its own parameters, with what --set says about them
+  std::string config_path;        // put before keys in messages; "" when the parameters stand in a file of their own
+  std::map<std::string, std::string> env;
+  std::vector<int> cpus;  // empty: any
+  bool external = false;  // not started by the launcher but awaited
+  double join_s = 30.0;   // how long an external process is awaited
+  bool observer = false;  // may be lost without ending the run
+  bool respawn = false;   // an observer that is started again
+  ConfigPlace place;      // of its stanza
+
+  /// Reads this process's parameters: `Config::read(reader)`, then reader.finish().
+  ConfigReader reader() const { return ConfigReader(config, config_path); }
+};
+
+/// An input wired by hand: `auv.command: {topic: agent/command, delay_ms: 100}`.
+struct Connection {
+  std::string process;
+  std::string port;
+  std::string topic;
+  std::optional<SimTime> delay;  // may only lengthen the port's own delay
+  ConfigPlace place;             // of the entry
+};
+
+struct ClockSettings {
+  enum class SlipPolicy { kCount, kFail };
+  enum class Transport { kIpc, kTcp };
+  std::optional<double> rate;  // sim seconds per wall second; nothing: free running
+  double window_s = 1.0;       // how far a producer may run ahead of its consumers, sim time
+  double slip_after_s = 0.5;   // lateness beyond which the pacing origin moves
+  SlipPolicy slip_policy = SlipPolicy::kCount;
+  double progress_deadline_s = 10.0;  // wall time; a stall warns at 1x, dumps at 3x, ends the run at 10x
+  Transport transport = Transport::kIpc;
+  double connect_timeout_s = 30.0;
+};
+
+/// `exit: {process: agent, code: 3}` or `{process: agent, signal: KILL}` under `expect:`: how a process must end.
+/// Judged by the launcher, who alone sees it.
+struct ExitExpectation {
+  std::string name;  // what it says, unless the user named it
+  std::string process;
+  int code = 0;    // when signal is 0
+  int signal = 0;  // number
+};
+
+/// A launch file with its includes, arguments and overrides resolved.
+struct Launch {
+  std::string file;
+  LaunchOptions options;
+  ScenarioFile scenario;
+  std::vector<ProcessSpec> processes;  // publishers rank in this order
+  std::vector<Connection> wiring;
+  ClockSettings clock;
+  std::vector<ExitExpectation> exits;
+  std::vector<std::vector<std::string>> after;  // commands to run when all went well
+  std::optional<SimTime> duration;              // hard end, sim time
+  /// Facts of the run as YAML without places, absolute paths, output folder or anything that does not change results
+  /// (pacing, CPUs, environment): equal runs have equal texts.
+  std::string launch_text;
+
+  /// By name; throws std::out_of_range.
+  const ProcessSpec& process(const std::string& name) const;
+};
+
+/// Reads a scenario further than its header: given its reader, which finish() completes, and its file.
+using ReadScenario = std::function<void(ConfigReader&, const std::string& file)>;
+
+/// Reads a launch file and the header of its scenario. Throws ConfigError with every problem, those that
+/// `read_scenario` adds among them. The processes' own parameters are parsed here but checked by each process.
+Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenario = {});
+
+}  // namespace ensonify

@@ -1,0 +1,51 @@
+#include "launch/process/launch_wiring.h"
+
+#include <fmt/format.h>
+
+#include "components/runtime/version.h"
+
+namespace ensonify {
+
+namespace {
+std::string text_of(const ConfigPlace& place) {
+  return place.line == 0 ? place.file
+                         : place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+}
+}  // namespace
+
+std::vector<WireRule> wire_rules(const Launch& launch) {
+  std::vector<WireRule> rules;
+  for (const Connection& c : launch.wiring) {
+    rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), text_of(c.place)});
+  }
+  return rules;
+}
+
+std::map<std::string, std::string> process_places(const Launch& launch) {
+  std::map<std::string, std::string> places;
+  for (const ProcessSpec& process : launch.processes) places[process.name] = text_of(process.place);
+  return places;
+}
+
+std::map<std::string, std::string> facts_of(const Launch& launch) {
+  return {{"launch", launch.launch_text},
+          {"scenario", launch.scenario.text},
+          {"version", kVersion},
+          {"seed", std::to_string(launch.scenario.header.seed)}};
+}
+
+void add_notes(std::map<std::string, std::string>& facts, const Declaration& process) {
+  for (const auto& [name, value] : process.notes) facts[process.process + "/" + name] = fmt::format("{}", value);
+}
+
+Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {
+  std::vector<Conductor::Edge> edges;
+  for (const Graph::Edge& e : graph.edges) edges.push_back({graph.topics[e.topic].publisher, e.to, e.delay});
+  std::vector<bool> may_finish;
+  for (const Declaration& d : processes) may_finish.push_back(d.may_finish);
+  Conductor conductor(processes.size(), std::move(edges), std::move(may_finish), from_seconds(launch.clock.window_s));
+  if (launch.duration) conductor.end_at(*launch.duration);
+  return conductor;
+}
+
+}  // namespace ensonify

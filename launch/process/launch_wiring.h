@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/runtime/lockstep/conductor.h"
+#include "components/runtime/wiring.h"
+#include "launch/file/launch_file.h"
+
+namespace ensonify {
+
+/// A launch file's `wiring:` as rules with places.
+std::vector<WireRule> wire_rules(const Launch& launch);
+
+/// Place of each process's stanza, for messages: "demo.yaml:12:3".
+std::map<std::string, std::string> process_places(const Launch& launch);
+
+/// Facts fixed for the run and kept for queries: "launch", "scenario", "version", "seed".
+std::map<std::string, std::string> facts_of(const Launch& launch);
+/// Adds what a process notes: "bow/finest_beam_rad".
+void add_notes(std::map<std::string, std::string>& facts, const Declaration& process);
+
+/// The wiring as the conductor sees it: who waits for whom.
+Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch);
+
+}  // namespace ensonify

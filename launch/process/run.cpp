@@ -1,0 +1,74 @@
+#include "launch/process/run.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "components/errors/exit_code.h"
+#include "components/errors/exit_error.h"
+#include "components/runtime/participant.h"
+#include "components/runtime/protocol.h"
+#include "components/runtime/tool.h"
+
+namespace ensonify {
+
+namespace {
+
+struct Options {
+  LaunchOptions launch;
+  std::string name;
+  std::string clock;
+  std::string run_dir;
+  bool check = false;
+};
+
+/// Returns an exit code if the program is to end here (help, bad arguments).
+std::optional<int> parse(const char* component, int argc, char** argv, Options& options) {
+  CLI::App app(
+      fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
+                  "talks, `ensonify describe {}` what it takes.",
+                  component, component));
+  add_options(app, options.launch, false);
+  app.add_option("--name", options.name, "name of this process in the launch file")->required();
+  app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
+  app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
+  app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
+  return parse_command_line(app, argc, argv);
+}
+
+/// The clock's address: given, or as the run directory says.
+std::string clock_of(const Options& options) {
+  if (!options.clock.empty()) return options.clock;
+  std::string endpoint;
+  std::ifstream(options.run_dir + "/clock.endpoint") >> endpoint;
+  if (endpoint.empty()) {
+    throw UserError("--run-dir: " + options.run_dir + " holds no clock.endpoint; `ensonify run` starts processes");
+  }
+  return endpoint;
+}
+
+int run_process(const char* component, const NodeFactory& factory, const Options& options) {
+  const Launch launch = read_launch(options.launch);
+  const ProcessSpec& process = launch.process(options.name);
+  Ports ports(options.name, options.launch.out);
+  const std::unique_ptr<AnyNode> node = factory(launch, process, ports);
+  ports.seal();
+  if (options.check) {
+    std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
+    return kExitOk;
+  }
+  const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  return participate(component, ports, *node, {clock_of(options), {tcp, options.run_dir, ""}});
+}
+
+}  // namespace
+
+int run_component(const char* component, const NodeFactory& factory, int argc, char** argv) {
+  Options options;
+  if (const auto code = parse(component, argc, argv, options)) return *code;
+  return exit_code_of([&] { return run_process(component, factory, options); });
+}
+
+}  // namespace ensonify

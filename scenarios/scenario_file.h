@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "components/config/config_node.h"
+#include "components/config/config_reader.h"
+
+namespace ensonify {
+
+inline constexpr const char* kScenarioFormat = "scenario/1";
+
+/// What a run has of its scenario without its world: the seed, and when it starts.
+struct ScenarioHeader {
+  std::uint64_t seed = 1;
+  std::string start_utc = "2025-06-01T00:00:00Z";  // of sim time 0
+  std::int64_t start_unix_ns = 1748736000000000000;
+};
+
+/// A scenario as a launch hands it to its processes: YAML, from which those who need it read the world.
+struct ScenarioFile {
+  std::string path;         // "": the launch names no scenario
+  ConfigDocument document;  // with the launch's overrides applied
+  std::string text;         // canonical, as it is recorded
+  ScenarioHeader header;
+  std::optional<std::int64_t> end_ns;  // of the launch, sim time
+};
+
+/// Reads `seed` and `time`.
+void read_header(ConfigReader& from, ScenarioHeader& header);
+
+/// Nanoseconds since 1970-01-01 UTC of "2025-06-01T12:00:00Z" (fractions of a second allowed), or nothing.
+std::optional<std::int64_t> parse_utc_ns(const std::string& text);
+
+}  // namespace ensonify

@@ -1,0 +1,315 @@
+#include "scenarios/world/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "components/config/config_reader.h"
+#include "scenarios/world/motion.h"
+#include "scenarios/world/sections.h"
+
+namespace ensonify {
+namespace {
+
+Site read_site(ConfigReader from) {
+  Site site;
+  from.optional("name", site.name);
+  if (from.has("origin")) {
+    std::string origin;
+    from.required_choice("origin", site.origin_from_raster, {{"raster", true}});
+    if (from.has("latitude_deg") || from.has("longitude_deg")) {
+      from.problem("origin", "stands beside latitude_deg or longitude_deg; give one or the other");
+    }
+    return site;
+  }
+  from.required("latitude_deg", site.origin.latitude_deg, -89.9, 89.9);
+  from.required("longitude_deg", site.origin.longitude_deg, -180, 180);
+  return site;
+}
+
+frames::Mounting read_mounting(ConfigReader from, frames::Mounting mounting = {}) {
+  std::array<double, 3> position{mounting.position_body_m.x(), mounting.position_body_m.y(),
+                                 mounting.position_body_m.z()};
+  frames::Attitude turn;
+  if (from.has("roll_deg") || from.has("pitch_deg") || from.has("heading_deg")) {
+    from.optional("roll_deg", turn.roll_rad, -180, 180, kDegrees);
+    from.optional("pitch_deg", turn.pitch_rad, -90, 90, kDegrees);
+    from.optional("heading_deg", turn.heading_rad, -360, 360, kDegrees);
+    // The same three turns as a vehicle's attitude, from the body's axes instead of from north, east, down.
+    mounting.body_from_head = frames::canonical(frames::enu_from_ned().conjugate() * frames::enu_from_body(turn));
+  }
+  from.optional("position_m", position, -500, 500);
+  mounting.position_body_m = {position[0], position[1], position[2]};
+  return mounting;
+}
+
+HeadMounting read_head(ConfigReader& from) {
+  HeadMounting head;
+  head.actual = read_mounting(from.section("actual"));
+  const auto measured = from.optional_section("measured");
+  head.measured = measured ? read_mounting(*measured, head.actual) : head.actual;
+  return head;
+}
+
+motion::Sinusoid read_sinusoid(ConfigReader from, const char* amplitude, double most, FileUnit unit) {
+  motion::Sinusoid wave;
+  wave.period_s = 6.0;
+  from.required(amplitude, wave.amplitude, 0.0, most, unit);
+  from.optional("period_s", wave.period_s, 0.2, 60);
+  from.optional("phase_deg", wave.phase_rad, -360, 360, kDegrees);
+  return wave;
+}
+
+void read_start(ConfigReader& from, Vehicle& vehicle) {
+  const ConfigNode* start = from.node("start");
+  if (start == nullptr || (start->is_scalar() && start->scalar == "first_runline")) {
+    return;
+  }
+  if (!start->is_map()) {
+    from.problem("start", "is neither first_runline nor a map of position_m, heading_deg, speed_mps");
+    return;
+  }
+  auto section = from.section("start");
+  motion::State state;
+  std::array<double, 3> position{};
+  section.required("position_m", position, -kFarAway_m, kFarAway_m);
+  section.optional("heading_deg", state.heading_rad, -360, 360, kDegrees);
+  section.optional("speed_mps", state.speed_mps, 0, 30);
+  state.position_enu_m = {position[0], position[1], position[2]};
+  if (!vehicle.floats && state.position_enu_m.z() > 0.0) {
+    section.problem("position_m", fmt::format("up {} is above the water; allowed: 0 or less, or a vehicle with floats",
+                                              state.position_enu_m.z()));
+  }
+  vehicle.start = state;
+}
+
+Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
+  Vehicle vehicle;
+  vehicle.name = name;
+  bool by_forces = false;
+  from.optional_choice("kind", by_forces, {{"kinematic", false}, {"hydrodynamic", true}});
+  if (by_forces) {
+    from.required_path("dynamics", vehicle.dynamics_file);
+  } else if (from.has("dynamics")) {
+    from.problem("dynamics", "needs kind: hydrodynamic");
+  }
+  from.optional("acceleration_mps2", vehicle.limits.acceleration_mps2, 1e-3, 20);
+  from.optional("deceleration_mps2", vehicle.limits.deceleration_mps2, 1e-3, 20);
+  from.optional("turning_radius_m", vehicle.limits.turning_radius_m, 0.1, 1000);
+  from.optional("turn_rate_dps", vehicle.limits.turn_rate_radps, 0.01, 360, kDegrees);
+  vehicle.limits.turn_acceleration_radps2 = 10.0 * kDegrees.si;  // assumed: a launch has its turn in a second or two
+  vehicle.limits.vertical_acceleration_mps2 = 0.2;               // assumed: an AUV has its climb in two or three
+  from.optional("turn_acceleration_dps2", vehicle.limits.turn_acceleration_radps2, 0.1, 10000, kDegrees);
+  from.optional("vertical_speed_mps", vehicle.limits.vertical_speed_mps, 1e-3, 20);
+  from.optional("vertical_acceleration_mps2", vehicle.limits.vertical_acceleration_mps2, 1e-3, 20);
+  from.optional("fastest_mps", vehicle.fastest_mps, 0.01, 30);
+  if (const auto roll = from.optional_section("roll")) {
+    vehicle.waves.roll_rad = read_sinusoid(*roll, "amplitude_deg", 60, kDegrees);
+  }
+  if (const auto heave = from.optional_section("heave")) {
+    vehicle.waves.heave_m = read_sinusoid(*heave, "amplitude_m", 20, kSi);
+  }
+  if (const auto disturbance = from.optional_section("disturbance")) {
+    vehicle.disturbance = read_disturbance(*disturbance);
+  }
+  if (const auto floats = from.optional_section("floats")) {
+    vehicle.floats = read_loading(*floats);
+  }
+  read_start(from, vehicle);
+  if (vehicle.start && vehicle.start->speed_mps > vehicle.fastest_mps) {
+    from.problem("start",
+                 fmt::format("speed_mps {} is above fastest_mps {}", vehicle.start->speed_mps, vehicle.fastest_mps));
+  }
+  for (auto& [head, mounting] : from.named_sections("mountings")) {
+    vehicle.mountings[head] = read_head(mounting);
+  }
+  return vehicle;
+}
+
+/// How long one round of a mission's steps takes at the least: its lines, orbits and stays, without the ways between.
+/// Begins at a speed and leaves the one that is in force after it.
+double least_round_s(const Mission& mission, double& speed_mps) {
+  double round_s = 0.0;
+  for (const MissionStep& step : mission.steps) {
+    if (const auto* go = std::get_if<GoAt>(&step)) speed_mps = go->speed_mps.value_or(speed_mps);
+    if (const auto* keep = std::get_if<KeepPlace>(&step)) round_s += keep->for_s;
+    if (const auto* orbit = std::get_if<FollowOrbit>(&step)) {
+      round_s += 2.0 * std::numbers::pi * orbit->radius_m * orbit->turns / speed_mps;
+    }
+    if (const auto* line = std::get_if<FollowLine>(&step)) {
+      double way_m = mission.run_in_m + mission.run_out_m;
+      for (std::size_t i = 1; i < line->points_enu_m.size(); ++i) {
+        way_m += (line->points_enu_m[i] - line->points_enu_m[i - 1]).norm();
+      }
+      round_s += way_m / speed_mps;
+    }
+  }
+  return round_s;
+}
+
+double least_duration_s(const Mission& mission) {
+  double speed_mps = mission.speed_mps;
+  const double first_s = least_round_s(mission, speed_mps), next_s = least_round_s(mission, speed_mps);
+  const double all_s = first_s + (mission.repeat - 1) * next_s;
+  return std::min(all_s, mission.abort.after_s.value_or(all_s));
+}
+
+/// A tide must be known from the start for as long as the mission takes at the least.
+void check_tide(ConfigReader& from, const World& world) {
+  const double least_s = least_duration_s(world.mission);
+  const vertical::Tide& tide = world.vertical.tide;
+  if (tide.first_s() > 0.0) {
+    from.problem("vertical",
+                 fmt::format("the tide's first reading is {:.0f} s after the start; allowed: one at the start "
+                             "or before",
+                             tide.first_s()));
+  } else if (tide.last_s() < least_s) {
+    from.problem("vertical",
+                 fmt::format("the tide's last reading is {:.0f} s after the start, and the mission takes {:.0f} s "
+                             "without its turns; allowed: a file that covers the survey",
+                             tide.last_s(), least_s));
+  }
+}
+
+/// What grids must cover, as far as it is known: corners of a generated seabed, ends of runlines, vehicles at the
+/// start.
+std::vector<frames::Vec2> places_of_site(const World& world) {
+  std::vector<frames::Vec2> places;
+  if (world.seabed.kind == Seabed::Kind::kLayers) {
+    const frames::Vec2 half_m = 0.5 * world.seabed.layered.size_m;
+    for (const double east : {-half_m.x(), half_m.x()}) {
+      for (const double north : {-half_m.y(), half_m.y()}) {
+        places.push_back(world.seabed.layered.centre_enu_m + frames::Vec2(east, north));
+      }
+    }
+  }
+  for (const auto& line : world.mission.runlines) places.insert(places.end(), {line.start_enu_m, line.end_enu_m});
+  for (const auto& vehicle : world.vehicles) {
+    if (vehicle.start) places.emplace_back(vehicle.start->position_enu_m.head<2>());
+  }
+  return places;
+}
+
+/// Grids of datums must cover the site: beyond its edge a grid knows nothing.
+void check_datums(const ConfigReader& section, const World& world) {
+  const vertical::Datums& datums = world.vertical.datums;
+  const std::vector<frames::Vec2> places = places_of_site(world);
+  const auto check = [&](const char* key, const vertical::Separation& separation) {
+    const auto bare = std::ranges::find_if(places, [&](const auto& place) { return !separation.covers(place); });
+    if (bare == places.end()) return;
+    section.problem(key, fmt::format("does not cover ({:.1f}, {:.1f}) m; allowed: a grid over the whole seabed and "
+                                     "all lines, east and north in metres of the world",
+                                     bare->x(), bare->y()));
+  };
+  check("geoid_above_ellipsoid_grid", datums.geoid_above_ellipsoid);
+  check("datum_above_geoid_grid", datums.datum_above_geoid);
+}
+
+void check_whole(ConfigReader& from, const World& world) {
+  if (from.good()) check_tide(from, world);
+  std::set<std::string> heads;
+  for (const auto& vehicle : world.vehicles) {
+    for (const auto& [head, mounting] : vehicle.mountings) {
+      if (!heads.insert(head).second) {
+        from.problem("vehicles", "two vehicles carry a head named " + head);
+      }
+    }
+    check_mission(from, world.mission, vehicle.name, vehicle.fastest_mps, vehicle.limits, vehicle.floats.has_value());
+  }
+  const bool nobody_dives = std::ranges::all_of(world.vehicles, [](const Vehicle& v) { return v.floats.has_value(); });
+  if (world.mission.depth_m > 0.0 && nobody_dives && !world.vehicles.empty()) {
+    from.problem("mission", "depth_m needs a vehicle that dives; " + world.vehicles.front().name + " floats");
+  }
+  for (const std::string& head : world.mission.sonars()) {
+    if (heads.contains(head)) continue;
+    std::string known;
+    for (const std::string& carried : heads) known += (known.empty() ? "" : ", ") + carried;
+    from.problem("mission", fmt::format("set_sonar: no vehicle carries a head named \"{}\"; allowed: {}", head,
+                                        known.empty() ? "none, for there is none" : known));
+  }
+  const bool generated = world.seabed.kind == Seabed::Kind::kLayers;
+  if (world.site.origin_from_raster && generated) {
+    from.problem("site", "origin: raster needs seabed.kind: raster or tiles");
+  }
+}
+
+}  // namespace
+
+World read_world(ConfigReader& from, const std::string& file) {
+  World world;
+  world.file = file;
+  read_format(from, kScenarioFormat);
+  world.site = read_site(from.section("site"));
+  read_header(from, world);
+  if (const auto water = from.optional_section("water")) {
+    world.water = read_water(*water);
+  }
+  const double start_unix_s = static_cast<double>(world.start_unix_ns) * 1e-9;
+  const auto vertical = from.optional_section("vertical");
+  if (vertical) {
+    world.vertical = read_vertical(*vertical, start_unix_s);
+  }
+  if (const auto current = from.optional_section("current")) {
+    world.current = read_current(*current, start_unix_s);
+  }
+  world.seabed = read_seabed(from.section("seabed"));
+  for (auto& [name, vehicle] : from.named_sections("vehicles")) {
+    world.vehicles.push_back(read_vehicle(name, vehicle));
+  }
+  world.seabed.layered.seed = world.seed;
+  const bool placed = !world.site.origin_from_raster;
+  world.mission = read_mission(from.section("mission"), placed ? std::optional(world.site.origin) : std::nullopt);
+  if (vertical && from.good()) check_datums(*vertical, world);
+  check_whole(from, world);
+  return world;
+}
+
+World read_world(const std::string& path, const Overrides& overrides) {
+  ConfigDocument document = parse_config_file(path);
+  const auto problems = apply(overrides, document.root);
+  document.problems.insert(document.problems.end(), problems.begin(), problems.end());
+  ConfigReader from(std::move(document));
+  World world = read_world(from, path);
+  from.finish();
+  return world;
+}
+
+World World::read(const ScenarioFile& scenario) {
+  World world;
+  if (!scenario.path.empty()) {
+    ConfigReader from(scenario.document);
+    world = read_world(from, scenario.path);
+    from.finish();
+  }
+  world.text = scenario.text;
+  world.end_ns = scenario.end_ns;
+  return world;
+}
+
+const Vehicle& World::vehicle(const std::string& name) const {
+  if (name.empty() && vehicles.size() == 1) {
+    return vehicles.front();
+  }
+  for (const auto& vehicle : vehicles) {
+    if (vehicle.name == name) {
+      return vehicle;
+    }
+  }
+  throw std::out_of_range("the scenario has no vehicle named \"" + name + "\"");
+}
+
+std::optional<std::pair<std::string, HeadMounting>> World::mounting(const std::string& head) const {
+  for (const auto& vehicle : vehicles) {
+    if (const auto found = vehicle.mountings.find(head); found != vehicle.mountings.end()) {
+      return std::pair{vehicle.name, found->second};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace ensonify

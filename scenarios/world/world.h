@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/config/config_node.h"
+#include "components/config/overrides.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/vehicle/motion/current.h"
+#include "kernels/vehicle/motion/disturbance.h"
+#include "kernels/vehicle/motion/kinematics.h"
+#include "kernels/vehicle/vertical/draught.h"
+#include "scenarios/scenario_file.h"
+#include "scenarios/world/mission.h"
+#include "scenarios/world/seabed.h"
+#include "scenarios/world/vertical.h"
+#include "scenarios/world/water.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+/// Place of the world. ENU x = y = 0 is at the origin, z = 0 is chart datum.
+struct Site {
+  std::string name = "unnamed";
+  /// `origin: raster` in the file: the centre of the imported raster, known only after somebody has opened it.
+  bool origin_from_raster = false;
+  frames::Geodetic origin;
+};
+
+/// A head on its vehicle: where it truly is, and where its makers of records estimate it to be.
+struct HeadMounting {
+  frames::Mounting actual;
+  frames::Mounting measured;
+};
+
+struct Vehicle {
+  std::string name;
+  /// Given: the vehicle moves by its forces, as this file says; the limits below are what its planners count on.
+  std::string dynamics_file;
+  motion::Limits limits;
+  double fastest_mps = 10.0;
+  motion::Waves waves;
+  motion::DisturbanceParameters disturbance;
+  /// Given: it floats on the water level, this much deeper than its reference point. Not given: as deep as the mission
+  /// says below the water level.
+  std::optional<vertical::Loading> floats;
+  /// Not given: at the start of the first runline, at its heading, at mission speed.
+  std::optional<motion::State> start;
+  std::map<std::string, HeadMounting> mountings;  // by the head's process name
+};
+
+/// The world of a run. Everybody reads all of it. SI and radians; the file has degrees, and knots where it says so.
+struct World : ScenarioHeader {
+  std::string file;
+  Site site;
+  std::string text;                    // of the scenario, canonical, as it is recorded; empty unless a launch named it
+  std::optional<std::int64_t> end_ns;  // sim time, where the launch has an end of its own
+  Water water;
+  Vertical vertical;
+  motion::Current current;
+  Seabed seabed;
+  std::vector<Vehicle> vehicles;  // in the order of the file
+  Mission mission;
+
+  /// The world of a launch's scenario; the defaults when it names none. Throws ConfigError with every problem.
+  static World read(const ScenarioFile& scenario);
+
+  /// By name; the only vehicle when the name is "". Throws std::out_of_range.
+  const Vehicle& vehicle(const std::string& name = "") const;
+  /// Mounting of a head on whichever vehicle carries it: the vehicle's name and the mounting, or nothing.
+  std::optional<std::pair<std::string, HeadMounting>> mounting(const std::string& head) const;
+};
+
+/// Reads a scenario file. Throws ConfigError with every problem.
+World read_world(const std::string& path, const Overrides& overrides = {});
+
+/// Reads an already parsed scenario; problems stay in the reader for its finish().
+World read_world(ConfigReader& from, const std::string& file);
+
+}  // namespace ensonify
