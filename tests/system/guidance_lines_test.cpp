@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/guidance/closed_loop.h"
+#include "tests/system/closed_loop.h"
 
 using namespace ensonify;
 using namespace ensonify::closed_loop;

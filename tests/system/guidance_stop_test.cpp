@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "tests/guidance/closed_loop.h"
+#include "tests/system/closed_loop.h"
 
 using namespace ensonify;
 using namespace ensonify::closed_loop;
