@@ -1,5 +1,5 @@
 """launch/presets/COMPONENT/*.yaml: the component takes each of them, each value has a source that is listed in
-docs/references.bib or is called assumed, and docs/instruments.md describes each."""
+docs/references.bib or is called assumed, and docs/manual/instruments.md describes each."""
 import os
 import pathlib
 import re
@@ -11,7 +11,7 @@ SOURCE = pathlib.Path(os.environ.get("ENSONIFY_SOURCE", pathlib.Path(__file__).r
 BUILD = pathlib.Path(os.environ.get("ENSONIFY_BUILD", "build/dev")).resolve()
 PRESETS = sorted((SOURCE / "launch/presets").rglob("*.yaml"))
 LISTED = set(re.findall(r"^@\w+\{(\w+),", (SOURCE / "docs/references.bib").read_text(), re.M))
-PAGE = (SOURCE / "docs/instruments.md").read_text()
+PAGE = (SOURCE / "docs/manual/instruments.md").read_text()
 
 LAUNCH = """
 ensonify: launch/1

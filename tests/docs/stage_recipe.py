@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does what docs/adding-a-component.md says, in a folder of its own: stage_recipe.py SOURCE STAGE
+"""Does what docs/manual/adding-a-component.md says, in a folder of its own: stage_recipe.py SOURCE STAGE
 
 Runs the page's `sh` blocks on copies of the files that they name and writes its yaml files. Of
 components/CMakeLists.txt only the lines that the page adds are left, so that the new component alone is added to the
@@ -15,7 +15,7 @@ import tempfile
 
 
 def follow(source, stage):
-    page = (source / "docs/adding-a-component.md").read_text()
+    page = (source / "docs/manual/adding-a-component.md").read_text()
     listing = source / "components/CMakeLists.txt"
     (stage / "components").mkdir()
     shutil.copy(listing, stage / "components")

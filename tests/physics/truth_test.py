@@ -1,6 +1,6 @@
 """The shipped scenarios' seabeds measure what measured seabeds do, and their truth.json says so.
 
-The ranges are those of grids of real surveys (docs/seabed/statistics.md): reefs and outcrops beside sand, coral, bedforms,
+The ranges are those of grids of real surveys (docs/physics/seabed/statistics.md): reefs and outcrops beside sand, coral, bedforms,
 flat mud, a canyon's head, a river's bed. Plain fractional Brownian relief must fail the mixed one.
 """
 import json

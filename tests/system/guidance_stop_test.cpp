@@ -1,5 +1,5 @@
 // Stops at a place in 0.5 m/s of current and in still water, disturbed: how far beyond it the vehicle truly comes, and
-// how near it stays. The limits are those that docs/guidance/steering.md states.
+// how near it stays. The limits are those that docs/physics/vehicle/steering.md states.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

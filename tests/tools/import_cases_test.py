@@ -351,7 +351,7 @@ class Cases(Import):
 
     @unittest.skipUnless(shutil.which("gdal_create"), "gdal_create is absent")
     def test_the_example_of_the_page(self):
-        page = (SOURCE / "docs/import.md").read_text(encoding="utf-8")
+        page = (SOURCE / "docs/manual/import.md").read_text(encoding="utf-8")
         (box,) = re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S)
         done = subprocess.run(["bash", "-e", "-c", box], cwd=self.folder, capture_output=True, text=True,
                               env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
