@@ -1,4 +1,4 @@
-#include "kernels/instruments/inertial/drift.h"
+#include "kernels/instruments/inertial/testing/drift.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "kernels/instruments/inertial/allan.h"
+#include "kernels/instruments/inertial/testing/allan.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kernels/seabed/statistics/exact_fbm.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

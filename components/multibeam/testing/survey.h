@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/multibeam/node.h"
-#include "components/multibeam/test_head.h"
+#include "components/multibeam/testing/head.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 
