@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 TERRAIN = pathlib.Path(os.environ.get("ENSONIFY_SHARED", "")) / "data" / "terrain"
-REPORT = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "tests" / "relief_report"
+PHYSICS = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "bin" / "ensonify-physics"
 
 
 def heights_of(name):
@@ -31,12 +31,13 @@ def whole_square(heights, side):
     return heights[row:row + side, column:column + side]
 
 
-def report(heights, spacing_m, *more):
+def statistics(heights, spacing_m, thin=0):
     with tempfile.NamedTemporaryFile(suffix=".f32") as file:
         np.ascontiguousarray(heights, dtype=np.float32).tofile(file.name)
         rows, columns = heights.shape
-        words = [REPORT, columns, rows, spacing_m, file.name, *more]
-        return json.loads(subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True).stdout)
+        words = [PHYSICS, "statistics", "--json", "--heights", file.name, "--columns", columns, "--rows", rows,
+                 "--spacing-m", spacing_m, "--thin", thin]
+        return json.loads(subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True).stdout)[0]
 
 
 class MeasuredReliefTest(unittest.TestCase):
@@ -49,7 +50,7 @@ class MeasuredReliefTest(unittest.TestCase):
                 ("bedford_depth_9m.tif", 0.12, 4.1, 29, 0.64, 0.71),
                 ("bering_jd211_2m.bag", 0.04, 1.2, 3.0, 0.39, 0.17)):
             with self.subTest(name):
-                found = report(*heights_of(name))
+                found = statistics(*heights_of(name))
                 self.assertAlmostEqual(found["k2"], k2, delta=0.015)
                 self.assertAlmostEqual(found["patch"], patch, delta=0.1 * patch)
                 self.assertAlmostEqual(found["p95_over_p5"], spread, delta=0.5 * spread)
@@ -60,10 +61,10 @@ class MeasuredReliefTest(unittest.TestCase):
         for name in ("massbay_5m.tif", "horseshoe_reef_1cm.tif"):
             with self.subTest(name):
                 heights, spacing_m = heights_of(name)
-                found = report(whole_square(heights, 512), spacing_m, 8)
+                found = statistics(whole_square(heights, 512), spacing_m, 8)
                 print(name, found, file=sys.stderr)
                 self.assertLess(found["smooth_db"], -10.0)
-                self.assertAlmostEqual(found["rebuilt_db"], 0.0, delta=3.0)
+                self.assertAlmostEqual(found["restored_db"], 0.0, delta=3.0)
 
 
 if __name__ == "__main__":

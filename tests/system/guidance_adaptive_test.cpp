@@ -99,7 +99,7 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
 nlohmann::json run_line(const Slope& slope, const World& surveyed) {
   auto empty = ConfigReader::from_text("{}", "test.yaml");
   const auto pilot_config = AutopilotConfig::read(empty, surveyed, "pilot");
-  const auto coverage_config = CoverageConfig::read(empty, slope.scenario, "coverage");
+  const auto coverage_config = CoverageConfig::read(empty, slope.world, "coverage");
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_adaptive_test";
   std::filesystem::create_directories(folder);
 
@@ -136,7 +136,7 @@ nlohmann::json run_line(const Slope& slope, const World& surveyed) {
 
 /// The same survey with so many lines at one distance, from the shallow side to the deep one.
 World with_fixed_lines(const Slope& slope, std::size_t count) {
-  World fixed = slope.scenario;
+  World fixed = slope.world;
   const AdaptivePlan plan = *std::exchange(fixed.mission.adaptive, std::nullopt);
   fixed.mission.runlines.clear();
   for (std::size_t i = 0; i < count; ++i) {
@@ -154,7 +154,7 @@ World with_fixed_lines(const Slope& slope, std::size_t count) {
 
 TEST_CASE("slope_overlap needs 45 % less track than fixed spacing, without gaps, near bound") {
   const Slope slope;
-  const auto report = run_line(slope, slope.scenario);
+  const auto report = run_line(slope, slope.world);
   INFO(report.dump(2));
   CHECK(report["holes"] == 0);
   CHECK(report["covered"] == 1.0);
