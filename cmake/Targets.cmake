@@ -105,7 +105,7 @@ function(ensonify_check name)
 endfunction()
 
 # ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file that can import the project's
-# client and what is in PATHS.
+# client, tests/support and what is in PATHS.
 function(ensonify_python_test name file)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -114,7 +114,8 @@ function(ensonify_python_test name file)
   ensonify_check(${name} COMMAND ${ENSONIFY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v
                  LABELS ${ARG_LABELS} TIMEOUT ${ARG_TIMEOUT})
   list(JOIN ARG_PATHS ":" paths)
-  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${paths})
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT
+    PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${CMAKE_SOURCE_DIR}/tests/support:${paths})
 endfunction()
 
 # Labels, time limit and environment of a test. Whole systems and measurements run alone, the others side by side.

@@ -80,7 +80,7 @@ def visible_folders(path):
     room = max((r for r in SEES if path.startswith(r + "/")), key=len)
     own = "/".join(parts[:2]) if room in ("components", "tools") and len(parts) > 2 else room
     seen = [own] + SEES[room]
-    if is_test(path) or is_bench(path) or "/testing/" in path or parts[-1].startswith("test_"):
+    if is_test(path) or is_bench(path) or "/testing/" in path:
         seen += ["tests/support"] + (["kernels"] if parts[0] == "kernels" else []) + (["scenarios"] if parts[0] == "launch" else [])
     return seen
 

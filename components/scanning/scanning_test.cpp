@@ -4,7 +4,7 @@
 #include "components/config/config_reader.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "components/scanning/node.h"
-#include "components/sonar/test_config.h"
+#include "components/sonar/testing/config.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/water/noise.h"

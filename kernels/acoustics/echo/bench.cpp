@@ -15,7 +15,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/line_array.h"
 #include "kernels/acoustics/echo/line_receiver.h"
-#include "kernels/acoustics/trace/embree_alone.h"
+#include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/seabed/lambert.h"
 #include "tests/support/fan.h"
 

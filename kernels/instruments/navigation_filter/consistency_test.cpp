@@ -4,7 +4,7 @@
 #include <iostream>
 #include <numeric>
 
-#include "kernels/instruments/navigation_filter/test_vehicle.h"
+#include "kernels/instruments/navigation_filter/testing/vehicle.h"
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;
