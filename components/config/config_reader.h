@@ -108,6 +108,8 @@ class ConfigReader {
 
   /// True as long as nothing is wrong in the whole document (unknown keys are found by finish() only).
   bool good() const;
+  /// Number of problems so far.
+  std::size_t problem_count() const;
   /// Throws ConfigError with all problems of the document and of those added by also(), unknown keys among them.
   /// On a section it does nothing.
   void finish() const;
@@ -206,7 +208,6 @@ class ConfigReader {
       }
     }
   }
-  std::size_t problem_count() const;
 
   template <class Enum>
   void choose(std::string_view key, Enum& value, const Choices<Enum>& choices, bool must) const {
