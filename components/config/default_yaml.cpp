@@ -26,6 +26,7 @@ std::string flow_text(const ConfigNode& node) {
     for (const ConfigNode& item : node.items) text += (text.empty() ? "" : ", ") + flow_text(item);
     return "[" + text + "]";
   }
+  if (node.is_map()) return to_json(node);
   return node.quoted && !reads_as_text(node.scalar) ? to_json(node) : node.scalar;
 }
 

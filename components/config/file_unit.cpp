@@ -33,9 +33,14 @@ constexpr NamedUnit kUnits[] = {
     {"MB", 1.0},
     {"1/s", 1.0},
     {"m/sqrt(s)", 1.0},
+    {"N/m", 1.0},
+    {"dB/m", 1.0},
+    {"1/m", 1.0},
+    {"1/km^2", 1.0},  // as the seabed's features are counted
     // Not SI.
     {"deg", kDegrees.si},
     {"deg/s", kDegrees.si},
+    {"deg/s^2", kDegrees.si},
     {"deg/h", kDegrees.si / 3600.0},
     {"deg/sqrt(h)", kDegrees.si / 60.0},
     {"kn", kKnots.si},

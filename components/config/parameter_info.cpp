@@ -40,6 +40,35 @@ ConfigNode detail::list_node() {
   return node;
 }
 
+namespace {
+
+ParameterInfo structure(ParameterInfo::Kind kind, const std::string& key, const std::string& about,
+                        ParameterList members, bool required) {
+  ParameterInfo info{.key = key, .about = about, .kind = kind, .left_out = true, .members = std::move(members)};
+  info.allowed.required = required;
+  return info;
+}
+
+}  // namespace
+
+ParameterInfo section_info(const std::string& key, const std::string& about, ParameterList members, bool required) {
+  return structure(ParameterInfo::Kind::kSection, key, about, std::move(members), required);
+}
+
+ParameterInfo list_info(const std::string& key, const std::string& about, ParameterList members) {
+  return structure(ParameterInfo::Kind::kList, key, about, std::move(members), false);
+}
+
+ParameterInfo named_info(const std::string& key, const std::string& about, ParameterList members) {
+  return structure(ParameterInfo::Kind::kNamed, key, about, std::move(members), false);
+}
+
+ParameterInfo other_info(const std::string& key, const std::string& about, std::string schema, bool required) {
+  ParameterInfo info = structure(ParameterInfo::Kind::kOther, key, about, {}, required);
+  info.schema = std::move(schema);
+  return info;
+}
+
 std::string allowed_text(const ParameterInfo& parameter) {
   const Allowed& allowed = parameter.allowed;
   if (!allowed.words.empty()) {

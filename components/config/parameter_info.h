@@ -12,7 +12,7 @@
 namespace ensonify {
 
 struct ParameterInfo {
-  enum class Kind { kNumber, kInteger, kBool, kWord, kText, kNumbers, kRows, kTexts, kSection, kList, kNamed };
+  enum class Kind { kNumber, kInteger, kBool, kWord, kText, kNumbers, kRows, kTexts, kSection, kList, kNamed, kOther };
   using List = std::vector<ParameterInfo>;
 
   std::string key;
@@ -24,6 +24,7 @@ struct ParameterInfo {
   bool left_out = false;                                   // there is no default: required, computed or optional
   ConfigNode value = {};                                   // the default, in the unit of the file
   std::vector<ParameterInfo> members = {};                 // of a section, or of each entry of a list or map
+  std::string schema = {};                                 // of kOther: JSON Schema of the value
   std::vector<std::pair<std::string, List>> entries = {};  // that a list or map has by default, with their names
 };
 
@@ -39,6 +40,16 @@ std::string default_yaml(const std::string& title, const ParameterList& list);
 std::string parameter_table(const ParameterList& list);
 /// JSON Schema (draft 2020-12) of the file.
 std::string parameter_schema(const std::string& title, const ParameterList& list);
+
+/// A JSON Schema of one map with these keys.
+std::string object_schema(const ParameterList& list);
+
+// What no struct holds: keys of sections whose reader is code.
+ParameterInfo section_info(const std::string& key, const std::string& about, ParameterList members,
+                           bool required = false);
+ParameterInfo list_info(const std::string& key, const std::string& about, ParameterList members);
+ParameterInfo named_info(const std::string& key, const std::string& about, ParameterList members);
+ParameterInfo other_info(const std::string& key, const std::string& about, std::string schema, bool required = false);
 
 /// "0.05 to 10", "tone or chirp"; "" where everything is allowed.
 std::string allowed_text(const ParameterInfo& parameter);
@@ -72,7 +83,11 @@ class DescribeParameters {
   template <class T>
   static void describe(ParameterInfo& info, const T& member) {
     const double si = file_unit(info.unit.c_str());
-    if constexpr (IsOptional<T>::value) {
+    if constexpr (ReadsItself<T>) {
+      info.kind = Kind::kOther;
+      info.schema = T::schema();
+      info.value = member.in_file();
+    } else if constexpr (IsOptional<T>::value) {
       describe(info, member.value_or(typename T::value_type{}));
       info.left_out = info.left_out || !member;
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -101,7 +116,7 @@ class DescribeParameters {
     for (const auto& element : member) {
       if constexpr (std::is_same_v<T, std::vector<std::string>>) {
         info.value.items.push_back(text_node(element));
-      } else if constexpr (IsNumbers<T>::value || std::is_same_v<T, std::vector<double>>) {
+      } else if constexpr (IsNumbers<T>::value || FixedVector<T> || std::is_same_v<T, std::vector<double>>) {
         info.value.items.push_back(number_node(element, si));
       } else {
         ConfigNode& row = info.value.items.emplace_back(list_node());
@@ -110,9 +125,9 @@ class DescribeParameters {
     }
     if constexpr (std::is_same_v<T, std::vector<std::string>>) {
       info.kind = Kind::kTexts;
-    } else if constexpr (IsNumbers<T>::value) {
+    } else if constexpr (IsNumbers<T>::value || FixedVector<T>) {
       info.kind = Kind::kNumbers;
-      info.width = member.size();
+      info.width = static_cast<std::size_t>(member.size());
     } else if constexpr (std::is_same_v<T, std::vector<double>>) {
       info.kind = Kind::kNumbers;
     } else {

@@ -45,6 +45,7 @@ Json type_of(const ParameterInfo& p) {
     case Kind::kTexts: return list_of({{"type", "string"}}, 0);
     case Kind::kSection: return object_of(p.members);
     case Kind::kList: return list_of(object_of(p.members), 0);
+    case Kind::kOther: return Json::parse(p.schema);
     case Kind::kNamed: return {{"type", "object"}, {"additionalProperties", object_of(p.members)}};
   }
   return {};
@@ -66,6 +67,8 @@ Json object_of(const ParameterList& list) {
 }
 
 }  // namespace
+
+std::string object_schema(const ParameterList& list) { return object_of(list).dump(); }
 
 std::string parameter_schema(const std::string& title, const ParameterList& list) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -115,6 +116,19 @@ template <class T> struct IsVector<std::vector<T>> : std::true_type {};
 template <class T> struct IsNumbers : std::false_type {};
 template <std::size_t N> struct IsNumbers<std::array<double, N>> : std::true_type {};
 // clang-format on
+/// A vector of fixed length such as Eigen's, in a file a list of numbers.
+template <class T>
+concept FixedVector = requires(T& vector) {
+  requires static_cast<int>(T::SizeAtCompileTime) > 0;
+  { vector.data() } -> std::same_as<double*>;
+};
+/// A member whose form in the file no other kind has: it reads itself and says what it takes.
+///   void read(const ConfigReader& from, const char* key);
+///   ConfigNode in_file() const;            the default
+///   static std::string schema();           JSON Schema of the value
+template <class T>
+concept ReadsItself = requires(T& member) { { T::schema() } -> std::convertible_to<std::string>; };
+
 template <class T>
 concept ListOfParameters = IsVector<T>::value && HasParameters<typename T::value_type>;
 

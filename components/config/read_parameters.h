@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +37,9 @@ class ParameterReader {
  private:
   template <class T>
   void read(const char* key, const char* unit, const Allowed& allowed, T& member) const {
-    if constexpr (IsOptional<T>::value) {
+    if constexpr (ReadsItself<T>) {
+      member.read(from_, key);
+    } else if constexpr (IsOptional<T>::value) {
       if (!allowed.required && !from_.has(key)) return;
       typename T::value_type found{};
       const std::size_t before = from_.problem_count();
@@ -59,16 +63,23 @@ class ParameterReader {
   template <class T>
   void read_number(const char* key, const char* unit, const Allowed& allowed, T& member) const {
     const FileUnit si{file_unit(unit)};
-    if constexpr (std::is_integral_v<T>) {
-      if (!allowed.bounded()) {
-        allowed.required ? from_.required(key, member) : from_.optional(key, member);
-        return;
-      }
-    }
-    if (allowed.required) {
-      from_.required(key, member, allowed.lo, allowed.hi, si);
+    if constexpr (FixedVector<T>) {
+      std::array<double, T::SizeAtCompileTime> numbers;
+      std::copy(member.begin(), member.end(), numbers.begin());
+      read_number(key, unit, allowed, numbers);
+      std::copy(numbers.begin(), numbers.end(), member.begin());
     } else {
-      from_.optional(key, member, allowed.lo, allowed.hi, si);
+      if constexpr (std::is_integral_v<T>) {
+        if (!allowed.bounded()) {
+          allowed.required ? from_.required(key, member) : from_.optional(key, member);
+          return;
+        }
+      }
+      if (allowed.required) {
+        from_.required(key, member, allowed.lo, allowed.hi, si);
+      } else {
+        from_.optional(key, member, allowed.lo, allowed.hi, si);
+      }
     }
   }
 
@@ -124,7 +135,7 @@ class ParameterReader {
 template <class T>
 void read_parameters(ConfigReader& from, T& values) {
   ParametersOf<T>::parameters(values, detail::ParameterReader(from));
-  ParametersOf<T>::check(from, values);
+  if constexpr (requires { ParametersOf<T>::check(from, values); }) ParametersOf<T>::check(from, values);
 }
 
 }  // namespace ensonify
