@@ -1,25 +1,29 @@
 #pragma once
 
 #include "components/echosounder/head.h"
-#include "components/sonar/single_channel.h"
+#include "components/sonar/head_node.h"
 
 namespace ensonify {
 
 /// An echogram's column and a depth per ping.
-class EchosounderNode {
+class Echosounder {
  public:
   using Config = EchosounderConfig;
   static constexpr const char* kComponent = "echosounder";
 
-  EchosounderNode(const Config& config, Ports& ports);
+  static HeadPlan plan(const Config& config);
 
-  SimTime step(SimTime now);
+  Echosounder(const Config& config, std::size_t) : config_(config), head_(config) {}
+
+  HeadOutputs<msg::Ping, msg::BottomTrack> outputs() const;
+  SentPing transmit(SimTime now, const HeadSettings& settings, const HeadInputs& inputs) const;
+  HeadReport<msg::Ping, msg::BottomTrack> ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs);
 
  private:
   Config config_;
   EchosounderHead head_;
-  SingleChannel channel_;
-  Ports::Out<msg::BottomTrack> bottom_out_;
 };
+
+using EchosounderNode = HeadNode<Echosounder>;
 
 }  // namespace ensonify

@@ -2,32 +2,25 @@
 
 namespace ensonify {
 
-ForwardLookingNode::ForwardLookingNode(const Config& config, Ports& ports)
-    : config_(config),
-      head_(config),
-      channel_(
-          config,
-          {.longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
-           .max_ping_bytes = head_.max_ping_bytes(),
-           .finest_beam_rad = config.beamwidth_rad,
-           .probe = true},
-          ports) {
-  ports.note("near_field_m", head_.near_field_m());
+HeadPlan ForwardLooking::plan(const Config& config) {
+  return {.channels = {{"", config.start(), config.limits()}},
+          .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
+          .finest_beam_rad = config.beamwidth_rad,
+          .beam_axis = BeamAxis::kForward,
+          .probe = true};
 }
 
-SimTime ForwardLookingNode::step(SimTime now) {
-  const auto send = [this](const HeadSettings& settings) -> Transmission {
-    const RangedPulse pulse = head_.pulse_for(settings);
-    return {config_.frequency_hz, pulse.length_s, from_seconds(pulse.reception_s()), settings,
-            config_.pulse.chirp ? pulse.band_hz : 0.0};
-  };
-  const auto receive_echoes = [this](const PingUnderWay& ping,
-                                     const HeadSettings& settings) -> SingleChannel::Received {
-    msg::Ping image =
-        head_.receive_echoes(ping.event(), settings, ping.sound_speed_mps, channel_.truth(), channel_.seabed());
-    return {std::move(image), no_echo_reason(head_.trace_summary())};
-  };
-  return channel_.step(now, send, receive_echoes);
+SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const HeadInputs& inputs) const {
+  const RangedPulse pulse = head_.pulse_for(settings);
+  const double bandwidth_hz = config_.pulse.chirp ? pulse.band_hz : 0.0;
+  return {{{config_.frequency_hz, pulse.length_s, from_seconds(pulse.reception_s()), settings, bandwidth_hz}},
+          inputs.sound_speed_mps()};
+}
+
+HeadReport<msg::Ping> ForwardLooking::ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs) {
+  auto received =
+      head_.receive_echoes(event, sent.sectors.front().settings, sent.sound_speed_mps, inputs.truth(), inputs.seabed());
+  return {.messages = {std::move(received.ping)}, .trouble = no_echo_reason(received.trace)};
 }
 
 }  // namespace ensonify

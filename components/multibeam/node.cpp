@@ -9,18 +9,6 @@
 namespace ensonify {
 namespace {
 
-HeadInputs::Start start_of(const MultibeamConfig& config) {
-  HeadInputs::Start start;
-  start.mounting = config.mounting;
-  start.tide = config.world.vertical.tide;
-  start.lod = config.lod;
-  start.lod.adaptations_per_ping = static_cast<std::int32_t>(config.all_sectors().size());
-  start.longest_ping = from_seconds(config.longest_reception_s() + config.processing_latency_s);
-  start.probe = true;
-  start.channels = {{"", config.start(), config.limits()}};
-  return start;
-}
-
 std::size_t most_entries(const MultibeamConfig& config) {
   const Steering steering = steer(config, config.swath_rad, {});
   return steering.sin_soundings.size() * static_cast<std::size_t>(config.detections_per_beam);
@@ -38,118 +26,111 @@ std::size_t snippet_bytes(const MultibeamConfig& config) {
 
 }  // namespace
 
-MultibeamNode::MultibeamNode(const Config& config, Ports& ports)
+HeadPlan Multibeam::plan(const Config& config) {
+  return {.channels = {{"", config.start(), config.limits()}},
+          .sectors = static_cast<int>(config.all_sectors().size()),
+          .longest_reception_s = config.longest_reception_s(),
+          .finest_beam_rad = std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad),
+          .probe = true};
+}
+
+Multibeam::Multibeam(const Config& config, std::size_t)
     : config_(config),
-      lines_(area_lengths(config, config.frequency_hz)),
       head_(config),
       applied_(applied_profile(config.world)),
-      soundings_(config),
-      inputs_(ports, start_of(config)),
-      cycle_(ports, inputs_, config.timing()),
+      soundings_(config, head_.design()),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       swath_of_range_rad_(config.swath_rad),
-      heading_(config.heading_mean_s),
-      ping_out_(ports.out<msg::Ping>("ping", {.max_bytes = head_.max_ping_bytes(), .rate = config.timing().rate})),
-      soundings_out_(ports.out<msg::Soundings>("soundings",
-                                               {.max_bytes = soundings_bytes(config), .rate = config.timing().rate})) {
-  ports.note("finest_beam_rad", std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad));
-  const OutOptions snippets{.max_bytes = snippet_bytes(config), .rate = config.timing().rate};
-  if (config.snippets) snippets_out_ = ports.out<msg::Snippets>("snippets", snippets);
-  if (config.image.published) image_out_ = ports.out<msg::SeabedImage>("seabed_image", snippets);
+      heading_(config.heading_mean_s) {}
+
+HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage> Multibeam::outputs() const {
+  const std::size_t image_bytes = snippet_bytes(config_);
+  return {{"ping", head_.max_ping_bytes()},
+          {"soundings", soundings_bytes(config_)},
+          {"snippets", image_bytes, config_.snippets},
+          {"seabed_image", image_bytes, config_.image.published}};
+}
+
+void Multibeam::connect(Ports& ports) {
   ports.in<msg::Attitude>("attitude",
                           [this](const msg::Attitude& sensor) {
                             attitude_ = {sensor.heading_grid_rad, sensor.pitch_rad, sensor.roll_rad};
                             heading_.update(1e-9 * static_cast<double>(sensor.stamp_ns), sensor.heading_grid_rad);
                           },
-                          {.delay = from_seconds(config.attitude_latency_s), .optional = true});
+                          {.delay = from_seconds(config_.attitude_latency_s), .optional = true});
 }
 
-SimTime MultibeamNode::step(SimTime now) {
-  return cycle_.step(
-      now, [&] { transmit(now); }, [this](const PingUnderWay& ping) { publish(ping); });
-}
-
-void MultibeamNode::transmit(SimTime now) {
-  HeadSettings settings = inputs_.settings_at_ping();
+Multibeam::Sent Multibeam::transmit(SimTime now, HeadSettings settings, const HeadInputs& inputs) {
   follow_range(settings);
   if (settings.auto_range) settings.range_m = range_.range_m();
   const SimTime reception = from_seconds(config_.reception_s(settings.range_m, settings.pulse_length_s));
-  std::vector<Transmission> sectors;
+  Sent sent;
   for (const auto& sector : config_.all_sectors()) {
-    sectors.push_back({.frequency_hz = sector.frequency_hz,
-                       .pulse_length_s = settings.pulse_length_s,
-                       .reception = reception,
-                       .settings = settings,
-                       .bandwidth_hz = config_.bandwidth_hz,
-                       .delay = from_seconds(sector.delay_s)});
+    sent.sectors.push_back({.frequency_hz = sector.frequency_hz,
+                            .pulse_length_s = settings.pulse_length_s,
+                            .reception = reception,
+                            .settings = settings,
+                            .bandwidth_hz = config_.bandwidth_hz,
+                            .delay = from_seconds(sector.delay_s)});
   }
-  cycle_.transmit(now, std::move(sectors));
-  steerings_.push_back(steer(config_, settings.swath_rad, steering_inputs(now)));
+  sent.steering = steer(config_, settings.swath_rad, steering_inputs(now, inputs));
+  return sent;
 }
 
 /// A swath of another width searches for its edges anew.
-void MultibeamNode::follow_range(const HeadSettings& settings) {
+void Multibeam::follow_range(const HeadSettings& settings) {
   if (settings.swath_rad == swath_of_range_rad_) return;
   swath_of_range_rad_ = settings.swath_rad;
   range_ = AutoRange(config_.range_m, 0.5 * settings.swath_rad, config_.beams);
 }
 
 /// Until the probe reports, the head takes the applied profile's speed at the depth where it estimates to be.
-SteeringInputs MultibeamNode::steering_inputs(SimTime now) const {
+SteeringInputs Multibeam::steering_inputs(SimTime now, const HeadInputs& inputs) const {
   SteeringInputs steering_inputs;
   steering_inputs.vehicle = attitude_;
   steering_inputs.mean_heading_rad = heading_.mean_rad();
-  if (const auto probe = inputs_.probe_mps()) {
+  if (const auto probe = inputs.probe_mps()) {
     steering_inputs.sound_speed_mps = *probe;
     return steering_inputs;
   }
-  const auto body = inputs_.estimate().at(now.count(), frames::PoseHistory::Outside::kNearest);
+  const auto body = inputs.estimate().at(now.count(), frames::PoseHistory::Outside::kNearest);
   steering_inputs.sound_speed_mps = applied_.speed_mps(
       body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z() : config_.world.mission.depth_m);
   return steering_inputs;
 }
 
-void MultibeamNode::publish(const PingUnderWay& ping) {
-  const Steering steering = std::move(steerings_.front());
-  steerings_.pop_front();
-  const Transmission& sent = ping.channels.front();
-  const PingEvent event = ping.event();
-  const auto& received = head_.receive_echoes(event, sent.settings, steering, inputs_.truth(), inputs_.seabed());
+Multibeam::Report Multibeam::ping(const PingEvent& event, const Sent& sent, HeadInputs& inputs) {
+  const HeadSettings& settings = sent.sectors.front().settings;
+  head_.receive_echoes(event, settings, sent.steering, inputs.truth(), inputs.seabed(), received_);
 
+  Report report;
   const auto every = [&](int n) { return n > 0 && event.ping % n == 0; };
-  const bool whole = sent.settings.mode == "water_column", phase = whole || every(config_.phase_every);
+  const bool whole = settings.mode == "water_column", phase = whole || every(config_.phase_every);
   if (phase || every(config_.amplitude_every)) {
-    msg::Ping message = head_.ping_message(event, sent.settings, steering, phase);
-    inputs_.fill_track(message.track, ping.transmit, sent.reception);
-    ping_out_.send(message);
+    std::get<0>(report.messages) = head_.ping_message(received_, event, settings, sent.steering, phase);
   }
-  msg::Soundings soundings = soundings_.make(event, sent.settings, steering, received, inputs_.estimate(),
-                                             inputs_.navigation_errors().value_or(config_.uncertainty.unstated()));
-  soundings.applied = head_.applied(event, sent.settings, steering);
-  inputs_.fill_track(soundings.track, ping.transmit, sent.reception);
-  soundings_out_.send(soundings);
-  publish_images(sent.settings, steering, received, soundings);
-  range_.update(soundings_.bottoms(), event.range_m);
-  cycle_.published(trouble(head_.trace_summary(event.range_m, inputs_.seabed())));
+  auto made = soundings_.make(event, settings, sent.steering, received_.sectors, inputs.estimate(),
+                              inputs.navigation_errors().value_or(config_.uncertainty.unstated()));
+  made.soundings.applied = head_.applied(event, settings, sent.steering);
+  add_images(sent, made, report);
+  range_.update(made.bottoms, event.range_m);
+  report.trouble = no_echo_reason(received_.trace);
+  if (report.trouble.empty() && !inputs.estimate().empty() && made.bottoms.empty())
+    report.trouble = "no beam detects the seabed";
+  std::get<1>(report.messages) = std::move(made.soundings);
+  return report;
 }
 
-void MultibeamNode::publish_images(const HeadSettings& settings, const Steering& steering,
-                                   const std::vector<MultibeamHead::Received>& received,
-                                   const msg::Soundings& soundings) {
-  if (!snippets_out_ && !image_out_) return;
-  msg::Snippets snippets = snippets_of(received, steering, soundings_.echoes(), soundings);
-  snippets.applied = soundings.applied;
-  if (snippets_out_) snippets_out_->send(snippets);
-  if (!image_out_) return;
-  msg::SeabedImage image = seabed_image_of(config_, settings, steering, received.front(), lines_, snippets, soundings);
-  image.applied = soundings.applied;
-  image_out_->send(image);
-}
-
-std::string MultibeamNode::trouble(const TraceSummary& trace_summary) const {
-  const std::string why = no_echo_reason(trace_summary);
-  if (!why.empty() || inputs_.estimate().empty()) return why;
-  return soundings_.bottoms().empty() ? "no beam detects the seabed" : "";
+void Multibeam::add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const {
+  if (!config_.snippets && !config_.image.published) return;
+  auto& snippets = std::get<2>(report.messages);
+  auto& image = std::get<3>(report.messages);
+  snippets = snippets_of(received_.sectors, sent.steering, made.echoes, made.soundings);
+  snippets->applied = made.soundings.applied;
+  if (!config_.image.published) return;
+  image = seabed_image_of(config_, sent.sectors.front().settings, sent.steering, received_.sectors.front(),
+                          head_.design().area, *snippets, made.soundings);
+  image->applied = made.soundings.applied;
 }
 
 }  // namespace ensonify

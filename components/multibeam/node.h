@@ -1,56 +1,53 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 
-#include "components/multibeam/arrays.h"
 #include "components/multibeam/head.h"
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
-#include "components/runtime/ports.h"
 #include "components/sonar/auto_range.h"
-#include "components/sonar/head_inputs.h"
-#include "components/sonar/ping_cycle.h"
+#include "components/sonar/head_node.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
 
-/// Two kinds of event: a transmission, at which the settings and the steering of the ping are fixed, and the end of its
-/// processing, at which every pose it needs has arrived and it is computed and published.
-class MultibeamNode {
+/// A swath per ping: its image, soundings, and if asked for snippets and the seabed's image. The motion sensor and the
+/// probe steer it.
+class Multibeam {
  public:
   using Config = MultibeamConfig;
   static constexpr const char* kComponent = "multibeam";
+  using Report = HeadReport<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage>;
+  struct Sent {
+    std::vector<Transmission> sectors;
+    Steering steering;
+  };
 
-  MultibeamNode(const Config& config, Ports& ports);
+  static HeadPlan plan(const Config& config);
 
-  SimTime step(SimTime now);
+  Multibeam(const Config& config, std::size_t);
+
+  HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage> outputs() const;
+  void connect(Ports& ports);
+  Sent transmit(SimTime now, HeadSettings settings, const HeadInputs& inputs);
+  Report ping(const PingEvent& event, const Sent& sent, HeadInputs& inputs);
 
  private:
-  void transmit(SimTime now);
-  SteeringInputs steering_inputs(SimTime now) const;
-  void publish(const PingUnderWay& ping);
-  void publish_images(const HeadSettings& settings, const Steering& steering,
-                      const std::vector<MultibeamHead::Received>& received, const msg::Soundings& soundings);
   void follow_range(const HeadSettings& settings);
-  std::string trouble(const TraceSummary& trace_summary) const;
+  SteeringInputs steering_inputs(SimTime now, const HeadInputs& inputs) const;
+  void add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const;
 
   Config config_;
-  AreaLengths lines_;  // at the head's frequency
   MultibeamHead head_;
+  MultibeamHead::Ping received_;
   refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;
-  HeadInputs inputs_;
-  PingCycle cycle_;
   AutoRange range_;
   double swath_of_range_rad_;                 // that range_ knows
-  std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor given
+  std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor gave
   HeadingMean heading_;
-  std::deque<Steering> steerings_;  // of the pings under way
-  Ports::Out<msg::Ping> ping_out_;
-  Ports::Out<msg::Soundings> soundings_out_;
-  std::optional<Ports::Out<msg::Snippets>> snippets_out_;
-  std::optional<Ports::Out<msg::SeabedImage>> image_out_;
 };
+
+using MultibeamNode = HeadNode<Multibeam>;
 
 }  // namespace ensonify

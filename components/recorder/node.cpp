@@ -15,7 +15,7 @@ std::vector<std::string> patterns(const RecorderConfig& config) {
   return patterns;
 }
 
-/// The facts of the run that a reader needs to repeat it.
+/// The facts of the run that a reader needs to repeat it, and what its processes declared of themselves.
 std::vector<record::Attachment> attachments(const std::map<std::string, std::string>& facts) {
   std::vector<record::Attachment> files;
   for (const char* name : {"launch", "scenario"}) {
@@ -26,6 +26,11 @@ std::vector<record::Attachment> attachments(const std::map<std::string, std::str
     const auto fact = facts.find(name);
     if (fact != facts.end()) files.push_back({name, "text/plain", fact->second});
   }
+  std::string notes;
+  for (const auto& [name, value] : facts) {
+    if (name.find('/') != std::string::npos) notes += name + ": " + value + "\n";
+  }
+  if (!notes.empty()) files.push_back({"notes.yaml", "application/yaml", notes});
   return files;
 }
 

@@ -1,41 +1,31 @@
 #pragma once
 
-#include <vector>
-
-#include "components/runtime/ports.h"
 #include "components/sidescan/head.h"
-#include "components/sonar/head_inputs.h"
-#include "components/sonar/ping_cycle.h"
-#include "messages/sonar.h"
+#include "components/sonar/head_node.h"
 
 namespace ensonify {
 
-/// Two kinds of event: a transmission of all channels at once, at which the settings of the ping are fixed, and the end
-/// of its processing, at which every pose it needs has arrived and it is computed and published.
-class SidescanNode {
+/// One channel of a sidescan: both sides and the bottom track of a ping.
+class Sidescan {
  public:
   using Config = SidescanConfig;
   static constexpr const char* kComponent = "sidescan";
 
-  SidescanNode(const Config& config, Ports& ports);
+  static HeadPlan plan(const Config& config);
 
-  SimTime step(SimTime now);
+  Sidescan(const Config& config, std::size_t channel)
+      : config_(config), channel_(config.channels[channel]), head_(config, channel_) {}
+
+  HeadOutputs<msg::Ping, msg::BottomTrack> outputs() const { return {{"ping", head_.max_ping_bytes()}, {"bottom"}}; }
+  SentPing transmit(SimTime now, const HeadSettings& settings, const HeadInputs& inputs) const;
+  HeadReport<msg::Ping, msg::BottomTrack> ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs);
 
  private:
-  struct Channel {
-    SidescanChannel config;
-    SidescanHead head;
-    Ports::Out<msg::Ping> ping_out;
-    Ports::Out<msg::BottomTrack> bottom_out;
-  };
-
-  void transmit(SimTime now);
-  void publish(const PingUnderWay& ping);
-
   Config config_;
-  HeadInputs inputs_;
-  PingCycle cycle_;
-  std::vector<Channel> channels_;
+  SidescanChannel channel_;
+  SidescanHead head_;
 };
+
+using SidescanNode = HeadNode<Sidescan>;
 
 }  // namespace ensonify

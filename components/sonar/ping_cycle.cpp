@@ -50,8 +50,7 @@ void PingCycle::transmit(SimTime now, std::vector<Transmission> channels) {
     transmit.next_ns = clock_.intended().count();
     transmit_out_.send(transmit);
   }
-  under_way_.push_back(
-      {pings_++, now, std::move(channels), inputs_.sound_speed_mps(), now + reception + processing_latency_});
+  under_way_.push_back({pings_++, now, std::move(channels), now + reception + processing_latency_});
 }
 
 void PingCycle::published(const std::string& trouble) {

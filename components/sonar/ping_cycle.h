@@ -29,7 +29,6 @@ struct PingUnderWay {
   std::int64_t ping = 0;
   SimTime transmit{0};
   std::vector<Transmission> channels;  // of one head
-  double sound_speed_mps = 0.0;        // as the head knew it
   SimTime ready{0};                    // its last echo has come and is processed, every pose that it needs is known
 
   std::vector<echo::InterferingTransmission> interfering = {};  // what other heads send meanwhile

@@ -88,6 +88,11 @@ class Record:
             raise RunError(f"{self.file}: is damaged: {error}", EXIT_BAD_INPUT) from None
         self.utc_start_ns = int(self.info.get("utc_start_ns", 0))
 
+    def notes(self) -> dict:
+        """Numbers that the processes declared of themselves: `bow/finest_beam_rad`. Empty if the record does not hold them."""
+        lines = self.attachments.get("notes.yaml", b"").decode().splitlines()
+        return {name: float(value) for name, value in (line.split(": ") for line in lines)}
+
     def topics(self) -> dict:
         """Topic name to (type, number of messages)."""
         return {channel.topic: (channel.type, len(self._messages.get(number, ())) // 3)

@@ -28,6 +28,7 @@ class Records(unittest.TestCase):
             writer.start(profile=profile, library="test")
             writer.add_metadata("ensonify", {"version": "0", "seed": "1", "utc_start_ns": str(UTC_START_NS)})
             writer.add_attachment(0, 0, "scenario.yaml", "text/yaml", b"seed: 1\n")
+            writer.add_attachment(0, 0, "notes.yaml", "application/yaml", b"bow/finest_beam_rad: 0.5\n")
             schema = writer.register_schema("ping/1", "jsonschema", b"{}")
             other = writer.register_schema("of_another/9", "jsonschema", b"{}")
             ping_channel = writer.register_channel("bow/ping", "msgpack", schema)
@@ -51,7 +52,8 @@ class Records(unittest.TestCase):
             self.assertEqual([p.content.ping for p in thinned], [0, 7, 14, 21, 28])
             self.assertEqual([m.content for m in record.messages("x/y")], [{"a": 1}])
             self.assertEqual(len(list(record.messages())), 31)
-            self.assertEqual(record.attachments, {"scenario.yaml": b"seed: 1\n"})
+            self.assertEqual(record.attachments["scenario.yaml"], b"seed: 1\n")
+            self.assertEqual(record.notes(), {"bow/finest_beam_rad": 0.5})
             self.assertEqual(record.info["seed"], "1")
 
     def test_a_truncated_record_is_read_to_its_last_whole_chunk(self):

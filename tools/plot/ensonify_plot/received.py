@@ -9,6 +9,7 @@ from ensonify_plot import geometry
 from ensonify_plot.level import Gain
 from ensonify_plot.survey import UserError
 
+FORWARD_KINDS = ("forward_looking", "scanning")  # by the definition of ping/1, for records without declarations
 PULSES = {"cw": "CW", "cw_tapered": "tapered CW", "fm_up": "FM up", "fm_down": "FM down"}
 
 
@@ -98,9 +99,40 @@ def require_soundings(who: str, power_upa2) -> None:
                         "below the altitude, no terrain, wrong frame)")
 
 
-def of_kinds(kinds: tuple, guess: Callable[[str, ensonify.Ping], bool]) -> Callable[[str, ensonify.Ping], bool]:
-    """Fits the pings of these kinds of heads. Those that do not state their kind are guessed."""
-    return lambda topic, ping: ping.kind in kinds if ping.kind else guess(topic, ping)
+def from_forward(record: ensonify.Record, topic: str, ping: ensonify.Ping) -> bool | None:
+    """Whether a head's beam angles count from its forward axis, as it declares; where that was not recorded, by its kind as
+    ping/1 says; None if nothing says."""
+    declared = record.notes().get(f"{process_of(topic)}/beams_from_forward")
+    if declared is not None:
+        return declared == 1
+    return ping.kind in FORWARD_KINDS if ping.kind else None
+
+
+def of_heads(record: ensonify.Record, forward: bool, beams: Callable[[ensonify.Ping], bool],
+             guess: Callable[[str, ensonify.Ping], bool]) -> Callable[[str, ensonify.Ping], bool]:
+    """Fits the pings of heads that count their beams from this axis and have such beams. Without a known axis they are guessed."""
+
+    def fits(topic: str, ping: ensonify.Ping) -> bool:
+        axis = from_forward(record, topic, ping)
+        return guess(topic, ping) if axis is None else axis == forward and beams(ping)
+
+    return fits
+
+
+def is_fan(ping: ensonify.Ping) -> bool:
+    """Many beams."""
+    return ping.beam_angle_rad.size > 2
+
+
+def is_single(ping: ensonify.Ping) -> bool:
+    """One beam."""
+    return ping.beam_angle_rad.size == 1
+
+
+def has_two_sides(ping: ensonify.Ping) -> bool:
+    """Two beams, one to each side."""
+    angle = ping.beam_angle_rad
+    return angle.size == 2 and bool((angle < 0).any() and (angle > 0).any())
 
 
 def choose_topic(record: ensonify.Record, asked: str | None, fits: Callable[[str, ensonify.Ping], bool], what: str,
@@ -129,7 +161,7 @@ def _head(messages: Iterator) -> list:
 
 
 def heads_with_soundings(record: ensonify.Record) -> set:
-    """Processes that sound the bottom: multibeams."""
+    """Processes that publish soundings."""
     return {process_of(topic) for topic in record.topics_of(ensonify.Soundings)}
 
 

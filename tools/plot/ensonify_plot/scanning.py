@@ -18,11 +18,6 @@ SAME_RAD = math.radians(0.02)  # directions nearer than this are one: no head st
 SAME_STEP = 0.01  # a hundredth of the range, half a pixel
 
 
-def is_scanning(_: str, ping: ensonify.Ping) -> bool:
-    """Of a ping that does not state its kind: a single beam."""
-    return ping.beam_angle_rad.size == 1
-
-
 def turn_of(record: ensonify.Record, topic: str, number: int | None, t_s: float | None) -> list:
     """The newest row of every direction up to a ping (the last one, this number, or the first at or after this time), earliest
     first. Rows from before a change of range are left out."""

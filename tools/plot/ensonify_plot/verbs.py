@@ -6,8 +6,8 @@ import ensonify
 from ensonify_plot import angular_response, scanning, water_column, waterfall
 from ensonify_plot.coverage import coverage_picture
 from ensonify_plot.forward_looking import forward_looking_picture
-from ensonify_plot.received import (Span, choose_ping, choose_topic, heads_with_soundings, of_kinds, pings_in, process_of,
-                                 soundings_of)
+from ensonify_plot.received import (Span, choose_ping, choose_topic, has_two_sides, heads_with_soundings, is_fan, is_single, of_heads,
+                                     pings_in, process_of, soundings_of)
 from ensonify_plot.level import Gain
 from ensonify_plot.lod import add_lod
 from ensonify_plot.navigation import navigation_picture
@@ -174,20 +174,21 @@ def multibeam_topic(record: ensonify.Record, asked: str | None, or_first: bool =
     """The ping topic of the head that sounds, or, where no soundings were recorded, the one with many beams."""
     sounding = heads_with_soundings(record)
 
-    def fits(topic, ping):
-        return ping.beam_angle_rad.size > 2 and (not sounding or process_of(topic) in sounding)
+    def guess(topic, ping):
+        return is_fan(ping) and (not sounding or process_of(topic) in sounding)
 
-    return choose_topic(record, asked, of_kinds(("multibeam",), fits), "pings of a multibeam", or_first)
+    return choose_topic(record, asked, of_heads(record, False, is_fan, guess), "pings of a multibeam", or_first)
 
 
 def downward_topic(record: ensonify.Record, asked: str | None) -> str:
     """The ping topic of the head that sounds, a single beam included, or where no soundings were recorded that of no sidescan."""
     sounding = heads_with_soundings(record)
 
-    def fits(topic, ping):
-        return process_of(topic) in sounding if sounding else not waterfall.is_sidescan(topic, ping)
+    def guess(topic, ping):
+        return process_of(topic) in sounding if sounding else not has_two_sides(ping)
 
-    return choose_topic(record, asked, of_kinds(("multibeam", "echosounder"), fits), "pings of a head that points down")
+    fits = of_heads(record, False, lambda ping: not has_two_sides(ping), guess)
+    return choose_topic(record, asked, fits, "pings of a head that points down")
 
 
 def plot_ping(options) -> int:
@@ -213,10 +214,10 @@ def plot_fls(options) -> int:
     record = open_record(options.record)
     sounding = heads_with_soundings(record)
 
-    def fits(topic, ping):
-        return ping.beam_angle_rad.size > 2 and process_of(topic) not in sounding
+    def guess(topic, ping):
+        return is_fan(ping) and process_of(topic) not in sounding
 
-    topic = choose_topic(record, options.topic, of_kinds(("forward_looking",), fits), "forward-looking pings")
+    topic = choose_topic(record, options.topic, of_heads(record, True, is_fan, guess), "forward-looking pings")
     received = choose_ping(record, topic, options.ping, options.t)
     save_picture(record, options.out, f"fls_{received.ping.ping}.png", forward_looking_picture(received, _show(options)))
     return 0
@@ -225,7 +226,8 @@ def plot_fls(options) -> int:
 def plot_scan(options) -> int:
     """`ensonify plot scan`."""
     record = open_record(options.record)
-    topic = choose_topic(record, options.topic, of_kinds(("scanning",), scanning.is_scanning), "pings of a scanning head")
+    fits = of_heads(record, True, is_single, lambda _, ping: is_single(ping))
+    topic = choose_topic(record, options.topic, fits, "pings of a scanning head")
     turn = scanning.turn_of(record, topic, options.ping, options.t)
     save_picture(record, options.out, f"scan_{turn[-1].ping.ping}.png", scanning.scan_picture(turn, _show(options)))
     return 0

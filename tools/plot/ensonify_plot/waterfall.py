@@ -4,7 +4,7 @@ from matplotlib.colors import LinearSegmentedColormap
 
 import ensonify
 from ensonify_plot import geometry
-from ensonify_plot.received import Span, choose_topic, require_soundings, of_kinds, one_of_process, pings_in
+from ensonify_plot.received import Span, choose_topic, has_two_sides, require_soundings, of_heads, one_of_process, pings_in
 from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
 from ensonify_plot.ping import EMPTY, FINDS, Show, bar
 from ensonify_plot.pictures import new_figure
@@ -18,17 +18,12 @@ LEVELLED = Gain(30.0)  # a seabed cut by the pulse, where the head has no gain l
 CELLS = 480  # of a side
 
 
-def is_sidescan(_: str, ping: ensonify.Ping) -> bool:
-    """Two beams, one to each side."""
-    angle = ping.beam_angle_rad
-    return angle.size == 2 and bool((angle < 0).any() and (angle > 0).any())
-
-
 def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span, ground: bool) -> tuple:
     """(pings, valid bottom tracks by ping number) of a span."""
-    topic = choose_topic(record, topic, of_kinds(("sidescan",), is_sidescan), "sidescan pings (one beam to port, one to starboard)")
+    fits = of_heads(record, False, has_two_sides, lambda _, ping: has_two_sides(ping))
+    topic = choose_topic(record, topic, fits, "sidescan pings (one beam to port, one to starboard)")
     pings = list(pings_in(record, topic, numbers, times))
-    odd = next((received for received in pings if not is_sidescan(topic, received.ping)), None)
+    odd = next((received for received in pings if not has_two_sides(received.ping)), None)
     if odd:
         raise UserError(f"{record.file}: ping {odd.ping.ping} of {topic} has {len(odd.angle_rad)} beams; a waterfall needs one to "
                         "port (beam_angle_rad below 0) and one to starboard")

@@ -12,12 +12,14 @@ SOUND_SPEED_MPS = 1500.0
 SILENCE_UPA = 10.0  # rms noise
 
 
-def write(file, messages):
-    """A record of (topic, message) in the order given."""
+def write(file, messages, notes=""):
+    """A record of (topic, message) in the order given, and what the processes declared."""
     with open(file, "wb") as stream:
         writer = Writer(stream, chunk_size=1 << 20, compression=CompressionType.NONE)
         writer.start(profile="x-ensonify/1", library="test")
         writer.add_metadata("ensonify", {"version": "0.1.0", "seed": "1", "utc_start_ns": "0"})
+        if notes:
+            writer.add_attachment(0, 0, "notes.yaml", "application/yaml", notes.encode())
         channels = {}
         for topic, message in messages:
             if topic not in channels:

@@ -1,5 +1,6 @@
 """Pictures of pings on echoes whose places are known: what stands where, in which level, and what is refused."""
 import contextlib
+import dataclasses
 import importlib.util
 import io
 import pathlib
@@ -341,6 +342,15 @@ class Commands(unittest.TestCase):
                 code, _, errors = run(*arguments)
                 self.assertEqual(code, 2)
                 self.assertIn(why, " ".join(errors.split()))
+
+    def test_a_head_is_found_by_what_it_declares_whatever_its_kind(self):
+        pings = [(topic, dataclasses.replace(ping, kind="a new head")) for topic, ping in made.forward_looking()]
+        new = made.write(self.root / "new.mcap", pings, "eye/beams_from_forward: 1\neye/finest_beam_rad: 0.02\n")
+        down = made.write(self.root / "down.mcap", pings, "eye/beams_from_forward: 0\n")
+        with tempfile.TemporaryDirectory() as out:
+            self.assertEqual(run("fls", new, "--out", out)[0], 0)
+            self.assertEqual(run("fan", down, "--out", out)[0], 0)
+            self.assertIn("no topic is known to hold forward-looking pings", run("fls", down, "--out", out)[2])
 
     def test_a_survey_survives_a_silent_ping(self):
         with tempfile.TemporaryDirectory() as out:

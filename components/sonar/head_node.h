@@ -1,0 +1,176 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "components/runtime/ports.h"
+#include "components/sonar/head_config.h"
+#include "components/sonar/head_inputs.h"
+#include "components/sonar/ping_cycle.h"
+
+namespace ensonify {
+
+/// Axis of a head's frame from which the angles of its beams are counted, positive to starboard.
+enum class BeamAxis { kDown, kForward };
+
+/// Declaration of a head: what follows from its parameters before the run.
+struct HeadPlan {
+  std::vector<HeadInputs::Channel> channels;  // that ping together, each with settings of its own
+  int sectors = 1;                            // transmissions of each channel
+  double longest_reception_s = 0.0;           // with the longest range and pulse that can be set
+  double finest_beam_rad = 0.0;
+  BeamAxis beam_axis = BeamAxis::kDown;
+  bool probe = false;  // for the sound speed at its face
+};
+
+/// Output of a channel: its port and the longest message. In a head whose channels have names the port is `port_name`.
+template <msg::Message M>
+struct HeadOutput {
+  std::string port;
+  std::size_t max_bytes = OutOptions{}.max_bytes;
+  bool declared = true;
+};
+template <msg::Message... M>
+using HeadOutputs = std::tuple<HeadOutput<M>...>;
+
+/// A channel's part of a ping at its transmission.
+struct SentPing {
+  std::vector<Transmission> sectors;
+  double sound_speed_mps = 0.0;  // as the head knows it
+};
+
+/// A channel's part of a ping at its publication: messages without tracks, in the order of the outputs.
+template <msg::Message... M>
+struct HeadReport {
+  std::tuple<std::optional<M>...> messages;
+  bool seabed_in_range = true;  // a ray hit it
+  std::string trouble = {};     // else, for health; "" when all is well
+};
+
+/// Channel that could only receive noise.
+struct SilentChannel {
+  std::string name;
+  double range_m = 0.0;
+};
+
+HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan);
+/// Declares in notes what a head is, for those that look for heads: `ensonify check`, plots, benchmarks, tests.
+void note_head(Ports& ports, const HeadPlan& plan);
+std::string no_seabed_reason(const std::vector<SilentChannel>& silent);
+
+/// Node of any head: inputs, ping cycle and, for each channel, the head itself as a value with its outputs. Two kinds
+/// of event: a transmission of all channels at once, at which the settings are fixed, and the end of its processing,
+/// at which every pose it needs has arrived and it is computed and published.
+///
+/// A head gives:
+///   Config, kComponent                     its HeadConfig and the name of its program
+///   static HeadPlan plan(config)
+///   Head(config, channel)                  one per channel
+///   HeadOutputs<M...> outputs()
+///   sent transmit(now, settings, inputs)   a SentPing, or a type of its own with the member `sectors`
+///   HeadReport<M...> ping(event, sent, inputs)
+///   connect(ports)                         only if it has inputs of its own
+template <class Head>
+class HeadNode {
+ public:
+  using Config = typename Head::Config;
+  static constexpr const char* kComponent = Head::kComponent;
+
+  HeadNode(const Config& config, Ports& ports) : HeadNode(config, Head::plan(config), ports) {}
+
+  SimTime step(SimTime now) {
+    return cycle_.step(
+        now, [&] { transmit(now); }, [this](const PingUnderWay& ping) { publish(ping); });
+  }
+
+ private:
+  using Sent = decltype(std::declval<Head&>().transmit(SimTime{}, HeadSettings{}, std::declval<const HeadInputs&>()));
+
+  template <class Outputs>
+  struct OutsOf;
+  template <msg::Message... M>
+  struct OutsOf<HeadOutputs<M...>> {
+    using Type = std::tuple<std::optional<Ports::Out<M>>...>;
+  };
+  using Outs = typename OutsOf<decltype(std::declval<const Head&>().outputs())>::Type;
+
+  struct Channel {
+    Channel(const Config& config, std::size_t number, std::string its_name)
+        : name(std::move(its_name)), head(config, number) {}
+
+    std::string name;  // "": the only one
+    Head head;
+    Outs outs;
+    std::deque<Sent> under_way = {};
+  };
+
+  HeadNode(const Config& config, const HeadPlan& plan, Ports& ports)
+      : inputs_(ports, inputs_of(config, plan)), cycle_(ports, inputs_, config.timing()) {
+    for (const HeadInputs::Channel& planned : plan.channels) {
+      Channel& channel = channels_.emplace_back(config, channels_.size(), planned.name);
+      declare(channel, config.timing().rate, ports);
+      if constexpr (requires { channel.head.connect(ports); }) channel.head.connect(ports);
+    }
+    note_head(ports, plan);
+  }
+
+  void declare(Channel& channel, Rate rate, Ports& ports) {
+    const auto declare = [&]<msg::Message M>(const HeadOutput<M>& output, std::optional<Ports::Out<M>>& out) {
+      const std::string port = channel.name.empty() ? output.port : output.port + "_" + channel.name;
+      if (output.declared) out = ports.out<M>(port, {.max_bytes = output.max_bytes, .rate = rate});
+    };
+    for_pairs(channel.head.outputs(), channel.outs, declare);
+  }
+
+  void transmit(SimTime now) {
+    std::vector<Transmission> sectors;
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      Channel& channel = channels_[i];
+      channel.under_way.push_back(channel.head.transmit(now, inputs_.settings_at_ping(i), inputs_));
+      const auto& sent = channel.under_way.back().sectors;
+      sectors.insert(sectors.end(), sent.begin(), sent.end());
+    }
+    cycle_.transmit(now, std::move(sectors));
+  }
+
+  void publish(const PingUnderWay& ping) {
+    std::vector<SilentChannel> silent;
+    std::string trouble;
+    std::size_t sector = 0;
+    for (Channel& channel : channels_) {
+      const Sent sent = std::move(channel.under_way.front());
+      channel.under_way.pop_front();
+      auto report = channel.head.ping(ping.event(sector), sent, inputs_);
+      sector += sent.sectors.size();
+
+      for_pairs(report.messages, channel.outs, [&](auto& message, auto& out) {
+        if (!message || !out) return;
+        if constexpr (requires { message->track; }) {
+          inputs_.fill_track(message->track, ping.transmit, sent.sectors.front().reception);
+        }
+        out->send(*message);
+      });
+      if (!report.seabed_in_range) silent.push_back({channel.name, sent.sectors.front().settings.range_m});
+      if (trouble.empty()) trouble = report.trouble;
+    }
+    cycle_.published(silent.empty() ? trouble : no_seabed_reason(silent));
+  }
+
+  /// act(a, b) of the elements of two tuples, in their order.
+  template <class A, class B, class Act>
+  static void for_pairs(A&& a, B&& b, const Act& act) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (act(std::get<i>(a), std::get<i>(b)), ...);
+    }(std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<A>>>());
+  }
+
+  HeadInputs inputs_;
+  PingCycle cycle_;
+  std::deque<Channel> channels_;
+};
+
+}  // namespace ensonify
