@@ -1,5 +1,7 @@
 # The kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)  # what does not say COMPONENT development
+
 # The standard headers and Eigen are compiled once, for all units: half of what a unit would cost (docs/decisions).
 # Precompiling changes no result; every file still includes what it uses.
 file(WRITE ${CMAKE_BINARY_DIR}/generated/pch.cpp "")
@@ -22,7 +24,7 @@ function(ensonify_library name)
   endif()
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(folder MATCHES "^(kernels|messages)")
-    ensonify_export(${name} ${folder})
+    ensonify_export(${name})
     if(folder MATCHES "^kernels")
       target_link_libraries(ensonify_kernels INTERFACE ${name})
     endif()
@@ -30,14 +32,10 @@ function(ensonify_library name)
 endfunction()
 
 # Makes a library one that other projects can link as ensonify::<short name> (InstallRules.cmake).
-function(ensonify_export name folder)
+function(ensonify_export name)
   string(REPLACE "ensonify_" "" short ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
   install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
-  if(folder)
-    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/ensonify/${folder} COMPONENT development
-            FILES_MATCHING PATTERN "*.h")
-  endif()
 endfunction()
 
 # ensonify_testing_library(NAME SOURCES ... DEPS ...): code that only tests and benchmarks use; in */testing, never installed.
@@ -52,8 +50,8 @@ function(ensonify_testing_library name)
 endfunction()
 
 add_library(ensonify_kernels INTERFACE)  # all kernels at once
-ensonify_export(ensonify_settings "")
-ensonify_export(ensonify_kernels "")
+ensonify_export(ensonify_settings)
+ensonify_export(ensonify_kernels)
 
 # ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
 function(ensonify_program name)

@@ -5,16 +5,13 @@
 
 #include "components/autopilot/testing/loop.h"
 #include "components/config/config_error.h"
-#include "scenarios/world/testing/default_yaml.h"
+#include "components/config/testing/parameter_files.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
 
-TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
-  World world;
-  world.vehicles.resize(1);
-  world.mission.steps = steps_of({{{0, 0}, {0, 100}}});
-  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", world) == "");
+TEST_CASE("autopilot: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("autopilot", parameters_of<AutopilotParameters>()) == "");
 }
 
 TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the run ends") {

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "scenarios/world/testing/default_yaml.h"
+#include "components/config/testing/parameter_files.h"
+#include "scenarios/scenario_file.h"
 
 using namespace ensonify;
 
@@ -10,7 +11,7 @@ namespace {
 
 RecorderConfig read(const std::string& yaml) {
   auto from = ConfigReader::from_text(yaml, "r.yaml");
-  RecorderConfig config = RecorderConfig::read(from, World{}, "recorder");
+  RecorderConfig config = RecorderConfig::read(from, ScenarioHeader{});
   from.finish();
   return config;
 }
@@ -26,8 +27,8 @@ std::string problem(const std::string& yaml) {
 
 }  // namespace
 
-TEST_CASE("recorder/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<RecorderConfig>("recorder", World{}) == "");
+TEST_CASE("recorder: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("recorder", parameters_of<RecorderParameters>()) == "");
 }
 
 TEST_CASE("topics are all, a list or a map") {
