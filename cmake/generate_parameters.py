@@ -31,8 +31,11 @@ def main():
     bin_folder, check = pathlib.Path(sys.argv[1]), "--check" in sys.argv[2:]
     stale, components = [], 0
     for default in sorted(ROOT.glob("components/*/default.yaml")):
+        program = bin_folder / f"ensonify-{default.parent.name}"
+        if "`" not in printed(program, "table"):  # it has no list: its file is written by hand
+            continue
         components += 1
-        for path, text in wanted_files(default.parent, bin_folder / f"ensonify-{default.parent.name}"):
+        for path, text in wanted_files(default.parent, program):
             if path.read_text(encoding="utf-8") == text:
                 continue
             stale.append(str(path.relative_to(ROOT)))
