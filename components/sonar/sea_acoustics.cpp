@@ -13,7 +13,7 @@
 namespace ensonify {
 namespace {
 
-constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
+constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
 constexpr std::size_t kRaysPerTask = 4096;
 
@@ -66,7 +66,7 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
   if (effects_.multipath) {
     const echo::MultipathHead head{
         .source_level_db = sent_db(shot.source_level_db),
-        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarAway_m); }};
+        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarField_m); }};
     echo::SurfaceMirror surface;
     surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
     surface.sound_speed_mps = sound_speed_mps(pose);
