@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "components/config/config_reader.h"
 #include "components/config/testing/parameter_files.h"
 #include "components/errors/exit_error.h"
 #include "components/record/writer.h"
