@@ -33,6 +33,7 @@ Json type_of(const ParameterInfo& p) {
     }
     case Kind::kBool: return {{"type", "boolean"}};
     case Kind::kText:
+      if (p.allowed.text == Allowed::Text::kPath) return {{"type", "string"}};  // a launch may fill in an empty one
       return p.allowed.text == Allowed::Text::kAny ? Json{{"type", {"string", "number", "boolean"}}}
                                                    : Json{{"type", "string"}, {"minLength", 1}};
     case Kind::kWord: {

@@ -168,6 +168,7 @@ void read_sediments(ConfigReader from, Seabed& seabed) {
 Allowed names_of_sediments() {
   Allowed names;
   for (const auto& sediment : seabed::named_sediments()) names.words.emplace_back(std::string(sediment.name).c_str());
+  for (const auto& other : seabed::other_sediment_names()) names.words.emplace_back(std::string(other.first).c_str());
   return names;
 }
 
