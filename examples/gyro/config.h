@@ -4,11 +4,11 @@
 #include <string>
 
 #include "components/config/parameters.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 
 class ConfigReader;
-struct World;
 
 struct GyroParameters {
   int rate_hz = 10;
