@@ -34,7 +34,7 @@ def drawn_errors(surveys: int) -> list:
     """Arguments of each survey: normal errors of the stated deviations. Each source has one value in every `surveys`-th of its
     distribution (a Latin hypercube), then all are mixed a little so that over the surveys they are uncorrelated and of mean 0 and exactly
     their deviation: so then is what any sum of them does to a sounding. What the navigation errs by for most of a survey, above all its heading,
-    is not drawn here and not spread evenly: docs/uncertainty.md."""
+    is not drawn here and not spread evenly: docs/manual/uncertainty.md."""
     draw = np.random.default_rng(20250601)
     deviations = [(name, deviation) for name, (_, several) in ERRORS.items() for deviation in several]
     levels = np.stack([(draw.permutation(surveys) + draw.random(surveys)) / surveys for _ in deviations], axis=1)

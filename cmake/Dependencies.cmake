@@ -7,6 +7,7 @@ find_package(CLI11 REQUIRED)
 find_package(GDAL REQUIRED)
 find_package(PNG REQUIRED)
 find_package(OpenSSL REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZMQ REQUIRED IMPORTED_TARGET libzmq)
 

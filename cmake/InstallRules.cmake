@@ -1,9 +1,33 @@
-# What lands under <prefix>: programs in bin (Targets.cmake), worlds and launch files in share/ensonify, and the kernels
-# and messages libraries with their headers, for `find_package(ensonify)`: targets ensonify::messages, ensonify::kernels.
+# What lands under <prefix>, in two components.
+#   programs      programs in bin (Targets.cmake), worlds and launch files in share/ensonify, manual pages, completions
+#   development   the kernels and messages libraries with their public headers, for `find_package(ensonify)`: targets
+#                 ensonify::messages, ensonify::kernels
 include(CMakePackageConfigHelpers)
 
-install(DIRECTORY scenarios launch DESTINATION share/ensonify
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "README.md")
+file(GLOB_RECURSE data RELATIVE ${CMAKE_SOURCE_DIR}
+     scenarios/*.yaml scenarios/*.csv scenarios/*.obj scenarios/README.md launch/*.yaml launch/README.md)
+foreach(file IN LISTS data)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION share/ensonify/${folder})
+endforeach()
+
+# Written from what the installed programs say for --help.
+set(help ${CMAKE_BINARY_DIR}/help)
+install(CODE "
+  file(REMOVE_RECURSE ${help})
+  execute_process(COMMAND ${ENSONIFY_PYTHON} ${CMAKE_SOURCE_DIR}/cmake/package/write_help.py
+                          \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\" ${PROJECT_VERSION} ${help} COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${help}/ DESTINATION share)
+
+# Chosen at install time, for any file that is built may change who uses a header.
+install(CODE "
+  execute_process(COMMAND ${ENSONIFY_PYTHON} ${CMAKE_SOURCE_DIR}/cmake/public_headers.py
+                  OUTPUT_VARIABLE headers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE \"\\n\" \";\" headers \"\${headers}\")
+  foreach(header IN LISTS headers)
+    get_filename_component(folder \${header} DIRECTORY)
+    file(INSTALL ${CMAKE_SOURCE_DIR}/\${header} DESTINATION \${CMAKE_INSTALL_PREFIX}/include/ensonify/\${folder})
+  endforeach()" COMPONENT development)
 
 set(package lib/cmake/ensonify)
 install(EXPORT ensonifyTargets NAMESPACE ensonify:: DESTINATION ${package} COMPONENT development)

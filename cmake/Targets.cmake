@@ -1,5 +1,7 @@
 # The kinds of target. A folder's CMakeLists.txt is a handful of calls to these.
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)  # what does not say COMPONENT development
+
 # The standard headers and Eigen are compiled once, for all units: half of what a unit would cost (docs/decisions).
 # Precompiling changes no result; every file still includes what it uses.
 file(WRITE ${CMAKE_BINARY_DIR}/generated/pch.cpp "")
@@ -22,7 +24,7 @@ function(ensonify_library name)
   endif()
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(folder MATCHES "^(kernels|messages)")
-    ensonify_export(${name} ${folder})
+    ensonify_export(${name})
     if(folder MATCHES "^kernels")
       target_link_libraries(ensonify_kernels INTERFACE ${name})
     endif()
@@ -30,14 +32,10 @@ function(ensonify_library name)
 endfunction()
 
 # Makes a library one that other projects can link as ensonify::<short name> (InstallRules.cmake).
-function(ensonify_export name folder)
+function(ensonify_export name)
   string(REPLACE "ensonify_" "" short ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
   install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
-  if(folder)
-    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/ensonify/${folder} COMPONENT development
-            FILES_MATCHING PATTERN "*.h")
-  endif()
 endfunction()
 
 # ensonify_testing_library(NAME SOURCES ... DEPS ...): code that only tests and benchmarks use; in */testing, never installed.
@@ -52,8 +50,8 @@ function(ensonify_testing_library name)
 endfunction()
 
 add_library(ensonify_kernels INTERFACE)  # all kernels at once
-ensonify_export(ensonify_settings "")
-ensonify_export(ensonify_kernels "")
+ensonify_export(ensonify_settings)
+ensonify_export(ensonify_kernels)
 
 # ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
 function(ensonify_program name)
@@ -107,7 +105,7 @@ function(ensonify_check name)
 endfunction()
 
 # ensonify_python_test(NAME FILE PATHS folder... LABELS unit TIMEOUT s): a unittest file that can import the project's
-# client and what is in PATHS.
+# client, tests/support and what is in PATHS.
 function(ensonify_python_test name file)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -116,7 +114,8 @@ function(ensonify_python_test name file)
   ensonify_check(${name} COMMAND ${ENSONIFY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v
                  LABELS ${ARG_LABELS} TIMEOUT ${ARG_TIMEOUT})
   list(JOIN ARG_PATHS ":" paths)
-  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${paths})
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT
+    PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${CMAKE_SOURCE_DIR}/tests/support:${paths})
 endfunction()
 
 # Labels, time limit and environment of a test. Whole systems and measurements run alone, the others side by side.

@@ -80,7 +80,7 @@ def visible_folders(path):
     room = max((r for r in SEES if path.startswith(r + "/")), key=len)
     own = "/".join(parts[:2]) if room in ("components", "tools") and len(parts) > 2 else room
     seen = [own] + SEES[room]
-    if is_test(path) or is_bench(path) or "/testing/" in path or parts[-1].startswith("test_"):
+    if is_test(path) or is_bench(path) or "/testing/" in path:
         seen += ["tests/support"] + (["kernels"] if parts[0] == "kernels" else []) + (["scenarios"] if parts[0] == "launch" else [])
     return seen
 
@@ -137,6 +137,12 @@ PLANTED = {
     "messages/m.h": [("<cstdint>", None), ("<msgpack.hpp>", "messages/*.cpp"), ('"kernels/a/a.h"', "out of sight")],
     "messages/m.cpp": [("<msgpack.hpp>", None), ('"messages/m.h"', None), ("<fmt/core.h>", "standard library only")],
     "components/runtime/bus/z.cpp": [("<zmq.h>", None), ('"messages/m.h"', None)],
+    "kernels/base/b.h": [("<Eigen/Core>", None), ('"kernels/water/w.h"', "out of sight")],
+    "kernels/water/w.h": [('"kernels/base/b.h"', None), ('"kernels/acoustics/e.h"', "out of sight")],
+    "kernels/acoustics/e.h": [('"kernels/water/w.h"', None)],
+    "components/config/c.cpp": [('"kernels/base/b.h"', "out of sight"), ('"messages/m.h"', "out of sight")],
+    "components/runtime/r.cpp": [('"kernels/base/b.h"', "out of sight"), ('"components/config/c.cpp"', "out of sight")],
+    "scenarios/world/w.h": [('"kernels/base/b.h"', None), ('"components/runtime/ports.h"', "out of sight")],
     "components/runtime/ports.h": [('"components/x/x.h"', "out of sight"), ("<nlohmann/json.hpp>", "json_fwd")],
     "components/x/x.h": [('"components/x/x.h"', None), ('"components/runtime/ports.h"', None),
                          ('"components/y/y.h"', "out of sight"), ("<zmq.hpp>", "components/runtime/bus")],

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/plots.md (and the ping of docs/first-survey.md) by the commands that the page gives.
+"""Draws the pictures of docs/manual/plots.md (and the ping of docs/manual/first-survey.md) by the commands that the page gives.
 
     docs/draw_plots.py first.mcap forward_looking.mcap scanning.mcap
 
-The first record is that of docs/first-survey.md with `amplitude_every: 1`, the others those of launch/forward_looking.yaml and
+The first record is that of docs/manual/first-survey.md with `amplitude_every: 1`, the others those of launch/forward_looking.yaml and
 launch/scanning.yaml. What these heads cannot show is drawn from echoes made by formula (tools/plot/tests/synthetic_heads.py, which needs the package mcap).
 """
 import pathlib

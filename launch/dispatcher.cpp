@@ -37,6 +37,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"compare", "say where two records differ"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},
+    {"plan", "surveys before they are run: lines, speed, sidescan, import"},
     {"terrain", "seabeds on disk: build, info, verify, sample"},
     {"doctor", "check this machine and installation"},
     {"patch", "the patch test of a multibeam, from a record of its lines"},

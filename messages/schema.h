@@ -78,7 +78,7 @@ std::string type_in_words(const FieldInfo& field);
 /// JSON Schema of the type's map with its arrays inside (as in records), one line, the same in every run. "" for null.
 std::string json_schema(const TypeInfo* type);
 
-/// docs/messages.md.
+/// docs/manual/messages.md.
 std::string reference_page();
 
 }  // namespace ensonify::msg

@@ -77,11 +77,11 @@ TEST_CASE("the JSON Schema of a type names its fields, units and arrays") {
   CHECK(json_schema(nullptr).empty());
 }
 
-TEST_CASE("docs/messages.md is what the structs say") {
-  const std::string written = read_file(source() / "docs/messages.md");
+TEST_CASE("docs/manual/messages.md is what the structs say") {
+  const std::string written = read_file(source() / "docs/manual/messages.md");
   const std::string generated = reference_page();
   const auto differ = std::mismatch(written.begin(), written.end(), generated.begin(), generated.end());
-  INFO("renew it: ensonify describe --reference > docs/messages.md");
+  INFO("renew it: ensonify describe --reference > docs/manual/messages.md");
   INFO("generated from here: " << std::string(differ.second, generated.end()).substr(0, 80));
   CHECK((written == generated));
 }

@@ -55,7 +55,7 @@ struct Mesh {
   static constexpr const char* kAbout =
       "A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it "
       "needs "
-      "the vertices and triangles alone; the splits say how to coarsen it (docs/seabed/irregular-meshes.md).";
+      "the vertices and triangles alone; the splits say how to coarsen it (docs/physics/mesh/irregular-meshes.md).";
   std::int64_t number = 0;
   std::string name;
   std::int64_t sediment = 0;

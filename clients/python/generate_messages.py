@@ -22,7 +22,7 @@ DTYPES = {"std::uint8_t": "u1", "std::int16_t": "i2", "std::uint16_t": "u2", "st
 
 HEADER = '''"""Message types, generated from messages/*.h by generate_messages.py: edit those, not this.
 
-Arrays are numpy arrays; received ones are read-only views. docs/messages.md is the reference.
+Arrays are numpy arrays; received ones are read-only views. docs/manual/messages.md is the reference.
 """
 from dataclasses import dataclass
 

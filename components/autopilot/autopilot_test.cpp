@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "components/autopilot/test_loop.h"
+#include "components/autopilot/testing/loop.h"
 #include "components/config/config_error.h"
 #include "scenarios/world/testing/default_yaml.h"
 

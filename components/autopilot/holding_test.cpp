@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/autopilot/test_loop.h"
+#include "components/autopilot/testing/loop.h"
 #include "components/config/config_reader.h"
 
 using namespace ensonify;

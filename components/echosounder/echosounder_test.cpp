@@ -5,9 +5,9 @@
 
 #include "components/echosounder/node.h"
 #include "components/runtime/testing/node_under_test.h"
-#include "components/sonar/test_config.h"
-#include "components/sonar/test_mesh.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/config.h"
+#include "components/sonar/testing/mesh.h"
+#include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"

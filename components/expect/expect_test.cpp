@@ -15,7 +15,6 @@
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
-#include "scenarios/world/world.h"
 
 using namespace ensonify;
 namespace fs = std::filesystem;
@@ -24,7 +23,7 @@ namespace {
 
 ExpectConfig config_of(const std::string& list) {
   auto from = ConfigReader::from_text("expect:\n" + list, "run.yaml");
-  const auto config = ExpectConfig::read(from, World{}, "expect");
+  const auto config = ExpectConfig::read(from);
   from.finish();
   return config;
 }
@@ -268,7 +267,7 @@ TEST_CASE("mistakes in the list are reported with their places") {
 
 TEST_CASE("expect/default.yaml shows every kind but the one that needs a file") {
   auto from = ConfigReader::from_file(std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/expect/default.yaml");
-  const auto config = ExpectConfig::read(from, World{}, "expect");
+  const auto config = ExpectConfig::read(from);
   from.finish();
   CHECK(config.expectations.size() == 7);
   CHECK(config.expectations[0].name == "most pings have most of their beams");

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/sonar/test_config.h"
+#include "components/sonar/testing/config.h"
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "components/multibeam/head.h"
-#include "components/multibeam/test_head.h"
+#include "components/multibeam/testing/head.h"
 #include "components/sonar/tile_set.h"
 
 namespace {

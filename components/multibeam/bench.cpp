@@ -6,7 +6,7 @@
 
 #include "components/multibeam/head.h"
 #include "components/multibeam/soundings.h"
-#include "components/multibeam/test_head.h"
+#include "components/multibeam/testing/head.h"
 #include "components/sonar/tile_set.h"
 
 using namespace ensonify;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/test_survey.h"
+#include "components/multibeam/testing/survey.h"
 #include "components/sonar/environment.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/water/refraction/eigenray.h"
 
 // What the whole head finds of a seabed that is known: depths, strengths, and where it finds none.

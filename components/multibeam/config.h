@@ -69,7 +69,7 @@ struct MultibeamParameters {
   double receive_beamwidth_rad = 1.0 * kDegree;   // across-track at nadir
   // Of both lines, at these widths. With a uniform receive line the outermost beams receive the nadir's echo through
   // its side lobes stronger than their own in some 60 m of water; with a uniform transmit line soundings of a level
-  // seabed are too deep by what comes from far fore and aft (docs/physics/detection.md).
+  // seabed are too deep by what comes from far fore and aft (docs/physics/acoustics/detection.md).
   array::Shading transmit_shading{array::Shading::Window::kTaylor, 30.0, 4};
   array::Shading receive_shading{array::Shading::Window::kTaylor, 30.0, 4};
   double back_loss_db = 40.0;           // one-way, behind the face

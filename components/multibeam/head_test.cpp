@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "components/multibeam/test_head.h"
-#include "components/sonar/test_seabed.h"
+#include "components/multibeam/testing/head.h"
+#include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 
 using namespace ensonify;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/test_survey.h"
+#include "components/multibeam/testing/survey.h"
 
 // The whole head on a vehicle that moves, and whose sensors and mountings err.
 

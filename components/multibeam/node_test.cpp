@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/test_survey.h"
+#include "components/multibeam/testing/survey.h"
 
 // When the node pings, what it is given meanwhile, and what it says of itself.
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/test_survey.h"
+#include "components/multibeam/testing/survey.h"
 #include "kernels/acoustics/detect/seabed_image.h"
 
 using namespace ensonify;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/multibeam/heading_mean.h"
-#include "components/multibeam/test_head.h"
+#include "components/multibeam/testing/head.h"
 #include "kernels/acoustics/array/stabilisation.h"
 
 using namespace ensonify;

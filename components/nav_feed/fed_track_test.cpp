@@ -6,7 +6,7 @@
 #include <map>
 
 #include "components/nav_feed/node.h"
-#include "components/nav_feed/test_sentence.h"
+#include "components/nav_feed/testing/sentence.h"
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "components/nav_feed/test_sentence.h"
+#include "components/nav_feed/testing/sentence.h"
 
 using namespace ensonify::nmea;
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <iostream>
 
-#include "components/navigation/test_run.h"
-#include "components/sonar/test_seabed.h"
+#include "components/navigation/testing/circle.h"
+#include "components/sonar/testing/seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::test_run;
@@ -71,7 +71,7 @@ TEST_CASE("30 min submerged with FOG and Doppler log drift by 0.1 to 0.3 % of th
   CHECK(rms_drift_percent(20, [](std::uint64_t) { return with_log("fog"); }) == Approx(0.18).margin(0.06));
 }
 
-TEST_CASE("the same of all grades, a hundred dives each, for docs/navigation/filter.md", "[.grades]") {
+TEST_CASE("the same of all grades, a hundred dives each, for docs/physics/instruments/filter.md", "[.grades]") {
   for (const std::string imu : {"rlg", "fog", "tactical"}) {
     std::cout << imu << ' ' << rms_drift_percent(100, [&](std::uint64_t) { return with_log(imu); }) << std::endl;
   }

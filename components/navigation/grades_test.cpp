@@ -1,13 +1,14 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_run.h"
-#include "kernels/instruments/navigation_filter/test_vehicle.h"
+#include "components/navigation/testing/circle.h"
+#include "kernels/instruments/navigation_filter/testing/vehicle.h"
 
 using namespace ensonify;
 namespace kernel = ensonify::navigation_filter::test_run;
 
-// Consistency and drift of the filter are tested with grades that its kernel's tests write down (test_vehicle.h): the
-// kernel reads no files. They are those of the files, but for the quanta, which they leave out.
+// Consistency and drift of the filter are tested with grades that its kernel's tests write down
+// (navigation_filter/testing/vehicle.h): the kernel reads no files. They are those of the files, but for the quanta,
+// which they leave out.
 
 namespace {
 

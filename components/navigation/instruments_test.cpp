@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/navigation/test_run.h"
-#include "components/sonar/test_mesh.h"
-#include "components/sonar/test_seabed.h"
+#include "components/navigation/testing/circle.h"
+#include "components/sonar/testing/mesh.h"
+#include "components/sonar/testing/seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::test_run;

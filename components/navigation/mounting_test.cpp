@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_run.h"
-#include "components/sonar/test_seabed.h"
+#include "components/navigation/testing/circle.h"
+#include "components/sonar/testing/seabed.h"
 
 using namespace ensonify;
 using namespace ensonify::test_run;

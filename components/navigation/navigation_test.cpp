@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/navigation/test_run.h"
+#include "components/navigation/testing/circle.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/terrain.h"
 #include "scenarios/world/testing/default_yaml.h"

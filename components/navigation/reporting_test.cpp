@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_run.h"
+#include "components/navigation/testing/circle.h"
 
 using namespace ensonify;
 using namespace ensonify::test_run;

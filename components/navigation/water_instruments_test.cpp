@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "components/navigation/test_run.h"
-#include "components/sonar/test_seabed.h"
+#include "components/navigation/testing/circle.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/water/sound_speed.h"
 
 using namespace ensonify;

@@ -108,10 +108,7 @@ TEST_CASE("the checksum gives the published check value, however it is cut") {
   const auto bytes = std::as_bytes(std::span(text));
   CHECK(crc32(bytes) == 0xCBF43926U);
   for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
-    Crc32 crc;
-    crc.update(bytes.first(cut));
-    crc.update(bytes.subspan(cut));
-    CHECK(crc.value() == 0xCBF43926U);
+    CHECK(crc32(bytes.subspan(cut), crc32(bytes.first(cut))) == 0xCBF43926U);
   }
 }
 

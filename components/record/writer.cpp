@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "components/errors/assert.h"
+#include "components/record/crc32.h"
 
 namespace ensonify::record {
 
@@ -59,7 +60,7 @@ RecordWriter::~RecordWriter() {
 }
 
 void RecordWriter::put(std::span<const std::byte> bytes) {
-  crc_.update(bytes);
+  crc_ = crc32(bytes, crc_);
   offset_ += bytes.size();
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -296,7 +297,7 @@ void RecordWriter::put_summary() {
     numbers.u64(count);
   }
   const std::uint64_t summary_start = offset_;
-  crc_ = Crc32{};
+  crc_ = 0;
   ByteSink offsets;
   const auto put_group = [&](Op op, const auto& put_records) {
     const std::uint64_t start = offset_;
@@ -324,7 +325,7 @@ void RecordWriter::put_summary() {
   footer.u64(offsets_start);
   put(footer.bytes());
   ByteSink end;
-  end.u32(crc_.value());
+  end.u32(crc_);
   put(end.bytes());
   put(std::as_bytes(std::span(kMcapMagic)));
 }
@@ -333,7 +334,7 @@ void RecordWriter::close() {
   if (descriptor_ < 0) return;
   if (!chunk_.empty()) end_chunk();
   ByteSink data_end;
-  data_end.u32(crc_.value());
+  data_end.u32(crc_);
   put_record(Op::data_end, data_end);
   put_summary();
   if (::close(descriptor_) != 0) {

@@ -9,7 +9,6 @@
 
 #include "components/errors/exit_error.h"
 #include "components/record/bytes.h"
-#include "components/record/crc32.h"
 #include "components/record/format.h"
 #include "components/runtime/sim_time.h"
 #include "messages/buffer.h"
@@ -61,7 +60,7 @@ class RecordWriter {
   std::uint64_t offset_ = 0;        // bytes written
   std::uint64_t whole_until_ = 0;   // end of the last whole chunk with its indices
   std::uint64_t chunks_start_ = 0;  // the first chunk
-  Crc32 crc_;                       // of everything written, restarted for the summary
+  std::uint32_t crc_ = 0;           // of everything written, restarted for the summary
   std::int64_t utc_start_ns_ = 0;
 
   ByteSink chunk_;

@@ -10,7 +10,7 @@ namespace {
 
 RecorderConfig read(const std::string& yaml) {
   auto from = ConfigReader::from_text(yaml, "r.yaml");
-  RecorderConfig config = RecorderConfig::read(from, World{}, "recorder");
+  RecorderConfig config = RecorderConfig::read(from, ScenarioHeader{});
   from.finish();
   return config;
 }
@@ -27,7 +27,7 @@ std::string problem(const std::string& yaml) {
 }  // namespace
 
 TEST_CASE("recorder/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<RecorderConfig>("recorder", World{}) == "");
+  CHECK(default_yaml_fault_of<RecorderConfig>({}, ScenarioHeader{}) == "");
 }
 
 TEST_CASE("topics are all, a list or a map") {

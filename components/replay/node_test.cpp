@@ -127,7 +127,7 @@ TEST_CASE("replay parameters are read with their places, and its defaults are wr
   const Recorded recorded;
   auto from = ConfigReader::from_text(
       "file: " + recorded.file.string() + "\ntopics: [bow/ping]\nrename: {bow/ping: echo}\nfinish: true", "r.yaml");
-  const ReplayConfig config = ReplayConfig::read(from, World{}, "replay");
+  const ReplayConfig config = ReplayConfig::read(from);
   from.finish();
   CHECK(config.topics == std::vector<std::string>{"bow/ping"});
   CHECK(config.rename.at("bow/ping") == "echo");
@@ -136,7 +136,7 @@ TEST_CASE("replay parameters are read with their places, and its defaults are wr
 
   const auto problem = [&](const std::string& yaml) {
     auto wrong = ConfigReader::from_text("file: " + recorded.file.string() + "\n" + yaml, "r.yaml");
-    ReplayConfig::read(wrong, World{}, "replay");
+    ReplayConfig::read(wrong);
     try {
       wrong.finish();
     } catch (const ConfigError& error) {
@@ -150,7 +150,7 @@ TEST_CASE("replay parameters are read with their places, and its defaults are wr
 
   auto defaults =
       ConfigReader::from_file(std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/replay/default.yaml");
-  ReplayConfig written = ReplayConfig::read(defaults, World{}, "replay");
+  ReplayConfig written = ReplayConfig::read(defaults);
   CHECK(written == ReplayConfig{});
   CHECK(defaults.known_keys().size() == 4);  // file, which has no default, and the three that are listed
 }

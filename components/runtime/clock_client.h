@@ -45,7 +45,7 @@ struct RunRegistry {
 /// Throws std::runtime_error naming what is wrong with the text.
 RunRegistry read_registry(const nlohmann::json& answer);
 
-/// Asks a live run's clock (docs/wire.md, "Control: asking").
+/// Asks a live run's clock (docs/manual/wire.md, "Control: asking").
 class ClockClient {
  public:
   /// Finds the run (run_finder.h). Throws UserError.

@@ -11,7 +11,7 @@
 #include "components/runtime/stepper.h"
 #include "components/runtime/wiring.h"
 
-/// Control messages between clock and participants: docs/wire.md, as structs and text. No sockets here.
+/// Control messages between clock and participants: docs/manual/wire.md, as structs and text. No sockets here.
 namespace ensonify::protocol {
 
 struct Hello {

@@ -4,7 +4,7 @@
 #include "components/config/config_reader.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "components/scanning/node.h"
-#include "components/sonar/test_config.h"
+#include "components/sonar/testing/config.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/lambert.h"
 #include "messages/motion.h"
@@ -120,7 +120,7 @@ TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe l
   const AperturePattern shaded = scanning_pattern(config);
   CHECK(at(shaded, std::sin(1.0 * kDeg)) - at(shaded, 0.0) == Approx(-3.01).margin(0.05));
   // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
-  // (docs/physics/arrays.md), and what the face takes there is less than 0.1 dB.
+  // (docs/physics/acoustics/arrays.md), and what the face takes there is less than 0.1 dB.
   const double wave_over_length = 1.0 / array::length_in_waves_for(2.0 * kDeg);
   double highest_db = -100.0;
   for (double u = 1.25; u < 5.0; u += 0.01) highest_db = std::max(highest_db, at(shaded, u * wave_over_length));

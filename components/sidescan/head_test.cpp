@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/water/noise.h"
@@ -73,8 +73,8 @@ double level_db(const msg::Ping& ping, std::size_t side, double range_m, double 
 }  // namespace
 
 TEST_CASE("the level on a flat Lambert seabed is that of the area integral, on both sides") {
-  // docs/physics/echo.md: the pulse-limited strip with the two-way width of the line. Rays in strata leave less than
-  // 0.1 dB in the mean over 1.4 m.
+  // docs/physics/acoustics/echo.md: the pulse-limited strip with the two-way width of the line. Rays in strata leave
+  // less than 0.1 dB in the mean over 1.4 m.
   const auto ping = received(plain_sidescan(), flat()).ping;
   REQUIRE(ping.amplitude_upa.rows() == 2);
   const std::pair<double, double> anchors[] = {{20, 103.50}, {50, 77.06}, {99, 52.37}};
@@ -112,7 +112,7 @@ TEST_CASE("a shaded line keeps its -3 dB width and has the set side lobe level")
   CHECK(at(0.0) == Approx(0.0).margin(0.01));
   CHECK(at(std::sin(0.25 * kDeg)) == Approx(-3.01).margin(0.02));
   // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
-  // (docs/physics/arrays.md).
+  // (docs/physics/acoustics/arrays.md).
   const double wave_over_length = 1.0 / array::length_in_waves_for(0.5 * kDeg);
   double highest_db = -100.0;
   for (double u = 1.25; u < 5.0; u += 0.05) highest_db = std::max(highest_db, at(u * wave_over_length));

@@ -4,7 +4,7 @@
 #include "components/config/config_reader.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "components/sidescan/node.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "messages/motion.h"
 
 using namespace ensonify;

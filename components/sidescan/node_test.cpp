@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/runtime/testing/node_under_test.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 

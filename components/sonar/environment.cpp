@@ -58,12 +58,6 @@ seabed::ClassTables tables_of(const std::map<std::uint8_t, seabed::Scatterer>& s
   return seabed::ClassTables(laws);
 }
 
-seabed::BackscatterTable surface_table_of(double frequency_hz, double wind_speed_mps) {
-  return seabed::BackscatterTable([=](double grazing_rad) {
-    return surface::sea_surface_backscatter(grazing_rad, frequency_hz, wind_speed_mps).total;
-  });
-}
-
 }  // namespace
 
 refraction::SoundSpeedProfile true_profile(const World& world) { return profile_of(world.water.profile, world); }
@@ -94,9 +88,7 @@ Environment::Environment(const World& world, double frequency_hz)
       sediments_(world.seabed.sediments),
       backscatter_(tables_of(sediments_, frequency_hz, profile_.knots().back().speed_mps)),
       tide_(world.vertical.tide),
-      wind_speed_mps_(world.water.wind_speed_mps),
-      surface_backscatter_(surface_table_of(frequency_hz, wind_speed_mps_)),
-      rms_wave_height_m_(surface::rms_wave_height_m(wind_speed_mps_)),
+      rms_wave_height_m_(surface::rms_wave_height_m(world.water.wind_speed_mps)),
       scattering_layers_(world.water.scattering_layers),
       bubble_loss_db_(world.water.bubble_loss_db) {}
 

@@ -50,12 +50,8 @@ class Environment {
   /// where that is news.
   void set_facet_slopes(std::span<const double> mean_square_slope);
 
-  /// The same of the sea surface, seen from below.
-  const seabed::BackscatterTable& surface_backscatter() const { return surface_backscatter_; }
-
   /// The sea surface above chart datum, m, at sim time t.
   double water_level_m(double t_s) const { return tide_.at(t_s).height_m; }
-  double wind_speed_mps() const { return wind_speed_mps_; }
   /// Rms height of a fully developed sea of that wind: what roughens the mirror of the surface
   /// (surface::coherent_reflection). The scenario's wind, 10 m above the sea, stands for that at 19.5 m, which makes
   /// waves 5 % too low.
@@ -77,8 +73,6 @@ class Environment {
   std::vector<double> facet_mean_square_slope_;          // by class
   seabed::ClassTables backscatter_;
   vertical::Tide tide_;
-  double wind_speed_mps_;
-  seabed::BackscatterTable surface_backscatter_;
   double rms_wave_height_m_;
   std::vector<water::ScatteringLayer> scattering_layers_;
   double bubble_loss_db_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/sonar/arrivals.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 

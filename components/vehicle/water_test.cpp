@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "components/vehicle/integrated.h"
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
+#include "components/vehicle/testing/integrated.h"
 #include "kernels/vehicle/motion/disturbance_presets.h"
 
 using namespace ensonify;

@@ -24,7 +24,7 @@ bool in_range(const SedimentParameters& sediment, double frequency_hz);
 /// Frequencies 10..100 kHz and parameters in_range(); accuracy there about 3 dB (well-known sand and silt above 5
 /// degrees of grazing), 5-10 dB otherwise, about 10 dB for rock and gravel. Above 100 kHz it is an extrapolation: it
 /// stays finite and smooth, and differs from later models by up to about 3 dB for mud and sand above 20 degrees, 7-19
-/// dB for rock (docs/physics/backscatter.md).
+/// dB for rock (docs/physics/seabed/backscatter.md).
 ///
 /// Grazing angle from the local plane of the seabed: clamped to 0.001..90 degrees, as the report recommends. The scale:
 /// relief that the terrain mesh resolves must not be in the parameters too.

@@ -6,7 +6,6 @@
 #include <complex>
 #include <numbers>
 
-#include "kernels/seabed/gsab.h"
 #include "kernels/seabed/law.h"
 
 using namespace ensonify::seabed;

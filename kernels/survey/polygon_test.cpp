@@ -1,7 +1,7 @@
-#include "kernels/survey/polygon.h"
-
 #include <catch2/catch.hpp>
 #include <string>
+
+#include "kernels/survey/lines.h"
 
 using namespace ensonify::survey;
 

@@ -27,7 +27,7 @@ struct Options {
 /// Returns an exit code if the program is to end here (help, bad arguments).
 std::optional<int> parse(const char* component, int argc, char** argv, Options& options) {
   CLI::App app(
-      fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/wire.md says how it "
+      fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/manual/wire.md says how it "
                   "talks, `ensonify describe {}` what it takes.",
                   component, component));
   add_options(app, options.launch, false);

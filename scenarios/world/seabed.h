@@ -64,7 +64,7 @@ struct Seabed {
   LayeredSeabed layered;
   RasterSeabed raster;
   std::vector<SeabedMesh> meshes;  // in the order of the file
-  std::string tiles_folder;        // a tile set (docs/tiles.md), as found on disk
+  std::string tiles_folder;        // a tile set (docs/manual/tiles.md), as found on disk
 };
 
 }  // namespace ensonify

@@ -1,4 +1,4 @@
-"""docs/first-survey.md, followed to the letter: every `sh` box runs as it stands, in a folder of its own, in order.
+"""docs/manual/first-survey.md, followed to the letter: every `sh` box runs as it stands, in a folder of its own, in order.
 
 A box must end with exit code 0, or with N if its last line ends in `# exit N`. What a `text` box quotes must have been
 printed by the `sh` box before it, numbers aside. A box that ends in `&` starts a run; the next one begins when time runs.
@@ -15,7 +15,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
 BIN = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "bin"
-PAGE = SOURCE / "docs" / "first-survey.md"
+PAGE = SOURCE / "docs/manual/first-survey.md"
 
 
 def boxes(page):

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/multibeam/node.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/base/random/stream.h"
 #include "tests/physics/heads.h"
 

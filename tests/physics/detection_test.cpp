@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "components/multibeam/node.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/acoustics/detect/testing/accuracy.h"
 #include "kernels/acoustics/sonar_equation.h"
 #include "tests/physics/heads.h"

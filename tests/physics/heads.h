@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/runtime/testing/node_under_test.h"
-#include "components/sonar/test_config.h"
+#include "components/sonar/testing/config.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "messages/terrain.h"

@@ -7,7 +7,7 @@
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/heads.h"

@@ -11,7 +11,7 @@
 #include "components/multibeam/node.h"
 #include "components/scanning/node.h"
 #include "components/sidescan/node.h"
-#include "components/sonar/test_seabed.h"
+#include "components/sonar/testing/seabed.h"
 #include "kernels/acoustics/array/shading.h"
 #include "kernels/base/random/stream.h"
 #include "tests/physics/heads.h"

@@ -88,7 +88,7 @@ class Facets(SystemTest):
             energy = np.mean([np.sum(ping**2) for ping in pings]) / np.mean([np.sum(ping**2) for ping in level])
             return 10 * np.log10(energy)
 
-        # The plane's law is what facets return on average (docs/physics/backscatter.md): 0.1 dB of that and 0.1 dB for 10,000
+        # The plane's law is what facets return on average (docs/physics/seabed/backscatter.md): 0.1 dB of that and 0.1 dB for 10,000
         # facets. What counts twice is 1.0 dB at right angles; over a beam 8 degrees wide 0.6 are left.
         self.assertAlmostEqual(over_level_db(masked), 0.0, delta=0.2)
         self.assertLess(over_level_db(twice), -0.5)

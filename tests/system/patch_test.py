@@ -8,7 +8,7 @@ from support import SOURCE, SystemTest
 
 ACTUAL_DEG = {"roll": 3.5, "pitch": -0.8, "yaw": 1.5}   # the launch's own
 ENTERED_DEG = {"roll": 0.4, "pitch": 0.3, "yaw": -0.2}
-#          what is missing, what a patch test is held to (docs/patch-test.md)
+#          what is missing, what a patch test is held to (docs/manual/patch-test.md)
 UNKNOWNS = {"position_latency_s": (0.15, 0.02), "attitude_latency_s": (0.02, 0.002),
             **{f"{axis}_rad": (math.radians(ACTUAL_DEG[axis] - ENTERED_DEG[axis]), math.radians(limit_deg))
                for axis, limit_deg in (("roll", 0.02), ("pitch", 0.1), ("yaw", 0.1))}}

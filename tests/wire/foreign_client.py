@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A participant written from docs/wire.md alone, with ZeroMQ and msgpack and nothing of ours: it sees every pose once, in
+"""A participant written from docs/manual/wire.md alone, with ZeroMQ and msgpack and nothing of ours: it sees every pose once, in
 order and in time, and steers east at 1.5 m/s. Exit code 1 if what arrives is not what the page promises."""
 import json
 import math

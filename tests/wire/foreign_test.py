@@ -1,4 +1,4 @@
-"""docs/wire.md is enough: a client that uses nothing of ours takes part in a run, over ipc and over tcp."""
+"""docs/manual/wire.md is enough: a client that uses nothing of ours takes part in a run, over ipc and over tcp."""
 import json
 import os
 import pathlib

@@ -160,7 +160,7 @@ TEST_CASE("store the bytes of types that have changed", "[.][store]") {
   SUCCEED();
 }
 
-TEST_CASE("the envelope has the layout of docs/wire.md") {
+TEST_CASE("the envelope has the layout of docs/manual/wire.md") {
   const Envelope envelope{1, 1, 0x04030201, 0x08070605, 0x0C0B0A09, 0x100F0E0D, 0x1817161514131211, 0x201F1E1D1C1B1A19,
                           -2};
   const std::string stored_bytes = read_file(folder() / "envelope.hex");

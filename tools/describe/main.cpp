@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
   app.add_option("NAME", name, "a component or a message type; without it, the list of both");
   auto* yaml = app.add_flag("--yaml", as_yaml, "only the parameters with their defaults, as a configuration file");
   app.add_flag("--json", as_json, "as JSON; of a message type its JSON Schema")->excludes(yaml);
-  app.add_flag("--reference", reference, "the page docs/messages.md");
+  app.add_flag("--reference", reference, "the page docs/manual/messages.md");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Patch test: from soundings of the same seabed on several lines, how the echo sounder is turned on its vehicle "
       "and how\n"
-      "late its navigation is (docs/patch-test.md). Sees what instruments said, never the truth.\n"
+      "late its navigation is (docs/manual/patch-test.md). Sees what instruments said, never the truth.\n"
       "Exit code: 0 done, 2 the record cannot be read or its lines cannot be compared.",
       "ensonify patch");
   Options options;

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   physics::add_relief(app, verbs);
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);
+  physics::add_statistics(app, verbs);
   physics::add_surface(app, verbs);
   physics::add_tide(app, verbs);
   return tool_main(app, argc, argv, [&] {

@@ -16,6 +16,7 @@ void add_ray(CLI::App& app, Verbs& verbs);
 void add_relief(CLI::App& app, Verbs& verbs);
 void add_sound_speed(CLI::App& app, Verbs& verbs);
 void add_stabilisation(CLI::App& app, Verbs& verbs);
+void add_statistics(CLI::App& app, Verbs& verbs);
 void add_surface(CLI::App& app, Verbs& verbs);
 void add_tide(CLI::App& app, Verbs& verbs);
 

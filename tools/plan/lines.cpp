@@ -125,7 +125,7 @@ Verb add_lines(CLI::App& parent) {
       ->capture_default_str();
   app->add_flag("--json", o->json, "print JSON");
   app->add_flag("--csv", o->csv, "print CSV");
-  return {app, [o, world, depth] {
+  return {app, [o, scenario, depth] {
             if (scenario->count() + depth->count() == 0) {
               throw UserError("no depths; allowed: --scenario FILE or --depth M");
             }

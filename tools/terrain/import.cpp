@@ -252,7 +252,8 @@ Verb add_import(CLI::App& parent) {
   auto words = std::make_shared<Words>();
   CLI::App* app = parent.add_subcommand(
       "import",
-      "Makes a tile set of survey files (docs/import.md): any raster that GDAL reads, or scattered points. What was "
+      "Makes a tile set of survey files (docs/manual/import.md): any raster that GDAL reads, or scattered points. What "
+      "was "
       "done "
       "and lost is printed and written to import.json. An import that was stopped goes on where it was.");
   add_file_options(*app, *words);

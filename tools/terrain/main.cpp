@@ -8,7 +8,8 @@
 int main(int argc, char** argv) {
   using namespace ensonify;
   CLI::App app(
-      "Seabeds: makes, checks and reads tile sets (docs/tiles.md), draws and measures generated seabeds.\nExit code: 0 "
+      "Seabeds: makes, checks and reads tile sets (docs/manual/tiles.md), draws and measures generated seabeds.\nExit "
+      "code: 0 "
       "done, 1 "
       "verify "
       "found a fault, 2 wrong input or a file that cannot be read or written.",

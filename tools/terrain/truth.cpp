@@ -166,7 +166,7 @@ Verb add_truth(CLI::App& parent) {
       "Prints what a seabed measures in square windows, as JSON: depths, classes, slopes between posts, spectrum "
       "(exponent between 4 and 64 posts, strength at 1 rad/m), scaling exponents and K2 (lags 1 to 32 posts), "
       "patchiness "
-      "(patches of 9 posts), roughness by window side. docs/seabed/statistics.md says how each is measured.");
+      "(patches of 9 posts), roughness by window side. docs/physics/seabed/statistics.md says how each is measured.");
   app->add_option("seabed", options->seabed, "scenario file, or folder of a tile set")->required();
   app->add_option(
          "--window", options->windows,

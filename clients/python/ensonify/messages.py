@@ -1,6 +1,6 @@
 """Message types, generated from messages/*.h by generate_messages.py: edit those, not this.
 
-Arrays are numpy arrays; received ones are read-only views. docs/messages.md is the reference.
+Arrays are numpy arrays; received ones are read-only views. docs/manual/messages.md is the reference.
 """
 from dataclasses import dataclass
 
@@ -52,7 +52,7 @@ __all__ = [
 
 @dataclass(eq=False)
 class Pace(Struct):
-    """What one participant has cost the run in wall time.
+    """Cost of one participant in wall time.
 
     name: name of the process in the launch file
     grants [1]: grants given to it
@@ -565,7 +565,7 @@ class AppliedSettings(Struct):
 
 @dataclass(eq=False)
 class HeadTrack(Struct):
-    """Where the head was, as the instrument knows it: the navigation estimate and the measured mounting. Never the truth. In a message it stands beside its other fields.
+    """Track of the head, as the instrument knows it: the navigation estimate and the measured mounting. Never the truth. In a message it stands beside its other fields.
 
     pose_time_s [s]: times after transmission of the poses; the first is 0: the pose at transmission
     pose_position_enu_m [m]: estimated place of the head (time x 3): east, north, up from chart datum, by the measured mounting
@@ -1010,7 +1010,7 @@ class TileRelease(Message):
 
 @dataclass(eq=False)
 class Mesh(Message):
-    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits say how to coarsen it (docs/seabed/irregular-meshes.md).
+    """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits say how to coarsen it (docs/physics/mesh/irregular-meshes.md).
 
     number [1]: by which it is released
     name: in the scenario

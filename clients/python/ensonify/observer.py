@@ -33,7 +33,7 @@ class Observer:
         self._control.connect(self.clock)
 
     def ask(self, kind: str, **what: Any) -> dict:
-        """A request of docs/wire.md, e.g. ask("status"), ask("get", what="scenario"), ask("rate", rate=4.0)."""
+        """A request of docs/manual/wire.md, e.g. ask("status"), ask("get", what="scenario"), ask("rate", rate=4.0)."""
         self._control.send(json.dumps({"kind": kind, **what}).encode())
         until = time.monotonic() + self._answer_s
         while (left := until - time.monotonic()) > 0:

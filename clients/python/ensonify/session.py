@@ -1,4 +1,4 @@
-"""A participant's sockets: joining, proving edges, collecting what a grant names, answering it (docs/wire.md)."""
+"""A participant's sockets: joining, proving edges, collecting what a grant names, answering it (docs/manual/wire.md)."""
 import json
 import os
 import re

@@ -1,4 +1,4 @@
-"""Bytes on the wire: envelope, msgpack map, raw arrays (docs/wire.md), without a socket.
+"""Bytes on the wire: envelope, msgpack map, raw arrays (docs/manual/wire.md), without a socket.
 
 A message travels as frames: topic + NUL, envelope, map, arrays. Arrays are never copied: decoding gives numpy views of
 the received frames, encoding hands the arrays' own memory to ZeroMQ.

@@ -1,4 +1,4 @@
-"""Bytes: envelope, map, arrays and the control frames, against docs/wire.md."""
+"""Bytes: envelope, map, arrays and the control frames, against docs/manual/wire.md."""
 import pathlib
 import struct
 import subprocess

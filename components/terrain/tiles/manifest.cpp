@@ -136,7 +136,7 @@ TileSet open_tile_set(const std::string& folder) {
 
 void write_manifest(const TileSet& set) {
   std::string text = fmt::format(
-      "# A seabed on disk (docs/tiles.md). East and north count tiles from the world's origin.\nensonify: {}\n"
+      "# A seabed on disk (docs/manual/tiles.md). East and north count tiles from the world's origin.\nensonify: {}\n"
       "made_from: \"{}\"\norigin: {{ latitude_deg: {}, longitude_deg: {} }}\n",
       kFormat, set.made_from, set.origin.latitude_deg, set.origin.longitude_deg);
   text += grid_text(set);

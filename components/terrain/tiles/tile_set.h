@@ -9,8 +9,8 @@
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/mesh/tile.h"
 
-/// Seabeds on disk (docs/tiles.md): a folder of square tiles, each a 16-bit PNG of heights, an 8-bit PNG of sediment
-/// classes, a world file and a sidecar, under one manifest. GDAL and QGIS read the tiles one by one, or all as
+/// Seabeds on disk (docs/manual/tiles.md): a folder of square tiles, each a 16-bit PNG of heights, an 8-bit PNG of
+/// sediment classes, a world file and a sidecar, under one manifest. GDAL and QGIS read the tiles one by one, or all as
 /// seabed.vrt.
 ///
 /// All heights of a set are whole multiples of one step, lsb_m; a tile's PNG counts steps from a whole-numbered offset

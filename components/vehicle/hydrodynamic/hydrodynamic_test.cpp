@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "components/config/config_error.h"
-#include "components/vehicle/integrated.h"
+#include "components/vehicle/testing/integrated.h"
 
 using namespace ensonify;
 using frames::Vec3;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/vehicle/integrated.h"
+#include "components/vehicle/testing/integrated.h"
 
 using namespace ensonify;
 using frames::Vec3;

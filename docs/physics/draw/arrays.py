@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/arrays.md from `ensonify physics`, beside the formulas that they are checked by.
+"""Draws the pictures of docs/physics/acoustics/arrays.md from `ensonify physics`, beside the formulas that they are checked by.
 
     docs/physics/draw/arrays.py build/dev/bin/ensonify-physics
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/detection.md and seabed-image.md from the detector's test, beside theory.
+"""Draws the pictures of docs/physics/acoustics/detection.md and seabed-image.md from the detector's test, beside theory.
 
     docs/physics/draw/detection.py build/dev/tests/detect_test
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/echo.md, multipath.md and gain.md from the echo kernel's tests, beside theory.
+"""Draws the pictures of docs/physics/acoustics/echo.md, multipath.md and gain.md from the echo kernel's tests, beside theory.
 
     docs/physics/draw/echo.py build/dev/tests/echo_test
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the picture of docs/physics/rays.md from what the test of the ray distribution prints.
+"""Draws the picture of docs/physics/acoustics/rays.md from what the test of the ray distribution prints.
 
     docs/physics/draw/rays.py build/dev/tests/trace_test
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/backscatter.md, surface.md and materials.md from `ensonify physics`, beside the
+"""Draws the pictures of docs/physics/seabed/backscatter.md, surface.md and materials.md from `ensonify physics`, beside the
 numbers that they are checked by.
 
     docs/physics/draw/scattering.py build/dev/bin/ensonify-physics

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws how soon pings decorrelate (docs/physics/echo.md) from what the test of heads prints, beside theory.
+"""Draws how soon pings decorrelate (docs/physics/acoustics/echo.md) from what the test of heads prints, beside theory.
 
     docs/physics/draw/speckle.py build/dev/tests/acoustics_speckle_test
 """

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <limits>
 
 #include "kernels/acoustics/array/line_array.h"
@@ -11,6 +12,10 @@
 /// 0.151 L^3 / (lambda R^2) rad: below pi / 8 beyond R = 0.62 sqrt(L^3 / lambda). Nearer, results are still finite but
 /// only qualitative. Spreading across the array (1 / R differing between elements) is left out.
 namespace ensonify::array {
+
+/// C(x) + i S(x), the integral of exp(i pi v^2 / 2) dv over 0..x [Abramowitz1964, ch. 7.3]. Absolute error below 1e-11
+/// for |x| < 100; beyond, below 1e-16 x^2 (that of the phase in double).
+std::complex<double> fresnel_integral(double x);
 
 inline constexpr double kFarAway_m = std::numeric_limits<double>::infinity();
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/acoustics/array/fresnel.h"
-
 using namespace ensonify::array;
 
 namespace {

@@ -35,7 +35,7 @@ double assumed_angular_db(const FlatteningModel& model, double range_m);
 
 /// Assumed area that sends echo at a range, dB re 1 m^2: the lesser of the beam's footprint and the pulse's strip.
 /// Too large by about 1 dB where the two are equal (near 10 degrees for 1 degree and 100 us in 20 m), by 0.2 dB at
-/// nadir and by less than 0.1 dB beyond 35 degrees (docs/physics/seabed-image.md).
+/// nadir and by less than 0.1 dB beyond 35 degrees (docs/physics/acoustics/seabed-image.md).
 double assumed_area_db(const FlatteningModel& model, double range_m);
 
 /// First reflectivity field of the Kongsberg kind, "flattened": echo level minus source level, plus 40 log10 R + 2

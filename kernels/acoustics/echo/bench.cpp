@@ -15,7 +15,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/line_array.h"
 #include "kernels/acoustics/echo/line_receiver.h"
-#include "kernels/acoustics/trace/embree_alone.h"
+#include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/seabed/lambert.h"
 #include "tests/support/fan.h"
 
@@ -105,7 +105,8 @@ void check() {
     }
   }
   const double range_m = 750 * kSampling.period_s * place, depth_m = -1.0 - seabed_m(3.0, 4.0);
-  // Closed form of a flat seabed (docs/physics/echo.md), 210 dB and 1 deg both ways, within the spread of one speckle.
+  // Closed form of a flat seabed (docs/physics/acoustics/echo.md), 210 dB and 1 deg both ways, within the spread of one
+  // speckle.
   const double area_m2 = std::pow(depth_m * 0.0197, 2);
   const double want_db = 210 - 40 * std::log10(depth_m) - 0.14 * depth_m - 25 + 10 * std::log10(area_m2);
   if (ping.hits.size() != 153600 || std::abs(range_m - depth_m) > 0.3 ||

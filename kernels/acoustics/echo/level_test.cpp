@@ -9,7 +9,8 @@
 #include "kernels/seabed/lambert.h"
 #include "tests/support/fan.h"
 
-// Mean levels against the closed forms of docs/physics/echo.md, as sums of mean squares: no speckle, no draws.
+// Mean levels against the closed forms of docs/physics/acoustics/echo.md, as sums of mean squares: no speckle, no
+// draws.
 
 using namespace ensonify;
 using namespace ensonify::echo;

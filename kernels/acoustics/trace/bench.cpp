@@ -9,9 +9,9 @@
 #include <ctime>
 #include <vector>
 
-#include "kernels/acoustics/trace/embree_alone.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/acoustics/trace/scene.h"
+#include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/water/refraction/thermocline.h"
 #include "tests/support/fan.h"
 

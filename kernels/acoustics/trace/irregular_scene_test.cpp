@@ -11,7 +11,7 @@
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/collapse.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
-#include "kernels/mesh/progressive/test_meshes.h"
+#include "kernels/mesh/progressive/testing/meshes.h"
 #include "kernels/water/refraction/thermocline.h"
 
 using namespace ensonify;

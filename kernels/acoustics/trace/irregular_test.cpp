@@ -11,7 +11,7 @@
 #include "kernels/acoustics/trace/mesh.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/cut.h"
-#include "kernels/mesh/progressive/test_meshes.h"
+#include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;
 using namespace ensonify::progressive;

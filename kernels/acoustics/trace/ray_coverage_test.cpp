@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "kernels/acoustics/trace/test_sounding.h"
+#include "kernels/acoustics/trace/testing/sounding.h"
 #include "kernels/seabed/relief/bodies.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 

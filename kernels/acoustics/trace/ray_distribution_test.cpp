@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "kernels/acoustics/trace/test_sounding.h"
+#include "kernels/acoustics/trace/testing/sounding.h"
 
 using namespace ensonify::trace;
 using namespace ensonify::trace::sounding;

@@ -57,7 +57,7 @@ struct IrregularMesh {
   std::uint8_t sediment = 0;
 };
 
-/// Level of detail of a scene's tiles (docs/seabed/level-of-detail.md).
+/// Level of detail of a scene's tiles (docs/physics/mesh/level-of-detail.md).
 struct LevelOfDetail {
   bool enabled = false;                   // by views; off: all tiles at full detail
   std::int32_t side_lobes = 2;            // level, 0..5: side lobes see every 2^level-th post

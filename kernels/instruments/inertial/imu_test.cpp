@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/instruments/inertial/allan.h"
+#include "kernels/instruments/inertial/testing/allan.h"
 
 using namespace ensonify;
 using namespace ensonify::inertial;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/instruments/navigation_filter/test_vehicle.h"
+#include "kernels/instruments/navigation_filter/testing/vehicle.h"
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;

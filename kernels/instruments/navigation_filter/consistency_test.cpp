@@ -4,7 +4,7 @@
 #include <iostream>
 #include <numeric>
 
-#include "kernels/instruments/navigation_filter/test_vehicle.h"
+#include "kernels/instruments/navigation_filter/testing/vehicle.h"
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;
@@ -43,7 +43,8 @@ TEST_CASE("the filter is as wrong as it says: mean NEES of hundreds of runs") {
   // Of 100 runs the mean of nine degrees of freedom is chi-square of 900 over 100: 95 % between 8.19 and 9.85; of 200
   // runs between 8.42 and 9.60. A run's epochs share what is drawn once, so how many of them are inside is itself
   // a matter of luck: of hundreds of a filter that is right, about 15 in 100 have fewer than 90 % inside
-  // (docs/navigation/filter.md). So the line is drawn for two hundreds, their epochs together, and for their mean.
+  // (docs/physics/instruments/filter.md). So the line is drawn for two hundreds, their epochs together, and for their
+  // mean.
   const Mission m = mission(400.0, 80.0, 2.0);
   for (const auto& [name, grade] : kGrades) {
     const std::vector<double> one = hundred(m, grade, 1), other = hundred(m, grade, 101);
@@ -56,14 +57,14 @@ TEST_CASE("the filter is as wrong as it says: mean NEES of hundreds of runs") {
   }
 }
 
-TEST_CASE("ten hundreds, for docs/navigation/draw/consistency.py", "[.hundreds]") {
+TEST_CASE("ten hundreds, for docs/physics/draw/consistency.py", "[.hundreds]") {
   const Mission m = mission(400.0, 80.0, 2.0);
   for (std::uint64_t first_seed = 1; first_seed <= 901; first_seed += 100) {
     std::cout << share_inside(hundred(m, kFog, first_seed), 8.19, 9.85) << std::endl;
   }
 }
 
-TEST_CASE("twenty hundreds of each grade, for docs/navigation/filter.md", "[.grades]") {
+TEST_CASE("twenty hundreds of each grade, for docs/physics/instruments/filter.md", "[.grades]") {
   const Mission m = mission(400.0, 80.0, 2.0);
   for (const auto& [name, grade] : kGrades) {
     std::cout << name << ": inside";

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/instruments/inertial/drift.h"
+#include "kernels/instruments/inertial/testing/drift.h"
 
 using namespace ensonify;
 using namespace ensonify::navigation_filter;

@@ -19,7 +19,7 @@
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/collapse.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
-#include "kernels/mesh/progressive/test_meshes.h"
+#include "kernels/mesh/progressive/testing/meshes.h"
 #include "tests/support/fan.h"
 
 using namespace ensonify;

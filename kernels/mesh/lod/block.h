@@ -3,7 +3,7 @@
 #include <compare>
 #include <cstdint>
 
-/// View-dependent level of detail of regular terrain (docs/seabed/level-of-detail.md).
+/// View-dependent level of detail of regular terrain (docs/physics/mesh/level-of-detail.md).
 namespace ensonify::lod {
 
 /// Cells of a tile to a side of a block of size 0.

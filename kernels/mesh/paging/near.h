@@ -5,7 +5,7 @@
 
 #include "kernels/mesh/tile.h"
 
-/// Which tiles of a seabed a vehicle needs, when, and which of them memory keeps: docs/seabed/paging.md.
+/// Which tiles of a seabed a vehicle needs, when, and which of them memory keeps: docs/physics/mesh/paging.md.
 namespace ensonify::paging {
 
 using terrain::TileGrid;

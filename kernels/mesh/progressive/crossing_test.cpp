@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
-#include "kernels/mesh/progressive/test_meshes.h"
+#include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;
 using namespace ensonify::progressive;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "kernels/mesh/progressive/test_meshes.h"
+#include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;
 using namespace ensonify::progressive;

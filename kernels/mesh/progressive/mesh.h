@@ -9,7 +9,7 @@
 #include "kernels/base/frames/attitude.h"
 #include "kernels/mesh/lod/hierarchy.h"
 
-/// View-dependent level of detail of irregular meshes (docs/seabed/irregular-meshes.md).
+/// View-dependent level of detail of irregular meshes (docs/physics/mesh/irregular-meshes.md).
 namespace ensonify::progressive {
 
 /// Numbers of three vertices.

@@ -9,8 +9,8 @@
 #include "kernels/seabed/relief/guide.h"
 #include "kernels/seabed/relief/ripples.h"
 #include "kernels/seabed/relief/spectral_surface.h"
-#include "kernels/seabed/statistics/exact_fbm.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/seabed/statistics/exact_fbm.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
 #include "kernels/seabed/statistics/structure.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

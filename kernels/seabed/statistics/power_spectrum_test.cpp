@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "kernels/base/random/stream.h"
-#include "kernels/seabed/statistics/exact_fbm.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief_statistics;
 using ensonify::random::Stream;

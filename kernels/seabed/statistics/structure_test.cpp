@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/base/random/stream.h"
-#include "kernels/seabed/statistics/exact_fbm.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief_statistics;
 

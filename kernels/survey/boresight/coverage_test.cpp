@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "kernels/survey/boresight/test_survey.h"
+#include "kernels/survey/boresight/testing/survey.h"
 
 using namespace ensonify::boresight;
 using namespace ensonify::boresight::testing;

@@ -26,8 +26,8 @@ struct MeasuredSounding {
 /// Forward, starboard and down from the head, m: the ray's place after half the two-way time. It leaves the face at the
 /// beam's depression with the face's speed, so cos(depression) / face speed is its Snell invariant in the applied
 /// profile. A flat level array that steers with a wrong speed has the wrong angle and the wrong speed cancel; a rolled
-/// one has not (docs/physics/detection.md). A ray that the applied water would not let in (invariant times its speed
-/// above 1) goes horizontally. One place for transmission and reception: sound out and back on the same path.
+/// one has not (docs/physics/acoustics/detection.md). A ray that the applied water would not let in (invariant times
+/// its speed above 1) goes horizontally. One place for transmission and reception: sound out and back on the same path.
 frames::Vec3 place_sounding(const MeasuredSounding& measured, const refraction::SoundSpeedProfile& applied);
 
 }  // namespace ensonify::georeference

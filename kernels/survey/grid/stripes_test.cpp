@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kernels/base/random/stream.h"
-#include "kernels/seabed/statistics/exact_fbm.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify;
 using namespace ensonify::survey_grid;

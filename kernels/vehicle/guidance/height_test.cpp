@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/vehicle/motion/approach.h"
+#include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;

@@ -1,8 +1,8 @@
-#include "kernels/vehicle/motion/approach.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+
+#include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify::motion;
 

@@ -1,7 +1,7 @@
-#include "kernels/vehicle/vertical/separation.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/vehicle/vertical/reduction.h"
 
 using ensonify::frames::Vec2;
 using ensonify::vertical::Separation;

@@ -1,7 +1,7 @@
-#include "kernels/vehicle/vertical/settling.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/vehicle/vertical/floating.h"
 
 using namespace ensonify::vertical;
 

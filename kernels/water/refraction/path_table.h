@@ -15,8 +15,8 @@ namespace ensonify::refraction {
 /// whatever the profile and however near the path comes to turning. Each octave of w is cut into 16 equal
 /// intervals with one cubic each, whose values and slopes at the nodes are exact. Against exact arcs the table is right
 /// within 2e-7 of time and length, 2e-7 of the length in place across the path, and 0.0001 dB of the tube area (tests;
-/// docs/physics/refraction.md has the errors). It serves w from 1/64 (0.9 degrees above turning); flatter paths, those
-/// that turn and those that go up are computed leg by leg instead, exactly, at some 50 ns per layer.
+/// docs/physics/water/refraction.md has the errors). It serves w from 1/64 (0.9 degrees above turning); flatter paths,
+/// those that turn and those that go up are computed leg by leg instead, exactly, at some 50 ns per layer.
 class PathTable {
  public:
   /// Builds the table; memory of an earlier build is used again. level_m is the depth down to which rays hit nothing

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// Refraction of sound in water whose sound speed changes with depth (docs/physics/refraction.md).
+/// Refraction of sound in water whose sound speed changes with depth (docs/physics/water/refraction.md).
 namespace ensonify::refraction {
 
 /// One sample of a sound speed cast.

@@ -58,7 +58,7 @@ def errors_of(estimate: Track, truth: Track) -> tuple:
 
 
 def allan_deviation(readings: np.ndarray, interval_s: float) -> tuple:
-    """Averaging times (s) and overlapping Allan deviation, octave by octave, as `kernels/instruments/inertial/allan.h`."""
+    """Averaging times (s) and overlapping Allan deviation, octave by octave, as `kernels/instruments/inertial/testing/allan.h`."""
     integral = np.concatenate([[0.0], np.cumsum(readings) * interval_s])
     times, deviations, m = [], [], 1
     while 9 * m <= len(readings):

@@ -1,4 +1,4 @@
-"""Echoes made from formulas, with targets whose places are known: what the pictures of pings are tested on, and what docs/plots.md
+"""Echoes made from formulas, with targets whose places are known: what the pictures of pings are tested on, and what docs/manual/plots.md
 shows of heads that its survey does not carry. The sonar equation in closed forms, straight rays, Rayleigh speckle."""
 import math
 

@@ -83,7 +83,7 @@ class Grid(InAFolder):
         # 0.01 degree of latitude at 48.6 is 1112.0 m on WGS 84, and 0.1 of the way from 50 to 52; of longitude 737.5 m, from 50 to 51.
         found = reduction.grid_at(path, np.array([0, 0, 737.5]), np.array([0, 1112.0, 0]), (48.6, -3.9))
         np.testing.assert_allclose(found, [50, 50.2, 50.1], atol=2e-4)
-        with self.assertRaisesRegex(UserError, "the record does not tell where the world is"):
+        with self.assertRaisesRegex(UserError, "the record does not state where the world is"):
             reduction.grid_at(path, np.zeros(1), np.zeros(1), None)
 
     def test_where_it_knows_nothing_is_refused(self):

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Does what docs/manual/adding-a-component.md says, in a folder of its own: stage_recipe.py SOURCE STAGE
+
+Runs the page's `sh` blocks on copies of the files that they name and writes its yaml files. Of
+components/CMakeLists.txt only the lines that the page adds are left, so that the new component alone is added to the
+build that called us. Files that did not change keep their times.
+"""
+import filecmp
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+
+def follow(source, stage):
+    page = (source / "docs/manual/adding-a-component.md").read_text()
+    listing = source / "components/CMakeLists.txt"
+    (stage / "components").mkdir()
+    shutil.copy(listing, stage / "components")
+    shutil.copytree(source / "examples/gyro", stage / "examples/gyro")
+
+    commands = re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S)
+    for command in commands:
+        subprocess.run(["sh", "-e", "-c", command], cwd=stage, check=True)
+    files = re.findall(r"^`([^`\s]+\.yaml)`[^\n]*:\n\n```yaml\n(.*?)^```", page, re.M | re.S)
+    for name, text in files:
+        (stage / name).parent.mkdir(parents=True, exist_ok=True)
+        (stage / name).write_text(text)
+    if len(commands) != 2 or len(files) != 2:
+        sys.exit(f"the page has {len(commands)} sh blocks and {len(files)} yaml files; 2 and 2 are expected")
+
+    before = listing.read_text().splitlines()
+    added = [line for line in (stage / "components/CMakeLists.txt").read_text().splitlines() if line not in before]
+    if added != ["ensonify_component(compass CompassNode)"]:
+        sys.exit(f"the recipe added these lines to components/CMakeLists.txt: {added}")
+    (stage / "components/CMakeLists.txt").write_text("\n".join(added) + "\n")
+    for file in (stage / "components/compass").iterdir():
+        if "gyro" in file.read_text().lower() or "gyro" in file.name:
+            sys.exit(f"the recipe left the template's name in {file.name}")
+
+
+def main():
+    source, target = map(pathlib.Path, sys.argv[1:])
+    with tempfile.TemporaryDirectory() as folder:
+        stage = pathlib.Path(folder)
+        follow(source, stage)
+        wanted = {file.relative_to(stage) for file in stage.rglob("*") if file.is_file()}
+        for file in [f for f in target.rglob("*") if f.is_file()]:
+            if file.relative_to(target) not in wanted:
+                file.unlink()
+        for name in wanted:
+            if not (target / name).is_file() or not filecmp.cmp(stage / name, target / name, shallow=False):
+                (target / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(stage / name, target / name)
+
+
+if __name__ == "__main__":
+    main()
