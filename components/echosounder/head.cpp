@@ -94,9 +94,10 @@ EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event
   emission.sample_period_s = config_.sample_period_s();
   head_poses(vehicle, config_.mounting.actual, event.transmit, from_seconds(emission.reception_s), poses_);
   const echo::Pulse pulse = echo::tapered_pulse(settings.pulse_length_s, config_.tapered_fraction);
-  echo::Image& image = echoes_.receive_echoes(emission, pulse, poses_, seabed);
+  const auto [image, trace] = echoes_.receive_echoes(emission, pulse, poses_, seabed, memory_);
 
   Received received;
+  received.trace = trace;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
   received.bottom = bottom_.find(image, sampling, pulse, config_.sound_speed_mps);
   received.bottom.stamp_ns = received.ping.stamp_ns = event.transmit.count();

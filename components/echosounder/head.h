@@ -5,6 +5,7 @@
 #include "components/echosounder/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
+#include "components/sonar/trace_summary.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -18,18 +19,17 @@ class EchosounderHead {
   struct Received {
     msg::Ping ping;  // without a track
     msg::BottomTrack bottom;
+    TraceSummary trace;
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
   Received receive_echoes(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& vehicle,
                           trace::Scene& seabed);
 
-  /// Number of rays of the last ping that hit the seabed within its range.
-  int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
-
  private:
   EchosounderConfig config_;
   ApertureEchoes echoes_;
   BottomFinder bottom_;
+  ApertureEchoes::Memory memory_;
   std::vector<frames::HeadPose> poses_;
 };
 

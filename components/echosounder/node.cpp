@@ -16,15 +16,14 @@ HeadOutputs<msg::Ping, msg::BottomTrack> Echosounder::outputs() const {
 }
 
 SentPing Echosounder::transmit(SimTime, const HeadSettings& settings, const HeadInputs&) const {
-  return {
-      {{config_.frequency_hz, settings.pulse_length_s, from_seconds(config_.reception_s(settings)), settings}}};
+  return {{{config_.frequency_hz, settings.pulse_length_s, from_seconds(config_.reception_s(settings)), settings}}};
 }
 
 HeadReport<msg::Ping, msg::BottomTrack> Echosounder::ping(const PingEvent& event, const SentPing& sent,
                                                           HeadInputs& inputs) {
   auto received = head_.receive_echoes(event, sent.sectors.front().settings, inputs.truth(), inputs.seabed());
   const std::string trouble = received.bottom.valid ? "" : "no echo stands out of the water column: no depth";
-  return {{std::move(received.ping), std::move(received.bottom)}, head_.rays_that_hit() > 0, trouble};
+  return {{std::move(received.ping), std::move(received.bottom)}, received.trace.rays_that_hit > 0, trouble};
 }
 
 }  // namespace ensonify

@@ -4,13 +4,9 @@
 #include <vector>
 
 #include "components/forward_looking/faces.h"
-#include "components/sonar/arrivals.h"
+#include "components/sonar/array_echoes.h"
+#include "components/sonar/line_design.h"
 #include "components/sonar/ping_event.h"
-#include "kernels/acoustics/echo/line_receiver.h"
-#include "kernels/acoustics/echo/scatterer.h"
-#include "kernels/acoustics/echo/volume.h"
-#include "kernels/acoustics/trace/ray_distribution.h"
-#include "kernels/base/random/stream.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -23,13 +19,14 @@ class ForwardLookingHead {
   ForwardLookingHead(const ForwardLookingHead&) = delete;
   ForwardLookingHead& operator=(const ForwardLookingHead&) = delete;
 
+  struct Received {
+    msg::Ping ping;  // without a track
+    TraceSummary trace;
+  };
   /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
-  /// receives, and the tiles. The track is left to the caller.
-  msg::Ping receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
-                           const frames::PoseHistory& truth, trace::Scene& seabed);
-
-  /// Summary of the last ping's hits.
-  const TraceSummary& trace_summary() const { return trace_summary_; }
+  /// receives, and the tiles.
+  Received receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
+                          const frames::PoseHistory& truth, trace::Scene& seabed);
 
   RangedPulse pulse_for(const HeadSettings& settings) const {
     return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
@@ -41,41 +38,31 @@ class ForwardLookingHead {
   double near_field_m() const;
 
  private:
-  /// Design of a pulse and its samples, for the next pings with the same.
+  /// Design shared by pings of the same pulse.
   struct PingDesign {
     RangedPulse ranged;
-    echo::Pulse pulse;
-    echo::SampledPulse sampled, squared;
-    echo::Scatterers scatterers;
-    trace::RayDistribution rays;
+    ArrayPulse array;
   };
 
   void prepare(const HeadSettings& settings);
-  void insonify(trace::Scene& seabed);
-  void point_beams(double known_sound_speed_mps);
-  echo::Background background(const PingEvent& event, double source_level_db);
-  void form_beams(std::span<const echo::Arrival> arrivals, const echo::Background& background);
+  void point_beams(double true_mps, double known_mps);
+  msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps) const;
 
   ForwardLookingConfig config_;
-  array::LineArray array_;
+  LineDesign line_;
   ForwardFaces faces_;
-  Arrivals arrivals_;
-  random::Stream ambient_, electronic_, volume_;
+  TransmittedPower transmitted_;
+  ArrayEchoes echoes_;
   std::vector<float> beam_angle_rad_;
-  std::vector<float> weights_;  // of elements
-  echo::LineReceiver receiver_;
-  std::optional<echo::LineReceiver> power_receiver_;       // without speckle
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
-  double noise_share_;
   std::optional<PingDesign> design_;
 
-  // Of the last ping.
+  // Memory of the ping path.
   std::vector<frames::HeadPose> poses_;
-  std::vector<trace::Ray> rays_;
-  std::vector<trace::Hit> hits_;
-  std::vector<float> gain_, sin_beams_;
-  std::vector<echo::Image> images_, mean_square_;  // one each
-  TraceSummary trace_summary_;
+  ShotMemory shot_;
+  std::vector<echo::Arrival> foreign_;
+  std::vector<float> sin_beams_;
+  ArrayEchoes::Memory beams_;
 };
 
 }  // namespace ensonify

@@ -1,6 +1,7 @@
 #include "components/forward_looking/head.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -46,7 +47,7 @@ frames::PoseHistory at_rest() {
 
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene& scene) {
   ForwardLookingHead head(config);
-  return head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene);
+  return head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene).ping;
 }
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene&& scene) { return ping_of(config, scene); }
 
@@ -106,7 +107,9 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   std::vector<float> sines;  // from the target on in hundredths of lambda / L
   for (int i = 0; i < 300; ++i) sines.push_back(static_cast<float>(sin_target - 0.01 * i * per_lobe));
   std::vector<echo::Image> images(1);
-  receiver.form({arrivals, gain, pulse, ranged.sampling, {}}, sines, weights, images);
+  echo::LineReceiver::Memory memory;
+  receiver.form({std::array{echo::EchoSet{arrivals, gain}}, pulse, ranged.sampling, {}}, sines, weights, images,
+                memory);
 
   const auto on_axis = images[0].row(0);
   std::size_t peak = 0;
@@ -391,7 +394,7 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
   ForwardLookingHead head(config);
   trace::Scene scene = scene_of(pillar);
   const auto seen_deg = [&](double known_mps) {
-    const msg::Ping ping = head.receive_echoes({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene);
+    const msg::Ping ping = head.receive_echoes({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene).ping;
     const auto all = ping.amplitude_upa.flat();
     const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;

@@ -18,9 +18,9 @@ SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const H
 }
 
 HeadReport<msg::Ping> ForwardLooking::ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs) {
-  msg::Ping image = head_.receive_echoes(event, sent.sectors.front().settings, sent.sound_speed_mps, inputs.truth(),
-                                         inputs.seabed());
-  return {.messages = {std::move(image)}, .trouble = no_echo_reason(head_.trace_summary())};
+  auto received =
+      head_.receive_echoes(event, sent.sectors.front().settings, sent.sound_speed_mps, inputs.truth(), inputs.seabed());
+  return {.messages = {std::move(received.ping)}, .trouble = no_echo_reason(received.trace)};
 }
 
 }  // namespace ensonify

@@ -47,12 +47,13 @@ TEST_CASE("after the first ping, receiving allocates nothing") {
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
   MultibeamHead head(config);
+  MultibeamHead::Ping received;
   const int before_anything = allocations;
-  head.receive_echoes({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+  head.receive_echoes({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
   CHECK(allocations > before_anything);  // the count works
-  head.receive_echoes({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+  head.receive_echoes({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
   const int before = allocations;
   for (int ping = 2; ping < 12; ++ping)
-    head.receive_echoes({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene());
+    head.receive_echoes({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
   CHECK(allocations - before == 0);
 }

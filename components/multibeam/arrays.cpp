@@ -17,14 +17,6 @@ double wavelength_m(const MultibeamConfig& config, double frequency_hz) {
   return config.sound_speed_mps / frequency_hz;
 }
 
-/// The edge of a sector at sine 0, whose inside lies at positive sines: one edge of a wide sector.
-array::PatternTable edge_pattern() {
-  const array::SectorBeam beam = array::sector_beam(1.0, 0.0, 1.0, SectorPattern::kRollOff);
-  return {beam.array, 1.0, beam.sin_steer};
-}
-
-}  // namespace
-
 ReceiveLine receive_line(const MultibeamConfig& config) {
   ReceiveLine line;
   line.wavelength_m = wavelength_m(config, config.frequency_hz);
@@ -34,33 +26,42 @@ ReceiveLine receive_line(const MultibeamConfig& config) {
   return line;
 }
 
-array::LineArray transmit_line(const MultibeamConfig& config) {
-  return array::line_array_of_width(config.transmit_beamwidth_rad, wavelength_m(config, config.frequency_hz),
-                                    config.transmit_shading);
+/// One edge of a wide sector.
+array::PatternTable edge_pattern() {
+  const array::SectorBeam beam = array::sector_beam(1.0, 0.0, 1.0, SectorPattern::kRollOff);
+  return {beam.array, 1.0, beam.sin_steer};
 }
 
-double transmit_null(const MultibeamConfig& config, double frequency_hz) {
-  return array::first_null(transmit_line(config), wavelength_m(config, frequency_hz));
+}  // namespace
+
+ArrayDesign::ArrayDesign(const MultibeamConfig& config)
+    : transmit(array::line_array_of_width(config.transmit_beamwidth_rad, wavelength_m(config, config.frequency_hz),
+                                          config.transmit_shading)),
+      receive(receive_line(config)),
+      edge(edge_pattern()) {
+  const double transmit_m = array::effective_length_m(transmit), receive_m = array::effective_length_m(receive.whole);
+  area = {transmit_m / receive.wavelength_m, receive_m / receive.wavelength_m};
+  const double sent_in_waves = array::length_in_waves_for(config.transmit_beamwidth_rad);
+  const double received_in_waves = array::length_in_waves_for(config.receive_beamwidth_rad);
+  const double apart_in_waves = receive.halves.baseline_m / receive.wavelength_m;
+  for (const auto& sector : config.all_sectors()) {
+    const double frequency_hz = sector.frequency_hz, wave_m = wavelength_m(config, frequency_hz);
+    sectors.push_back({.frequency_hz = frequency_hz,
+                       .delay_s = sector.delay_s,
+                       .wavelength_m = wave_m,
+                       .transmit_in_waves = sent_in_waves * frequency_hz / config.frequency_hz,
+                       .receive_in_waves = received_in_waves * frequency_hz / config.frequency_hz,
+                       .area = {transmit_m / wave_m, receive_m / wave_m},
+                       .transmit_null = array::first_null(transmit, wave_m),
+                       .phase_centres_in_waves = apart_in_waves * frequency_hz / config.frequency_hz,
+                       .transmit = {transmit, wave_m}});
+  }
 }
 
-double transmit_length_in_waves(const MultibeamConfig& config, double frequency_hz) {
-  return array::length_in_waves_for(config.transmit_beamwidth_rad) * frequency_hz / config.frequency_hz;
-}
-
-double receive_length_in_waves(const MultibeamConfig& config, double frequency_hz) {
-  return array::length_in_waves_for(config.receive_beamwidth_rad) * frequency_hz / config.frequency_hz;
-}
-
-AreaLengths area_lengths(const MultibeamConfig& config, double frequency_hz) {
-  const double wave_m = wavelength_m(config, frequency_hz);
-  return {array::effective_length_m(transmit_line(config)) / wave_m,
-          array::effective_length_m(receive_line(config).whole) / wave_m};
-}
-
-SectorPattern::SectorPattern(const MultibeamConfig& config, double frequency_hz)
-    : line_(transmit_line(config), wavelength_m(config, frequency_hz)),
-      edge_(edge_pattern()),
-      first_null_(config.effects.side_lobes ? 2.0 : transmit_null(config, frequency_hz)),
+SectorPattern::SectorPattern(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector)
+    : line_(design.sectors[sector].transmit),
+      edge_(design.edge),
+      first_null_(config.effects.side_lobes ? 2.0 : design.sectors[sector].transmit_null),
       behind_(config.effects.directivity ? static_cast<float>(std::pow(10.0, -0.05 * config.back_loss_db)) : 1.0F) {}
 
 float SectorPattern::edge(double sine_inside) const {
@@ -69,12 +70,12 @@ float SectorPattern::edge(double sine_inside) const {
   return amplitude * amplitude;
 }
 
-float SectorPattern::transmitted_power(const Eigen::Vector3f& direction) const {
-  const double along = static_cast<double>(direction.x()) - sector_.sin_transmit;
+float SectorPattern::transmitted_power(const Eigen::Vector3f& direction, const SteeredSector& sector) const {
+  const double along = static_cast<double>(direction.x()) - sector.sin_transmit;
   if (std::abs(along) > first_null_) return 0.0F;
   const double across = static_cast<double>(direction.y());
   const float front = element_amplitude(direction);
-  return line_.power(along) * front * front * edge(across - sector_.lower_sine) * edge(sector_.upper_sine - across);
+  return line_.power(along) * front * front * edge(across - sector.lower_sine) * edge(sector.upper_sine - across);
 }
 
 }  // namespace ensonify

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "components/multibeam/config.h"
 #include "components/multibeam/steering.h"
@@ -16,24 +17,33 @@ struct ReceiveLine {
   array::SplitAperture halves;  // positive: starboard
 };
 
-/// With side lobes switched off they lie 60 dB down, and the main lobe is wider for it; the elements are the same.
-ReceiveLine receive_line(const MultibeamConfig& config);
-
-/// The transmit line. Both lines are as long as their shading asks for, to have the beam widths that are configured at
-/// the head's frequency.
-array::LineArray transmit_line(const MultibeamConfig& config);
-/// First null of the transmit line, as a sine, at a frequency.
-double transmit_null(const MultibeamConfig& config, double frequency_hz);
-
-/// Lengths, in wavelengths at a frequency, of the uniform lines that would have the same widths at -3 dB ...
-double transmit_length_in_waves(const MultibeamConfig& config, double frequency_hz);
-double receive_length_in_waves(const MultibeamConfig& config, double frequency_hz);
-
-/// ... and of those that would see the same area.
+/// Lengths, in wavelengths, of the uniform lines that would see the same area.
 struct AreaLengths {
   double transmit_in_waves = 0.0, receive_in_waves = 0.0;
 };
-AreaLengths area_lengths(const MultibeamConfig& config, double frequency_hz);
+
+/// Both lines at the frequency of a sector.
+struct SectorDesign {
+  double frequency_hz, delay_s, wavelength_m;
+  double transmit_in_waves, receive_in_waves;  // of the uniform lines that would have the same widths at -3 dB
+  AreaLengths area;
+  double transmit_null;           // sine
+  double phase_centres_in_waves;  // from half to half of the receive line
+  array::PatternTable transmit;
+};
+
+/// The arrays of a head, designed once. Both lines are as long as their shading asks for, to have the beam widths that
+/// are configured at the head's frequency. With side lobes switched off those of the receive line lie 60 dB down, and
+/// the main lobe is wider for it; the elements are the same.
+struct ArrayDesign {
+  explicit ArrayDesign(const MultibeamConfig& config);
+
+  array::LineArray transmit;
+  ReceiveLine receive;
+  AreaLengths area;  // at the head's frequency
+  std::vector<SectorDesign> sectors;
+  array::PatternTable edge;  // of a sector at sine 0, whose inside lies at positive sines
+};
 
 /// Pattern of a sector's transmission, in the head's frame: the transmit line's beam along x; across-track everywhere
 /// or between the sector's edges; less behind the face.
@@ -42,13 +52,11 @@ class SectorPattern {
   /// Sine over which an edge falls, from full to nothing; half way it is at -6 dB.
   static constexpr double kRollOff = 0.1;
 
-  SectorPattern(const MultibeamConfig& config, double frequency_hz);
+  /// The design must outlive the pattern.
+  SectorPattern(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector);
 
-  /// From now on; sines and edges are those of the water as it is.
-  void steer(const SteeredSector& sector) { sector_ = sector; }
-
-  /// Power, 1 on the axis.
-  float transmitted_power(const Eigen::Vector3f& direction_head) const;
+  /// Power, 1 on the axis, of a sector steered by sines and edges of the water as it is.
+  float transmitted_power(const Eigen::Vector3f& direction_head, const SteeredSector& sector) const;
   /// Amplitude that an element of the receive line gives a direction.
   float element_amplitude(const Eigen::Vector3f& direction_head) const {
     return direction_head.z() < 0.0F ? behind_ : 1.0F;
@@ -59,10 +67,9 @@ class SectorPattern {
  private:
   float edge(double sine_inside) const;
 
-  array::PatternTable line_, edge_;
+  const array::PatternTable &line_, &edge_;
   double first_null_;  // beyond it there is nothing, where side lobes are switched off
   float behind_;
-  SteeredSector sector_;
 };
 
 }  // namespace ensonify

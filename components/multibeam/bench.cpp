@@ -52,14 +52,15 @@ void one_ping(benchmark::State& state) {
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   PingEvent event{0, SimTime{0}, 75.0};
-  head.receive_echoes(event, settings, steering, truth, tiles.scene());
-  const int rays = head.trace_summary(event.range_m, tiles.scene()).rays_that_hit;
+  MultibeamHead::Ping received;
+  head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+  const int rays = received.trace.rays_that_hit;
   if (rays < 20000) throw std::runtime_error("the rays miss the seabed");
   state.counters["rays"] = rays;
   for (auto _ : state) {
     ++event.ping;
-    benchmark::DoNotOptimize(
-        head.receive_echoes(event, settings, steering, truth, tiles.scene()).front().image.amplitude_upa.data());
+    head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+    benchmark::DoNotOptimize(received.sectors.front().image.amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)
@@ -78,16 +79,20 @@ void detections(benchmark::State& state) {
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
   MultibeamHead head(config);
-  SoundingMaker maker(config);
+  SoundingMaker maker(config, head.design());
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   const PingEvent event{0, SimTime{0}, 75.0};
-  const auto& received = head.receive_echoes(event, settings, steering, truth, tiles.scene());
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        maker.make(event, settings, steering, received, truth, config.uncertainty.unstated()).valid.data());
-  if (maker.bottoms().size() < 250) throw std::runtime_error("the beams do not detect the seabed");
+  MultibeamHead::Ping received;
+  head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+  std::size_t bottoms = 0;
+  for (auto _ : state) {
+    const auto made = maker.make(event, settings, steering, received.sectors, truth, config.uncertainty.unstated());
+    benchmark::DoNotOptimize(made.soundings.valid.data());
+    bottoms = made.bottoms.size();
+  }
+  if (bottoms < 250) throw std::runtime_error("the beams do not detect the seabed");
 }
 BENCHMARK(detections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 

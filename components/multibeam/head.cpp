@@ -8,57 +8,74 @@
 #include "components/sonar/tone_shape.h"
 
 namespace ensonify {
+namespace {
 
-MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config) {
-  for (std::size_t sector = 0; sector < config.all_sectors().size(); ++sector) sectors_.emplace_back(config, sector);
+/// Of starboard over port, in the layout of the amplitudes.
+std::shared_ptr<std::vector<float>> phase_rad(const MultibeamHead::Ping& ping) {
+  auto phase = std::make_shared<std::vector<float>>(ping.amplitude_upa->size());
+  std::size_t first = 0;
+  for (const MultibeamHead::Received& received : ping.sectors) {
+    const auto& halves = received.halves;
+    tbb::parallel_for(std::size_t{0}, halves.positive_upa.size(), [&](std::size_t i) {
+      (*phase)[first + i] = std::arg(halves.positive_upa[i] * std::conj(halves.negative_upa[i]));
+    });
+    first += halves.positive_upa.size();
+  }
+  return phase;
 }
 
-const std::vector<MultibeamHead::Received>& MultibeamHead::receive_echoes(const PingEvent& event,
-                                                                          const HeadSettings& settings,
-                                                                          const Steering& steering,
-                                                                          const frames::PoseHistory& truth,
-                                                                          trace::Scene& seabed) {
-  if (!amplitude_upa_ || amplitude_upa_.use_count() > 1) amplitude_upa_ = std::make_shared<std::vector<float>>();
+MultibeamHead::Received received_of(const SectorEchoes::Sent& sent, std::span<const echo::Image> images,
+                                    std::span<const float> amplitude_upa) {
+  const echo::Image& whole = images.front();
+  const echo::Pulse& pulse = sent.pulse.pulse;
+  const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
+  const double start_s = sent.sampling.start_s + (0.5 * echo_s - middle_s);
+  detect::HalfApertures halves;
+  if (images.size() == 3) halves = {images[1].envelope_upa, images[2].envelope_upa};
+  return {{whole.beams, whole.samples, start_s, sent.sampling.period_s, amplitude_upa}, halves, echo_s, middle_s};
+}
+
+}  // namespace
+
+MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config), design_(config) {
+  for (std::size_t i = 0; i < design_.sectors.size(); ++i) sectors_.emplace_back(config, design_, i);
+}
+
+void MultibeamHead::receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                                   const frames::PoseHistory& truth, trace::Scene& seabed, Ping& ping) {
+  if (!ping.amplitude_upa || ping.amplitude_upa.use_count() > 1)
+    ping.amplitude_upa = std::make_shared<std::vector<float>>();
   const auto samples = static_cast<std::size_t>(config_.samples(event.range_m, settings.pulse_length_s));
-  amplitude_upa_->resize(samples * steering.sin_beams.size());
-  received_.clear();
-  for (SectorEchoes& sector : sectors_) sector.send(event, settings, steering, truth, seabed);
+  ping.amplitude_upa->resize(samples * steering.sin_beams.size());
+  ping.memory.resize(sectors_.size());
+  ping.sent.clear();
+  ping.sectors.clear();
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
-    SectorEchoes& sector = sectors_[i];
-    sector.beamform(event, settings, sectors_);
-    const echo::Image& whole = sector.whole();
-    const auto rows = std::span(*amplitude_upa_)
+    ping.sent.push_back(sectors_[i].send(event, settings, steering, truth, seabed, ping.memory[i]));
+  }
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    sectors_[i].beamform(event, settings, ping.sent, ping.memory[i]);
+    const auto& images = ping.memory[i].beams.images;
+    const auto rows = std::span(*ping.amplitude_upa)
                           .subspan(samples * static_cast<std::size_t>(steering.sectors[i].first_beam),
                                    samples * static_cast<std::size_t>(steering.sectors[i].beams));
     if (sectors_.size() == 1) {
-      echo::amplitude_upa(whole, *amplitude_upa_);
+      echo::amplitude_upa(images.front(), *ping.amplitude_upa);
     } else {
-      echo::amplitude_upa(whole, part_);
-      std::ranges::copy(part_, rows.begin());
+      echo::amplitude_upa(images.front(), ping.part);
+      std::ranges::copy(ping.part, rows.begin());
     }
-    const echo::Pulse& pulse = sector.pulse();
-    const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
-    const double start_s = sector.sampling().start_s + (0.5 * echo_s - middle_s);
-    received_.push_back({{whole.beams, whole.samples, start_s, sector.sampling().period_s, rows},
-                         {sector.starboard().envelope_upa, sector.port().envelope_upa},
-                         echo_s,
-                         middle_s});
+    ping.sectors.push_back(received_of(ping.sent[i], images, rows));
   }
-  return received_;
+  ping.trace = ping.sent.front().echoed.summary(ping.sent.front().shot, event.range_m, seabed);
+  for (const SectorEchoes::Sent& sent : std::span(ping.sent).subspan(1)) {
+    ping.trace.rays_that_hit += sent.echoed.rays_that_hit;
+    ping.trace.rays_in_lobe += sent.echoed.rays_in_lobe;
+  }
 }
 
-TraceSummary MultibeamHead::trace_summary(double range_m, const trace::Scene& seabed) const {
-  TraceSummary all = sectors_.front().trace_summary(range_m, seabed);
-  for (std::size_t i = 1; i < sectors_.size(); ++i) {
-    const TraceSummary trace_summary = sectors_[i].trace_summary(range_m, seabed);
-    all.rays_that_hit += trace_summary.rays_that_hit;
-    all.rays_in_lobe += trace_summary.rays_in_lobe;
-  }
-  return all;
-}
-
-msg::Ping MultibeamHead::ping_message(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                      bool phase) const {
+msg::Ping MultibeamHead::ping_message(const Ping& received, const PingEvent& event, const HeadSettings& settings,
+                                      const Steering& steering, bool phase) const {
   msg::Ping ping;
   ping.stamp_ns = event.transmit.count();
   ping.ping = event.ping;
@@ -71,26 +88,13 @@ msg::Ping MultibeamHead::ping_message(const PingEvent& event, const HeadSettings
   echo::TvgLaw gain = tvg_of(settings, steering.sound_speed_mps);
   gain.spreading_db = ping.applied.gain_spreading_db;
   gain.absorption_dbpm = ping.applied.gain_absorption_dbpm;
-  write_samples(gain, config_.converter_in_use(), sampling, amplitude_upa_, ping);
+  write_samples(gain, config_.converter_in_use(), sampling, received.amplitude_upa, ping);
   if (phase && config_.effects.speckle) {
-    const auto values = phase_rad();
+    const auto values = phase_rad(received);
     ping.phase_rad = msg::Array<float>::view({steering.sin_beams.size(), static_cast<std::size_t>(sampling.count)},
                                              values, values->data());
   }
   return ping;
-}
-
-std::shared_ptr<std::vector<float>> MultibeamHead::phase_rad() const {
-  auto phase = std::make_shared<std::vector<float>>(amplitude_upa_->size());
-  std::size_t first = 0;
-  for (const Received& received : received_) {
-    const auto& halves = received.halves;
-    tbb::parallel_for(std::size_t{0}, halves.positive_upa.size(), [&](std::size_t i) {
-      (*phase)[first + i] = std::arg(halves.positive_upa[i] * std::conj(halves.negative_upa[i]));
-    });
-    first += halves.positive_upa.size();
-  }
-  return phase;
 }
 
 msg::AppliedSettings MultibeamHead::applied(const PingEvent& event, const HeadSettings& settings,

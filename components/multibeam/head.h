@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "components/multibeam/arrays.h"
 #include "components/multibeam/config.h"
 #include "components/multibeam/sector_echoes.h"
 #include "components/multibeam/steering.h"
@@ -33,31 +34,33 @@ class MultibeamHead {
     detect::HalfApertures halves;
     double echo_s = 0.0, middle_s = 0.0;
   };
-  /// One entry per sector; valid until the next call. A function of shot, settings, steering, poses and tiles. `truth`
-  /// has a pose.
-  const std::vector<Received>& receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                              const Steering& steering, const frames::PoseHistory& truth,
-                                              trace::Scene& seabed);
+  /// A ping as received, in memory of the caller, which may be used again.
+  struct Ping {
+    std::vector<Received> sectors;                      // their spans lie in this ping
+    TraceSummary trace;                                 // of all sectors
+    std::shared_ptr<std::vector<float>> amplitude_upa;  // of all beams; a new one while messages still hold the last
+    // Scratch.
+    std::vector<SectorEchoes::Memory> memory;
+    std::vector<SectorEchoes::Sent> sent;
+    std::vector<float> part;  // amplitudes of a sector
+  };
+  /// Fills a ping: a function of shot, settings, steering, poses and tiles. `truth` has a pose.
+  void receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                      const frames::PoseHistory& truth, trace::Scene& seabed, Ping& ping);
 
-  /// Summary of the last ping's hits.
-  TraceSummary trace_summary(double range_m, const trace::Scene& seabed) const;
-
-  /// The last ping as a message, without a track; amplitudes without a converter are shared with it. The phase costs
-  /// time and is left out unless asked for, or without speckle, when there is none.
-  msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                         bool phase) const;
+  /// A ping as a message, without a track; amplitudes without a converter are shared with it. The phase costs time and
+  /// is left out unless asked for, or without speckle, when there is none.
+  msg::Ping ping_message(const Ping& received, const PingEvent& event, const HeadSettings& settings,
+                         const Steering& steering, bool phase) const;
   /// The settings that a ping was made with.
   msg::AppliedSettings applied(const PingEvent& event, const HeadSettings& settings, const Steering& steering) const;
   std::size_t max_ping_bytes() const;
+  const ArrayDesign& design() const { return design_; }
 
  private:
-  std::shared_ptr<std::vector<float>> phase_rad() const;
-
   MultibeamConfig config_;
+  ArrayDesign design_;
   std::deque<SectorEchoes> sectors_;
-  std::vector<Received> received_;
-  std::vector<float> part_;                            // amplitudes of a sector
-  std::shared_ptr<std::vector<float>> amplitude_upa_;  // of all beams; a new one while messages still hold the last
 };
 
 }  // namespace ensonify

@@ -54,15 +54,16 @@ Received received(const MultibeamConfig& config, bool phase = false) {
   MultibeamHead head(config);
   const PingEvent event{7, SimTime{0}, 45.0};
   const Steering steering = steer(config, config.swath_rad, {});
-  const auto& echoes = head.receive_echoes(event, config.start(), steering, moving(), seabed());
+  MultibeamHead::Ping echoes;
+  head.receive_echoes(event, config.start(), steering, moving(), seabed(), echoes);
   Received result;
-  for (const auto& sector : echoes) {
+  for (const auto& sector : echoes.sectors) {
     const auto half = sector.halves.positive_upa;
     result.starboard.insert(result.starboard.end(), half.begin(), half.end());
     const auto amplitude = sector.image.amplitude_upa;
     result.amplitude_upa.insert(result.amplitude_upa.end(), amplitude.begin(), amplitude.end());
   }
-  result.ping = head.ping_message(event, config.start(), steering, phase);
+  result.ping = head.ping_message(echoes, event, config.start(), steering, phase);
   return result;
 }
 

@@ -36,10 +36,9 @@ HeadPlan Multibeam::plan(const Config& config) {
 
 Multibeam::Multibeam(const Config& config, std::size_t)
     : config_(config),
-      lines_(area_lengths(config, config.frequency_hz)),
       head_(config),
       applied_(applied_profile(config.world)),
-      soundings_(config),
+      soundings_(config, head_.design()),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       swath_of_range_rad_(config.swath_rad),
       heading_(config.heading_mean_s) {}
@@ -102,40 +101,36 @@ SteeringInputs Multibeam::steering_inputs(SimTime now, const HeadInputs& inputs)
 
 Multibeam::Report Multibeam::ping(const PingEvent& event, const Sent& sent, HeadInputs& inputs) {
   const HeadSettings& settings = sent.sectors.front().settings;
-  const auto& received = head_.receive_echoes(event, settings, sent.steering, inputs.truth(), inputs.seabed());
+  head_.receive_echoes(event, settings, sent.steering, inputs.truth(), inputs.seabed(), received_);
 
   Report report;
   const auto every = [&](int n) { return n > 0 && event.ping % n == 0; };
   const bool whole = settings.mode == "water_column", phase = whole || every(config_.phase_every);
   if (phase || every(config_.amplitude_every)) {
-    std::get<0>(report.messages) = head_.ping_message(event, settings, sent.steering, phase);
+    std::get<0>(report.messages) = head_.ping_message(received_, event, settings, sent.steering, phase);
   }
-  auto& soundings = std::get<1>(report.messages);
-  soundings = soundings_.make(event, settings, sent.steering, received, inputs.estimate(),
+  auto made = soundings_.make(event, settings, sent.steering, received_.sectors, inputs.estimate(),
                               inputs.navigation_errors().value_or(config_.uncertainty.unstated()));
-  soundings->applied = head_.applied(event, settings, sent.steering);
-  add_images(sent, received, report);
-  range_.update(soundings_.bottoms(), event.range_m);
-  report.trouble = trouble(event, inputs);
+  made.soundings.applied = head_.applied(event, settings, sent.steering);
+  add_images(sent, made, report);
+  range_.update(made.bottoms, event.range_m);
+  report.trouble = no_echo_reason(received_.trace);
+  if (report.trouble.empty() && !inputs.estimate().empty() && made.bottoms.empty())
+    report.trouble = "no beam detects the seabed";
+  std::get<1>(report.messages) = std::move(made.soundings);
   return report;
 }
 
-void Multibeam::add_images(const Sent& sent, const std::vector<MultibeamHead::Received>& received,
-                           Report& report) const {
+void Multibeam::add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const {
   if (!config_.snippets && !config_.image.published) return;
-  auto& [ping, soundings, snippets, image] = report.messages;
-  snippets = snippets_of(received, sent.steering, soundings_.echoes(), *soundings);
-  snippets->applied = soundings->applied;
+  auto& snippets = std::get<2>(report.messages);
+  auto& image = std::get<3>(report.messages);
+  snippets = snippets_of(received_.sectors, sent.steering, made.echoes, made.soundings);
+  snippets->applied = made.soundings.applied;
   if (!config_.image.published) return;
-  image = seabed_image_of(config_, sent.sectors.front().settings, sent.steering, received.front(), lines_, *snippets,
-                          *soundings);
-  image->applied = soundings->applied;
-}
-
-std::string Multibeam::trouble(const PingEvent& event, const HeadInputs& inputs) const {
-  const std::string why = no_echo_reason(head_.trace_summary(event.range_m, inputs.seabed()));
-  if (!why.empty() || inputs.estimate().empty()) return why;
-  return soundings_.bottoms().empty() ? "no beam detects the seabed" : "";
+  image = seabed_image_of(config_, sent.sectors.front().settings, sent.steering, received_.sectors.front(),
+                          head_.design().area, *snippets, made.soundings);
+  image->applied = made.soundings.applied;
 }
 
 }  // namespace ensonify

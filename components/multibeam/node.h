@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "components/multibeam/arrays.h"
 #include "components/multibeam/head.h"
 #include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
@@ -36,12 +35,11 @@ class Multibeam {
  private:
   void follow_range(const HeadSettings& settings);
   SteeringInputs steering_inputs(SimTime now, const HeadInputs& inputs) const;
-  void add_images(const Sent& sent, const std::vector<MultibeamHead::Received>& received, Report& report) const;
-  std::string trouble(const PingEvent& event, const HeadInputs& inputs) const;
+  void add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const;
 
   Config config_;
-  AreaLengths lines_;  // at the head's frequency
   MultibeamHead head_;
+  MultibeamHead::Ping received_;
   refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;
   AutoRange range_;

@@ -21,8 +21,8 @@ double nearest_s(const msg::Soundings& soundings) {
 
 }  // namespace
 
-msg::Snippets snippets_of(const std::vector<MultibeamHead::Received>& received, const Steering& steering,
-                          const std::vector<Echo>& echoes, const msg::Soundings& soundings) {
+msg::Snippets snippets_of(std::span<const MultibeamHead::Received> received, const Steering& steering,
+                          std::span<const Echo> echoes, const msg::Soundings& soundings) {
   std::vector<std::uint16_t> beams;
   std::vector<float> first_s, samples;
   std::vector<std::uint32_t> centres, offsets{0};

@@ -12,8 +12,8 @@
 namespace ensonify {
 
 /// The amplitudes around each valid sounding as they were received, uncorrected. The settings are not filled.
-msg::Snippets snippets_of(const std::vector<MultibeamHead::Received>& received, const Steering& steering,
-                          const std::vector<Echo>& echoes, const msg::Soundings& soundings);
+msg::Snippets snippets_of(std::span<const MultibeamHead::Received> received, const Steering& steering,
+                          std::span<const Echo> echoes, const msg::Soundings& soundings);
 
 /// The same after the corrections that the head is set to: spreading 40 log10 R and the operator's absorption, the area
 /// of a level seabed, and the angular law of MultibeamConfig::image about the nearest sounding of the ping

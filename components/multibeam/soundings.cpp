@@ -66,57 +66,46 @@ double seabed_tilt_rad(const frames::HeadPose& head) {
 
 }  // namespace
 
-SoundingMaker::SoundingMaker(const MultibeamConfig& config) : config_(config), applied_(applied_profile(config.world)) {
-  settings_.gates.snr_db = config.detection_threshold_db;
-  settings_.gates.min_range_m = config.least_range_m;
-  settings_.max_detections = config.detections_per_beam;
-  settings_.second_echo.refused = config.refuse_second_echo;
-  const ReceiveLine line = receive_line(config);
-  for (const auto& sector : config.all_sectors()) {
-    sectors_.push_back({sector.delay_s, receive_length_in_waves(config, sector.frequency_hz),
-                        line.halves.baseline_m / line.wavelength_m * sector.frequency_hz / config.frequency_hz,
-                        2.0 * std::sin(0.5 * config.transmit_beamwidth_rad) * config.frequency_hz / sector.frequency_hz,
-                        area_lengths(config, sector.frequency_hz)});
-  }
-}
+SoundingMaker::SoundingMaker(const MultibeamConfig& config, const ArrayDesign& design)
+    : config_(config), applied_(applied_profile(config.world)), sectors_(design.sectors) {}
 
 frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estimate, SimTime t) const {
   return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
 }
 
-msg::Soundings SoundingMaker::make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                   const std::vector<MultibeamHead::Received>& received,
-                                   const frames::PoseHistory& estimate, const uncertainty::Navigation& navigation) {
+SoundingMaker::Made SoundingMaker::make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                                        std::span<const MultibeamHead::Received> received,
+                                        const frames::PoseHistory& estimate,
+                                        const uncertainty::Navigation& navigation) {
   const Ping ping{event, settings, steering, estimate, navigation};
-  detect(ping, received);
-
-  const double period_s = received.front().image.period_s;
-  msg::Soundings soundings = without_measurements(echoes_.size());
+  Made made{.echoes = detect(ping, received), .soundings = {}, .bottoms = {}};
+  const std::vector<Echo>& echoes = made.echoes;
+  msg::Soundings& soundings = made.soundings;
+  soundings = without_measurements(echoes.size());
   soundings.stamp_ns = event.transmit.count();
   soundings.ping = event.ping;
-  soundings.sample_period_s = period_s;
+  soundings.sample_period_s = received.front().image.period_s;
   std::vector<float> angle_rad;
-  for (const Echo& echo : echoes_) {
+  for (const Echo& echo : echoes) {
     angle_rad.push_back(steering.sounding_angle_rad[static_cast<std::size_t>(echo.place)]);
   }
   soundings.beam_angle_rad = msg::Array<float>::of(angle_rad);
   if (steering.high_density() || config_.detections_per_beam > 1) {
-    soundings.beam = of_each<std::uint16_t>(echoes_, &Echo::beam);
+    soundings.beam = of_each<std::uint16_t>(echoes, &Echo::beam);
   }
-  if (config_.detections_per_beam > 1) soundings.detection = of_each<std::uint8_t>(echoes_, &Echo::detection);
-  if (sectors_.size() > 1) soundings.sector = of_each<std::uint8_t>(echoes_, &Echo::sector);
-  flag(steering, soundings);
-  bottoms_.clear();
-  if (estimate.empty()) return soundings;
-  for (std::size_t i = 0; i < echoes_.size(); ++i) {
-    const detect::Detection& found = echoes_[i].measured;
+  if (config_.detections_per_beam > 1) soundings.detection = of_each<std::uint8_t>(echoes, &Echo::detection);
+  if (sectors_.size() > 1) soundings.sector = of_each<std::uint8_t>(echoes, &Echo::sector);
+  flag(steering, made);
+  if (estimate.empty()) return made;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const detect::Detection& found = echoes[i].measured;
     if ((found.flags & detect::kNoSignal) == 0) soundings.quality_db[i] = found.snr_db;
     if (soundings.flags[i] != 0) continue;
-    measure(ping, i, period_s, soundings);
-    place(ping, i, soundings);
+    measure(ping, i, received.front().echo_s, made);
+    place(ping, i, made);
   }
-  state_uncertainty(ping, motion(ping), soundings);
-  return soundings;
+  state_uncertainty(ping, motion(ping), made);
+  return made;
 }
 
 /// How the head lies and moves at transmission, by the estimate: over 0.2 s, longer than the noise of attitudes and
@@ -137,23 +126,26 @@ uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
 }
 
 SoundingMaker::Footprint SoundingMaker::footprint(std::size_t entry, const frames::Vec3& away_enu_m,
-                                                  const msg::Soundings& soundings) const {
-  const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
+                                                  const Made& made) const {
+  const SectorDesign& sector = sectors_[static_cast<std::size_t>(made.echoes[entry].sector)];
   const double range_m = away_enu_m.norm();
   const double cos_vertical = std::max(-away_enu_m.z() / range_m, kLeastCosine);
-  const double cos_beam = std::max(std::cos(static_cast<double>(soundings.beam_angle_rad[entry])), kLeastCosine);
-  const double receive_width = 2.0 * array::half_power_half_width(sector.receive_length_in_waves);  // sine
-  return {range_m * receive_width / (cos_vertical * cos_beam), range_m * sector.transmit_width};
+  const double cos_beam = std::max(std::cos(static_cast<double>(made.soundings.beam_angle_rad[entry])), kLeastCosine);
+  const double receive_width = 2.0 * array::half_power_half_width(sector.receive_in_waves);  // sine
+  const double transmit_width =
+      2.0 * std::sin(0.5 * config_.transmit_beamwidth_rad) * config_.frequency_hz / sector.frequency_hz;  // sine
+  return {range_m * receive_width / (cos_vertical * cos_beam), range_m * transmit_width};
 }
 
 /// Heights' noise is that of the detection.
 void SoundingMaker::update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
-                                  const msg::Soundings& soundings) {
+                                  const Made& made) {
+  const msg::Soundings& soundings = made.soundings;
   const frames::Vec3 starboard = motion.enu_from_head * frames::Vec3::UnitY();
   const frames::Vec3 across_enu = frames::Vec3(starboard.x(), starboard.y(), 0.0).normalized();
   profile_.clear();
-  for (std::size_t i = 0; i < echoes_.size(); ++i) {
-    const Echo& echo = echoes_[i];
+  for (std::size_t i = 0; i < made.echoes.size(); ++i) {
+    const Echo& echo = made.echoes[i];
     if (soundings.valid[i] == 0 || (!profile_.empty() && profile_.back().place == echo.place)) continue;
     const frames::Vec3 away(soundings.position_enu_m(i, 0) - head_enu_m.x(),
                             soundings.position_enu_m(i, 1) - head_enu_m.y(),
@@ -162,26 +154,25 @@ void SoundingMaker::update_relief(const uncertainty::Geometry& motion, const fra
     const double tan_vertical = std::sqrt(1.0 - cos_vertical * cos_vertical) / cos_vertical;
     const double along_ray_m = std::hypot(soundings.range_sd_m[i], range_m * tan_vertical * soundings.angle_sd_rad[i]);
     profile_.push_back(
-        {echo.place,
-         {away.dot(across_enu), away.z(), footprint(i, away, soundings).across_m, along_ray_m * cos_vertical}});
+        {echo.place, {away.dot(across_enu), away.z(), footprint(i, away, made).across_m, along_ray_m * cos_vertical}});
   }
   relief_.take(profile_);
 }
 
-void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion,
-                                      msg::Soundings& soundings) {
+void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, Made& made) {
+  msg::Soundings& soundings = made.soundings;
   const frames::Vec3 head = estimated_pose(ping.estimate, ping.event.transmit).position_enu_m;
-  update_relief(motion, head, soundings);
+  update_relief(motion, head, made);
   uncertainty::Geometry geometry = motion;
-  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+  for (std::size_t i = 0; i < made.echoes.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
       geometry.away_enu_m[k] = soundings.position_enu_m(i, axis) - head[k];
     }
-    const Footprint on_seabed = footprint(i, geometry.away_enu_m, soundings);
+    const Footprint on_seabed = footprint(i, geometry.away_enu_m, made);
     const double relief_sd_m =
-        relief_.sd_m(echoes_[i].place, on_seabed.across_m, on_seabed.along_m / on_seabed.across_m);
+        relief_.sd_m(made.echoes[i].place, on_seabed.across_m, on_seabed.along_m / on_seabed.across_m);
     const uncertainty::Matrix3 covariance_enu_m2 =
         uncertainty::covariance_enu_m2(geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i], relief_sd_m},
                                        ping.navigation, config_.uncertainty.sources);
@@ -190,23 +181,27 @@ void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geome
   }
 }
 
-void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Received>& received) {
+std::vector<Echo> SoundingMaker::detect(const Ping& ping, std::span<const MultibeamHead::Received> received) {
   const Steering& steering = ping.steering;
-  settings_.pulse_length_s = received.front().echo_s;
-  settings_.absorption_dbpm = ping.settings.gain_absorption_dbpm;
-  settings_.sound_speed_mps = steering.sound_speed_mps;
-  settings_.seabed_tilt_rad = settings_.second_echo.head_depth_m = 0.0;
+  detect::Settings settings;
+  settings.gates.snr_db = config_.detection_threshold_db;
+  settings.gates.min_range_m = config_.least_range_m;
+  settings.max_detections = config_.detections_per_beam;
+  settings.second_echo.refused = config_.refuse_second_echo;
+  settings.pulse_length_s = received.front().echo_s;
+  settings.absorption_dbpm = ping.settings.gain_absorption_dbpm;
+  settings.sound_speed_mps = steering.sound_speed_mps;
   if (!ping.estimate.empty()) {
     const frames::HeadPose head = estimated_pose(ping.estimate, ping.event.transmit);
-    settings_.seabed_tilt_rad = seabed_tilt_rad(head);
+    settings.seabed_tilt_rad = seabed_tilt_rad(head);
     const double water_level_m = config_.world.vertical.tide.at(seconds(ping.event.transmit)).height_m;
-    settings_.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
+    settings.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
   }
-  echoes_.clear();
+  std::vector<Echo> echoes;
   std::size_t first = 0;  // place of the sector's first sounding
   for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {
-    settings_.receive_length_in_waves = sectors_[sector].receive_length_in_waves;
-    settings_.phase_centres_in_waves = sectors_[sector].phase_centres_in_waves;
+    settings.receive_length_in_waves = sectors_[sector].receive_in_waves;
+    settings.phase_centres_in_waves = sectors_[sector].phase_centres_in_waves;
     const SteeredSector& beams = steering.sectors[sector];
     const auto begin = steering.beam_of_sounding.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = std::lower_bound(begin, steering.beam_of_sounding.end(), beams.first_beam + beams.beams);
@@ -217,16 +212,17 @@ void SoundingMaker::detect(const Ping& ping, const std::vector<MultibeamHead::Re
         steering.high_density()
             ? at_places(steering, sector, as_formed, std::span(steering.beam_of_sounding).subspan(first, count), sines)
             : as_formed;
-    detect::detect_bottom(settings_, sines, at.image, at.halves, detections_);
+    detect::detect_bottom(settings, sines, at.image, at.halves, detections_);
     for (std::size_t i = 0; i < detections_.size(); ++i) {
-      const auto place = static_cast<int>(first + i / static_cast<std::size_t>(settings_.max_detections));
-      const auto detection = static_cast<int>(i % static_cast<std::size_t>(settings_.max_detections));
+      const auto place = static_cast<int>(first + i / static_cast<std::size_t>(settings.max_detections));
+      const auto detection = static_cast<int>(i % static_cast<std::size_t>(settings.max_detections));
       if (detection > 0 && !detections_[i].valid) continue;
-      echoes_.push_back({steering.beam_of_sounding[static_cast<std::size_t>(place)], detection,
-                         static_cast<int>(sector), place, detections_[i]});
+      echoes.push_back({steering.beam_of_sounding[static_cast<std::size_t>(place)], detection, static_cast<int>(sector),
+                        place, detections_[i]});
     }
     first += count;
   }
+  return echoes;
 }
 
 /// The beams nearest to places in the swath, their halves turned from their axes to these places: what turns is the
@@ -262,15 +258,17 @@ MultibeamHead::Received SoundingMaker::at_places(const Steering& steering, std::
 
 /// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam receives
 /// are the side lobes of those within it.
-void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) const {
-  for (std::size_t i = 0; i < echoes_.size(); ++i) soundings.flags[i] = flags_of(echoes_[i].measured);
+void SoundingMaker::flag(const Steering& steering, Made& made) {
+  const std::vector<Echo>& echoes = made.echoes;
+  msg::Soundings& soundings = made.soundings;
+  for (std::size_t i = 0; i < echoes.size(); ++i) soundings.flags[i] = flags_of(echoes[i].measured);
   const auto sine = [&](const Echo& echo) { return steering.sin_soundings[static_cast<std::size_t>(echo.place)]; };
-  const auto middle = std::ranges::lower_bound(echoes_, 0.0F, {}, sine) - echoes_.begin();
+  const auto middle = std::ranges::lower_bound(echoes, 0.0F, {}, sine) - echoes.begin();
   const auto outward = [&](std::ptrdiff_t from, std::ptrdiff_t step) {
-    const auto end = static_cast<std::ptrdiff_t>(echoes_.size());
+    const auto end = static_cast<std::ptrdiff_t>(echoes.size());
     int cut_off_at = -1;  // place
     for (std::ptrdiff_t i = from; i >= 0 && i < end; i += step) {
-      const Echo& echo = echoes_[static_cast<std::size_t>(i)];
+      const Echo& echo = echoes[static_cast<std::size_t>(i)];
       if (cut_off_at >= 0 && echo.place != cut_off_at) soundings.flags[static_cast<std::size_t>(i)] |= msg::kSideLobe;
       if (cut_off_at < 0 && (echo.measured.flags & detect::kCutOff) != 0) cut_off_at = echo.place;
     }
@@ -279,12 +277,13 @@ void SoundingMaker::flag(const Steering& steering, msg::Soundings& soundings) co
   outward(middle - 1, -1);
 }
 
-void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_period_s,
-                            msg::Soundings& soundings) const {
-  const detect::Detection& detection = echoes_[entry].measured;
-  const Sector& sector = sectors_[static_cast<std::size_t>(echoes_[entry].sector)];
+void SoundingMaker::measure(const Ping& ping, std::size_t entry, double pulse_length_s, Made& made) const {
+  const Echo& echo = made.echoes[entry];
+  const detect::Detection& detection = echo.measured;
+  const SectorDesign& sector = sectors_[static_cast<std::size_t>(echo.sector)];
+  msg::Soundings& soundings = made.soundings;
   const HeadSettings& settings = ping.settings;
-  const double level_db = detection.echo_energy_db - 10.0 * std::log10(settings_.pulse_length_s);
+  const double level_db = detection.echo_energy_db - 10.0 * std::log10(pulse_length_s);
   const double range_m = 0.5 * detection.two_way_s * ping.steering.sound_speed_mps;
   const double area_m2 = detect::beam_area_m2(range_m, std::sin(static_cast<double>(soundings.beam_angle_rad[entry])),
                                               sector.area.transmit_in_waves, sector.area.receive_in_waves);
@@ -295,12 +294,12 @@ void SoundingMaker::measure(const Ping& ping, std::size_t entry, double sample_p
                          2.0 * settings.gain_absorption_dbpm * range_m - 10.0 * std::log10(area_m2));
   soundings.range_sd_m[entry] = detection.range_sd_m;
   soundings.angle_sd_rad[entry] = detection.angle_sd_rad;
-  soundings.window_s[entry] = static_cast<float>(detection.snippet_count * sample_period_s);
+  soundings.window_s[entry] = static_cast<float>(detection.snippet_count * soundings.sample_period_s);
   soundings.kind[entry] = detection.phase_weight > 0.5F ? 2 : 1;
 }
 
-void SoundingMaker::place(const Ping& ping, std::size_t entry, msg::Soundings& soundings) {
-  const Echo& echo = echoes_[entry];
+void SoundingMaker::place(const Ping& ping, std::size_t entry, Made& made) const {
+  const Echo& echo = made.echoes[entry];
   const Steering& steering = ping.steering;
   const auto sector = static_cast<std::size_t>(echo.sector), place = static_cast<std::size_t>(echo.place);
   const SimTime transmit = ping.event.transmit + from_seconds(sectors_[sector].delay_s);
@@ -311,10 +310,10 @@ void SoundingMaker::place(const Ping& ping, std::size_t entry, msg::Soundings& s
        steering.sound_speed_mps, two_way_s},
       applied_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
+    made.soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
   }
-  soundings.valid[entry] = 1;
-  bottoms_.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
+  made.soundings.valid[entry] = 1;
+  made.bottoms.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
 }
 
 }  // namespace ensonify

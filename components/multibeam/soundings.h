@@ -30,26 +30,20 @@ struct Echo {
 /// the truth.
 class SoundingMaker {
  public:
-  explicit SoundingMaker(const MultibeamConfig& config);
+  /// The design must outlive it.
+  SoundingMaker(const MultibeamConfig& config, const ArrayDesign& design);
 
-  /// Soundings of a ping, without settings and track. Without an estimate none is valid. `navigation`: what the
-  /// estimate says of its own errors.
-  msg::Soundings make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                      const std::vector<MultibeamHead::Received>& received, const frames::PoseHistory& estimate,
-                      const uncertainty::Navigation& navigation);
-
-  /// The detections behind the entries of the last soundings.
-  const std::vector<Echo>& echoes() const { return echoes_; }
-  /// Bottom returns of the valid ones.
-  const std::vector<BottomDetection>& bottoms() const { return bottoms_; }
+  struct Made {
+    std::vector<Echo> echoes;              // the detections behind the entries of the soundings
+    msg::Soundings soundings;              // without settings and track
+    std::vector<BottomDetection> bottoms;  // returns of the valid ones
+  };
+  /// Soundings of a ping. Without an estimate none is valid. `navigation`: what the estimate says of its own errors.
+  Made make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+            std::span<const MultibeamHead::Received> received, const frames::PoseHistory& estimate,
+            const uncertainty::Navigation& navigation);
 
  private:
-  /// The detector's view of one sector.
-  struct Sector {
-    double delay_s, receive_length_in_waves, phase_centres_in_waves;
-    double transmit_width;  // at half power, sine
-    AreaLengths area;
-  };
   /// Half-power widths on a level seabed.
   struct Footprint {
     double across_m, along_m;
@@ -63,26 +57,23 @@ class SoundingMaker {
   };
 
   frames::HeadPose estimated_pose(const frames::PoseHistory& estimate, SimTime t) const;
-  void detect(const Ping& ping, const std::vector<MultibeamHead::Received>& received);
+  std::vector<Echo> detect(const Ping& ping, std::span<const MultibeamHead::Received> received);
   MultibeamHead::Received at_places(const Steering& steering, std::size_t sector, const MultibeamHead::Received& beams,
                                     std::span<const int> beam_of_place, std::span<const float> sin_places);
-  void flag(const Steering& steering, msg::Soundings& soundings) const;
-  void measure(const Ping& ping, std::size_t entry, double sample_period_s, msg::Soundings& soundings) const;
-  void place(const Ping& ping, std::size_t entry, msg::Soundings& soundings);
+  static void flag(const Steering& steering, Made& made);
+  void measure(const Ping& ping, std::size_t entry, double pulse_length_s, Made& made) const;
+  void place(const Ping& ping, std::size_t entry, Made& made) const;
   uncertainty::Geometry motion(const Ping& ping) const;
-  Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const msg::Soundings& soundings) const;
-  void update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
-                     const msg::Soundings& soundings);
-  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, msg::Soundings& soundings);
+  Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const Made& made) const;
+  void update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m, const Made& made);
+  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, Made& made);
 
   MultibeamConfig config_;
   refraction::SoundSpeedProfile applied_;
-  std::vector<Sector> sectors_;
-  detect::Settings settings_;
-  std::vector<detect::Detection> detections_;  // of one sector
-  std::vector<Echo> echoes_;
-  std::vector<BottomDetection> bottoms_;
+  const std::vector<SectorDesign>& sectors_;
   ReliefEstimator relief_;
+  // Memory of the ping path.
+  std::vector<detect::Detection> detections_;  // of one sector
   std::vector<ReliefEstimator::Sounding> profile_;
   // Beams turned to the places where soundings are sought, of high density.
   std::vector<float> amplitude_upa_;

@@ -18,55 +18,17 @@ constexpr double kNominalSpeed_mps = 1500.0;
 constexpr double kBackLoss_db = 40.0;
 constexpr double kReach = 6.0;  // sines to either side that rays go to, in lambda / L of a uniform line as wide
 
-/// Length of a uniform line as wide.
-double line_waves(double beamwidth_rad) { return array::length_in_waves_for(beamwidth_rad); }
+double tall_in_waves(const ScanningConfig& config) { return array::length_in_waves_for(config.vertical_beamwidth_rad); }
 
 /// The transducer across its narrow beam, in wavelengths.
-array::LineArray narrow_line(const ScanningConfig& config) {
-  return array::line_array_of_width(config.horizontal_beamwidth_rad, 1.0, config.shading);
-}
+LineDesign narrow_line(const ScanningConfig& config) { return {config.horizontal_beamwidth_rad, 1.0, config.shading}; }
 
-double resolution_m(const ScanningConfig& config) {
-  return 0.5 * kNominalSpeed_mps / pulse_at(config.pulse, config.range_m, config.sound_speed_mps).band_hz;
-}
-
-Apertures apertures_of(const ScanningConfig& config) {
-  Apertures a;
-  a.frequency_hz = config.frequency_hz;
-  a.patterns.transmit = a.patterns.receive = {scanning_pattern(config)};
-  a.directivity_index_db = array::directivity_index_db(array::effective_length_m(narrow_line(config)),
-                                                       line_waves(config.vertical_beamwidth_rad));
-  a.electronic_noise_db = config.electronic_noise_db;
-  a.narrowest_rad = config.horizontal_beamwidth_rad;
-  a.narrow_axis_head = Eigen::Vector3f::UnitY();
-  a.resolution_m = resolution_m(config);
-  a.seed = config.world.seed;
-  a.process = config.process;
-  return a;
-}
-
-trace::RayDistribution rays_of(const ScanningConfig& config) {
-  const double narrow = line_waves(config.horizontal_beamwidth_rad), tall = line_waves(config.vertical_beamwidth_rad);
-  const double axis = std::sin(config.tilt_rad);
-  const double null_rad = std::asin(array::first_null(narrow_line(config), 1.0)),
-               reach_rad = std::asin(std::min(1.0, kReach / narrow));
-  trace::TransmitVolume volume;
-  volume.axis = trace::TransmitVolume::Axis::kDown;
-  volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
-                 2.0 * array::half_power_half_width(tall)};
-  volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return {volume, {config.quality, resolution_m(config)}, {config.world.seed, config.process + "/rays"}};
-}
-
-}  // namespace
-
-AperturePattern scanning_pattern(const ScanningConfig& config) {
-  const array::LineArray line = narrow_line(config);
-  const double tall = line_waves(config.vertical_beamwidth_rad);
-  const auto across = std::make_shared<array::PatternTable>(line, 1.0);
+AperturePattern pattern_of(const ScanningConfig& config, const LineDesign& line) {
+  const double tall = tall_in_waves(config);
+  const auto across = std::make_shared<array::PatternTable>(line.pattern);
   const auto vertical =
       std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall);
-  const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : array::first_null(line, 1.0));
+  const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : line.first_null);
   const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
              sine = static_cast<float>(std::sin(config.tilt_rad));
   const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);
@@ -81,13 +43,51 @@ AperturePattern scanning_pattern(const ScanningConfig& config) {
   };
 }
 
-ScanningHead::ScanningHead(const ScanningConfig& config)
-    : config_(config),
-      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)) {}
+double resolution_m(const ScanningConfig& config) {
+  return 0.5 * kNominalSpeed_mps / pulse_at(config.pulse, config.range_m, config.sound_speed_mps).band_hz;
+}
 
-msg::Ping ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                       double known_sound_speed_mps, const frames::PoseHistory& truth,
-                                       trace::Scene& seabed) {
+Apertures apertures_of(const ScanningConfig& config, const LineDesign& line) {
+  Apertures a;
+  a.frequency_hz = config.frequency_hz;
+  a.patterns.transmit = a.patterns.receive = {pattern_of(config, line)};
+  a.directivity_index_db = array::directivity_index_db(line.effective_in_waves, tall_in_waves(config));
+  a.electronic_noise_db = config.electronic_noise_db;
+  a.narrowest_rad = config.horizontal_beamwidth_rad;
+  a.narrow_axis_head = Eigen::Vector3f::UnitY();
+  a.resolution_m = resolution_m(config);
+  a.seed = config.world.seed;
+  a.process = config.process;
+  return a;
+}
+
+trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& line) {
+  const double tall = tall_in_waves(config);
+  const double axis = std::sin(config.tilt_rad);
+  const double null_rad = std::asin(line.first_null),
+               reach_rad = std::asin(std::min(1.0, kReach / line.uniform_in_waves));
+  trace::TransmitVolume volume;
+  volume.axis = trace::TransmitVolume::Axis::kDown;
+  volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
+                 2.0 * array::half_power_half_width(tall)};
+  volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
+  return {volume, {config.quality, resolution_m(config)}, {config.world.seed, config.process + "/rays"}};
+}
+
+}  // namespace
+
+AperturePattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
+
+ScanningHead::ScanningHead(const ScanningConfig& config) : ScanningHead(config, narrow_line(config)) {}
+
+ScanningHead::ScanningHead(const ScanningConfig& config, const LineDesign& line)
+    : config_(config),
+      echoes_(apertures_of(config, line), Environment(config.world, config.frequency_hz), config.effects,
+              rays_of(config, line)) {}
+
+ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
+                                                    double known_sound_speed_mps, const frames::PoseHistory& truth,
+                                                    trace::Scene& seabed) {
   Scan scan = config_.scan;
   scan.width_rad = settings.swath_rad;
   const double angle_rad = scan_angle_rad(scan, event.ping);
@@ -100,10 +100,11 @@ msg::Ping ScanningHead::receive_echoes(const PingEvent& event, const HeadSetting
   emission.source_level_db = settings.source_level_db;
   emission.sample_period_s = ranged.sampling.period_s;
   emission.reception_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
-  echo::Image& image = echoes_.receive_echoes(emission, echo_pulse(config_.pulse, ranged), poses_, seabed);
-  trace_summary_ = echoes_.arrivals().trace_summary(settings.range_m, seabed);
+  const auto [image, trace] =
+      echoes_.receive_echoes(emission, echo_pulse(config_.pulse, ranged), poses_, seabed, memory_);
 
-  msg::Ping ping;
+  Received received{.ping = {}, .trace = trace};
+  msg::Ping& ping = received.ping;
   ping.stamp_ns = event.transmit.count();
   ping.ping = event.ping;
   ping.kind = "scanning";
@@ -116,7 +117,7 @@ msg::Ping ScanningHead::receive_echoes(const PingEvent& event, const HeadSetting
   ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;
   ping.applied.sound_speed_mps = known_sound_speed_mps;
-  return ping;
+  return received;
 }
 
 std::size_t ScanningHead::max_ping_bytes() const {

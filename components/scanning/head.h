@@ -4,6 +4,7 @@
 
 #include "components/scanning/config.h"
 #include "components/sonar/aperture_echoes.h"
+#include "components/sonar/line_design.h"
 #include "components/sonar/trace_summary.h"
 
 namespace ensonify {
@@ -17,13 +18,14 @@ class ScanningHead {
  public:
   explicit ScanningHead(const ScanningConfig& config);
 
+  struct Received {
+    msg::Ping ping;  // without a track
+    TraceSummary trace;
+  };
   /// The row of a ping: a function of the shot, the settings, the sound speed that the head knows, the poses while it
-  /// receives, and the tiles. The track is left to the caller.
-  msg::Ping receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
-                           const frames::PoseHistory& truth, trace::Scene& seabed);
-
-  /// Summary of the last ping's hits.
-  const TraceSummary& trace_summary() const { return trace_summary_; }
+  /// receives, and the tiles.
+  Received receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
+                          const frames::PoseHistory& truth, trace::Scene& seabed);
 
   RangedPulse pulse_for(const HeadSettings& settings) const {
     return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
@@ -31,10 +33,12 @@ class ScanningHead {
   std::size_t max_ping_bytes() const;
 
  private:
+  ScanningHead(const ScanningConfig& config, const LineDesign& line);
+
   ScanningConfig config_;
   ApertureEchoes echoes_;
+  ApertureEchoes::Memory memory_;
   std::vector<frames::HeadPose> poses_;
-  TraceSummary trace_summary_;
 };
 
 }  // namespace ensonify

@@ -16,9 +16,9 @@ SentPing Scanning::transmit(SimTime, const HeadSettings& settings, const HeadInp
 }
 
 HeadReport<msg::Ping> Scanning::ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs) {
-  msg::Ping row = head_.receive_echoes(event, sent.sectors.front().settings, sent.sound_speed_mps, inputs.truth(),
-                                       inputs.seabed());
-  return {.messages = {std::move(row)}, .trouble = no_echo_reason(head_.trace_summary())};
+  auto received =
+      head_.receive_echoes(event, sent.sectors.front().settings, sent.sound_speed_mps, inputs.truth(), inputs.seabed());
+  return {.messages = {std::move(received.ping)}, .trouble = no_echo_reason(received.trace)};
 }
 
 }  // namespace ensonify

@@ -20,8 +20,6 @@ constexpr double kReach = 8.0;          // sines in which rays are sent, in lamb
 constexpr double kShadow = 1.0;      // the same, in sqrt(lambda / L): L / 2R where Fresnel's approximation ends is 0.81
 constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
 
-/// Length of a uniform line as wide.
-double lines_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.horizontal_beamwidth_rad); }
 double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
 
 double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
@@ -29,9 +27,7 @@ double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
 }
 
 /// A side's line, in wavelengths.
-array::LineArray line_of(const SidescanChannel& c) {
-  return array::line_array_of_width(c.horizontal_beamwidth_rad, 1.0, c.shading);
-}
+LineDesign line_of(const SidescanChannel& c) { return {c.horizontal_beamwidth_rad, 1.0, c.shading}; }
 
 /// Up the face, against the direction cosine along it.
 std::function<float(float)> face_pattern(double length_in_waves) {
@@ -43,9 +39,9 @@ std::function<float(float)> face_pattern(double length_in_waves) {
 /// Amplitude along the track against the direction cosine and the range.
 using AlongTrack = std::function<float(float sine, float range_m)>;
 
-AlongTrack far_field_line(const array::LineArray& line, bool side_lobes) {
-  const auto table = std::make_shared<array::PatternTable>(line, 1.0);
-  const auto end = static_cast<float>(side_lobes ? 2.0 : array::first_null(line, 1.0));
+AlongTrack far_field_line(const LineDesign& line, bool side_lobes) {
+  const auto table = std::make_shared<array::PatternTable>(line.pattern);
+  const auto end = static_cast<float>(side_lobes ? 2.0 : line.first_null);
   return [=](float sine, float) {
     return std::abs(sine) < end ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
   };
@@ -65,18 +61,19 @@ AlongTrack near_field_line(double length_in_waves, double wavelength_m, bool sid
   };
 }
 
-AlongTrack transmitting_line(const SidescanConfig& config, const SidescanChannel& c) {
-  if (c.focus == Focus::kIdeal) return far_field_line(line_of(c), config.effects.side_lobes);
-  return near_field_line(lines_in_waves(c), wavelength_m(config, c), config.effects.side_lobes,
+AlongTrack transmitting_line(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line) {
+  if (c.focus == Focus::kIdeal) return far_field_line(line, config.effects.side_lobes);
+  return near_field_line(line.uniform_in_waves, wavelength_m(config, c), config.effects.side_lobes,
                          [](double) { return array::kFarAway_m; });
 }
 
-AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c) {
-  if (c.focus == Focus::kIdeal) return far_field_line(line_of(c), config.effects.side_lobes);
-  return near_field_line(lines_in_waves(c), wavelength_m(config, c), config.effects.side_lobes, [c](double range_m) {
-    if (c.focus == Focus::kEcho) return range_m;
-    return c.focus == Focus::kFixed ? c.focus_m : array::kFarAway_m;
-  });
+AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line) {
+  if (c.focus == Focus::kIdeal) return far_field_line(line, config.effects.side_lobes);
+  return near_field_line(line.uniform_in_waves, wavelength_m(config, c), config.effects.side_lobes,
+                         [c](double range_m) {
+                           if (c.focus == Focus::kEcho) return range_m;
+                           return c.focus == Focus::kFixed ? c.focus_m : array::kFarAway_m;
+                         });
 }
 
 /// Both sides of a head whose lines have this pattern.
@@ -100,12 +97,16 @@ std::vector<AperturePattern> sides_of(const AlongTrack& along, const SidescanCha
   return sides;
 }
 
-Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel) {
+AperturePatterns patterns_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
+  return {sides_of(transmitting_line(config, channel, line), channel, config.effects),
+          sides_of(receiving_line(config, channel, line), channel, config.effects)};
+}
+
+Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
   Apertures a;
   a.frequency_hz = channel.frequency_hz;
-  a.patterns = side_patterns(config, channel);
-  a.directivity_index_db =
-      array::directivity_index_db(array::effective_length_m(line_of(channel)), face_in_waves(channel));
+  a.patterns = patterns_of(config, channel, line);
+  a.directivity_index_db = array::directivity_index_db(line.effective_in_waves, face_in_waves(channel));
   a.electronic_noise_db = channel.electronic_noise_db;
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
   a.resolution_m = channel.resolution_m(config.sound_speed_mps);
@@ -115,8 +116,8 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
 }
 
 /// To both sides. Across-track only range distinguishes echoes.
-trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel) {
-  const double wave_over_length = 1.0 / lines_in_waves(channel), null = array::first_null(line_of(channel), 1.0);
+trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
+  const double wave_over_length = 1.0 / line.uniform_in_waves, null = line.first_null;
   double reach = std::min(1.0, kReach * wave_over_length);
   if (channel.focus != Focus::kIdeal) reach = std::max(reach, std::min(1.0, kShadow * std::sqrt(wave_over_length)));
   const trace::TransmitVolume volume{
@@ -137,15 +138,17 @@ detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
 }  // namespace
 
 AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChannel& channel) {
-  return {sides_of(transmitting_line(config, channel), channel, config.effects),
-          sides_of(receiving_line(config, channel), channel, config.effects)};
+  return patterns_of(config, channel, line_of(channel));
 }
 
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)
+    : SidescanHead(config, channel, line_of(channel)) {}
+
+SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line)
     : config_(config),
       channel_(channel),
-      echoes_(apertures_of(config, channel), Environment(config.world, channel.frequency_hz), config.effects,
-              rays_of(config, channel)),
+      echoes_(apertures_of(config, channel, line), Environment(config.world, channel.frequency_hz), config.effects,
+              rays_of(config, channel, line)),
       bottom_(bottom_of(config)),
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}
@@ -163,10 +166,11 @@ SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, cons
   emission.sample_period_s = channel_.sample_period_s();
 
   head_poses(vehicle, config_.mounting.actual, event.transmit, from_seconds(emission.reception_s), poses_);
-  echo::Image& image = echoes_.receive_echoes(emission, pulse_, poses_, seabed);
+  const auto [image, trace] = echoes_.receive_echoes(emission, pulse_, poses_, seabed, memory_);
 
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  Received received{ping_message(event, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps)};
+  Received received{ping_message(event, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps),
+                    trace};
   received.bottom.stamp_ns = event.transmit.count();
   received.bottom.ping = event.ping;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, received.ping);

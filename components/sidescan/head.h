@@ -5,6 +5,8 @@
 #include "components/sidescan/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
+#include "components/sonar/line_design.h"
+#include "components/sonar/trace_summary.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -21,16 +23,16 @@ class SidescanHead {
   struct Received {
     msg::Ping ping;  // without a track
     msg::BottomTrack bottom;
+    TraceSummary trace;
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
   Received receive_echoes(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& vehicle,
                           trace::Scene& seabed);
 
-  /// Number of rays of the last ping that hit the seabed within its range.
-  int rays_that_hit() const { return echoes_.arrivals().rays_that_hit(); }
   std::size_t max_ping_bytes() const;
 
  private:
+  SidescanHead(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line);
   msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings) const;
 
   SidescanConfig config_;
@@ -41,6 +43,7 @@ class SidescanHead {
   echo::Pulse pulse_;
 
   // Memory of the ping path.
+  ApertureEchoes::Memory memory_;
   std::vector<frames::HeadPose> poses_;
 };
 

@@ -151,7 +151,7 @@ TEST_CASE("the first bottom is at the altitude, to a sample, and reported for ea
   SidescanConfig config = plain_sidescan();
   config.effects = {};
   config.effects.multipath = false;
-  const auto [ping, bottom] = received(config, flat());
+  const auto [ping, bottom, trace] = received(config, flat());
   const double sample_m = 750.0 * ping.sample_period_s;
   CHECK(bottom.valid);
   CHECK(bottom.altitude_m == Approx(10.0).margin(sample_m));
@@ -176,7 +176,7 @@ TEST_CASE("the surface overhead is not detected as the bottom, even with a long 
     const HeadSettings settings = config.start_of(channel);
     const Sea sea = flat(-13.0);
     SidescanHead head(config, channel);
-    const auto [ping, bottom] =
+    const auto [ping, bottom, trace] =
         head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, yawing(0.0, 3.0), sea.tiles.scene());
     INFO(samples << " samples per pulse");
     CHECK(bottom.valid);

@@ -25,7 +25,7 @@ SentPing Sidescan::transmit(SimTime, const HeadSettings& settings, const HeadInp
 HeadReport<msg::Ping, msg::BottomTrack> Sidescan::ping(const PingEvent& event, const SentPing& sent,
                                                        HeadInputs& inputs) {
   auto received = head_.receive_echoes(event, sent.sectors.front().settings, inputs.truth(), inputs.seabed());
-  return {{std::move(received.ping), std::move(received.bottom)}, head_.rays_that_hit() > 0};
+  return {{std::move(received.ping), std::move(received.bottom)}, received.trace.rays_that_hit > 0};
 }
 
 }  // namespace ensonify

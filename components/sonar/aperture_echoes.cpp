@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,7 +28,7 @@ std::string stream_name(const Apertures& a, const char* what) {
 }
 
 /// Of all apertures at once: the fringes between them, finer than any lobe, are averaged.
-Arrivals::TransmittedPower all_of(const std::vector<AperturePattern>& patterns) {
+TransmittedPower all_of(const std::vector<AperturePattern>& patterns) {
   return [patterns](const Eigen::Vector3f& direction, float range_m) {
     double power = 0.0;
     for (const AperturePattern& pattern : patterns) {
@@ -46,63 +47,74 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      arrivals_(environment, apertures.frequency_hz, effects, all_of(apertures.patterns.transmit)),
+      transmitted_(all_of(apertures.patterns.transmit)),
+      sea_(environment, apertures.frequency_hz, effects),
       scatterers_(patch_m(apertures), {apertures.seed, "seabed"}),
-      distribution_(rays),
-      gains_(apertures.patterns.receive.size()) {
-  if (!arrivals_.water_scatters()) return;
+      distribution_(rays) {
+  if (!sea_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
-  const auto transmitted = all_of(apertures.patterns.transmit);
   for (const AperturePattern& pattern : apertures_.patterns.receive) {
     const auto two_way = [&](const Eigen::Vector3f& direction) {
       const double gain = static_cast<double>(pattern(direction, kFarAway_m));
-      return transmitted(direction, kFarAway_m) * gain * gain;
+      return transmitted_(direction, kFarAway_m) * gain * gain;
     };
     volume_directions_.push_back(
         echo::VolumeDirections::of(two_way, apertures.narrow_axis_head, -reach, reach, 0.1 * apertures.narrowest_rad));
   }
 }
 
-echo::Image& ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
-                                            std::span<const frames::HeadPose> poses, trace::Scene& seabed) {
-  arrivals_.move(poses, seconds(emission.event.transmit));
-  arrivals_.insonify(seabed, distribution_, emission.event.range_m, rays_, hits_);
+ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
+                                                        std::span<const frames::HeadPose> poses, trace::Scene& seabed,
+                                                        Memory& memory) {
+  const PingEvent& event = emission.event;
+  const Shot shot{poses, seconds(event.transmit), emission.source_level_db, transmitted_};
+  const Insonified insonified = sea_.insonify(shot, seabed, distribution_, event.range_m, memory.shot);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.reception_s / emission.sample_period_s))};
   const echo::SampledPulse sampled(pulse, sampling.period_s);
-  arrivals_.receive_echoes(emission.source_level_db, scatterers_, rays_, hits_);
-  beamform(arrivals_.add_interference(emission.event.interfering, pulse), sampled, sampling);
-  if (arrivals_.water_scatters()) {
-    const auto& volume = arrivals_.reverberation_upa2(emission.source_level_db, volume_directions_, pulse, sampling);
-    reverberation_.add(volume, sampled, static_cast<std::uint64_t>(emission.event.ping), volume_, image_);
+  const Echoed echoed = sea_.echoes(shot, insonified, scatterers_, memory.shot);
+  memory.foreign.clear();
+  sea_.add_interference(shot, echoed, event.interfering, pulse, memory.foreign);
+  const std::array sets{weighed(echoed.arrivals, shot.pose(), memory.gain),
+                        weighed(memory.foreign, shot.pose(), memory.foreign_gain)};
+  beamform(sets, sampled, sampling, memory);
+  if (sea_.water_scatters()) {
+    sea_.reverberation_upa2(shot, echoed, volume_directions_, pulse, sampling, memory.volume_upa2);
+    memory.reverberation.add(memory.volume_upa2, sampled, static_cast<std::uint64_t>(event.ping), volume_,
+                             memory.image);
   }
-  if (effects_.noise) add_noise(emission, pulse);
-  return image_;
+  if (effects_.noise) add_noise(emission, pulse, memory.image);
+  return {memory.image, echoed.summary(shot, event.range_m, seabed)};
 }
 
-void ApertureEchoes::beamform(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse,
-                              const echo::Sampling& sampling) {
-  const double half_speed_mps = 0.5 * arrivals_.sound_speed_mps();
-  std::vector<std::span<const float>> rows;
-  for (std::size_t row = 0; row < gains_.size(); ++row) {
-    const AperturePattern& pattern = apertures_.patterns.receive[row];
-    const auto gain = [&](const echo::Arrival& arrival) {
-      return pattern(arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
+echo::EchoSet ApertureEchoes::weighed(std::span<const echo::Arrival> arrivals, const frames::HeadPose& pose,
+                                      std::vector<float>& gain) const {
+  const double half_speed_mps = 0.5 * sea_.sound_speed_mps(pose);
+  const auto& patterns = apertures_.patterns.receive;
+  gain.resize(patterns.size() * arrivals.size());
+  for (std::size_t row = 0; row < patterns.size(); ++row) {
+    const auto one = [&](const echo::Arrival& arrival) {
+      return patterns[row](arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
     };
-    arrivals_.gains(gain, gains_[row]);
-    rows.push_back(gains_[row]);
+    sea_.gains(one, arrivals, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
   }
-  receiver_.form(arrivals, rows, effects_.speckle ? pulse : pulse.squared(), sampling, image_);
-  if (effects_.speckle) return;
-  for (auto& value : image_.envelope_upa) value = std::sqrt(value.real());
+  return {arrivals, gain};
 }
 
-void ApertureEchoes::add_noise(const Emission& emission, const echo::Pulse& pulse) {
+void ApertureEchoes::beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse,
+                              const echo::Sampling& sampling, Memory& memory) const {
+  const int rows = static_cast<int>(apertures_.patterns.receive.size());
+  echo::form_apertures(echoes, rows, effects_.speckle ? pulse : pulse.squared(), sampling, memory.index, memory.image);
+  if (effects_.speckle) return;
+  for (auto& value : memory.image.envelope_upa) value = std::sqrt(value.real());
+}
+
+void ApertureEchoes::add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const {
   const double density_db =
-      10.0 * std::log10(power_of(arrivals_.environment().noise_level_db() - apertures_.directivity_index_db) +
+      10.0 * std::log10(power_of(sea_.environment().noise_level_db() - apertures_.directivity_index_db) +
                         power_of(apertures_.electronic_noise_db));
   echo::add_noise(water::in_band_level_db(density_db, pulse.noise_bandwidth_hz, 0.0),
-                  static_cast<std::uint64_t>(emission.event.ping), noise_, image_);
+                  static_cast<std::uint64_t>(emission.event.ping), noise_, image);
 }
 
 }  // namespace ensonify

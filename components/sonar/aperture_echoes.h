@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "components/sonar/arrivals.h"
 #include "components/sonar/ping_event.h"
+#include "components/sonar/sea_acoustics.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
@@ -48,42 +48,49 @@ struct Emission {
   double sample_period_s = 50e-6;  // of the complex envelope
 };
 
-/// The echoes of one transmission as each aperture receives them, by the true motion and the true water: seabed,
-/// surface, water column and noise. A function of the emission, the poses and the tiles.
+/// Echoes of one transmission as each aperture receives them, by the true motion and the true water: seabed, surface,
+/// water column, other transmissions and noise. The twin of ArrayEchoes.
 class ApertureEchoes {
  public:
   /// `rays` are those of its transmissions.
   ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
                  const trace::RayDistribution& rays);
 
-  /// Complex envelopes, aperture by sample, uPa rms; valid until the next call. `poses` are where the head truly is
-  /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
-  echo::Image& receive_echoes(const Emission& emission, const echo::Pulse& pulse,
-                              std::span<const frames::HeadPose> poses, trace::Scene& seabed);
+  /// Memory of the caller: results lie in it until it is used again.
+  struct Memory {
+    echo::Image image;
+    // Scratch.
+    ShotMemory shot;
+    std::vector<echo::Arrival> foreign;
+    std::vector<float> gain, foreign_gain, volume_upa2;
+    echo::TimeIndex index;
+    echo::RowReverberation reverberation;
+  };
+  struct Received {
+    echo::Image& image;  // complex envelopes, aperture by sample, uPa rms
+    TraceSummary trace;
+  };
 
-  /// Arrivals of the last ping, with its hits.
-  const Arrivals& arrivals() const { return arrivals_; }
+  /// All stages of a ping, a function of the emission, the poses and the tiles. `poses` are where the head truly is
+  /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
+  Received receive_echoes(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
+                          trace::Scene& seabed, Memory& memory);
 
  private:
-  void beamform(std::span<const echo::Arrival> arrivals, const echo::SampledPulse& pulse,
-                const echo::Sampling& sampling);
-  void add_noise(const Emission& emission, const echo::Pulse& pulse);
+  echo::EchoSet weighed(std::span<const echo::Arrival> arrivals, const frames::HeadPose& pose,
+                        std::vector<float>& gain) const;
+  void beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse, const echo::Sampling& sampling,
+                Memory& memory) const;
+  void add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const;
 
   Apertures apertures_;
   Effects effects_;
   random::Stream noise_, volume_;
-  Arrivals arrivals_;
+  TransmittedPower transmitted_;
+  SeaAcoustics sea_;
   echo::Scatterers scatterers_;
   trace::RayDistribution distribution_;
-  echo::ApertureReceiver receiver_;
-  echo::RowReverberation reverberation_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
-
-  // Memory of the ping path.
-  std::vector<trace::Ray> rays_;
-  std::vector<trace::Hit> hits_;
-  std::vector<std::vector<float>> gains_;
-  echo::Image image_;
 };
 
 }  // namespace ensonify

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "components/sonar/arrivals.h"
+#include "components/sonar/sea_acoustics.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
@@ -37,13 +37,13 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   world.water.profile = profile;
   world.seabed.sediments[0] = seabed::Lambert{-25.0};
   const Environment environment(world, 300e3);
-  Arrivals arrivals(environment, 300e3, {.motion = false}, [](const auto&, float) { return 1.0; });
+  SeaAcoustics sea(environment, 300e3, {.motion = false});
   const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
-  arrivals.move(std::vector{pose, pose}, 0.0);
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
-  Traced traced;
-  arrivals.insonify(tiles.scene(), distribution, 45.0, traced.rays, traced.hits);
-  return traced;
+  const TransmittedPower power = [](const auto&, float) { return 1.0; };
+  ShotMemory memory;
+  sea.insonify({.poses = std::span(&pose, 1), .power = power}, tiles.scene(), distribution, 45.0, memory);
+  return {std::move(memory.rays), std::move(memory.hits)};
 }
 
 bool same(const Traced& a, std::size_t i, const Traced& b, std::size_t j) {

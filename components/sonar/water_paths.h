@@ -33,24 +33,25 @@ class WaterPaths {
     seabed.adapt(trace::views_of(rays.volume(), head, max_range_m, water, seabed.detail().side_lobes));
   }
 
-  /// trace::Scene::trace through this water.
+  /// trace::Scene::trace through this water. `table` becomes that of the paths from this head.
   void trace(const trace::Scene& seabed, const frames::HeadPose& head, std::span<const trace::Ray> rays,
-             double max_range_m, std::vector<trace::Hit>& hits) {
+             double max_range_m, std::vector<trace::Hit>& hits, refraction::PathTable& table) const {
     const auto range_m = static_cast<float>(max_range_m);
     if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
-    seabed.tabulate(profile_, head, depth_m(head), range_m, table_);
-    seabed.trace(head, rays, range_m, hits, table_);
+    seabed.tabulate(profile_, head, depth_m(head), range_m, table);
+    seabed.trace(head, rays, range_m, hits, table);
   }
 
-  /// Path table of the last trace; null where paths are straight.
-  const refraction::PathTable* refracted() const { return refracted_ ? &table_ : nullptr; }
+  /// The table that a trace filled; null where paths are straight.
+  const refraction::PathTable* refracted(const refraction::PathTable& table) const {
+    return refracted_ ? &table : nullptr;
+  }
 
  private:
   static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
 
   refraction::SoundSpeedProfile profile_;
   bool refracted_;
-  refraction::PathTable table_;
 };
 
 }  // namespace ensonify

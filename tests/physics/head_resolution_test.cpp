@@ -92,8 +92,9 @@ Dips of_multibeam(double apart_m) {
     const double sample_m = 0.5 * kSpeed_mps / config.sample_rate_hz;
     const auto truth = resting_at({std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0, 0.0});
     const PingEvent event{0, SimTime{0}, 17.0};
-    head.receive_echoes(event, settings, steering, truth, tiles.scene());
-    const auto ping = head.ping_message(event, settings, steering, false);
+    MultibeamHead::Ping received;
+    head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+    const auto ping = head.ping_message(received, event, settings, steering, false);
     std::size_t beam = 0;
     while (double(ping.beam_angle_rad[beam]) < 0.25 * std::numbers::pi) ++beam;
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(beam))));
@@ -121,7 +122,7 @@ Dips of_forward_looking(double apart_m) {
     const double sample_m = 0.5 * kSpeed_mps * kPulse_s / kEightPerPulse;
     const auto truth = resting_at({0.0, std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0});
     const auto ping =
-        head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene());
+        head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene()).ping;
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(static_cast<std::size_t>(config.beams) / 2))));
   }
   return dips;

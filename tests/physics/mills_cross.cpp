@@ -1,5 +1,6 @@
 #include "tests/physics/mills_cross.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -36,11 +37,12 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
     cross_section.push_back(hits[i].hit() ? table(hits[i].sin_grazing) : 0.0F);
   }
   echo::Scatterers scatterers(0.5 * resolution_m, {1, "seabed"});
+  echo::Scatterers::Memory patches;
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&head, 1)});
   std::vector<echo::Arrival> arrivals;
   echo::add_direct_echoes({300e3, absorption_dbpm, echo::Sum::kMeanSquare}, head.position_enu_m,
-                          scatterers.find({head, rays, hits, source, cross_section}), receivers, arrivals);
+                          scatterers.find({head, rays, hits, source, cross_section}, patches), receivers, arrivals);
 
   const echo::ElementLine line{elements, spacing_in_waves};
   const std::vector<std::vector<float>> weights{
@@ -49,8 +51,10 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
       echo::SampledPulse(echo::rectangular_pulse(pulse_length_s), sample_period_s).squared();
   const int samples = static_cast<int>((2.0 * range_m / kSpeed_mps + pulse_length_s) / sample_period_s) + 1;
   std::vector<echo::Image> images(1);
+  echo::LineReceiver::Memory memory;
   echo::LineReceiver(echo::power_line(line))
-      .form({arrivals, {}, squared, {0.0, sample_period_s, samples}, {}}, sin_beams, weights, images);
+      .form({std::array{echo::EchoSet{arrivals}}, squared, {0.0, sample_period_s, samples}, {}}, sin_beams, weights,
+            images, memory);
   return images[0];
 }
 

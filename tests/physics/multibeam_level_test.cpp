@@ -52,8 +52,8 @@ class Theory {
       : config_(config),
         sand_{kDepth_m, water::absorption_dbpm(config.frequency_hz, {.depth_m = 0.5 * kDepth_m}), 1500.0,
               seabed::law_of(*seabed::sediment_of("medium sand"), config.frequency_hz, 1500.0)},
-        line_(receive_line(config)),
-        transmit_(transmit_line(config)) {
+        line_(ArrayDesign(config).receive),
+        transmit_(ArrayDesign(config).transmit) {
     line_.whole.element_length_m = 0.0;  // the head's elements receive alike in all directions before its face
   }
 

@@ -89,14 +89,14 @@ double correlation_after(const frames::Vec3& moved_m, std::uint64_t seabeds) {
 constexpr double kWave_m = 1500.0 / 300e3;
 
 /// Length of the transmit line, m.
-double line_m() { return transmit_line(MultibeamConfig{}).length_m(); }
+double line_m() { return ArrayDesign(MultibeamConfig{}).transmit.length_m(); }
 
 /// Of the powers of two pings d apart. A line transmits and what receives is short along the track: coherence is the
 /// transform of the transmitted power over the sine u, at 2 d / lambda (van Cittert and Zernike), here of the side
 /// lobes that rays reach. Over a uniform line's it would be the triangle 1 - 2 d / L.
 double along_track(double d_over_l) {
   constexpr int kSteps = 4000;
-  static const array::LineArray line = transmit_line(MultibeamConfig{});
+  static const array::LineArray line = ArrayDesign(MultibeamConfig{}).transmit;
   static const double reach = 8.0 / array::length_in_waves_for(MultibeamConfig{}.transmit_beamwidth_rad);
   double cross = 0.0, own = 0.0;
   for (int i = 0; i < kSteps; ++i) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -41,11 +42,11 @@ std::vector<double> receive(const std::vector<Vec3>& points_enu_m, double forwar
   for (const auto& a : arrivals) {
     power.push_back(static_cast<float>(array::line_power(waves, double(a.direction_head.x()))));
   }
-  const std::vector<std::span<const float>> channel{power};
   const double first_s = 2.0 * (kRange_m - 0.5) / kSpeed_mps;
   echo::Image image;
-  echo::ApertureReceiver().form(arrivals, channel, echo::SampledPulse(pulse, period_s).squared(),
-                                {first_s, period_s, static_cast<int>(2.0 / kSpeed_mps / period_s)}, image);
+  echo::TimeIndex index;
+  echo::form_apertures(std::array{echo::EchoSet{arrivals, power}}, 1, echo::SampledPulse(pulse, period_s).squared(),
+                       {first_s, period_s, static_cast<int>(2.0 / kSpeed_mps / period_s)}, index, image);
   std::vector<double> received;
   for (const auto& p2 : image.row(0)) received.push_back(static_cast<double>(p2.real()));
   return received;

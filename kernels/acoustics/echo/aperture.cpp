@@ -6,25 +6,26 @@
 
 namespace ensonify::echo {
 
-void ApertureReceiver::form(std::span<const Arrival> arrivals, std::span<const std::span<const float>> gain,
-                            const SampledPulse& pulse, const Sampling& sampling, Image& image) {
-  for (const auto& one : gain) {
-    if (!one.empty() && one.size() != arrivals.size()) {
-      throw std::invalid_argument("an aperture needs one gain per arrival, or none");
+void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPulse& pulse, const Sampling& sampling,
+                    TimeIndex& index, Image& image) {
+  for (const EchoSet& set : echoes) {
+    if (!set.fits(static_cast<std::size_t>(rows))) {
+      throw std::invalid_argument("apertures need one gain per row and arrival, or none");
     }
   }
-  index_.set(arrivals, pulse, sampling);
-  image.resize(static_cast<int>(gain.size()), sampling.count);
-  tbb::parallel_for(0, index_.blocks(), [&](int block) {
+  index.set(echoes, pulse, sampling);
+  image.resize(rows, sampling.count);
+  tbb::parallel_for(0, index.blocks(), [&](int block) {
     const int first = block * TimeIndex::kBlock;
     const int count = std::min(TimeIndex::kBlock, sampling.count - first);
-    for (int row = 0; row < image.beams; ++row)
-      std::fill_n(image.row(row).begin() + first, count, std::complex<float>{});
-    index_.each(block, pulse, [&](std::uint32_t i, int from, std::span<const float> envelope) {
-      for (int row = 0; row < image.beams; ++row) {
-        const auto& gains = gain[static_cast<std::size_t>(row)];
+    for (int row = 0; row < rows; ++row) std::fill_n(image.row(row).begin() + first, count, std::complex<float>{});
+    index.each(block, pulse, [&](std::size_t number, std::size_t i, int from, std::span<const float> envelope) {
+      const EchoSet& set = echoes[number];
+      for (int row = 0; row < rows; ++row) {
         const std::complex<float> pressure =
-            gains.empty() ? arrivals[i].pressure_upa : gains[i] * arrivals[i].pressure_upa;
+            set.gain.empty()
+                ? set.arrivals[i].pressure_upa
+                : set.gain[static_cast<std::size_t>(row) * set.arrivals.size() + i] * set.arrivals[i].pressure_upa;
         std::complex<float>* sample = image.row(row).data() + from;
         for (const float e : envelope) *sample++ += e * pressure;
       }

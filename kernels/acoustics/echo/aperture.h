@@ -9,17 +9,11 @@
 
 namespace ensonify::echo {
 
-/// Heads with one receive aperture per channel (sidescan, echosounder, scanning): arrivals summed into one row each.
-class ApertureReceiver {
- public:
-  /// Row r of the image is the sum of arrivals, each times gain[r][arrival] (amplitude of the channel's pattern; an
-  /// empty span is 1 for all). The image is resized and overwritten. Noise comes from add_noise and
-  /// add_reverberation. The same bits for any number of threads.
-  void form(std::span<const Arrival> arrivals, std::span<const std::span<const float>> gain, const SampledPulse& pulse,
-            const Sampling& sampling, Image& image);
-
- private:
-  TimeIndex index_;
-};
+/// Images of heads with one receive aperture per channel (sidescan, echosounder, scanning). Row r is the sum of all
+/// arrivals of all sets, each times its gain in row r. The image is resized and overwritten. Noise comes from add_noise
+/// and RowReverberation. The same bits for any number of threads. `index` is memory: its contents do not matter. Throws
+/// std::invalid_argument for a set whose gains do not fit.
+void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPulse& pulse, const Sampling& sampling,
+                    TimeIndex& index, Image& image);
 
 }  // namespace ensonify::echo

@@ -21,6 +21,15 @@ struct Arrival {
   Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // to where it comes from, unit, in the receiver's frame
 };
 
+/// Arrivals of one origin, and what patterns make of each: amplitudes row by row, one row per aperture, one alone for
+/// the elements of a line; empty: 1.
+struct EchoSet {
+  std::span<const Arrival> arrivals;
+  std::span<const float> gain = {};
+
+  bool fits(std::size_t rows) const { return gain.empty() || gain.size() == rows * arrivals.size(); }
+};
+
 /// Track of the receiver while echoes come back: poses at start_s + i * period_s after transmission, straight lines
 /// between, the nearest one outside.
 struct ReceiveTrack {

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -44,10 +45,12 @@ struct Ping {
   std::vector<float> source, backscatter, sin_beams;
   std::vector<trace::Hit> hits;
   echo::Scatterers scatterers{0.075, {1, "seabed"}};
+  echo::Scatterers::Memory patches;
   std::span<const echo::Scatterer> found;
   echo::Receivers receivers;
   std::vector<echo::Arrival> arrivals;
   echo::LineReceiver receiver{echo::element_line(receive_array(), kWave_m)};
+  echo::LineReceiver::Memory memory;
   std::vector<std::vector<float>> weights;
   std::vector<echo::Image> images;
   echo::SampledPulse pulse{echo::rectangular_pulse(100e-6), kSampling.period_s};
@@ -73,15 +76,16 @@ struct Ping {
     backscatter.resize(hits.size());
     const auto normal = static_cast<float>(seabed::lambert_backscatter(-25, 1.0));
     for (std::size_t i = 0; i < hits.size(); ++i) backscatter[i] = normal * hits[i].sin_grazing * hits[i].sin_grazing;
-    found = scatterers.find({kHead, rays, hits, source, backscatter});
+    found = scatterers.find({kHead, rays, hits, source, backscatter}, patches);
   }
   void arrive() {
     arrivals.clear();
     echo::add_direct_echoes({300e3, 0.07}, kHead.position_enu_m, found, receivers, arrivals);
   }
   void form(std::uint64_t number) {
-    receiver.form({arrivals, {}, pulse, kSampling, {number, 1e5, &ambient, 0.0, nullptr, {}, nullptr}}, sin_beams,
-                  weights, images);
+    receiver.form(
+        {std::array{echo::EchoSet{arrivals}}, pulse, kSampling, {number, 1e5, &ambient, 0.0, nullptr, {}, nullptr}},
+        sin_beams, weights, images, memory);
   }
   void whole(std::uint64_t number) {
     trace();

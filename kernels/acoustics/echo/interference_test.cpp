@@ -1,5 +1,6 @@
 #include "kernels/acoustics/echo/interference.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -33,10 +34,10 @@ std::vector<Arrival> arrivals_of(const InterferingTransmission& interfering, con
 }
 
 std::vector<std::complex<float>> received(const InterferingTransmission& interfering) {
-  ApertureReceiver receiver;
+  const auto arrivals = arrivals_of(interfering);
+  TimeIndex index;
   Image image;
-  const std::vector<std::span<const float>> open(1);
-  receiver.form(arrivals_of(interfering), open, SampledPulse(kPulse, 25e-6), {0, 25e-6, 4000}, image);
+  form_apertures(std::array{EchoSet{arrivals}}, 1, SampledPulse(kPulse, 25e-6), {0, 25e-6, 4000}, index, image);
   return image.envelope_upa;
 }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -49,11 +50,12 @@ struct Flat {
       backscatter.push_back(float(seabed::lambert_backscatter(-25, hit.sin_grazing)));
     }
     Scatterers scatterers(0.01, {1, "seabed"});
+    Scatterers::Memory memory;
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     std::vector<Arrival> arrivals;
     add_direct_echoes({300e3, absorption_dbpm, Sum::kMeanSquare}, {0, 0, 0},
-                      scatterers.find({pose, rays, hits, source, backscatter}), receivers, arrivals);
+                      scatterers.find({pose, rays, hits, source, backscatter}, memory), receivers, arrivals);
     return arrivals;
   }
 };
@@ -66,11 +68,10 @@ static Image sidescan_mean_square(double waves) {
     const bool starboard = arrival.direction_head.y() > 0;
     gain.push_back(starboard ? float(array::line_power(waves, arrival.direction_head.x())) : 0.0F);
   }
-  const std::vector<std::span<const float>> channels{gain};
   const SampledPulse pulse = SampledPulse(rectangular_pulse(100e-6), 50e-6).squared();
-  ApertureReceiver receiver;
+  TimeIndex index;
   Image image;
-  receiver.form(arrivals, channels, pulse, {0, 50e-6, 2800}, image);
+  form_apertures(std::array{EchoSet{arrivals, gain}}, 1, pulse, {0, 50e-6, 2800}, index, image);
   return image;
 }
 
@@ -105,7 +106,9 @@ static double peak_db(const std::vector<Arrival>& arrivals, double beam_rad, dou
   const SampledPulse pulse = SampledPulse(rectangular_pulse(100e-6), period_s).squared();
   std::vector<Image> images(1);
   const std::vector<float> beam{float(std::sin(beam_rad))};
-  receiver.form({arrivals, {}, pulse, {0, period_s, int(0.08 / period_s)}, {}}, beam, weights, images);
+  LineReceiver::Memory memory;
+  receiver.form({std::array{EchoSet{arrivals}}, pulse, {0, period_s, int(0.08 / period_s)}, {}}, beam, weights, images,
+                memory);
   double peak = 0.0;
   for (const auto p : images[0].row(0)) peak = std::max(peak, double(p.real()));
   return 10 * std::log10(peak);

@@ -118,7 +118,8 @@ float LineReceiver::grid_place(float sine) const {
 
 void LineReceiver::check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const {
   const auto samples = static_cast<std::size_t>(std::max(input.sampling.count, 0));
-  bool fits = weights.size() == images && (input.gain.empty() || input.gain.size() == input.arrivals.size());
+  bool fits = weights.size() == images;
+  for (const EchoSet& set : input.echoes) fits = fits && set.fits(1);
   for (const auto& one : weights) fits = fits && one.size() == static_cast<std::size_t>(line_.elements);
   if (!fits)
     throw std::invalid_argument(
@@ -135,14 +136,14 @@ void LineReceiver::check(const Input& input, std::span<const std::vector<float>>
 }
 
 void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
-                        std::span<const std::vector<float>> weights, std::span<Image> images) {
+                        std::span<const std::vector<float>> weights, std::span<Image> images, Memory& memory) const {
   check(input, weights, images.size());
-  index_.set(input.arrivals, input.pulse, input.sampling);
-  steer_.clear();
+  memory.index.set(input.echoes, input.pulse, input.sampling);
+  memory.steer.clear();
   for (const float sine : sin_beams) {
     const float place = grid_place(sine);
     const int whole = std::min(static_cast<int>(place), cells_ - 1);
-    steer_.push_back({whole, spreading_.taps(place - static_cast<float>(whole))});
+    memory.steer.push_back({whole, spreading_.taps(place - static_cast<float>(whole))});
   }
   for (Image& image : images) {
     trace::make_room(image.envelope_upa, sin_beams.size() * static_cast<std::size_t>(input.sampling.count));
@@ -150,33 +151,32 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
   }
 
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  if (memory_.size() < threads) memory_.resize(threads);
+  if (memory.threads.size() < threads) memory.threads.resize(threads);
   const auto row = static_cast<std::size_t>(stride_);
-  tbb::parallel_for(std::size_t{0}, memory_.size(), [&](std::size_t thread) {
-    Memory& memory = memory_[thread];
-    memory.grid.resize(kBlock * row);
-    memory.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
-    memory.spectrum.resize(row);
-    memory.field.resize(row);
+  tbb::parallel_for(std::size_t{0}, memory.threads.size(), [&](std::size_t thread) {
+    Thread& own = memory.threads[thread];
+    own.grid.resize(kBlock * row);
+    own.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
+    own.spectrum.resize(row);
+    own.field.resize(row);
     if (input.background.volume_upa2.empty()) return;
-    memory.sum.resize(row);
-    memory.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
+    own.sum.resize(row);
+    own.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
   });
   const bool halved = is_sum(weights);
-  tbb::parallel_for(0, index_.blocks(), [&](int block) {
-    form_block(input, block, weights, halved,
-               memory_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())], images);
-  });
+  tbb::parallel_for(0, memory.index.blocks(),
+                    [&](int block) { form_block(input, block, weights, halved, memory, images); });
 }
 
-void LineReceiver::spread(const Input& input, int block, Memory& memory) const {
+void LineReceiver::spread(const Input& input, int block, const TimeIndex& index, Thread& memory) const {
   std::fill(memory.grid.begin(), memory.grid.end(), std::complex<float>{});
-  index_.each(block, input.pulse, [&](std::uint32_t i, int first, std::span<const float> envelope) {
-    const Arrival& arrival = input.arrivals[i];
+  index.each(block, input.pulse, [&](std::size_t number, std::size_t i, int first, std::span<const float> envelope) {
+    const EchoSet& set = input.echoes[number];
+    const Arrival& arrival = set.arrivals[i];
     const float place = grid_place(arrival.direction_head.dot(line_.axis_head));
     const int whole = std::min(static_cast<int>(place), cells_ - 1);
     Spreading::Taps taps = spreading_.taps(place - static_cast<float>(whole));
-    const float gain = input.gain.empty() ? 1.0F : input.gain[i];
+    const float gain = set.gain.empty() ? 1.0F : set.gain[i];
     const float re = gain * arrival.pressure_upa.real(), im = gain * arrival.pressure_upa.imag();
     for (int k = 0; k < kWidth; ++k) {
       taps[2 * k] *= re;
@@ -191,7 +191,7 @@ void LineReceiver::spread(const Input& input, int block, Memory& memory) const {
 }
 
 /// Volume reverberation's draws for every sample that a block's pulses reach back to, mean square 1.
-void LineReceiver::draw_volume(const Input& input, int block, Memory& memory) const {
+void LineReceiver::draw_volume(const Input& input, int block, Thread& memory) const {
   const Background& background = input.background;
   const int rows = kBlock + input.pulse.support() - 1;
   const int first = block * kBlock - input.pulse.support() + 1;
@@ -204,7 +204,7 @@ void LineReceiver::draw_volume(const Input& input, int block, Memory& memory) co
 }
 
 /// Sound from all directions at once in one sample, on the sine grid (without spreading).
-void LineReceiver::draw_field(const Input& input, int block, int sample, Memory& memory) const {
+void LineReceiver::draw_field(const Input& input, int block, int sample, Thread& memory) const {
   const Background& background = input.background;
   const auto cells = static_cast<std::size_t>(cells_);
   std::complex<float>* field = memory.field.data();
@@ -233,7 +233,7 @@ void LineReceiver::draw_field(const Input& input, int block, int sample, Memory&
 }
 
 /// From one row of the spread grid to the elements' signals.
-void LineReceiver::to_elements(const Input& input, int block, int sample, Memory& memory) const {
+void LineReceiver::to_elements(const Input& input, int block, int sample, Thread& memory) const {
   const int r = sample - block * kBlock;
   std::complex<float>* row = memory.grid.data() + static_cast<std::ptrdiff_t>(r) * stride_;
   std::complex<float>* grid = row + kLeft;
@@ -262,7 +262,7 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Memory
 }
 
 /// Element signals of a block, weighted, onto the grid that beams read.
-void LineReceiver::to_beam_grid(int samples, std::span<const float> weights, Memory& memory) const {
+void LineReceiver::to_beam_grid(int samples, std::span<const float> weights, Thread& memory) const {
   const int M = line_.elements;
   std::complex<float>* spectrum = memory.spectrum.data();
   std::fill_n(spectrum, cells_, std::complex<float>{});  // and so it stays between the elements' harmonics
@@ -279,9 +279,10 @@ void LineReceiver::to_beam_grid(int samples, std::span<const float> weights, Mem
   }
 }
 
-void LineReceiver::read_beams(int block, int samples, const Memory& memory, Image& image) const {
+void LineReceiver::read_beams(int block, int samples, std::span<const Steer> steers, const Thread& memory,
+                              Image& image) const {
   for (int beam = 0; beam < image.beams; ++beam) {
-    const Steer& steer = steer_[static_cast<std::size_t>(beam)];
+    const Steer& steer = steers[static_cast<std::size_t>(beam)];
     std::complex<float>* out = image.row(beam).data() + block * kBlock;
     const float* cell = floats(memory.grid.data() + steer.first);
     for (int r = 0; r < samples; ++r, cell += 2 * stride_) {
@@ -297,7 +298,7 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
   const Background& background = input.background;
   const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
   const bool silent = background.isotropic_upa2 <= 0.0 && background.electronic_upa2 <= 0.0 &&
-                      background.volume_upa2.empty() && !index_.any(block);
+                      background.volume_upa2.empty() && !memory.index.any(block);
   if (silent) {
     for (Image& image : images) {
       for (int beam = 0; beam < image.beams; ++beam)
@@ -305,12 +306,13 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
     }
     return;
   }
-  spread(input, block, memory);
-  if (!background.volume_upa2.empty()) draw_volume(input, block, memory);
-  for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, memory);
+  Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+  spread(input, block, memory.index, own);
+  if (!background.volume_upa2.empty()) draw_volume(input, block, own);
+  for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, own);
   for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
-    to_beam_grid(samples, weights[i], memory);
-    read_beams(block, samples, memory, images[i]);
+    to_beam_grid(samples, weights[i], own);
+    read_beams(block, samples, memory.steer, own, images[i]);
   }
   if (!halved) return;
   for (int beam = 0; beam < images[0].beams; ++beam) {

@@ -61,7 +61,8 @@ struct Background {
 /// Isotropic noise has the correlation sin(2 pi x) / (2 pi x) between elements x waves apart: none at half waves. Where
 /// elements stand within 1 % of half a wave they draw their own; beams then receive it within 0.05 dB.
 ///
-/// Blocks of samples are independent and each sums in a fixed order: the same bits for any number of threads.
+/// Blocks of samples are independent and each sums in a fixed order, set by set: the same bits for any number of
+/// threads, and for arrivals in one set or in several.
 class LineReceiver {
  public:
   /// Throws std::invalid_argument for no elements or a spacing that is not positive.
@@ -76,27 +77,36 @@ class LineReceiver {
 
   /// Input of one ping. Spans are not owned.
   struct Input {
-    std::span<const Arrival> arrivals;
-    std::span<const float> gain;  // amplitude pattern of an element towards each arrival; empty: 1
+    std::span<const EchoSet> echoes;  // with the amplitude pattern of an element
     const SampledPulse& pulse;
     Sampling sampling;
     Background background;
   };
 
-  /// One image (beam by sample) for each set of element weights; images are resized and overwritten. sin_beams: sines
-  /// of the beams' axes along the array's axis, true, any order. Of three sets of weights of which the first is the sum
-  /// of the others (a whole and its halves), the first image costs an addition only.
+  /// Memory of forming, of any receiver: its contents do not matter.
+  class Memory {
+    friend LineReceiver;
+    struct Steer {  // where a beam reads the grid
+      int first;
+      Spreading::Taps taps;
+    };
+    struct Thread {
+      std::vector<std::complex<float>> grid, elements, spectrum, field, sum, draws;
+    };
+    TimeIndex index;
+    std::vector<Steer> steer;
+    std::vector<Thread> threads;
+  };
+
+  /// One wanted image (beam by sample) for each set of element weights; images are resized and overwritten. sin_beams:
+  /// sines of the beams' axes along the array's axis, true, any order. Of three sets of weights of which the first is
+  /// the sum of the others (a whole and its halves), the first image costs an addition only.
   void form(const Input& input, std::span<const float> sin_beams, std::span<const std::vector<float>> weights,
-            std::span<Image> images);
+            std::span<Image> images, Memory& memory) const;
 
  private:
-  struct Steer {  // where a beam reads the grid
-    int first;
-    Spreading::Taps taps;
-  };
-  struct Memory {  // of one thread
-    std::vector<std::complex<float>> grid, elements, spectrum, field, sum, draws;
-  };
+  using Steer = Memory::Steer;
+  using Thread = Memory::Thread;
 
   void check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const;
   double share_of_sphere(int cell) const;
@@ -105,12 +115,12 @@ class LineReceiver {
   int harmonic(int m) const {
     return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
   }
-  void spread(const Input& input, int block, Memory& memory) const;
-  void draw_volume(const Input& input, int block, Memory& memory) const;
-  void draw_field(const Input& input, int block, int sample, Memory& memory) const;
-  void to_elements(const Input& input, int block, int sample, Memory& memory) const;
-  void to_beam_grid(int samples, std::span<const float> weights, Memory& memory) const;
-  void read_beams(int block, int samples, const Memory& memory, Image& image) const;
+  void spread(const Input& input, int block, const TimeIndex& index, Thread& memory) const;
+  void draw_volume(const Input& input, int block, Thread& memory) const;
+  void draw_field(const Input& input, int block, int sample, Thread& memory) const;
+  void to_elements(const Input& input, int block, int sample, Thread& memory) const;
+  void to_beam_grid(int samples, std::span<const float> weights, Thread& memory) const;
+  void read_beams(int block, int samples, std::span<const Steer> steers, const Thread& memory, Image& image) const;
   void form_block(const Input& input, int block, std::span<const std::vector<float>> weights, bool halved,
                   Memory& memory, std::span<Image> images) const;
 
@@ -121,9 +131,6 @@ class LineReceiver {
   std::vector<float> unspread_;         // by element
   bool white_;                          // isotropic noise is independent from element to element
   std::vector<float> isotropic_share_;  // by cell, amplitude; empty if white
-  TimeIndex index_;
-  std::vector<Steer> steer_;
-  std::vector<Memory> memory_;
 };
 
 }  // namespace ensonify::echo

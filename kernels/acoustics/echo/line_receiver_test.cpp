@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -45,9 +46,9 @@ static std::vector<float> uniform(int elements) {
 
 static Image form(const ElementLine& array, const LineReceiver::Input& input, std::span<const float> beams,
                   const std::vector<float>& weights) {
-  LineReceiver receiver(array);
+  LineReceiver::Memory memory;
   Image image;
-  receiver.form(input, beams, std::span(&weights, 1), std::span(&image, 1));
+  LineReceiver(array).form(input, beams, std::span(&weights, 1), std::span(&image, 1), memory);
   return image;
 }
 
@@ -59,7 +60,7 @@ TEST_CASE("beams are the direct sum over elements, 90 dB below the peak") {
        {ElementLine{100, 0.5}, ElementLine{101, 0.47}, ElementLine{37, 0.9}, ElementLine{1, 0.5}}) {
     std::vector<float> weights;
     for (int m = 0; m < array.elements; ++m) weights.push_back(float(0.6 + 0.4 * std::cos(0.05 * m)) / array.elements);
-    const Image image = form(array, {arrivals, {}, kPulse, kSampling, {}}, beams, weights);
+    const Image image = form(array, {std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, weights);
     double peak = 0.0, error = 0.0;
     for (std::size_t b = 0; b < beams.size(); ++b) {
       std::vector<Complex> direct(100);
@@ -89,7 +90,7 @@ TEST_CASE("the first side lobes of a uniform line are -13.26 and -17.83 dB acros
   std::vector<float> beams;
   for (int i = 0; i <= 600; ++i) beams.push_back(float(0.3 + 5e-5 * i));  // to three nulls of a line of 100 waves
   const std::vector<Arrival> one{from_sine(0.3, 11e-3)};
-  const Image image = form({200, 0.5}, {one, {}, kPulse, kSampling, {}}, beams, uniform(200));
+  const Image image = form({200, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, uniform(200));
   const auto level_db = [&](int from, int to) {
     double peak = 0.0;
     for (int b = from; b < to; ++b) peak = std::max(peak, double(std::abs(image.row(b)[41])));
@@ -109,10 +110,12 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
   const auto whole = beam_weights(array.weights), lower = beam_weights(split.negative, array.weights),
              upper = beam_weights(split.positive, array.weights);
   LineReceiver receiver(element_line(array, 2.0));
+  LineReceiver::Memory memory;
   std::vector<Image> images(3);
   const std::vector<std::vector<float>> weights{whole, lower, upper};
-  receiver.form({arrivals, {}, kPulse, kSampling, {}}, beams, weights, images);
-  const Image alone = form(element_line(array, 2.0), {arrivals, {}, kPulse, kSampling, {}}, beams, whole);
+  receiver.form({std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, weights, images, memory);
+  const Image alone =
+      form(element_line(array, 2.0), {std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, whole);
   for (std::size_t i = 0; i < images[0].envelope_upa.size(); ++i) {
     REQUIRE(std::abs(alone.envelope_upa[i] - images[0].envelope_upa[i]) < 1e-4);
     REQUIRE(std::abs(images[1].envelope_upa[i] + images[2].envelope_upa[i] - images[0].envelope_upa[i]) < 1e-4);
@@ -121,7 +124,7 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
   const std::vector<Arrival> one{from_sine(0.205, 11e-3)};
   const std::vector<std::vector<float>> two{lower, upper};
   std::vector<Image> pair(2);
-  receiver.form({one, {}, kPulse, kSampling, {}}, beam, two, pair);
+  receiver.form({std::array{EchoSet{one}}, kPulse, kSampling, {}}, beam, two, pair, memory);
   const auto product = pair[1].row(0)[41] * std::conj(pair[0].row(0)[41]);
   CHECK(std::arg(product) == Approx(kTurn * 0.5 * split.baseline_m * 0.005).epsilon(1e-4));  // waves of 2 m
 }
@@ -130,9 +133,10 @@ TEST_CASE("sums of mean squares have the power pattern") {
   const auto beams = sines(51);
   const auto weights = uniform(40);
   const std::vector<Arrival> one{from_sine(0.1, 11e-3)};
-  const Image wave = form({40, 0.5}, {one, {}, kPulse, kSampling, {}}, beams, weights);
+  const Image wave = form({40, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, weights);
   const SampledPulse squared = kPulse.squared();
-  const Image power = form(power_line({40, 0.5}), {one, {}, squared, kSampling, {}}, beams, power_weights(weights));
+  const Image power =
+      form(power_line({40, 0.5}), {std::array{EchoSet{one}}, squared, kSampling, {}}, beams, power_weights(weights));
   for (int b = 0; b < 51; ++b) {
     REQUIRE(power.row(b)[41].real() == Approx(std::norm(wave.row(b)[41])).margin(1e-5));
     REQUIRE(power.row(b)[41].imag() == Approx(0).margin(1e-5));
@@ -154,21 +158,21 @@ TEST_CASE("isotropic noise drops by the directivity index and correlates between
   const int M = 64;
   const std::vector<float> beams{0.3F, 0.3F + 1.0F / 64, 0.3F + 2.0F / 64};  // half a null, a null apart: L = 32 waves
   const Image image =
-      form({M, 0.5}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}}, beams, uniform(M));
+      form({M, 0.5}, {{}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}}, beams, uniform(M));
   CHECK(product(image, 0, 0).real() == Approx(100.0 / M).epsilon(0.02));
   CHECK(std::abs(product(image, 0, 1)) * M / 100 ==
         Approx(1 / (M * std::sin(0.5 * std::numbers::pi / M))).margin(0.02));
   CHECK(std::abs(product(image, 0, 2)) * M / 100 < 0.02);
   // Elements close to half a wave apart, drawn from each direction: the same to the limit of the draws' own.
-  const Image near = form({M, 0.494}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
+  const Image near = form({M, 0.494}, {{}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                           std::vector<float>{0.3F}, uniform(M));
   CHECK(product(near, 0, 0).real() == Approx(100.0 / (2 * 0.494 * M)).epsilon(0.03));
   // Elements 0.3 waves apart are correlated: DI is 10 log10(2 L / lambda), not 10 log10 M.
-  const Image dense = form({M, 0.3}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
+  const Image dense = form({M, 0.3}, {{}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                            std::vector<float>{0.1F}, uniform(M));
   CHECK(product(dense, 0, 0).real() == Approx(100.0 / (2 * 0.3 * M)).epsilon(0.03));
   // Sparse elements, 0.8 waves apart, receive a grating lobe too; at +-0.625 of the grid two aliases become one.
-  const Image sparse = form({M, 0.8}, {{}, {}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
+  const Image sparse = form({M, 0.8}, {{}, kPulse, sampling, {5, 100.0, &ambient, 0, nullptr, {}, nullptr}},
                             std::vector<float>{0.0F, 0.6F}, uniform(M));
   CHECK(product(sparse, 0, 0).real() == Approx(100.0 / (2 * 0.8 * M)).epsilon(0.03));
   CHECK(product(sparse, 1, 1).real() == Approx(2 * 100.0 / (2 * 0.8 * M)).epsilon(0.03));
@@ -182,7 +186,7 @@ TEST_CASE("switching one background off leaves the others' draws as they are") {
   const auto received = [&](double ambient, double electronic, bool with_volume) {
     Background background{7, ambient, &a, electronic, &e, {}, &v};
     if (with_volume) background.volume_upa2 = volume;
-    return form({33, 0.5}, {{}, {}, kPulse, kSampling, background}, beams, uniform(33));
+    return form({33, 0.5}, {{}, kPulse, kSampling, background}, beams, uniform(33));
   };
   const Image all = received(9, 5, true), ambient = received(9, 0, false), electronic = received(0, 5, false),
               reverberation = received(0, 0, true);
@@ -199,11 +203,12 @@ TEST_CASE("threads change no bit, and a ping after the first allocates nothing")
   const random::Stream a{1, "ambient"}, e{1, "electronics"};
   const std::vector<std::vector<float>> weights{uniform(100)};
   LineReceiver receiver({100, 0.5});
+  LineReceiver::Memory memory;
   std::vector<Image> one(1), two(1);
   const auto run = [&](std::vector<Image>& images, std::size_t threads, std::uint64_t ping) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    receiver.form({arrivals, {}, kPulse, {10e-3, 25e-6, 1000}, {ping, 1.0, &a, 1.0, &e, {}, nullptr}}, beams, weights,
-                  images);
+    receiver.form({std::array{EchoSet{arrivals}}, kPulse, {10e-3, 25e-6, 1000}, {ping, 1.0, &a, 1.0, &e, {}, nullptr}},
+                  beams, weights, images, memory);
   };
   run(one, 1, 7);
   run(two, 2, 7);
@@ -214,11 +219,25 @@ TEST_CASE("threads change no bit, and a ping after the first allocates nothing")
   CHECK(allocations() - before == 0);
 }
 
+TEST_CASE("one set of arrivals or several of any size give the same bits") {
+  const auto arrivals = many(5000);
+  const auto beams = sines(31);
+  const Image whole = form({60, 0.5}, {std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, uniform(60));
+  CHECK(std::norm(whole.row(15)[50]) > 0);
+  for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1024}}) {
+    std::vector<EchoSet> sets;
+    for (std::size_t first = 0; first < arrivals.size(); first += size)
+      sets.push_back({std::span(arrivals).subspan(first, std::min(size, arrivals.size() - first))});
+    CHECK(form({60, 0.5}, {sets, kPulse, kSampling, {}}, beams, uniform(60)).envelope_upa == whole.envelope_upa);
+  }
+}
+
 TEST_CASE("what does not fit is refused") {
   LineReceiver receiver({10, 0.5});
+  LineReceiver::Memory memory;
   std::vector<Image> images(1);
   const std::vector<std::vector<float>> wrong{uniform(9)};
-  CHECK_THROWS_AS(receiver.form({{}, {}, kPulse, kSampling, {}}, {}, wrong, images), std::invalid_argument);
+  CHECK_THROWS_AS(receiver.form({{}, kPulse, kSampling, {}}, {}, wrong, images, memory), std::invalid_argument);
   CHECK_THROWS_AS(LineReceiver({0, 0.5}), std::invalid_argument);
 }
 
@@ -227,8 +246,9 @@ TEST_CASE("a beam pattern for the picture", "[.echo-pattern-csv]") {
   for (int i = 0; i < 1601; ++i) beams.push_back(float(-0.98 + 1.96 * i / 1600));
   const std::vector<Arrival> one{from_sine(0.3, 11e-3)};
   const auto taylor = array::shading_weights({array::Shading::Window::kTaylor, 30.0}, 100);
-  const Image uniform_beams = form({100, 0.5}, {one, {}, kPulse, kSampling, {}}, beams, uniform(100));
-  const Image shaded_beams = form({100, 0.5}, {one, {}, kPulse, kSampling, {}}, beams, beam_weights(taylor));
+  const Image uniform_beams = form({100, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, uniform(100));
+  const Image shaded_beams =
+      form({100, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, beam_weights(taylor));
   std::puts("sine,uniform,error,shaded");
   for (int b = 0; b < 1601; ++b) {
     Complex direct;

@@ -106,39 +106,44 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, const Insonifi
   return found;
 }
 
-std::span<const Scatterer> Scatterers::find(const Transmission& transmission) {
-  trace::make_elements(insonified_, transmission.hits.size());
+std::span<const Scatterer> Scatterers::find(const Transmission& transmission, Memory& memory) const {
+  auto& insonified = memory.insonified;
+  auto& by_cell = memory.by_cell;
+  auto& merged_start = memory.merged_start;
+  auto& tables = memory.tables;
+  auto& found = memory.found;
+  trace::make_elements(insonified, transmission.hits.size());
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, insonified_.size(), kRaysPerTask),
+      tbb::blocked_range<std::size_t>(0, insonified.size(), kRaysPerTask),
       [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) insonified_[i] = insonified_by(transmission, i);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) insonified[i] = insonified_by(transmission, i);
       },
       tbb::simple_partitioner());
-  by_cell_.sort(insonified_, kBuckets, [](const Insonified& insonified) {
-    return insonified.cell == kNothing ? kBuckets : static_cast<std::size_t>(spread(insonified.cell & kBlock) >> 56);
+  by_cell.sort(insonified, kBuckets, [](const Insonified& one) {
+    return one.cell == kNothing ? kBuckets : static_cast<std::size_t>(spread(one.cell & kBlock) >> 56);
   });
 
-  const std::size_t table_size = std::bit_ceil(2 * by_cell_.largest() + 1);
+  const std::size_t table_size = std::bit_ceil(2 * by_cell.largest() + 1);
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  if (tables_.size() < threads) tables_.resize(threads);
-  for (auto& table : tables_) {
+  if (tables.size() < threads) tables.resize(threads);
+  for (auto& table : tables) {
     if (table.size() < table_size) table.resize(table_size);
   }
-  merged_start_.resize(kBuckets + 1);
+  merged_start.resize(kBuckets + 1);
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
-    auto& table = tables_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-    merged_start_[bucket + 1] = merge(by_cell_.bucket(bucket), std::span(table).first(table_size));
+    auto& table = tables[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+    merged_start[bucket + 1] = merge(by_cell.bucket(bucket), std::span(table).first(table_size));
   });
-  merged_start_[0] = 0;
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) merged_start_[bucket + 1] += merged_start_[bucket];
-  trace::make_elements(found_, merged_start_.back());
+  merged_start[0] = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) merged_start[bucket + 1] += merged_start[bucket];
+  trace::make_elements(found, merged_start.back());
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
-    const auto insonified = by_cell_.bucket(bucket);
-    for (std::size_t i = merged_start_[bucket]; i < merged_start_[bucket + 1]; ++i) {
-      found_[i] = scatterer(transmission, insonified[i - merged_start_[bucket]]);
+    const auto merged = by_cell.bucket(bucket);
+    for (std::size_t i = merged_start[bucket]; i < merged_start[bucket + 1]; ++i) {
+      found[i] = scatterer(transmission, merged[i - merged_start[bucket]]);
     }
   });
-  return found_;
+  return found;
 }
 
 }  // namespace ensonify::echo

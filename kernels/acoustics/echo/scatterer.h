@@ -49,23 +49,34 @@ struct Scatterer {
 /// incoherent seabed. Choose cells of at most half the range resolution and a quarter of the footprint. The spacing of
 /// cells is exact to 2^20 cells from the world's origin; beyond they repeat.
 class Scatterers {
- public:
-  /// Throws std::invalid_argument unless cell_m > 0.
-  Scatterers(double cell_m, const random::Stream& stream);
-
-  /// The scatterers of a transmission in a fixed order; valid until the next call.
-  ///
-  /// A ray of solid angle dOmega that hits the seabed at grazing angle theta insonifies dA = tube dOmega / sin(theta)
-  /// with source / tube, so it sends back source sigma dOmega / sin(theta), whatever the path: spreading out is counted
-  /// by the rays themselves. sin(theta) below 0.001 counts as that.
-  std::span<const Scatterer> find(const Transmission& transmission);
-
- private:
   struct Insonified {  // by one ray, then by all rays of a cell
     std::uint64_t cell;
     std::uint32_t ray;
     float scattered_upa2m2, cross_section_m2;
   };
+
+ public:
+  /// Memory of a search: its contents do not matter.
+  class Memory {
+    friend Scatterers;
+    std::vector<Insonified> insonified;
+    Partition<Insonified> by_cell;
+    std::vector<std::size_t> merged_start;
+    std::vector<std::vector<std::int32_t>> tables;  // one per thread
+    std::vector<Scatterer> found;
+  };
+
+  /// Throws std::invalid_argument unless cell_m > 0.
+  Scatterers(double cell_m, const random::Stream& stream);
+
+  /// The scatterers of a transmission in a fixed order; they lie in the memory given.
+  ///
+  /// A ray of solid angle dOmega that hits the seabed at grazing angle theta insonifies dA = tube dOmega / sin(theta)
+  /// with source / tube, so it sends back source sigma dOmega / sin(theta), whatever the path: spreading out is counted
+  /// by the rays themselves. sin(theta) below 0.001 counts as that.
+  std::span<const Scatterer> find(const Transmission& transmission, Memory& memory) const;
+
+ private:
   std::uint64_t cell_at(const frames::Vec3& position_enu_m) const;
   Insonified insonified_by(const Transmission& transmission, std::size_t ray) const;
   std::size_t merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const;
@@ -73,11 +84,6 @@ class Scatterers {
 
   double cell_m_, per_cell_;
   random::Stream stream_;
-  std::vector<Insonified> insonified_;
-  Partition<Insonified> by_cell_;
-  std::vector<std::size_t> merged_start_;
-  std::vector<std::vector<std::int32_t>> tables_;  // one per thread
-  std::vector<Scatterer> found_;
 };
 
 }  // namespace ensonify::echo

@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -67,13 +68,13 @@ struct Strip {
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     std::vector<Arrival> arrivals;
+    Scatterers::Memory memory;
     add_direct_echoes({kFrequency, 0.07}, position_enu_m,
-                      scatterers.find({pose, rays, surface_hits, source, backscatter}), receivers, arrivals);
-    ApertureReceiver receiver;
+                      scatterers.find({pose, rays, surface_hits, source, backscatter}, memory), receivers, arrivals);
+    TimeIndex index;
     Image image;
     const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);
-    const std::vector<std::span<const float>> open(1);
-    receiver.form(arrivals, open, pulse, {37.3e-3, 50e-6, 18}, image);  // 44.2 to 45.5 deg
+    form_apertures(std::array{EchoSet{arrivals}}, 1, pulse, {37.3e-3, 50e-6, 18}, index, image);  // 44.2 to 45.5 deg
     return image.envelope_upa;
   }
 };
@@ -164,9 +165,10 @@ TEST_CASE("the energy of all rays arrives, whatever the cells") {
     area += hits[i].range_m * hits[i].range_m * insonified;
   }
   for (const double cell_m : {0.003, 0.03, 0.5}) {
-    Scatterers scatterers(cell_m, {1, "seabed"});
+    const Scatterers scatterers(cell_m, {1, "seabed"});
+    Scatterers::Memory memory;
     double sum = 0.0, cross_section = 0.0;
-    const auto found = scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter});
+    const auto found = scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory);
     for (const Scatterer& one : found) {
       sum += one.scattered_upa2m2;
       cross_section += one.cross_section_m2;
@@ -180,10 +182,12 @@ TEST_CASE("the energy of all rays arrives, whatever the cells") {
 TEST_CASE("responses are complex Gaussians of mean square 1") {
   const frames::HeadPose pose{};
   const auto hits = strip().hits(pose);
-  Scatterers scatterers(0.02, {1, "seabed"});
+  const Scatterers scatterers(0.02, {1, "seabed"});
+  Scatterers::Memory memory;
   double n = 0, power = 0, square = 0;
   std::complex<double> sum;
-  for (const Scatterer& one : scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter})) {
+  for (const Scatterer& one :
+       scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory)) {
     n += 1;
     power += std::norm(one.response);
     square += std::norm(one.response) * std::norm(one.response);
@@ -198,18 +202,20 @@ TEST_CASE("responses are complex Gaussians of mean square 1") {
 TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
   const frames::HeadPose pose{};
   const auto hits = strip().hits(pose);
-  Scatterers scatterers(0.03, {1, "seabed"});
+  const Scatterers scatterers(0.03, {1, "seabed"});
+  Scatterers::Memory memory;
   const auto places = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<Vec3> all;
-    for (const Scatterer& one : scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter})) {
+    for (const Scatterer& one :
+         scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory)) {
       all.push_back(one.position_enu_m);
     }
     return all;
   };
   CHECK(places(1) == places(2));
   const long before = allocations();
-  scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter});
+  scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory);
   CHECK(allocations() - before == 0);
   CHECK_THROWS_AS(Scatterers(0.0, {1, "seabed"}), std::invalid_argument);
 }

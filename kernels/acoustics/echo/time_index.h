@@ -18,18 +18,19 @@ class TimeIndex {
 
   struct Received {
     std::int32_t first;  // sample; may lie before 0
-    std::uint32_t phase;
-    std::uint32_t arrival;
+    std::uint16_t phase, set;
+    std::uint32_t arrival;  // of its set
   };
 
-  void set(std::span<const Arrival> arrivals, const SampledPulse& pulse, const Sampling& sampling);
+  /// In order of sets, and within each of arrivals.
+  void set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling);
 
   int blocks() const { return blocks_; }
 
   /// Whether anything is received in this block.
   bool any(int block) const;
 
-  /// Calls add(arrival index, first sample, envelope of samples from there) for what is received in a block, cut to the
+  /// Calls add(set, arrival, first sample, envelope of samples from there) for what is received in a block, cut to the
   /// block.
   template <class Add>
   void each(int block, const SampledPulse& pulse, const Add& add) const {
@@ -38,7 +39,7 @@ class TimeIndex {
       for (const Received& received : by_block_.bucket(static_cast<std::size_t>(b))) {
         const int from = std::max(received.first, begin), to = std::min(received.first + pulse.support(), end);
         if (from >= to) continue;
-        add(received.arrival, from,
+        add(received.set, received.arrival, from,
             pulse.row(static_cast<int>(received.phase))
                 .subspan(static_cast<std::size_t>(from - received.first), static_cast<std::size_t>(to - from)));
       }

@@ -1,0 +1,85 @@
+#include "components/sonar/array_echoes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ensonify {
+namespace {
+
+double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
+
+random::Stream stream_of(const ReceiveArray& array, const char* what) {
+  return {array.seed, array.process + "/" + what + array.suffix};
+}
+
+}  // namespace
+
+ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects)
+    : array_(array),
+      effects_(effects),
+      sea_(environment, array.frequency_hz, effects),
+      ambient_(stream_of(array, "noise")),
+      electronic_(stream_of(array, "electronic")),
+      volume_(stream_of(array, "volume")),
+      receiver_(array.elements),
+      power_weights_{echo::power_weights(array.weights.front())} {
+  if (!effects.speckle) power_receiver_.emplace(echo::power_line(array.elements));
+}
+
+std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
+    const std::function<double(const Eigen::Vector3f& direction_head)>& transmitted, double step_rad) const {
+  if (!sea_.water_scatters()) return {};
+  const auto two_way = [&](const Eigen::Vector3f& direction) {
+    const double received = static_cast<double>(array_.element(direction));
+    return transmitted(direction) * received * received;
+  };
+  return echo::directions_of_cells(receiver_, two_way, step_rad);
+}
+
+/// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
+void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse,
+                           const ArrayReception& reception, Memory& memory) const {
+  const auto gains = [&](std::span<const echo::Arrival> arrivals, std::vector<float>& gain) {
+    gain.resize(arrivals.size());
+    sea_.gains([&](const echo::Arrival& arrival) { return array_.element(arrival.direction_head); }, arrivals, gain);
+    return echo::EchoSet{arrivals, gain};
+  };
+  const std::array sets{gains(echoed.arrivals, memory.gain), gains(reception.foreign, memory.foreign_gain)};
+  const echo::Background noise = background(shot, echoed, pulse.pulse, reception, memory.volume_upa2);
+  const auto [sampling, beams] = std::pair(reception.sampling, reception.sin_beams);
+  memory.images.resize(array_.weights.size());
+  if (effects_.speckle) {
+    receiver_.form({sets, pulse.sampled, sampling, noise}, beams, array_.weights, memory.images, memory.receiver);
+    return;
+  }
+  memory.mean_square.resize(1);
+  power_receiver_->form({sets, pulse.squared, sampling, {}}, beams, power_weights_, memory.mean_square,
+                        memory.receiver);
+  receiver_.form({{}, pulse.sampled, sampling, noise}, beams, std::span(array_.weights).first(1),
+                 std::span(memory.images).first(1), memory.receiver);
+  const auto& mean_square = memory.mean_square[0].envelope_upa;
+  auto& envelope = memory.images[0].envelope_upa;
+  for (std::size_t i = 0; i < envelope.size(); ++i) envelope[i] += std::sqrt(std::max(0.0F, mean_square[i].real()));
+}
+
+echo::Background ArrayEchoes::background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,
+                                         const ArrayReception& reception, std::vector<float>& volume_upa2) const {
+  echo::Background background;
+  background.ping = reception.ping;
+  if (effects_.noise) {
+    background.isotropic_upa2 =
+        power_of(sea_.environment().noise_level_db()) * pulse.noise_bandwidth_hz * array_.noise_share;
+    background.isotropic = &ambient_;
+    background.electronic_upa2 = power_of(array_.electronic_noise_db) * pulse.noise_bandwidth_hz;
+    background.electronic = &electronic_;
+  }
+  if (sea_.water_scatters()) {
+    sea_.reverberation_upa2(shot, echoed, reception.volume, pulse, reception.sampling, volume_upa2);
+    background.volume_upa2 = volume_upa2;
+    background.volume = &volume_;
+  }
+  return background;
+}
+
+}  // namespace ensonify

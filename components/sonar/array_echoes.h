@@ -1,0 +1,97 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "components/sonar/sea_acoustics.h"
+#include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/volume.h"
+#include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/base/random/stream.h"
+
+namespace ensonify {
+
+/// A receive line of one frequency as its beams are made.
+struct ReceiveArray {
+  double frequency_hz = 0.0;
+  echo::ElementLine elements;               // at the true speed of sound
+  std::vector<std::vector<float>> weights;  // of the images that are wanted; the first is that of the whole line
+  std::function<float(const Eigen::Vector3f& direction_head)> element;  // amplitude that an element gives a direction
+  double noise_share = 1.0;             // isotropic noise that an element lets in, over what a point would
+  double electronic_noise_db = -200.0;  // of each element, as sound in the water, dB re 1 uPa^2/Hz
+  std::uint64_t seed = 1;
+  std::string process,
+      suffix;  // streams are PROCESS/noise, PROCESS/electronic and PROCESS/volume, each with the suffix
+};
+
+/// Pulse and sampling of some pings, and what follows from them.
+struct ArrayPulse {
+  ArrayPulse(const echo::Pulse& of_a_point, double sample_period_s, const echo::Scatterers& patches,
+             const trace::RayDistribution& distribution)
+      : pulse(of_a_point),
+        sampled(of_a_point, sample_period_s),
+        squared(sampled.squared()),
+        scatterers(patches),
+        rays(distribution) {}
+
+  echo::Pulse pulse;
+  echo::SampledPulse sampled, squared;
+  echo::Scatterers scatterers;
+  trace::RayDistribution rays;
+};
+
+/// Reception of a shot by a line.
+struct ArrayReception {
+  std::uint64_t ping = 0;
+  echo::Sampling sampling;
+  std::span<const float> sin_beams;                // along the line, true
+  std::span<const echo::VolumeDirections> volume;  // of ArrayEchoes::volume_directions; unused in clear water
+  std::span<const echo::Arrival> foreign;          // of other transmissions
+};
+
+/// Echoes of one transmission as the beams of a line array receive them, by the true motion and the true water: seabed,
+/// surface, water column, other transmissions, and noise at the elements. The twin of ApertureEchoes.
+class ArrayEchoes {
+ public:
+  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects);
+
+  SeaAcoustics& sea() { return sea_; }
+  const SeaAcoustics& sea() const { return sea_; }
+
+  /// Directions in which the water column is received, of a transmission of this power; none where it does not scatter.
+  std::vector<echo::VolumeDirections> volume_directions(
+      const std::function<double(const Eigen::Vector3f& direction_head)>& transmitted, double step_rad) const;
+
+  /// Images as memory of the caller, one per set of weights: beam by sample, complex envelopes, uPa rms. Without
+  /// speckle the first alone is made, for sums of mean squares have no phase.
+  struct Memory {
+    std::vector<echo::Image> images;
+    // Scratch.
+    std::vector<float> gain, foreign_gain, volume_upa2;
+    std::vector<echo::Image> mean_square;
+    echo::LineReceiver::Memory receiver;
+  };
+
+  /// Third stage of a shot: the images, in memory.images.
+  void beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse, const ArrayReception& reception,
+                Memory& memory) const;
+
+ private:
+  echo::Background background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,
+                              const ArrayReception& reception, std::vector<float>& volume_upa2) const;
+
+  ReceiveArray array_;
+  Effects effects_;
+  SeaAcoustics sea_;
+  random::Stream ambient_, electronic_, volume_;
+  echo::LineReceiver receiver_;
+  std::optional<echo::LineReceiver> power_receiver_;  // without speckle
+  std::vector<std::vector<float>> power_weights_;     // of the whole line
+};
+
+}  // namespace ensonify

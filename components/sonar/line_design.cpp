@@ -1,0 +1,15 @@
+#include "components/sonar/line_design.h"
+
+#include "kernels/acoustics/array/line.h"
+
+namespace ensonify {
+
+LineDesign::LineDesign(double half_power_rad, double at_wavelength_m, const array::Shading& shading)
+    : wavelength_m(at_wavelength_m),
+      line(array::line_array_of_width(half_power_rad, at_wavelength_m, shading)),
+      uniform_in_waves(array::length_in_waves_for(half_power_rad)),
+      effective_in_waves(array::effective_length_m(line) / at_wavelength_m),
+      first_null(array::first_null(line, at_wavelength_m)),
+      pattern(line, at_wavelength_m) {}
+
+}  // namespace ensonify

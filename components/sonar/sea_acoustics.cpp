@@ -1,0 +1,137 @@
+#include "components/sonar/sea_acoustics.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <cmath>
+#include <limits>
+
+#include "components/sonar/head_motion.h"
+#include "kernels/acoustics/echo/multipath.h"
+#include "kernels/acoustics/trace/reserve.h"
+
+namespace ensonify {
+namespace {
+
+constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
+constexpr double kInLobe = 0.1;  // -10 dB of the transmission
+constexpr std::size_t kRaysPerTask = 4096;
+
+/// What rays hit.
+struct HitSums {
+  int hits = 0, in_lobe = 0;
+  double height_m = 0.0;  // sum of z
+};
+
+double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
+
+}  // namespace
+
+SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects)
+    : environment_(environment),
+      frequency_hz_(frequency_hz),
+      effects_(effects),
+      paths_(environment.profile(), effects.refraction) {}
+
+Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, trace::RayDistribution& distribution,
+                                  double range_m, ShotMemory& memory) {
+  const frames::HeadPose& pose = shot.pose();
+  paths_.adapt(seabed, pose, distribution, range_m);
+  paths_.trace(seabed, pose, distribution.probes(), range_m, memory.hits, memory.paths);
+  distribution.fill(pose, memory.hits, seabed.objects(), static_cast<float>(range_m), memory.rays,
+                    paths_.refracted(memory.paths));
+  paths_.trace(seabed, pose, memory.rays, range_m, memory.hits, memory.paths);
+  distribution.settle(memory.rays, memory.hits);
+  environment_.set_facet_slopes(seabed.facet_mean_square_slope());
+  return {memory.rays, memory.hits};
+}
+
+/// What bubbles under the hull take on the way out and on the way back is the same for all paths.
+double SeaAcoustics::sent_db(double source_level_db) const {
+  return source_level_db - 2.0 * environment_.bubble_loss_db();
+}
+
+Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
+                            ShotMemory& memory) const {
+  memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
+  Echoed echoed{.arrivals = {}, .receivers = memory.receivers};
+  weigh(shot, insonified, memory, echoed);
+  const frames::HeadPose& pose = shot.pose();
+  const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
+  const auto found = scatterers.find({pose, insonified.rays, insonified.hits, memory.source_upa2m2, memory.backscatter},
+                                     memory.scatterers);
+  memory.arrivals.clear();
+  trace::make_room(memory.arrivals, (effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
+  echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
+  if (effects_.multipath) {
+    const echo::MultipathHead head{
+        .source_level_db = sent_db(shot.source_level_db),
+        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarAway_m); }};
+    echo::SurfaceMirror surface;
+    surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
+    surface.sound_speed_mps = sound_speed_mps(pose);
+    surface.rms_height_m = environment_.rms_wave_height_m();
+    echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
+  }
+  echoed.arrivals = memory.arrivals;
+  return echoed;
+}
+
+/// What rays carry to what they hit, and how strongly that scatters.
+void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const {
+  const std::span<const trace::Ray> rays = insonified.rays;
+  const std::span<const trace::Hit> hits = insonified.hits;
+  const double source = power_of(sent_db(shot.source_level_db));
+  memory.source_upa2m2.resize(rays.size());
+  memory.backscatter.resize(rays.size());
+  const HitSums sums = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), HitSums{},
+      [&](const auto& range, HitSums so_far) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (!hits[i].hit()) continue;
+          const double transmitted = shot.power(rays[i].direction_head, hits[i].path_length_m);
+          ++so_far.hits;
+          so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
+          so_far.height_m += hits[i].position_enu_m.z();
+          memory.source_upa2m2[i] = static_cast<float>(source * transmitted);
+          memory.backscatter[i] = environment_.backscatter()(hits[i].sediment, hits[i].sin_grazing);
+        }
+        return so_far;
+      },
+      [](const HitSums& a, const HitSums& b) {
+        return HitSums{a.hits + b.hits, a.in_lobe + b.in_lobe, a.height_m + b.height_m};
+      });
+  const double head_depth_m = -shot.pose().position_enu_m.z();
+  echoed.rays_that_hit = sums.hits;
+  echoed.rays_in_lobe = sums.in_lobe;
+  echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
+  echoed.absorption_dbpm =
+      effects_.absorption ? environment_.absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
+}
+
+void SeaAcoustics::add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
+                                 std::span<const echo::Arrival> echoes, const echo::Pulse& pulse,
+                                 std::vector<echo::Arrival>& foreign) const {
+  if (effects_.interference) echo::add_echoes_of(other, echoes, band(shot, echoed), pulse, foreign);
+}
+
+void SeaAcoustics::add_interference(const Shot& shot, const Echoed& echoed,
+                                    std::span<const echo::InterferingTransmission> interfering,
+                                    const echo::Pulse& pulse, std::vector<echo::Arrival>& foreign) const {
+  if (effects_.interference) echo::add_interference(interfering, band(shot, echoed), pulse, echoed.receivers, foreign);
+}
+
+void SeaAcoustics::reverberation_upa2(const Shot& shot, const Echoed& echoed,
+                                      std::span<const echo::VolumeDirections> receive_directions,
+                                      const echo::Pulse& pulse, const echo::Sampling& sampling,
+                                      std::vector<float>& mean_square_upa2) const {
+  echo::VolumeLayers layers;
+  layers.backscatter_per_m = [this](double depth_m) {
+    return power_of(water::volume_scattering_db(environment_.scattering_layers(), depth_m));
+  };
+  layers.deepest_m = echoed.seabed_depth_m;
+  echo::reverberation_upa2(sent_db(shot.source_level_db), echoed.absorption_dbpm, sound_speed_mps(shot.pose()),
+                           receive_directions, layers, shot.pose(), pulse, sampling, mean_square_upa2);
+}
+
+}  // namespace ensonify

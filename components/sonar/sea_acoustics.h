@@ -1,0 +1,132 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "components/sonar/effects.h"
+#include "components/sonar/environment.h"
+#include "components/sonar/trace_summary.h"
+#include "components/sonar/water_paths.h"
+#include "kernels/acoustics/echo/arrival.h"
+#include "kernels/acoustics/echo/interference.h"
+#include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/volume.h"
+
+namespace ensonify {
+
+/// Power of a transmission in a direction (unit vector, head frame) as it is at this range, times the range squared; 1
+/// on its axis far away (range infinite). Called from several threads.
+using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head, float range_m)>;
+
+/// One transmission as it truly is.
+struct Shot {
+  std::span<const frames::HeadPose> poses;  // of the head from transmission on, one per kTrackPeriod; at least one
+  double transmit_s = 0.0;                  // sim time
+  double source_level_db = 0.0;
+  const TransmittedPower& power;
+
+  const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
+};
+
+/// Seabed that a shot insonified: rays, and the first facet that each hits.
+struct Insonified {
+  std::span<const trace::Ray> rays;
+  std::span<const trace::Hit> hits;
+};
+
+/// Echoes of a shot, and what was found on the way. Amplitudes are pressures, or with speckle switched off mean
+/// squares.
+struct Echoed {
+  std::span<const echo::Arrival> arrivals;
+  const echo::Receivers& receivers;  // where the head receives
+  double absorption_dbpm = 0.0;
+  double seabed_depth_m = 0.0;  // mean over the hits
+  int rays_that_hit = 0, rays_in_lobe = 0;
+
+  /// Summary for health.
+  TraceSummary summary(const Shot& shot, double range_m, const trace::Scene& seabed) const {
+    return {rays_that_hit, rays_in_lobe, range_m, altitude_m(seabed, shot.pose())};
+  }
+};
+
+/// Memory of the stages of a shot, sized by the first ones of a range. Results lie in it until it is used again.
+struct ShotMemory {
+  std::vector<trace::Ray> rays;
+  std::vector<trace::Hit> hits;
+  refraction::PathTable paths;
+  std::vector<float> source_upa2m2, backscatter;
+  echo::Scatterers::Memory scatterers;
+  echo::Receivers receivers;
+  std::vector<echo::Arrival> arrivals;
+};
+
+/// The sea for a head of one frequency: seabed, surface, water column and other heads, by the true motion and the true
+/// water. What a head makes of it by its receive patterns, and the noise, are the head's.
+class SeaAcoustics {
+ public:
+  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects);
+
+  const Environment& environment() const { return environment_; }
+  /// The true one, at the head.
+  double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
+
+  /// First stage: rays as the seabed asks for them (trace::RayDistribution), and what they hit within a slant range.
+  /// The seabed's mesh becomes that of this shot.
+  Insonified insonify(const Shot& shot, trace::Scene& seabed, trace::RayDistribution& distribution, double range_m,
+                      ShotMemory& memory);
+
+  /// Second stage: echoes of the seabed and those by way of the surface. `scatterers` are the patches of seabed that
+  /// answer as one point.
+  Echoed echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
+                ShotMemory& memory) const;
+
+  /// Appends what this receiver's filter lets through of another transmission's echoes ...
+  void add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
+                     std::span<const echo::Arrival> echoes, const echo::Pulse& pulse,
+                     std::vector<echo::Arrival>& foreign) const;
+  /// ... and of what other heads send meanwhile.
+  void add_interference(const Shot& shot, const Echoed& echoed,
+                        std::span<const echo::InterferingTransmission> interfering, const echo::Pulse& pulse,
+                        std::vector<echo::Arrival>& foreign) const;
+
+  /// Whether the water column sends anything back.
+  bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
+  /// Mean squares of that (sample by direction) towards these receive directions, down to the seabed's depth.
+  void reverberation_upa2(const Shot& shot, const Echoed& echoed,
+                          std::span<const echo::VolumeDirections> receive_directions, const echo::Pulse& pulse,
+                          const echo::Sampling& sampling, std::vector<float>& mean_square_upa2) const;
+
+  /// Gain of a receive pattern for each arrival: the pattern's amplitude, or with speckle switched off its square.
+  template <class Pattern>
+  void gains(const Pattern& pattern, std::span<const echo::Arrival> arrivals, std::span<float> gains) const {
+    constexpr std::size_t kPerTask = 4096;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),
+        [&](const auto& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const float amplitude = pattern(arrivals[i]);
+            gains[i] = effects_.speckle ? amplitude : amplitude * amplitude;
+          }
+        },
+        tbb::simple_partitioner());
+  }
+
+ private:
+  echo::ReceiverBand band(const Shot& shot, const Echoed& echoed) const {
+    return {frequency_hz_, sound_speed_mps(shot.pose()), echoed.absorption_dbpm, sum()};
+  }
+  echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
+  void weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const;
+  double sent_db(double source_level_db) const;
+
+  Environment environment_;
+  double frequency_hz_;
+  Effects effects_;
+  WaterPaths paths_;
+};
+
+}  // namespace ensonify
