@@ -41,10 +41,9 @@ Apertures aperture_of(const ProfilerConfig& c) {
 
 trace::RayDistribution rays_of(const ProfilerConfig& c) {
   const double reach_rad = kReach * c.beamwidth_rad, reach = std::sin(reach_rad), main = std::sin(c.beamwidth_rad);
-  const trace::TransmitVolume cone{
-      trace::TransmitVolume::Axis::kForward,
-      {-reach, reach, -main, main, main},
-      {-reach_rad, reach_rad, -c.beamwidth_rad, c.beamwidth_rad, c.beamwidth_rad}};
+  const trace::TransmitVolume cone{trace::TransmitVolume::Axis::kForward,
+                                   {-reach, reach, -main, main, main},
+                                   {-reach_rad, reach_rad, -c.beamwidth_rad, c.beamwidth_rad, c.beamwidth_rad}};
   return {cone, {c.quality, resolution_m(c)}, {c.world.seed, c.process + "/rays"}};
 }
 
@@ -67,8 +66,7 @@ msg::BottomTrack strongest_echo(const echo::Image& image, const echo::Sampling& 
   if (sum_upa2 == 0.0) return bottom;
   bottom.quality_db = 10.0 * std::log10(most_upa2 * static_cast<double>(samples.size()) / sum_upa2);
   bottom.valid = bottom.quality_db > kStandsOut_db;
-  bottom.travel_time_s =
-      sampling.start_s + static_cast<double>(strongest) * sampling.period_s - 0.5 * pulse.duration_s;
+  bottom.travel_time_s = sampling.start_s + static_cast<double>(strongest) * sampling.period_s - 0.5 * pulse.duration_s;
   bottom.altitude_m = 0.5 * sound_speed_mps * bottom.travel_time_s;
   return bottom;
 }
