@@ -5,12 +5,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "messages/fields.h"
 
 namespace ensonify::msg {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct DtypeFacts {
   Dtype dtype;
@@ -25,32 +28,12 @@ bool same_raw(const RawArray& a, const RawArray& b) {
   return a.dtype == b.dtype && a.shape == b.shape && same_bytes(a.bytes, b.bytes);
 }
 
-void append_text(std::string& out, std::string_view text) {
-  out += '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      (out += '\\') += c;
-    } else if (byte < 0x20) {
-      constexpr char kHex[] = "0123456789abcdef";
-      ((out += "\\u00") += kHex[byte >> 4]) += kHex[byte & 15];
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
-}
-
-void append_number(std::string& out, double number) {
-  if (std::isnan(number)) {
-    out += "\"nan\"";
-  } else if (std::isinf(number)) {
-    out += number > 0 ? "\"inf\"" : "\"-inf\"";
-  } else {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, number);
-    out.append(text, end.ptr);
-  }
+/// A number as JSON; what is not finite as text, since JSON has none.
+Json json_of(double number) {
+  if (std::isnan(number)) return "nan";
+  if (std::isinf(number)) return number > 0 ? "inf" : "-inf";
+  if (number == std::trunc(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
+  return number;
 }
 
 template <class T>
@@ -60,16 +43,12 @@ T element(const RawArray& array, std::size_t i) {
   return value;
 }
 
-void append_array(std::string& out, const RawArray& array, std::size_t max_elements) {
+Json json_of(const RawArray& array, std::size_t max_elements) {
   const std::size_t count = array.size();
   if (count <= max_elements) {
-    out += '[';
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i > 0) out += ',';
-      append_number(out, array.number(i));
-    }
-    out += ']';
-    return;
+    Json all = Json::array();
+    for (std::size_t i = 0; i < count; ++i) all.push_back(json_of(array.number(i)));
+    return all;
   }
   double low = INFINITY;
   double high = -INFINITY;
@@ -78,47 +57,27 @@ void append_array(std::string& out, const RawArray& array, std::size_t max_eleme
     low = std::fmin(low, value);
     high = std::fmax(high, value);
   }
-  ((out += "{\"dtype\":\"") += dtype_name(array.dtype)) += "\",\"shape\":[";
-  for (std::size_t i = 0; i < array.shape.size(); ++i) (out += i > 0 ? "," : "") += std::to_string(array.shape[i]);
-  out += "],\"min\":";
-  append_number(out, low);
-  out += ",\"max\":";
-  append_number(out, high);
-  out += '}';
+  return {{"dtype", dtype_name(array.dtype)}, {"shape", array.shape}, {"min", json_of(low)}, {"max", json_of(high)}};
 }
 
-void append_json(std::string& out, const Value& value, std::size_t max_elements) {
+Json json_of(const Value& value, std::size_t max_elements) {
   if (const auto* map = value.as<Value::Map>()) {
-    out += '{';
-    for (std::size_t i = 0; i < map->size(); ++i) {
-      if (i > 0) out += ',';
-      append_text(out, (*map)[i].first);
-      out += ':';
-      append_json(out, (*map)[i].second, max_elements);
-    }
-    out += '}';
-  } else if (const auto* list = value.as<Value::List>()) {
-    out += '[';
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      if (i > 0) out += ',';
-      append_json(out, (*list)[i], max_elements);
-    }
-    out += ']';
-  } else if (const auto* array = value.as<RawArray>()) {
-    append_array(out, *array, max_elements);
-  } else if (const auto* text = value.as<std::string>()) {
-    append_text(out, *text);
-  } else if (const auto* boolean = value.as<bool>()) {
-    out += *boolean ? "true" : "false";
-  } else if (const auto* integer = value.as<std::int64_t>()) {
-    out += std::to_string(*integer);
-  } else if (const auto* large = value.as<std::uint64_t>()) {
-    out += std::to_string(*large);
-  } else if (const auto* number = value.as<double>()) {
-    append_number(out, *number);
-  } else {
-    out += "null";
+    Json object = Json::object();
+    for (const auto& [key, member] : *map) object[key] = json_of(member, max_elements);
+    return object;
   }
+  if (const auto* list = value.as<Value::List>()) {
+    Json items = Json::array();
+    for (const Value& item : *list) items.push_back(json_of(item, max_elements));
+    return items;
+  }
+  if (const auto* array = value.as<RawArray>()) return json_of(*array, max_elements);
+  if (const auto* text = value.as<std::string>()) return *text;
+  if (const auto* boolean = value.as<bool>()) return *boolean;
+  if (const auto* integer = value.as<std::int64_t>()) return *integer;
+  if (const auto* large = value.as<std::uint64_t>()) return *large;
+  if (const auto* number = value.as<double>()) return json_of(*number);
+  return nullptr;
 }
 
 }  // namespace
@@ -196,9 +155,7 @@ bool operator==(const Value& a, const Value& b) {
 }
 
 std::string to_json(const Value& value, std::size_t max_elements) {
-  std::string out;
-  append_json(out, value, max_elements);
-  return out;
+  return json_of(value, max_elements).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void wrong_type(const std::string& path, const char* wanted) { throw DecodeError(path + ": is not " + wanted); }

@@ -46,7 +46,7 @@ TEST_CASE("JSON shows short arrays whole, long ones by range, non-finite numbers
   CHECK(to_json(to_value(Array<std::uint8_t>({4, 5}))) == R"({"dtype":"u1","shape":[4,5],"min":0,"max":0})");
   CHECK(to_json(Value{INFINITY}) == R"("inf")");
   CHECK(to_json(Value{0.1}) == "0.1");
-  CHECK(to_json(Value{std::string("a\"b\\\n")}) == R"("a\"b\\\u000a")");
+  CHECK(to_json(Value{std::string("a\"b\\\n")}) == R"("a\"b\\\n")");
   CHECK(to_json(Value{Value::Map{{"a", {true}}, {"b", Value{Value::List{{}, Value{std::int64_t{-1}}}}}}}) ==
         R"({"a":true,"b":[null,-1]})");
 }

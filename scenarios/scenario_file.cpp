@@ -3,13 +3,42 @@
 #include <cmath>
 #include <cstdio>
 
+#include "components/config/read_parameters.h"
+
 namespace ensonify {
 
+namespace {
+
+struct Seed {
+  std::uint64_t seed = ScenarioHeader{}.seed;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("seed", "", any(), "of everything random", self.seed);
+  }
+};
+struct Time {
+  std::string start_utc = ScenarioHeader{}.start_utc;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("start_utc", "", any(), "UTC of sim time 0, such as 2025-06-01T12:00:00Z", self.start_utc);
+  }
+};
+
+}  // namespace
+
+ParameterList header_list() {
+  return {parameters_of<Seed>().front(), section_info("time", "when the run starts", parameters_of<Time>())};
+}
+
 void read_header(ConfigReader& from, ScenarioHeader& header) {
-  from.optional("seed", header.seed);
+  Seed seed{header.seed};
+  read_parameters(from, seed);
+  header.seed = seed.seed;
   auto time = from.optional_section("time");
   if (!time) return;
-  time->optional("start_utc", header.start_utc);
+  Time start{header.start_utc};
+  read_parameters(*time, start);
+  header.start_utc = start.start_utc;
   if (const auto ns = parse_utc_ns(header.start_utc)) {
     header.start_unix_ns = *ns;
   } else {

@@ -6,6 +6,7 @@
 
 #include "components/config/config_node.h"
 #include "components/config/config_reader.h"
+#include "components/config/parameter_info.h"
 
 namespace ensonify {
 
@@ -29,6 +30,8 @@ struct ScenarioFile {
 
 /// Reads `seed` and `time`.
 void read_header(ConfigReader& from, ScenarioHeader& header);
+/// The same as a list.
+ParameterList header_list();
 
 /// Nanoseconds since 1970-01-01 UTC of "2025-06-01T12:00:00Z" (fractions of a second allowed), or nothing.
 std::optional<std::int64_t> parse_utc_ns(const std::string& text);

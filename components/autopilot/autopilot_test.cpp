@@ -5,16 +5,13 @@
 
 #include "components/autopilot/testing/loop.h"
 #include "components/config/config_error.h"
-#include "scenarios/world/testing/default_yaml.h"
+#include "components/config/testing/parameter_files.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
 
-TEST_CASE("autopilot/default.yaml lists every parameter with its default") {
-  World world;
-  world.vehicles.resize(1);
-  world.mission.steps = steps_of({{{0, 0}, {0, 100}}});
-  CHECK(default_yaml_fault<AutopilotConfig>("autopilot", world) == "");
+TEST_CASE("autopilot: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("autopilot", parameters_of<AutopilotParameters>()) == "");
 }
 
 TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the run ends") {
@@ -42,7 +39,7 @@ TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the 
       CHECK(longest_to_go[line] > 149.5);
       CHECK(shortest_to_go[line] < 0.5);
     }
-    CHECK(loop.autopilot.finished());
+    CHECK(loop.finished());
   }
 }
 
@@ -68,7 +65,7 @@ TEST_CASE("a vehicle that starts elsewhere and at rest finds the first line") {
   });
   CHECK(lines == std::set<std::int64_t>{0, 1, 2});
   CHECK(worst_m < 0.25);
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
 }
 
 TEST_CASE("commanded speed is the mission's on a line, a fraction in turns, zero when done") {
@@ -149,7 +146,7 @@ TEST_CASE("a line of several legs is followed round its bends, a circuit as ofte
   // At a bend of 90 degrees the circle leaves a piece a radius before its end, so the next is first seen that far off.
   CHECK(worst_m < 1.3 * 12.0);
   CHECK(longest_to_go_m == Approx(130.0 + 100.0 + std::hypot(50.0, 100.0)).margin(0.5));
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
 }
 
 TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and marks") {
@@ -159,6 +156,8 @@ TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and 
   Loop loop(steps({PassPlace{{60, 100}, 1.5}, sonar, KeepPlace{Vec2(150, 100), 20.0, 3.0}, SetMark{"wreck"},
                    FollowOrbit{{150, 150}, 25.0, 1.25, true}}),
             kUnderWay);
+  const auto& settings = loop.nodes.collect<msg::SonarSettings>("pilot/settings_bow");
+  const auto& marks = loop.nodes.collect<msg::Mark>("pilot/mark");
   std::vector<std::string> states;
   std::optional<motion::State> passed;
   double slowest_mps = 9.0, kept_s = 0.0, orbit_s = 0.0, off_circle_m = 0.0;
@@ -184,11 +183,9 @@ TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and 
   CHECK(orbit_s == Approx(1.25 * 2 * 3.14159 * 25.0 / 2.0).margin(25.0));
   CHECK(off_circle_m < 0.5);
 
-  const auto settings = loop.autopilot.step_until<msg::SonarSettings>("settings_bow", loop.now());
   REQUIRE(settings.size() == 1);
   CHECK(settings[0].range_m == 30.0);
   CHECK(std::isnan(settings[0].swath_rad));
-  const auto marks = loop.autopilot.step_until<msg::Mark>("mark", loop.now());
   REQUIRE(marks.size() == 1);
   CHECK(marks[0].text == "wreck");
   CHECK(std::hypot(marks[0].position_enu_m[0] - 150, marks[0].position_enu_m[1] - 100) < 4.5);
@@ -208,7 +205,7 @@ TEST_CASE("in a current a station is kept from the run upstream on, a wait from 
         farthest_m = std::max(farthest_m, (vehicle.position_enu_m.head<2>() - place).norm());
       }
     });
-    CHECK(loop.autopilot.finished());
+    CHECK(loop.finished());
     return std::tuple(turns > 0, kept_s, farthest_m);
   };
   const auto [turned, place_s, farthest_m] = run({Vec2(0, 300), 20.0, 3.0});
@@ -238,7 +235,7 @@ TEST_CASE("a vehicle waits where its last step has left it") {
     farthest_m = std::max(farthest_m, (vehicle.position_enu_m.head<2>() - Vec2(0, 80)).norm());
   });
   CAPTURE(farthest_m);
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
   CHECK(ended_s - begun_s == Approx(20.0).margin(0.3));
   CHECK(farthest_m <
         7.0);  // 4 m to come to rest from 2 m/s, half a period and the command's delay, and no turning back
@@ -248,6 +245,9 @@ TEST_CASE("an adaptive survey waits for each next line and ends on command") {
   AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 100}}}});
   config.plan.mission.adaptive = AdaptivePlan{};
   Loop loop(config, kUnderWay);
+  std::optional<msg::NextLine> offered;
+  loop.nodes.play<msg::NextLine>("coverage", "next_line", 100_ms,
+                                 [&](SimTime) { return std::exchange(offered, std::nullopt); });
   int waited = 0;
   std::vector<std::string> states;
   loop.run_until(600_s, [&](const msg::MissionState& mission, const motion::State&) {
@@ -260,9 +260,9 @@ TEST_CASE("an adaptive survey waits for each next line and ends on command") {
     next.done = mission.line == 1;
     next.start_enu_m = {60, 100};
     next.end_enu_m = {60, 20};
-    loop.autopilot.give("next_line", next);
+    offered = next;
   });
   CHECK(states ==
         std::vector<std::string>{"run_in", "on_line", "await_line", "turn", "run_in", "on_line", "await_line", "done"});
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
 }

@@ -2,30 +2,46 @@
 
 #include <string>
 
+#include "components/config/parameters.h"
 #include "scenarios/world/auto_plan.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-struct AutopilotConfig {
+struct AutopilotParameters {
+  std::string vehicle;
   int command_rate_hz = 10;
-  double lookahead_radii = 1.5;      // line-of-sight distance in turning radii; smaller steers harder
-  double turn_margin = 1.2;          // planned turns are this much wider than the vehicle's turning circle
-  double turn_speed_fraction = 1.0;  // speed in turns, of the mission's
-  double drift_settle_s = 10.0;      // time constant with which the drift is learned; 0: none, and no integral
-  double patience_s = 600.0;         // a vehicle that comes no metre nearer for so long gives up; 0: never
+  double lookahead_radii = 1.5;
+  double turn_margin = 1.2;
+  double turn_speed_fraction = 1.0;
+  double drift_settle_s = 10.0;
+  double patience_s = 600.0;
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("command_rate_hz", "Hz", in(1, 100), "how often a command is published", self.command_rate_hz);
+    visit("lookahead_radii", "", in(0.2, 20),
+          "line-of-sight distance in turning radii, of at least 2 s of way; smaller steers harder", self.lookahead_radii);
+    visit("turn_margin", "", in(1, 10), "planned turns are this much wider than the vehicle's turning circle",
+          self.turn_margin);
+    visit("turn_speed_fraction", "", in(0.1, 1), "speed in turns, of the mission's", self.turn_speed_fraction);
+    visit("drift_settle_s", "s", in(0, 1000),
+          "time constant with which the drift is estimated; 0: none, and lines are held without an integral",
+          self.drift_settle_s);
+    visit("patience_s", "s", in(0, 1e6),
+          "a mission whose vehicle comes no metre nearer to its goal for so long is given up; 0: never",
+          self.patience_s);
+  }
+};
+
+struct AutopilotConfig : AutopilotParameters {
   // From the scenario.
   MissionPlan plan;
 
   static AutopilotConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// The parameters of its own, which default.yaml lists.
-  bool operator==(const AutopilotConfig& other) const {
-    return command_rate_hz == other.command_rate_hz && lookahead_radii == other.lookahead_radii &&
-           turn_margin == other.turn_margin && turn_speed_fraction == other.turn_speed_fraction &&
-           drift_settle_s == other.drift_settle_s && patience_s == other.patience_s;
-  }
 };
 
 }  // namespace ensonify

@@ -15,15 +15,15 @@ TEST_CASE("a vehicle follows the bottom by altimeter, and climbs first where it 
   config.plan.mission.altitude_m = 5.0;
   config.plan.mission.least_altitude_m = 2.0;
   Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
-  loop.bottom = [](double north_m) { return 20.0 + 3.0 * std::sin(north_m / 60.0); };  // slopes up to 1 in 20
+  loop.boat.bottom = [](double north_m) { return 20.0 + 3.0 * std::sin(north_m / 60.0); };  // slopes up to 1 in 20
   double least_m = 99.0, worst_m = 0.0;
   loop.run_until(400_s, [&](const msg::MissionState&, const motion::State& vehicle) {
-    const double altitude_m = loop.bottom(vehicle.position_enu_m.y()) + vehicle.position_enu_m.z();
+    const double altitude_m = loop.boat.bottom(vehicle.position_enu_m.y()) + vehicle.position_enu_m.z();
     if (vehicle.position_enu_m.y() < 100.0) return;
     least_m = std::min(least_m, altitude_m);
     worst_m = std::max(worst_m, std::abs(altitude_m - 5.0));
   });
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
   CHECK(least_m > 4.0);
   CHECK(worst_m < 1.5);  // 0.1 m/s of rise, looked ahead for 7 s, and awaited as long where it falls
 }
@@ -55,7 +55,7 @@ TEST_CASE("a mission that takes too long is given up at the surface") {
   Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
   const auto states = states_of(loop, 600_s);
   CHECK(states.back() == "abort");
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
   // 9 m up at 0.5 m/s: 18 s, and the command's delay.
   CHECK(seconds(loop.now()) == Approx(118.0).margin(2.0));
 }
@@ -64,11 +64,11 @@ TEST_CASE("a mission whose place becomes too uncertain is given up then") {
   AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 5000}}}});
   config.plan.mission.abort.position_sd_m = 2.0;
   Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
-  loop.uncertain_after = 50_s;
+  loop.boat.uncertain_after = 50_s;
+  const auto& health = loop.nodes.collect<msg::Health>("pilot/health");
   CHECK(states_of(loop, 600_s).back() == "abort");
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
   CHECK(seconds(loop.now()) == Approx(50.0).margin(0.3));  // it is at the surface already
-  const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
   REQUIRE_FALSE(health.empty());
   CHECK(health.back().message == "mission given up: the place is less certain than abort.position_sd_m");
 }
@@ -80,7 +80,7 @@ TEST_CASE("a mission is aborted after too long below the obstacle floor, and not
   const auto final_state = [&](double too_low_s) {
     config.plan.mission.abort.too_low_s = too_low_s;
     Loop loop(config, {{0, 0, -10}, 0.0, 2.0, 0.0});
-    loop.bottom = [](double north_m) { return north_m < 100.0 ? 20.0 : 12.0; };  // a step of 8 m: 2 m are missing
+    loop.boat.bottom = [](double north_m) { return north_m < 100.0 ? 20.0 : 12.0; };  // a step of 8 m: 2 m are missing
     return states_of(loop, 600_s).back();
   };
   // 2 m at 0.5 m/s are 4 s, and the climb takes some more to begin.
@@ -92,11 +92,11 @@ TEST_CASE("without a bottom, altitude and obstacle floor are reported as not kep
   AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 100}}}});
   const auto healths = [&](double detected_until_m) {
     Loop loop(config, {{0, 0, 0}, 0.0, 2.0, 0.0});
-    loop.bottom = [=](double north_m) { return north_m < detected_until_m ? 20.0 : std::nan(""); };
+    loop.boat.bottom = [=](double north_m) { return north_m < detected_until_m ? 20.0 : std::nan(""); };
+    const auto& all = loop.nodes.collect<msg::Health>("pilot/health");
     states_of(loop, 600_s);
     std::vector<std::string> reported;
-    for (const auto& health : loop.autopilot.step_until<msg::Health>("health", loop.now()))
-      reported.push_back(health.state + " " + health.message);
+    for (const auto& health : all) reported.push_back(health.state + " " + health.message);
     return reported;
   };
   const std::vector<std::string> bottom_lost = {
@@ -132,13 +132,13 @@ TEST_CASE("a current stronger than the vehicle is reported, and the mission is a
     config.plan.mission.steps = steps_of(config.plan.mission.runlines);
     config.patience_s = 120.0;
     Loop loop(config, start_of(config.plan, config.plan.mission.runlines), current);
+    const auto& health = loop.nodes.collect<msg::Health>("pilot/health");
     std::string last;
     loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
     INFO("current " << current.transpose() << ", ended at " << seconds(loop.now()) << " s");
-    CHECK(loop.autopilot.finished());
+    CHECK(loop.finished());
     CHECK(last == "abort");
     CHECK(seconds(loop.now()) < 200.0);
-    const auto health = loop.autopilot.step_until<msg::Health>("health", loop.now());
     REQUIRE(health.size() == 2);  // held up, then lost
     CHECK(health[0].state == "degraded");
     CHECK(health[1].state == "failed");
@@ -154,6 +154,6 @@ TEST_CASE("a vehicle that is slow against a current is waited for") {
   Loop loop(config, start_of(config.plan, config.plan.mission.runlines), {0.3, -1.8});
   std::string last;
   loop.run_until(4000_s, [&](const msg::MissionState& mission, const motion::State&) { last = mission.state; });
-  CHECK(loop.autopilot.finished());
+  CHECK(loop.finished());
   CHECK(last == "done");
 }

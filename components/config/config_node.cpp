@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "components/config/scalars.h"
 
@@ -109,20 +110,26 @@ std::string json_text(const std::string& text) {
   return out + '"';
 }
 
-std::string json_scalar(const ConfigNode& node) {
-  if (node.quoted) {
-    return json_text(node.scalar);
-  }
-  if (node.scalar == "true" || node.scalar == "false") {
-    return node.scalar;
-  }
-  if (const auto whole = parse_integer(node.scalar)) {
-    return std::to_string(*whole);
-  }
-  if (const auto number = parse_number(node.scalar); number && std::isfinite(*number)) {
-    return shortest_number(*number);
-  }
-  return json_text(node.scalar);
+using Json = nlohmann::ordered_json;
+
+Json scalar_json(const ConfigNode& node) {
+  if (node.quoted) return node.scalar;
+  if (node.scalar == "true" || node.scalar == "false") return node.scalar == "true";
+  if (const auto whole = parse_integer(node.scalar)) return *whole;
+  const auto number = parse_number(node.scalar);
+  if (!number || !std::isfinite(*number)) return node.scalar;
+  if (*number == std::trunc(*number) && std::abs(*number) < 1e15) return static_cast<std::int64_t>(*number);
+  return *number;
+}
+
+Json json_of(const ConfigNode& node) {
+  Json json;
+  if (node.is_scalar()) json = scalar_json(node);
+  if (node.is_list()) json = Json::array();
+  if (node.is_map()) json = Json::object();
+  for (const auto& item : node.items) json.push_back(json_of(item));
+  for (const auto& entry : node.entries) json[entry.key] = json_of(entry.value);
+  return json;
 }
 
 bool reads_as_plain(const std::string& text) {
@@ -171,22 +178,7 @@ void write_canonical(const ConfigNode& node, std::size_t indent, std::string& ou
 }  // namespace
 
 std::string to_json(const ConfigNode& node) {
-  std::string out;
-  switch (node.kind) {
-    case ConfigNode::Kind::kNull: return "null";
-    case ConfigNode::Kind::kScalar: return json_scalar(node);
-    case ConfigNode::Kind::kList:
-      for (const auto& item : node.items) {
-        out += (out.empty() ? "" : ",") + to_json(item);
-      }
-      return "[" + out + "]";
-    case ConfigNode::Kind::kMap:
-      for (const auto& entry : node.entries) {
-        out += (out.empty() ? "" : ",") + json_text(entry.key) + ":" + to_json(entry.value);
-      }
-      return "{" + out + "}";
-  }
-  return "null";
+  return json_of(node).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string to_canonical_yaml(const ConfigNode& node) {

@@ -1,5 +1,8 @@
 #include "components/config/config_reader.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "components/config/reader_state.h"
 #include "components/errors/nearest_name.h"
 
@@ -105,13 +108,35 @@ const ConfigNode& ConfigReader::node() const {
 
 bool ConfigReader::has(std::string_view key) const { return node(key) != nullptr; }
 
+namespace {
+
+/// The value at "channels[1].name", or what stands nearest above it.
+const ConfigNode& nearest_node(const ConfigNode& map, std::string_view path) {
+  const ConfigNode* node = &map;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find_first_of(".[", 1), path.size());
+    const std::string word(path.substr(0, end));
+    path.remove_prefix(end < path.size() && path[end] == '.' ? end + 1 : end);
+    const ConfigNode* inner = nullptr;
+    if (word.front() == '[') {
+      const std::size_t index = std::strtoul(word.c_str() + 1, nullptr, 10);
+      inner = node->is_list() && index < node->items.size() ? &node->items[index] : nullptr;
+    } else {
+      inner = node->find(word);
+    }
+    if (inner == nullptr) break;
+    node = inner;
+  }
+  return *node;
+}
+
+}  // namespace
+
 void ConfigReader::problem(std::string_view key, const std::string& message) const {
   if (state_->map == nullptr) {
     return;
   }
-  const ConfigNode* found = state_->map->find(std::string(key));
-  state_->documents->problems.push_back(
-      {found != nullptr ? found->place : state_->map->place, state_->path_of(key), message});
+  state_->documents->problems.push_back({nearest_node(*state_->map, key).place, state_->path_of(key), message});
 }
 
 void ConfigReader::add(const ConfigError& error) const {

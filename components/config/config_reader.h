@@ -99,7 +99,8 @@ class ConfigReader {
   bool has(std::string_view key) const;
   /// The keys of this map that somebody has asked for so far.
   std::vector<std::string> known_keys() const;
-  /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out).
+  /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out). A key inside is
+  /// written as messages show it, "channels[1].name"; where it is left out, the place is that of what should hold it.
   void problem(std::string_view key, const std::string& message) const;
   /// Adds another document to the same list of problems, e.g. a file that this one names.
   ConfigReader also(ConfigDocument document, const std::string& path = "") const;
@@ -108,6 +109,8 @@ class ConfigReader {
 
   /// True as long as nothing is wrong in the whole document (unknown keys are found by finish() only).
   bool good() const;
+  /// Number of problems so far.
+  std::size_t problem_count() const;
   /// Throws ConfigError with all problems of the document and of those added by also(), unknown keys among them.
   /// On a section it does nothing.
   void finish() const;
@@ -206,7 +209,6 @@ class ConfigReader {
       }
     }
   }
-  std::size_t problem_count() const;
 
   template <class Enum>
   void choose(std::string_view key, Enum& value, const Choices<Enum>& choices, bool must) const {

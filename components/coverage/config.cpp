@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
@@ -16,11 +16,8 @@ constexpr double kMostCells = 32e6;
 
 CoverageConfig CoverageConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   CoverageConfig config;
-  from.optional("rate_hz", config.rate_hz, 1, 10);
-  from.optional("head_depth_m", config.head_depth_m, -10, 11000);
-  from.optional("cost_per_day", config.cost_per_day, 0, 1e12);
-  from.optional("cube_step_m", config.cube_step_m, 0.01, 100);
-  const Vehicle vehicle = own_vehicle(from, world, process);
+  read_parameters<CoverageParameters>(from, config);
+  const Vehicle vehicle = own_vehicle(from, world, process, config.vehicle);
   const Mission& mission = world.mission;
   if (!mission.adaptive) {
     from.problem("", "needs a mission that is adaptive: it says which rectangle is to be covered");

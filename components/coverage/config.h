@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "components/config/parameters.h"
 #include "kernels/survey/cost.h"
 #include "scenarios/world/world.h"
 
@@ -9,22 +10,33 @@ namespace ensonify {
 
 class ConfigReader;
 
-struct CoverageConfig {
+struct CoverageParameters {
+  std::string vehicle;
   int rate_hz = 1;
-  double head_depth_m = 0.0;  // of the transducer below chart datum
-  double cost_per_day = 0.0;  // any currency, of 24 h
-  double cube_step_m = 0.25;  // how finely soundings are counted to give the smallest cube that is found
+  double head_depth_m = 0.0;
+  double cost_per_day = 0.0;
+  double cube_step_m = 0.25;
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("rate_hz", "Hz", in(1, 10), "rate of coverage messages", self.rate_hz);
+    visit("head_depth_m", "m", in(-10, 11000),
+          "depth of the transducer below chart datum: swaths are counted from there", self.head_depth_m);
+    visit("cost_per_day", "", in(0, 1e12), "of 24 h, in any currency", self.cost_per_day);
+    visit("cube_step_m", "m", in(0.01, 100),
+          "how finely soundings are counted to give the smallest cube that is found; at most 32 million cells",
+          self.cube_step_m);
+  }
+};
+
+struct CoverageConfig : CoverageParameters {
   // From the scenario.
   AdaptivePlan plan;
   survey::RunRules run;  // how lines at a fixed distance would be run, and what running costs
 
   static CoverageConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// The parameters of its own, which default.yaml lists.
-  bool operator==(const CoverageConfig& other) const {
-    return rate_hz == other.rate_hz && head_depth_m == other.head_depth_m && cost_per_day == other.cost_per_day &&
-           cube_step_m == other.cube_step_m;
-  }
 };
 
 }  // namespace ensonify

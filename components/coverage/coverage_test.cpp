@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "components/config/config_error.h"
+#include "components/config/testing/parameter_files.h"
 #include "components/coverage/node.h"
 #include "components/runtime/testing/node_under_test.h"
-#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -57,8 +57,8 @@ msg::Soundings ping_at(double east_m, double north_m, SimTime t) {
 
 }  // namespace
 
-TEST_CASE("coverage/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<CoverageConfig>("coverage", slope()) == "");
+TEST_CASE("coverage: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("coverage", parameters_of<CoverageParameters>()) == "");
 }
 
 TEST_CASE("a mission that is not adaptive has nothing to cover") {

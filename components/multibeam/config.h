@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "components/sonar/head_config.h"
+#include "components/sonar/line_shading.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/shading.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/survey/uncertainty/sounding.h"
 
 namespace ensonify {
-
-class ConfigReader;
 
 /// Parameters of default.yaml besides those of all heads.
 struct MultibeamParameters {
@@ -23,7 +23,13 @@ struct MultibeamParameters {
     double tilt_rad = 0.0;  // of its fan, forward
     double delay_s = 0.0;   // after the ping's time of transmission
 
-    bool operator==(const Sector&) const = default;
+    template <class Self, class Visit>
+    static void parameters(Self& self, Visit&& visit) {
+      visit("share", "", in(0.01, 100), "of the swath, over the sum of all shares", self.share);
+      visit("frequency_hz", "Hz", computed(in(50e3, 1e6)), "left out: the head's", self.frequency_hz);
+      visit("tilt_deg", "deg", in(-20, 20), "of its fan, forward", self.tilt_rad);
+      visit("delay_s", "s", in(0, 0.1), "after the ping's time of transmission", self.delay_s);
+    }
   };
 
   /// seabed_image/1, and the seabed that it is flattened by.
@@ -33,7 +39,14 @@ struct MultibeamParameters {
     double oblique_strength_db = -25.0;
     double crossover_rad = 25.0 * kDegree;  // Lambert's law takes over there
 
-    bool operator==(const Image&) const = default;
+    template <class Self, class Visit>
+    static void parameters(Self& self, Visit&& visit) {
+      visit("published", "", any(), "seabed_image/1 for every ping", self.published);
+      visit("normal_strength_db", "dB", in(-80, 20), "of the seabed that it is flattened by, at normal incidence",
+            self.normal_strength_db);
+      visit("oblique_strength_db", "dB", in(-80, 20), "and by Lambert's law", self.oblique_strength_db);
+      visit("crossover_deg", "deg", in(1, 60), "from this incidence on", self.crossover_rad);
+    }
   };
 
   /// Terms of the stated uncertainty of soundings besides the errors of detection and estimate.
@@ -54,9 +67,32 @@ struct MultibeamParameters {
     double heading_rad = 0.05 * kDegree;
 
     uncertainty::Navigation unstated() const;
-    bool operator==(const Uncertainty&) const = default;
+
+    template <class Self, class Visit>
+    static void parameters(Self& self, Visit&& visit) {
+      visit("position_m", "m", in(0, 1000), "of an estimate that does not state its own: east and north each",
+            self.position_m);
+      visit("height_m", "m", in(0, 1000), "of such an estimate", self.height_m);
+      visit("level_deg", "deg", in(0, 10), "of such an estimate: roll and pitch", self.level_rad);
+      visit("heading_deg", "deg", in(0, 10), "of such an estimate", self.heading_rad);
+      visit("heave_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.heave_m);
+      visit("draught_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.draught_m);
+      visit("squat_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.squat_m);
+      visit("tide_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.tide_m);
+      visit("cast_mps", "m/s", in(0, 100), "of the applied sound speed profile, all of it", self.sources.cast_mps);
+      visit("face_mps", "m/s", in(0, 100), "of the speed at the face", self.sources.face_mps);
+      visit("lever_arm_m", "m", in(0, 10), "forward, starboard, down", self.sources.lever_arm_m);
+      visit("roll_deg", "deg", in(0, 10), "of the mounting, as a patch test leaves it", self.sources.roll_rad);
+      visit("pitch_deg", "deg", in(0, 10), "of the mounting", self.sources.pitch_rad);
+      visit("yaw_deg", "deg", in(0, 10), "of the mounting", self.sources.yaw_rad);
+      visit("position_latency_s", "s", in(0, 10), "of east and north", self.sources.position_latency_s);
+      visit("attitude_latency_s", "s", in(0, 10), "of attitude and heave", self.sources.attitude_latency_s);
+      visit("along_deg", "deg", in(0, 10), "from the plane of the transmit beam to where the echo came from",
+            self.sources.along_rad);
+    }
   };
 
+  static constexpr double kLongestPulse_s = 10e-3;
   static constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
   double frequency_hz = 300e3;
@@ -100,7 +136,70 @@ struct MultibeamParameters {
   Image image;
   Uncertainty uncertainty;
 
-  bool operator==(const MultibeamParameters&) const = default;
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("frequency_hz", "Hz", in(50e3, 1e6), "centre frequency", self.frequency_hz);
+    visit("beams", "", in(2, 1024), "across the track", self.beams);
+    visit("swath_deg", "deg", in(1, 170), "to start with", self.swath_rad);
+    visit("spacing", "",
+          one_of({{"equiangle", Spacing::kEquiangle},
+                  {"equidistant", Spacing::kEquidistant},
+                  {"high_density", Spacing::kHighDensity}}),
+          "equidistant: equal distances on a flat seabed; high_density: equiangle beams, soundings equidistant",
+          self.spacing);
+    visit("soundings", "", in(0, 2048), "of high_density: how many, at least as many as beams; 0: twice as many",
+          self.soundings);
+    visit("detections_per_beam", "", in(1, 8), "at most", self.detections_per_beam);
+    visit("transmit_beamwidth_deg", "deg", in(0.1, 20), "along-track, one-way, -3 dB", self.transmit_beamwidth_rad);
+    visit("receive_beamwidth_deg", "deg", in(0.1, 20), "across-track at nadir; a steered beam is wider by 1 / cos",
+          self.receive_beamwidth_rad);
+    visit("transmit_shading", "of the transmit line, which is as long as it takes for its width",
+          self.transmit_shading);
+    visit("receive_shading", "of the receive line, likewise", self.receive_shading);
+    visit("back_loss_db", "dB", in(0, 100), "one-way, behind the face", self.back_loss_db);
+    visit("electronic_noise_db", "dB", in(-200, 150), "of each element, as sound in the water, re 1 uPa^2/Hz",
+          self.electronic_noise_db);
+    visit("sectors", "transmissions of a ping, from port to starboard; none: one over the whole swath", self.sectors);
+    visit("sector_rejection_db", "dB", in(0, 200),
+          "by each sector's filter, of the other sectors' echoes outside its band", self.sector_rejection_db);
+    visit("pulse", "", one_of({{"tone", false}, {"chirp", true}}), "a linear sweep and its matched filter, or a tone",
+          self.chirp);
+    visit("pulse_length_s", "s", in(5e-6, kLongestPulse_s), "to start with", self.pulse_length_s);
+    visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
+    visit("bandwidth_hz", "Hz", in(0, 500e3), "that a chirp sweeps; it resolves c / 2B", self.bandwidth_hz);
+    visit("window", "", filter_windows(), "of a chirp's matched filter", self.window);
+    visit("source_level_db", "dB", in(-300, HeadParameters::kHighest_db),
+          "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
+    visit("roll_stabilised", "", any(),
+          "beams and sectors are steered against the measured roll, where there is an attitude", self.roll_stabilised);
+    visit("pitch_stabilised", "", any(), "fans are steered against the measured pitch", self.pitch_stabilised);
+    visit("yaw_stabilised", "", any(), "the fans of sectors are steered against the measured heading, from its mean",
+          self.yaw_stabilised);
+    visit("heading_mean_s", "s", in(0.1, 1000), "time constant of that mean", self.heading_mean_s);
+    visit("attitude_latency_s", "s", in(0, 1), "of the motion sensor", self.attitude_latency_s);
+    visit("auto_range", "", any(), "range follows the last detections, never beyond range_m; false: range_m",
+          self.auto_range);
+    visit("range_m", "m", in(1, 2000), "the longest range of reception", self.range_m);
+    visit("sample_rate_hz", "Hz", in(1e3, 1e6),
+          "of the complex envelope, at least 2 / pulse length of a tone, 2 x bandwidth of a chirp",
+          self.sample_rate_hz);
+    visit("detection_threshold_db", "dB", in(0, 60), "signal to noise ratio of a sounding, at least",
+          self.detection_threshold_db);
+    visit("least_range_m", "m", in(0, 2000),
+          "nearer, nothing is taken for the seabed: the surface above a shallow head, ringing", self.least_range_m);
+    visit("refuse_second_echo", "", any(),
+          "a return from twice the depth that the beams about it detect is not the seabed", self.refuse_second_echo);
+    visit("mode", "", one_of({"bathymetry", "water_column"}), "water_column: ping/1 for every ping, with phase",
+          self.mode);
+    visit("amplitude_every", "", in(1, 1'000'000), "ping/1 is published for every n-th ping; soundings/1 for all",
+          self.amplitude_every);
+    visit("phase_every", "", in(0, 1'000'000), "ping/1 is published with phase for every n-th ping; 0: never",
+          self.phase_every);
+    visit("snippets", "", any(), "snippets/1 for every ping", self.snippets);
+    visit("seabed_image", "seabed_image/1, and the seabed that it is flattened by", self.image);
+    visit("uncertainty", "standard deviations that make tvu_m and thu_m of soundings/1, all of them assumed",
+          self.uncertainty);
+  }
 };
 
 /// A Mills-cross multibeam echo sounder: a transmit line along the head's x axis, a receive line along its y axis. Its
@@ -112,11 +211,12 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
     gain_absorption_dbpm = 0.07;
     quality = 0.25;
   }
-  static MultibeamConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// Parameters only.
-  bool operator==(const MultibeamConfig& other) const {
-    return same_parameters(*this, other) && MultibeamParameters::operator==(other);
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    MultibeamParameters::parameters(self, visit);
+    HeadParameters::parameters(self, visit);
   }
+  static MultibeamConfig read(ConfigReader& from, const World& world, const std::string& process);
 
   /// Settings that it starts with, and what a command can make of them.
   HeadSettings start() const;

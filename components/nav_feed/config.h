@@ -3,25 +3,45 @@
 #include <optional>
 #include <string>
 
+#include "components/config/parameters.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
 
 class ConfigReader;
 
-struct NavFeedConfig {
+struct NavFeedParameters {
   enum class Height {
     kWater,  // the water level of the scenario, less what the hull settles by, plus the feed's heave
     kGga,    // GGA's heights, between fixes by the feed's heave
   };
 
-  int port = 10110;        // UDP, on the loopback interface
-  int pose_rate_hz = 100;  // how often the true pose is published
-  double delay_s = 2.5;    // of the vehicle behind the feed; two intervals between fixes and more make its way smooth
-  double fastest_mps = 30.0;                           // fixes that ask for more are not accepted
-  frames::Vec3 antenna_body_m = frames::Vec3::Zero();  // the place that GGA is of
+  std::string vehicle;
+  int port = 10110;
+  int pose_rate_hz = 100;
+  double delay_s = 2.5;
+  double fastest_mps = 30.0;
+  frames::Vec3 antenna_body_m = frames::Vec3::Zero();
   Height height = Height::kWater;
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("port", "", in(1024, 65535), "UDP port on the loopback interface", self.port);
+    visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
+    visit("delay_s", "s", in(0, 60),
+          "of the vehicle behind the feed; with less than two intervals between fixes its velocity jumps as they come",
+          self.delay_s);
+    visit("fastest_mps", "m/s", in(0.1, 1000), "fixes that ask for more are not accepted", self.fastest_mps);
+    visit("antenna_position_m", "m", in(-500, 500),
+          "the place on the body that GGA is of: forward, starboard, down (up is negative)", self.antenna_body_m);
+    visit("height", "", one_of({{"water", Height::kWater}, {"gga", Height::kGga}}),
+          "of the vehicle: on the scenario's water level, or as the fixes' heights have it", self.height);
+  }
+};
+
+struct NavFeedConfig : NavFeedParameters {
   // From the scenario.
   std::optional<frames::Geodetic> origin;  // not given: the chart gives it
   vertical::Tide tide;
@@ -30,11 +50,6 @@ struct NavFeedConfig {
   std::optional<vertical::Loading> floats;
 
   static NavFeedConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// The parameters of its own, which default.yaml lists.
-  bool operator==(const NavFeedConfig& other) const {
-    return port == other.port && pose_rate_hz == other.pose_rate_hz && delay_s == other.delay_s &&
-           fastest_mps == other.fastest_mps && antenna_body_m == other.antenna_body_m && height == other.height;
-  }
 };
 
 }  // namespace ensonify

@@ -8,7 +8,6 @@
 namespace ensonify {
 namespace {
 
-constexpr double kFarAway_m = 100e3;
 constexpr double kDay_s = 86400.0;
 
 template <class... F>

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "components/config/testing/parameter_files.h"
 #include "components/nav_feed/node.h"
 #include "components/nav_feed/testing/sentence.h"
-#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 using nmea::sentence;
@@ -54,10 +54,8 @@ SimTime at_s(double t_s) { return from_seconds(t_s); }
 
 }  // namespace
 
-TEST_CASE("nav_feed/default.yaml lists every parameter with its default") {
-  World world;
-  world.vehicles = {{"boat"}};
-  CHECK(default_yaml_fault<NavFeedConfig>("nav_feed", world) == "");
+TEST_CASE("nav_feed: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("nav_feed", parameters_of<NavFeedParameters>()) == "");
 }
 
 TEST_CASE("a vehicle follows its fixes delayed, across midnight, with their derivatives") {
@@ -144,7 +142,9 @@ TEST_CASE("without fixes it goes straight on and reports it; new fixes are follo
 
 TEST_CASE("fixes of an antenna off the reference point lead the reference point") {
   // In a circle of 50 m about the origin, 4 degrees a second to starboard, the antenna 6 m ahead and 2 m to starboard.
-  Fed fed{.config = {.antenna_body_m = {6.0, 2.0, -5.0}}};
+  NavFeedConfig config;
+  config.antenna_body_m = {6.0, 2.0, -5.0};
+  Fed fed{.config = config};
   const double rate = 4.0 * kDegree;
   const auto forward = [&](double t) { return frames::Vec2(std::cos(rate * t), -std::sin(rate * t)); };
   const auto starboard = [&](double t) { return frames::Vec2(-std::sin(rate * t), -std::cos(rate * t)); };
@@ -167,7 +167,10 @@ TEST_CASE("fixes of an antenna off the reference point lead the reference point"
 TEST_CASE("heights of the antenna give the reference point's, between fixes by heave") {
   // Chart datum lies 1.5 m below the geoid; the tide rises by 1 cm/s while the boat heaves with 4 s and lies over by 10
   // degrees; the antenna is 5 m up and 3 m to starboard.
-  NavFeedConfig config{.delay_s = 3.5, .antenna_body_m = {0.0, 3.0, -5.0}, .height = NavFeedConfig::Height::kGga};
+  NavFeedConfig config;
+  config.delay_s = 3.5;
+  config.antenna_body_m = {0.0, 3.0, -5.0};
+  config.height = NavFeedConfig::Height::kGga;
   config.datums.datum_above_geoid = vertical::Separation(-1.5);
   Fed fed{.config = config};
   const auto heave = [](double t) { return 0.5 * std::sin(1.5708 * t); };

@@ -38,7 +38,7 @@ std::vector<Nees> mean_nees(const Carried& carried) {
     NavigationConfig config = config_of(carried(seed), seed);
     config.attitude_rate_hz = 10;
     NodeUnderTest<NavigationNode> navigation(config);
-    for (int i = 0; i <= 50 * kEpochs; ++i) navigation.give("pose", circling(i * 100_ms, kLevel));
+    navigation.give_each("pose", kEpochs * 5_s, 100_ms, [](SimTime t) { return circling(t, kLevel); });
     const auto estimates = navigation.step_until<msg::Estimate>("estimate", kEpochs * 5_s);
     REQUIRE(estimates.size() == 50 * kEpochs + 1);
     for (std::size_t epoch = 0; epoch < kEpochs; ++epoch) {

@@ -37,7 +37,7 @@ msg::Pose truth_at(SimTime t) {
 }
 
 void give_truth(NodeUnderTest<NavigationNode>& navigation, int seconds_long) {
-  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", truth_at(i * 10_ms));
+  navigation.give_each("pose", seconds_long * 1_s, 10_ms, &truth_at);
 }
 
 struct Moments {

@@ -121,7 +121,7 @@ msg::Pose towed(SimTime at) {
 template <class Message>
 std::vector<Message> received(const std::string& port, const std::string& usbl) {
   NodeUnderTest<NavigationNode> navigation(in_layers("usbl: { range_white_m: 0, bearing_white_deg: 0, " + usbl + " }"));
-  for (int i = 0; i <= 1200; ++i) navigation.give("target", towed(i * 10_ms));
+  navigation.give_each("target", 12_s, 10_ms, &towed);
   run_for(navigation, 12, kLevel);
   return navigation.step_until<Message>(port, 12_s);
 }

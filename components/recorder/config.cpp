@@ -1,6 +1,7 @@
 #include "components/recorder/config.h"
 
-#include "components/config/config_reader.h"
+#include "components/config/parameter_info.h"
+#include "components/config/read_parameters.h"
 #include "components/runtime/topic_pattern.h"
 #include "scenarios/scenario_file.h"
 
@@ -10,27 +11,13 @@ namespace {
 
 constexpr std::int64_t kMostSkipped = 1'000'000;
 
-std::vector<RecordedTopics> read_topics(ConfigReader& from, const ConfigNode& node) {
-  std::vector<RecordedTopics> topics;
-  if (node.is_map()) {
-    for (auto& [pattern, section] : from.named_sections("topics")) {
-      RecordedTopics wanted{pattern, 1};
-      section.optional("every", wanted.every, 1, kMostSkipped);
-      topics.push_back(wanted);
-    }
-  } else if (node.is_list()) {
-    std::vector<std::string> names;
-    from.required("topics", names);
-    for (const std::string& name : names) topics.push_back({name, 1});
-  } else {
-    std::string word;
-    from.required("topics", word);
-    if (word != "all") from.problem("topics", "\"" + word + "\" is not all, a list of topics or a map of topics");
-    topics.push_back({"*", 1});
+struct KeptEvery {
+  std::int64_t every = 1;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("every", "", in(1, kMostSkipped), "so many messages are there for one that is kept", self.every);
   }
-  if (topics.empty()) from.problem("topics", "names no topic");
-  return topics;
-}
+};
 
 std::string text_of(const ConfigPlace& place) {
   if (place.line == 0) return place.file;
@@ -39,12 +26,40 @@ std::string text_of(const ConfigPlace& place) {
 
 }  // namespace
 
+void TopicChoice::read(ConfigReader& from, const char* key) {
+  const ConfigNode* node = from.node(key);
+  if (node == nullptr) return;
+  clear();
+  if (node->is_map()) {
+    for (auto& [pattern, section] : from.named_sections(key)) {
+      KeptEvery kept;
+      read_parameters(section, kept);
+      push_back({pattern, kept.every});
+    }
+  } else if (node->is_list()) {
+    std::vector<std::string> names;
+    from.required(key, names);
+    for (const std::string& name : names) push_back({name, 1});
+  } else {
+    std::string word;
+    from.required(key, word);
+    if (word != "all") from.problem(key, "\"" + word + "\" is not all, a list of topics or a map of topics");
+    push_back({"*", 1});
+  }
+  if (empty()) from.problem(key, "names no topic");
+}
+
+std::string TopicChoice::schema() {
+  return R"({"anyOf": [{"const": "all"}, {"type": "array", "minItems": 1, "items": {"type": "string"}},)"
+         R"( {"type": "object", "minProperties": 1, "additionalProperties": )" +
+         object_schema(parameters_of<KeptEvery>()) + "}]}";
+}
+
 RecorderConfig RecorderConfig::read(ConfigReader& from, const ScenarioHeader& scenario) {
   RecorderConfig config;
-  from.optional("file", config.file);
+  read_parameters<RecorderParameters>(from, config);
   if (config.file.empty()) from.problem("file", "is empty");
   if (const ConfigNode* file = from.node("file")) config.file_place = text_of(file->place);
-  if (const ConfigNode* topics = from.node("topics")) config.topics = read_topics(from, *topics);
   config.seed = scenario.seed;
   config.start_unix_ns = scenario.start_unix_ns;
   return config;

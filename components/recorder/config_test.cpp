@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "scenarios/world/testing/default_yaml.h"
+#include "components/config/testing/parameter_files.h"
+#include "scenarios/scenario_file.h"
 
 using namespace ensonify;
 
@@ -26,8 +27,8 @@ std::string problem(const std::string& yaml) {
 
 }  // namespace
 
-TEST_CASE("recorder/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault_of<RecorderConfig>({}, ScenarioHeader{}) == "");
+TEST_CASE("recorder: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("recorder", parameters_of<RecorderParameters>()) == "");
 }
 
 TEST_CASE("topics are all, a list or a map") {

@@ -1,6 +1,6 @@
 #include "components/replay/config.h"
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 
 namespace ensonify {
 
@@ -15,26 +15,35 @@ std::string place_of(const ConfigNode* node) {
 
 }  // namespace
 
-ReplayConfig ReplayConfig::read(ConfigReader& from) {
-  ReplayConfig config;
-  from.required_path("file", config.file);
-  from.optional("finish", config.finish);
-  config.file_place = place_of(from.node("file"));
-  config.topics_place = place_of(from.node("topics"));
-
-  const ConfigNode* topics = from.node("topics");
+void ReplayedTopics::read(ConfigReader& from, const char* key) {
+  const ConfigNode* topics = from.node(key);
   if (topics && topics->is_list()) {
-    from.required("topics", config.topics);
-    if (config.topics.empty()) from.problem("topics", "names no topic");
+    std::vector<std::string> names;
+    from.required(key, names);
+    assign(names.begin(), names.end());
+    if (empty()) from.problem(key, "names no topic");
   } else if (topics) {
     std::string word;
-    from.required("topics", word);
-    if (word != "all") from.problem("topics", "\"" + word + "\" is not all or a list of topics");
+    from.required(key, word);
+    if (word != "all") from.problem(key, "\"" + word + "\" is not all or a list of topics");
   }
+}
 
-  if (auto rename = from.optional_section("rename")) {
-    for (const auto& entry : rename->node().entries) rename->required(entry.key, config.rename[entry.key]);
+std::string ReplayedTopics::schema() {
+  return R"({"anyOf": [{"const": "all"}, {"type": "array", "minItems": 1, "items": {"type": "string"}}]})";
+}
+
+void RenamedTopics::read(ConfigReader& from, const char* key) {
+  if (auto rename = from.optional_section(key)) {
+    for (const auto& entry : rename->node().entries) rename->required(entry.key, (*this)[entry.key]);
   }
+}
+
+ReplayConfig ReplayConfig::read(ConfigReader& from) {
+  ReplayConfig config;
+  read_parameters<ReplayParameters>(from, config);
+  config.file_place = place_of(from.node("file"));
+  config.topics_place = place_of(from.node("topics"));
   return config;
 }
 

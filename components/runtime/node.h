@@ -27,6 +27,7 @@ class NodeHolder : public AnyNode {
     if constexpr (requires { node_.exit_code(); }) return node_.exit_code();
     else return 0;
   }
+  Node& node() { return node_; }
 
  private:
   Node node_;

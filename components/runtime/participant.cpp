@@ -116,10 +116,6 @@ class Participant {
 
 }  // namespace
 
-Declaration declaration_of(const std::string& component, const Ports& ports) {
-  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.notes()};
-}
-
 int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting) {
   Participant participant(component, ports, node, meeting);
   try {

@@ -18,7 +18,4 @@ struct Meeting {
 /// what the node or the bus throws, after reporting to the clock.
 int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting);
 
-/// Declaration of the process to the others.
-Declaration declaration_of(const std::string& component, const Ports& ports);
-
 }  // namespace ensonify

@@ -226,6 +226,10 @@ class Wirer {
 
 }  // namespace
 
+Declaration declaration_of(const std::string& component, const Ports& ports) {
+  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.notes()};
+}
+
 Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,
            const std::map<std::string, std::string>& places) {
   return Wirer(processes, rules, places).run();

@@ -19,6 +19,9 @@ struct Declaration {
   std::map<std::string, double> notes = {};  // Ports::note
 };
 
+/// Declaration of a process to the others.
+Declaration declaration_of(const std::string& component, const Ports& ports);
+
 /// One line of the launch file's `wiring:`.
 struct WireRule {
   std::string input;  // "auv.command"

@@ -13,7 +13,7 @@
 namespace ensonify {
 namespace {
 
-constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
+constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kPatchesPerLobe = 4.0;  // of seabed that answers as one point, across the lobe at the nearest range
 constexpr double kVolumeReach = 4.0;     // widths of the narrow lobe, to either side, in which the water is received
 
@@ -55,8 +55,8 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
   for (const AperturePattern& pattern : apertures_.patterns.receive) {
     const auto two_way = [&](const Eigen::Vector3f& direction) {
-      const double gain = static_cast<double>(pattern(direction, kFarAway_m));
-      return transmitted_(direction, kFarAway_m) * gain * gain;
+      const double gain = static_cast<double>(pattern(direction, kFarField_m));
+      return transmitted_(direction, kFarField_m) * gain * gain;
     };
     volume_directions_.push_back(
         echo::VolumeDirections::of(two_way, apertures.narrow_axis_head, -reach, reach, 0.1 * apertures.narrowest_rad));

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 
 using namespace ensonify;
 
@@ -11,7 +11,7 @@ namespace {
 Effects effects_of(const std::string& yaml) {
   auto from = ConfigReader::from_text(yaml, "head.yaml");
   Effects effects;
-  read_effects(from, effects);
+  if (auto section = from.optional_section("effects")) read_parameters(*section, effects);
   from.finish();
   return effects;
 }

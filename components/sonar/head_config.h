@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "components/config/parameters.h"
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
 #include "components/sonar/ping_timing.h"
@@ -14,18 +15,33 @@
 
 namespace ensonify {
 
-class ConfigReader;
+/// Detail of the seabed that a head's rays see.
+template <>
+struct ParametersOf<trace::LevelOfDetail> {
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("enabled", "", any(),
+          "full detail of the seabed in the main lobe only; false: everywhere, for 6 times the memory", self.enabled);
+    visit("side_lobes", "", in(0, lod::kCoarsest), "side lobes see every 2^n-th post", self.side_lobes);
+  }
+  static void check(const ConfigReader&, const trace::LevelOfDetail&) {}
+};
 
-/// Configuration that every head has: parameters of one name and meaning, and its place
-/// in the world. A head's configuration begins with it and has defaults of its own for some.
-struct HeadConfig {
-  double ping_rate_hz = 10.0;  // at most; the interval is never less than 2 R / c + dead time
+/// Parameters of one name and meaning that every head has. A head's configuration begins with them and has defaults of
+/// its own for some.
+struct HeadParameters {
+  static constexpr SettingRange kSpreading_db{0.0, 80.0}, kAbsorption_dbpm{0.0, 2.0}, kOffset_db{-200.0, 200.0};
+  static constexpr double kSlowest_hz = 0.01;
+  static constexpr double kFastest_hz = 100.0;  // a head may have a limit of its own
+  static constexpr double kHighest_db = 250.0;  // source level
+
+  double ping_rate_hz = 10.0;
   double dead_time_s = 1e-3;
-  double processing_latency_s = 20e-3;  // from the last echo to the published ping
-  double sound_speed_mps = 1500.0;      // by which it takes time for range: the head's to read or to find
-  double gain_spreading_db = 30.0;      // gain S log10(R) + 2 A R + O at range R: S,
-  double gain_absorption_dbpm = 0.0;    // A,
-  double gain_offset_db = 0.0;          // O
+  double processing_latency_s = 20e-3;
+  double sound_speed_mps = 1500.0;    // by which it takes time for range: the head's to list or to find
+  double gain_spreading_db = 30.0;    // gain S log10(R) + 2 A R + O at range R: S,
+  double gain_absorption_dbpm = 0.0;  // A,
+  double gain_offset_db = 0.0;        // O
   Converter converter;
   double quality = 1.0;  // of the rays (trace::RaySettings)
   trace::LevelOfDetail lod{.enabled = true};
@@ -33,11 +49,43 @@ struct HeadConfig {
   std::vector<OtherHead> interference;  // whom it receives
   Effects effects;
 
-  // From the scenario.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("ping_rate_hz", "Hz", in(kSlowest_hz, Self::kFastest_hz),
+          "at most; the interval is never less than 2 R / c + dead time", self.ping_rate_hz);
+    visit("dead_time_s", "s", in(0, 1), "between the end of reception and the next transmission", self.dead_time_s);
+    visit("processing_latency_s", "s", in(0, 10), "from the last echo to the published ping",
+          self.processing_latency_s);
+    visit("gain_spreading_db", "dB", in(kSpreading_db.least, kSpreading_db.most),
+          "gain in dB at range R: S log10(R / m) + 2 A R + O; this is S", self.gain_spreading_db);
+    visit("gain_absorption_db_per_km", "dB/km", in(1e3 * kAbsorption_dbpm.least, 1e3 * kAbsorption_dbpm.most),
+          "A: the operator's absorption", self.gain_absorption_dbpm);
+    visit("gain_offset_db", "dB", in(kOffset_db.least, kOffset_db.most), "O", self.gain_offset_db);
+    visit("converter", "of amplitudes into counts", self.converter);
+    visit("quality", "", in(0.05, 10),
+          "of rays: 0.25 is a preview, 1 gives 12 to a resolution cell, 4 is to compare with", self.quality);
+    visit("lod", "level of detail of the seabed", self.lod);
+    visit("trigger", "of transmissions", self.trigger);
+    visit("interference", "other heads of the vehicle that are received, by name", self.interference);
+    visit("effects", "each can be switched off alone; no other random draw moves", self.effects);
+  }
+  /// The sound speed of a head that is given one.
+  template <class Self, class Visit>
+  static void sound_speed(Self& self, Visit&& visit) {
+    visit("sound_speed_mps", "m/s", in(1300, 1700),
+          "by which the instrument takes time for range, until a probe at its face reports", self.sound_speed_mps);
+  }
+};
+
+/// A head's place, from the scenario.
+struct HeadPlace {
   World world;
   std::string process;
   HeadMounting mounting;
+};
 
+/// What every head is made from: its parameters, and beside them its place.
+struct HeadConfig : HeadParameters, HeadPlace {
   PingTiming timing() const {
     return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
             interference};
@@ -52,17 +100,10 @@ struct HeadConfig {
   SettingLimits limits_up_to(double nearest_m, double range_m, double source_level_db) const;
 };
 
-/// Reads all of it but the sound speed; ping_rate_hz up to `fastest_hz`.
-void read_head(ConfigReader& from, const World& world, const std::string& process, double fastest_hz,
-               HeadConfig& config);
+/// Takes the head's place from the scenario, and what is there of the heads that it receives.
+void place_head(const ConfigReader& from, const World& world, const std::string& process, HeadConfig& config);
 
-/// Reads the sound speed of a head that is given one.
-void read_sound_speed(ConfigReader& from, HeadConfig& config);
-
-/// Reads the weighting of a chirp's matched filter: none, hann, hamming or blackman.
-void read_window(ConfigReader& from, echo::Window& window);
-
-/// Equal parameters, wherever in the world the heads are, but for the sound speed.
-bool same_parameters(const HeadConfig& a, const HeadConfig& b);
+/// Weightings of a chirp's matched filter.
+Allowed filter_windows();
 
 }  // namespace ensonify

@@ -1,15 +1,28 @@
 #pragma once
 
-#include <string_view>
-
+#include "components/config/parameters.h"
 #include "kernels/acoustics/array/shading.h"
 
 namespace ensonify {
 
-class ConfigReader;
-
-/// Reads how a line of a head is shaded from the section `key`: window, and of a Dolph-Chebyshev or Taylor window
-/// side_lobe_db and nbar, within what array::shading_weights takes. What is left out stays as it is.
-void read_shading(ConfigReader& from, std::string_view key, array::Shading& shading);
+/// Shading of a head's line, within what array::shading_weights takes.
+template <>
+struct ParametersOf<array::Shading> {
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    using Window = array::Shading::Window;
+    visit("window", "",
+          one_of({{"uniform", Window::kUniform},
+                  {"hann", Window::kHann},
+                  {"hamming", Window::kHamming},
+                  {"dolph_chebyshev", Window::kDolphChebyshev},
+                  {"taylor", Window::kTaylor}}),
+          "weights along the line", self.window);
+    visit("side_lobe_db", "dB", in(13, 100), "of dolph_chebyshev and taylor: one-way, below the main lobe",
+          self.side_lobe_db);
+    visit("nbar", "", in(1, 100), "of taylor: how many side lobes are level, the next ones fall", self.nbar);
+  }
+  static void check(const ConfigReader& from, const array::Shading& shading);
+};
 
 }  // namespace ensonify

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 
 using namespace ensonify;
 using Window = array::Shading::Window;
@@ -17,7 +17,7 @@ struct Read {
 Read read(const std::string& yaml) {
   auto from = ConfigReader::from_text(yaml, "head.yaml");
   Read result;
-  read_shading(from, "shading", result.shading);
+  if (auto section = from.optional_section("shading")) read_parameters(*section, result.shading);
   try {
     from.finish();
   } catch (const ConfigError& error) {

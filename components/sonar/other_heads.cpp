@@ -26,24 +26,18 @@ std::vector<std::string> neighbours(const World& world, const std::string& proce
 
 }  // namespace
 
-std::vector<OtherHead> read_interference(ConfigReader& from, const World& world, const std::string& process,
-                                         double processing_latency_s) {
-  std::vector<OtherHead> others;
+void place_other_heads(const ConfigReader& from, const World& world, const std::string& process,
+                       double processing_latency_s, std::vector<OtherHead>& others) {
   const auto allowed = neighbours(world, process);
-  for (auto& [name, given] : from.named_sections("interference")) {
-    OtherHead other;
-    other.process = name;
-    given.optional("isolation_db", other.isolation_db, 0, 300);
-    given.optional("bottom_loss_db", other.bottom_loss_db, 0, 300);
-    given.optional("rejection_db", other.rejection_db, 0, 300);
-    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-      given.problem("", fmt::format("the vehicle of {} carries no other head of this name; it carries: {}", process,
-                                    allowed.empty() ? "none" : fmt::format("{}", fmt::join(allowed, ", "))));
+  for (OtherHead& other : others) {
+    if (std::find(allowed.begin(), allowed.end(), other.process) == allowed.end()) {
+      from.problem("interference." + other.process,
+                   fmt::format("the vehicle of {} carries no other head of this name; it carries: {}", process,
+                               allowed.empty() ? "none" : fmt::format("{}", fmt::join(allowed, ", "))));
       continue;
     }
-    other.from_us_body_m =
-        world.mounting(name)->second.actual.position_body_m - world.mounting(process)->second.actual.position_body_m;
-    others.push_back(other);
+    other.from_us_body_m = world.mounting(other.process)->second.actual.position_body_m -
+                           world.mounting(process)->second.actual.position_body_m;
   }
   if (!others.empty() && processing_latency_s < kLeastLatency_s) {
     from.problem("interference",
@@ -51,7 +45,6 @@ std::vector<OtherHead> read_interference(ConfigReader& from, const World& world,
                              "computed; at least {} is needed",
                              processing_latency_s, kLeastLatency_s));
   }
-  return others;
 }
 
 }  // namespace ensonify

@@ -6,18 +6,9 @@
 
 namespace ensonify {
 
-void read_trigger(ConfigReader& from, Trigger& trigger) {
-  auto section = from.optional_section("trigger");
-  if (!section) return;
-  using Mode = Trigger::Mode;
-  section->optional_choice("mode", trigger.mode,
-                           {{"free", Mode::kFree}, {"slave", Mode::kSlave}, {"interleaved", Mode::kInterleaved}});
-  section->optional("offset_s", trigger.offset_s, 0, 10);
-  section->optional("patience_s", trigger.patience_s, 0.1, 1000);
-  section->optional("cycle_s", trigger.cycle_s, 1e-3, 100);
-  section->optional("slot_s", trigger.slot_s, 0, 100);
-  if (trigger.slot_s >= trigger.cycle_s) {
-    section->problem("slot_s", fmt::format("{} s does not lie in the cycle of {} s", trigger.slot_s, trigger.cycle_s));
+void Trigger::check(const ConfigReader& from) const {
+  if (slot_s >= cycle_s) {
+    from.problem("slot_s", fmt::format("{} s does not lie in the cycle of {} s", slot_s, cycle_s));
   }
 }
 

@@ -2,12 +2,11 @@
 
 #include <vector>
 
+#include "components/config/parameters.h"
 #include "components/runtime/sim_time.h"
 #include "components/sonar/other_heads.h"
 
 namespace ensonify {
-
-class ConfigReader;
 
 /// Trigger of a head's transmissions.
 struct Trigger {
@@ -22,11 +21,18 @@ struct Trigger {
   double cycle_s = 0.2;     // interleaved
   double slot_s = 0.0;      // interleaved: of this head, from the start of the cycle; the first starts with the run
 
-  bool operator==(const Trigger&) const = default;
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("mode", "", one_of({{"free", Mode::kFree}, {"slave", Mode::kSlave}, {"interleaved", Mode::kInterleaved}}),
+          "at the ping rate, after another head's transmissions, or in turns", self.mode);
+    visit("offset_s", "s", in(0, 10), "of a slave: after its master's transmission", self.offset_s);
+    visit("patience_s", "s", in(0.1, 1000), "of a slave: without its master for longer, health says so",
+          self.patience_s);
+    visit("cycle_s", "s", in(1e-3, 100), "of heads in turns", self.cycle_s);
+    visit("slot_s", "s", in(0, 100), "of this head in turns, from the start of the cycle", self.slot_s);
+  }
+  void check(const ConfigReader& from) const;
 };
-
-/// Reads the section `trigger:`; left out, the head runs free.
-void read_trigger(ConfigReader& from, Trigger& trigger);
 
 /// Ping rate and trigger of a head, and its latency from the last echo to the published ping.
 struct PingTiming {

@@ -10,19 +10,14 @@
 namespace ensonify {
 namespace {
 
-constexpr double kShortest_s = 1e-6, kLongest_s = 20e-3;
 constexpr double kLeastSweep = 4.000001;  // bandwidth x length: over the 4 that echo::compressed_chirp asks for
 
 }  // namespace
 
-void read_pulse(ConfigReader& from, PulseDesign& design) {
-  from.optional("pulse_length_s", design.length_s, kShortest_s, kLongest_s);
-  from.optional("longest_pulse_length_s", design.longest_s, kShortest_s, kLongest_s);
-  read_taper(from, design.chirp, design.tapered_fraction);
-  from.optional("samples_per_pulse", design.samples_per_pulse, kFewestPerPulse, kMostPerPulse);
-  from.optional("most_samples", design.most_samples, 64, 20000);
-  if (design.length_s > design.longest_s) {
-    from.problem("pulse_length_s", "is beyond longest_pulse_length_s, " + std::to_string(design.longest_s) + " s");
+void PulseDesign::check(const ConfigReader& from) const {
+  check_taper(from, chirp, tapered_fraction);
+  if (length_s > longest_s) {
+    from.problem("pulse_length_s", "is beyond longest_pulse_length_s, " + std::to_string(longest_s) + " s");
   }
 }
 

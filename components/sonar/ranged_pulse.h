@@ -1,17 +1,21 @@
 #pragma once
 
+#include "components/config/parameters.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
 
 namespace ensonify {
 
-class ConfigReader;
-
 /// Complex samples per pulse of a tone, or per 1 / B of a chirp. Fewer would let echoes fall between them. Rectangular
 /// tones that arrive 1.2 pulses apart leave a fifth of a pulse between them: from 6 on, a sample finds it wherever
 /// it lies.
 constexpr double kFewestPerPulse = 2.0, kMostPerPulse = 20.0;
+
+// Sentences of parameters that several heads have.
+inline constexpr const char* kTaperAbout = "of a tone's length that rises and falls as a raised cosine";
+inline constexpr const char* kSamplesAbout =
+    "of a tone, or per 1 / bandwidth of a chirp; from 6 on, points 1.2 cells apart are two wherever they lie";
 
 /// The pulse of a head that records a limited number of samples per beam, whatever its range: an imaging head, whose
 /// operator sees a picture of some hundred rows. samples_per_pulse are taken per 1 / B; where they would not reach the
@@ -27,12 +31,21 @@ struct PulseDesign {
   double samples_per_pulse = kFewestPerPulse;    // of a tone, or per 1 / B of a chirp
   int most_samples = 2000;                       // per beam
 
-  bool operator==(const PulseDesign&) const = default;
-};
+  static constexpr double kShortest_s = 1e-6, kLongest_s = 20e-3;
 
-/// Reads what such pulses have in common: pulse_length_s, longest_pulse_length_s, tapered_fraction,
-/// samples_per_pulse and most_samples. Whether it is a chirp is known.
-void read_pulse(ConfigReader& from, PulseDesign& design);
+  /// Parameters of every such pulse. Those of chirps are the head's to list.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("pulse_length_s", "s", in(kShortest_s, kLongest_s),
+          "of the pulse, unless a command holds one; of a tone the shortest", self.length_s);
+    visit("longest_pulse_length_s", "s", in(kShortest_s, kLongest_s), "that can be held", self.longest_s);
+    visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
+    visit("samples_per_pulse", "", in(kFewestPerPulse, kMostPerPulse), kSamplesAbout, self.samples_per_pulse);
+    visit("most_samples", "", in(64, 20000),
+          "per ping and beam; where they do not reach the range, the band is lowered", self.most_samples);
+  }
+  void check(const ConfigReader& from) const;
+};
 
 /// Pulse and sampling at one range.
 struct RangedPulse {

@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include "components/config/config_reader.h"
-
 namespace ensonify {
 namespace {
 
@@ -15,13 +13,6 @@ msg::Array<T> array_of(int samples, std::shared_ptr<std::vector<T>> values) {
 }
 
 }  // namespace
-
-void read_converter(ConfigReader& from, Converter& converter) {
-  auto section = from.optional_section("converter");
-  if (!section) return;
-  section->optional("bits", converter.bits, 0, 16);
-  section->optional("full_scale_upa", converter.full_scale_upa, 1.0, 1e15);
-}
 
 echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps) {
   echo::TvgLaw law;

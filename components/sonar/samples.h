@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "components/config/parameters.h"
 #include "components/sonar/effects.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/gain.h"
@@ -11,18 +12,17 @@
 
 namespace ensonify {
 
-class ConfigReader;
-
 /// Converter of amplitudes into counts, behind the gain.
 struct Converter {
   int bits = 0;  // 1..16; 0: none
   double full_scale_upa = 1e9;
 
-  bool operator==(const Converter&) const = default;
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("bits", "", in(0, 16), "of the counts in pings, with the gain in them; 0: amplitudes in uPa", self.bits);
+    visit("full_scale_upa", "uPa", in(1, 1e15), "the highest count, behind the gain", self.full_scale_upa);
+  }
 };
-
-/// Reads the section `converter:`; left out, there is none.
-void read_converter(ConfigReader& from, Converter& converter);
 
 /// The gain that an operator set, as kernels/acoustics/echo wants it.
 echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps);

@@ -13,7 +13,7 @@
 namespace ensonify {
 namespace {
 
-constexpr float kFarAway_m = std::numeric_limits<float>::infinity();
+constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
 constexpr std::size_t kRaysPerTask = 4096;
 
@@ -54,7 +54,7 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
                             ShotMemory& memory) const {
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
-  Echoed echoed{.arrivals = {}, .receivers = memory.receivers};
+  Echoed echoed{.arrivals = {}, .contributors = contributors_, .receivers = memory.receivers};
   weigh(shot, insonified, memory, echoed);
   const frames::HeadPose& pose = shot.pose();
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
@@ -66,7 +66,7 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
   if (effects_.multipath) {
     const echo::MultipathHead head{
         .source_level_db = sent_db(shot.source_level_db),
-        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarAway_m); }};
+        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarField_m); }};
     echo::SurfaceMirror surface;
     surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
     surface.sound_speed_mps = sound_speed_mps(pose);
@@ -94,7 +94,8 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
           so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
           so_far.height_m += hits[i].position_enu_m.z();
           memory.source_upa2m2[i] = static_cast<float>(source * transmitted);
-          memory.backscatter[i] = environment_.backscatter()(hits[i].sediment, hits[i].sin_grazing);
+          memory.backscatter[i] =
+              environment_.backscatter()(contributors_[hits[i].contributor].sediment, hits[i].sin_grazing);
         }
         return so_far;
       },

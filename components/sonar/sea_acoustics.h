@@ -42,7 +42,8 @@ struct Insonified {
 /// squares.
 struct Echoed {
   std::span<const echo::Arrival> arrivals;
-  const echo::Receivers& receivers;  // where the head receives
+  const trace::Contributors& contributors;  // whose indices hits and arrivals carry
+  const echo::Receivers& receivers;         // where the head receives
   double absorption_dbpm = 0.0;
   double seabed_depth_m = 0.0;  // mean over the hits
   int rays_that_hit = 0, rays_in_lobe = 0;
@@ -127,6 +128,7 @@ class SeaAcoustics {
   double frequency_hz_;
   Effects effects_;
   WaterPaths paths_;
+  trace::Contributors contributors_;
 };
 
 }  // namespace ensonify

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "components/sonar/auto_range.h"
 #include "components/sonar/ping_clock.h"
 
@@ -198,7 +198,7 @@ TEST_CASE("a trigger is read with its limits") {
   const auto problems = [](const std::string& yaml) {
     auto from = ConfigReader::from_text(yaml, "head.yaml");
     Trigger trigger;
-    read_trigger(from, trigger);
+    if (auto section = from.optional_section("trigger")) read_parameters(*section, trigger);
     try {
       from.finish();
     } catch (const ConfigError& error) {

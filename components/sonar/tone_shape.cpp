@@ -4,8 +4,7 @@
 
 namespace ensonify {
 
-void read_taper(ConfigReader& from, bool chirp, double& tapered_fraction) {
-  from.optional("tapered_fraction", tapered_fraction, 0, 1);
+void check_taper(const ConfigReader& from, bool chirp, double tapered_fraction) {
   if (chirp && tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
 }
 

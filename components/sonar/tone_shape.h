@@ -6,8 +6,8 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// Reads tapered_fraction of a head's tone (echo::tapered_pulse), 0 to 1. A chirp has a window instead.
-void read_taper(ConfigReader& from, bool chirp, double& tapered_fraction);
+/// Adds a problem where a chirp has tapered ends, as only tones do (echo::tapered_pulse). A chirp has a window instead.
+void check_taper(const ConfigReader& from, bool chirp, double tapered_fraction);
 
 /// Gives what kind of pulse is sent.
 void fill_shape(bool chirp, double tapered_fraction, msg::AppliedSettings& applied);

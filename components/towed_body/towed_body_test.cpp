@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "components/runtime/testing/node_under_test.h"
+#include "components/config/testing/parameter_files.h"
 #include "components/towed_body/node.h"
-#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -72,8 +72,8 @@ double across_m(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 
 }  // namespace
 
-TEST_CASE("towed_body/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<TowedBodyConfig>("towed_body", sea()) == "");
+TEST_CASE("towed_body: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("towed_body", parameters_of<TowedBodyParameters>()) == "");
 }
 
 TEST_CASE("on a straight course the body runs at the cable's end, its motion the derivative") {

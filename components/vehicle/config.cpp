@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
@@ -39,9 +39,8 @@ void check_abilities(ConfigReader& from, const World& world, const Vehicle& vehi
 
 VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   VehicleConfig config;
-  from.optional("pose_rate_hz", config.pose_rate_hz, 1, 1000);
-
-  const Vehicle vehicle = own_vehicle(from, world, process);
+  read_parameters<VehicleParameters>(from, config);
+  const Vehicle vehicle = own_vehicle(from, world, process, config.vehicle);
   config.limits = vehicle.limits;
   config.fastest_mps = vehicle.fastest_mps;
   config.waves = vehicle.waves;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "components/config/parameters.h"
 #include "components/vehicle/hydrodynamic/dynamics_file.h"
 #include "scenarios/world/auto_plan.h"
 
@@ -17,9 +18,19 @@ struct VehicleWater {
   std::optional<vertical::Loading> floats;  // not given: it holds its depth below the water level
 };
 
-struct VehicleConfig {
+struct VehicleParameters {
+  std::string vehicle;
   int pose_rate_hz = 100;
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
+  }
+};
+
+struct VehicleConfig : VehicleParameters {
   // From the scenario.
   motion::Limits limits;
   double fastest_mps = 10.0;
@@ -35,8 +46,6 @@ struct VehicleConfig {
   static VehicleConfig read(ConfigReader& from, const World& world, const std::string& process);
   /// Need of the chart: the vehicle's start is known only with it.
   bool needs_chart() const { return !start && plan.needs_chart(); }
-  /// The parameters of its own, which default.yaml lists.
-  bool operator==(const VehicleConfig& other) const { return pose_rate_hz == other.pose_rate_hz; }
 };
 
 }  // namespace ensonify

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "scenarios/world/testing/default_yaml.h"
+#include "components/config/testing/parameter_files.h"
+
 
 using namespace ensonify;
 
@@ -33,10 +34,8 @@ std::string problem(const std::string& yaml, const World& world, const std::stri
 
 }  // namespace
 
-TEST_CASE("vehicle/default.yaml lists every parameter with its default") {
-  World world = two_vehicles();
-  world.vehicles.pop_back();
-  CHECK(default_yaml_fault<VehicleConfig>("vehicle", world) == "");
+TEST_CASE("vehicle: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("vehicle", parameters_of<VehicleParameters>()) == "");
 }
 
 TEST_CASE("a process finds its vehicle by its own name or by the key") {

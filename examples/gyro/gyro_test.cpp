@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "components/runtime/testing/node_under_test.h"
+#include "components/config/testing/parameter_files.h"
 #include "examples/gyro/node.h"
 #include "kernels/base/frames/attitude.h"
-#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 
@@ -15,8 +15,8 @@ static msg::Pose heading_east(SimTime t) {
   return pose;
 }
 
-TEST_CASE("gyro/default.yaml lists every parameter with its default") {
-  CHECK(default_yaml_fault<GyroConfig>("gyro", World{}) == "");
+TEST_CASE("gyro: default.yaml and the README's table are the list's") {
+  CHECK(parameter_files_fault("gyro", parameters_of<GyroParameters>()) == "");
 }
 
 TEST_CASE("the gyro reports heading plus its bias, ten times a second, whatever the roll") {

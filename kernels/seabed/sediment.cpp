@@ -72,6 +72,7 @@ bool in_range(const SedimentParameters& sediment) {
 }
 
 std::span<const NamedSediment> named_sediments() { return kTable; }
+std::span<const std::pair<std::string_view, std::string_view>> other_sediment_names() { return kOtherNames; }
 
 std::optional<SedimentParameters> sediment_of(std::string_view name) {
   for (const auto& [other, row] : kOtherNames) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace ensonify::seabed {
 
@@ -30,6 +31,8 @@ struct NamedSediment {
 
 /// The 14 sediments that the report names, from rough rock to clay [APL1994, table 2]; gamma is 3.25 for all.
 std::span<const NamedSediment> named_sediments();
+/// Other names of some of them, each with the name in the table.
+std::span<const std::pair<std::string_view, std::string_view>> other_sediment_names();
 
 /// The named sediment, or nothing. Where a row of the table has several names, each is known: "gravel" is "cobble".
 std::optional<SedimentParameters> sediment_of(std::string_view name);

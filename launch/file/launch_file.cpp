@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "components/config/data_paths.h"
+#include "components/config/read_parameters.h"
 #include "components/errors/nearest_name.h"
 #include "launch/file/exits.h"
 #include "launch/file/overrides.h"
@@ -34,14 +35,7 @@ ClockSettings read_clock(ConfigReader from) {
     from.required("rate", value, 1e-3, 1e6);
     clock.rate = value;
   }
-  from.optional("window_s", clock.window_s, 0.01, 5.0);
-  from.optional("slip_after_s", clock.slip_after_s, 0.0, 1000);
-  from.optional_choice("slip_policy", clock.slip_policy,
-                       {{"count", ClockSettings::SlipPolicy::kCount}, {"fail", ClockSettings::SlipPolicy::kFail}});
-  from.optional("progress_deadline_s", clock.progress_deadline_s, 0.01, 3600);
-  from.optional_choice("transport", clock.transport,
-                       {{"ipc", ClockSettings::Transport::kIpc}, {"tcp", ClockSettings::Transport::kTcp}});
-  from.optional("connect_timeout_s", clock.connect_timeout_s, 0.01, 3600);
+  read_parameters(from, clock);
   return clock;
 }
 
@@ -112,7 +106,7 @@ ProcessSpec read_process(const std::string& name, ConfigReader& from) {
   } else if (is_reserved(name)) {
     from.problem("", "is a reserved name; choose another");
   }
-  from.optional("external", process.external);
+  read_parameters(from, process);
   read_run(from, process);
   read_config(from, process);
   read_env(from, process);
@@ -121,9 +115,6 @@ ProcessSpec read_process(const std::string& name, ConfigReader& from) {
   for (const double cpu : cpus) {
     process.cpus.push_back(static_cast<int>(cpu));
   }
-  from.optional("join_s", process.join_s, 0.01, 86400);
-  from.optional("observer", process.observer);
-  from.optional("respawn", process.respawn);
   if (process.respawn && !process.observer) {
     from.problem("respawn", "is only for observers; a lost participant ends the run");
   }

@@ -8,6 +8,7 @@
 
 #include "components/config/config_node.h"
 #include "components/config/config_reader.h"
+#include "components/config/parameters.h"
 #include "components/runtime/sim_time.h"
 #include "scenarios/scenario_file.h"
 
@@ -44,11 +45,19 @@ struct ProcessSpec {
   std::string config_path;        // put before keys in messages; "" when the parameters stand in a file of their own
   std::map<std::string, std::string> env;
   std::vector<int> cpus;  // empty: any
-  bool external = false;  // not started by the launcher but awaited
-  double join_s = 30.0;   // how long an external process is awaited
-  bool observer = false;  // may be lost without ending the run
-  bool respawn = false;   // an observer that is started again
-  ConfigPlace place;      // of its stanza
+  bool external = false;
+  double join_s = 30.0;
+  bool observer = false;
+  bool respawn = false;
+  ConfigPlace place;  // of its stanza
+
+  /// What of a stanza has one value; the rest is read by read_launch().
+  static void parameters(auto& self, auto&& visit) {
+    visit("external", "", any(), "true: not started by the launcher but awaited", self.external);
+    visit("join_s", "s", in(0.01, 86400), "how long an external process is awaited", self.join_s);
+    visit("observer", "", any(), "true: may be lost without ending the run", self.observer);
+    visit("respawn", "", any(), "true: an observer that is started again", self.respawn);
+  }
 
   /// Reads this process's parameters: `Config::read(reader)`, then reader.finish().
   ConfigReader reader() const { return ConfigReader(config, config_path); }
@@ -67,12 +76,24 @@ struct ClockSettings {
   enum class SlipPolicy { kCount, kFail };
   enum class Transport { kIpc, kTcp };
   std::optional<double> rate;  // sim seconds per wall second; nothing: free running
-  double window_s = 1.0;       // how far a producer may run ahead of its consumers, sim time
-  double slip_after_s = 0.5;   // lateness beyond which the pacing origin moves
+  double window_s = 1.0;
+  double slip_after_s = 0.5;
   SlipPolicy slip_policy = SlipPolicy::kCount;
-  double progress_deadline_s = 10.0;  // wall time; a stall warns at 1x, dumps at 3x, ends the run at 10x
+  double progress_deadline_s = 10.0;
   Transport transport = Transport::kIpc;
   double connect_timeout_s = 30.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("window_s", "s", in(0.01, 5.0), "how far a producer may run ahead of its consumers, sim time", self.window_s);
+    visit("slip_after_s", "s", in(0, 1000), "lateness beyond which the pacing origin moves", self.slip_after_s);
+    visit("slip_policy", "", one_of({{"count", SlipPolicy::kCount}, {"fail", SlipPolicy::kFail}}),
+          "what a slip does to the run", self.slip_policy);
+    visit("progress_deadline_s", "s", in(0.01, 3600),
+          "wall time; a stall is warned at 1x, dumped at 3x and ends the run at 10x", self.progress_deadline_s);
+    visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}), "between the processes",
+          self.transport);
+    visit("connect_timeout_s", "s", in(0.01, 3600), "wall time until every process is there", self.connect_timeout_s);
+  }
 };
 
 /// `exit: {process: agent, code: 3}` or `{process: agent, signal: KILL}` under `expect:`: how a process must end.

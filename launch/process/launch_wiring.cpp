@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/version.h"
 
 namespace ensonify {
@@ -39,11 +40,7 @@ void add_notes(std::map<std::string, std::string>& facts, const Declaration& pro
 }
 
 Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {
-  std::vector<Conductor::Edge> edges;
-  for (const Graph::Edge& e : graph.edges) edges.push_back({graph.topics[e.topic].publisher, e.to, e.delay});
-  std::vector<bool> may_finish;
-  for (const Declaration& d : processes) may_finish.push_back(d.may_finish);
-  Conductor conductor(processes.size(), std::move(edges), std::move(may_finish), from_seconds(launch.clock.window_s));
+  Conductor conductor = conductor_of(graph, processes, from_seconds(launch.clock.window_s));
   if (launch.duration) conductor.end_at(*launch.duration);
   return conductor;
 }

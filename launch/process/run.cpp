@@ -24,8 +24,16 @@ struct Options {
   bool check = false;
 };
 
-/// Returns an exit code if the program is to end here (help, bad arguments).
-std::optional<int> parse(const char* component, int argc, char** argv, Options& options) {
+/// Prints what a component's parameters are, as `ensonify describe` and the project's own pages have them.
+void print_parameters(const std::string& component, const ParameterList& list, const std::string& form) {
+  const std::string text = form == "yaml"    ? default_yaml(component + ": every parameter with its default", list)
+                           : form == "table" ? parameter_table(list)
+                                             : parameter_schema(component, list);
+  fmt::print("{}", text);
+}
+
+/// Returns an exit code if the program is to end here (help, bad arguments, a list of parameters).
+std::optional<int> parse(const char* component, ParameterList (*list)(), int argc, char** argv, Options& options) {
   CLI::App app(
       fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/manual/wire.md says how it "
                   "talks, `ensonify describe {}` what it takes.",
@@ -35,6 +43,15 @@ std::optional<int> parse(const char* component, int argc, char** argv, Options& 
   app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
   app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
+  app.add_option_function<std::string>(
+         "--parameters",
+         [=](const std::string& form) {
+           print_parameters(component, list(), form);
+           throw CLI::Success();
+         },
+         "print the parameters with their defaults as yaml, table (Markdown) or schema (JSON Schema) and exit")
+      ->check(CLI::IsMember({"yaml", "table", "schema"}))
+      ->trigger_on_parse();
   return parse_command_line(app, argc, argv);
 }
 
@@ -65,9 +82,9 @@ int run_process(const char* component, const NodeFactory& factory, const Options
 
 }  // namespace
 
-int run_component(const char* component, const NodeFactory& factory, int argc, char** argv) {
+int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(), int argc, char** argv) {
   Options options;
-  if (const auto code = parse(component, argc, argv, options)) return *code;
+  if (const auto code = parse(component, list, argc, argv, options)) return *code;
   return exit_code_of([&] { return run_process(component, factory, options); });
 }
 

@@ -14,13 +14,14 @@ struct CastColumns {
   std::string sound_speed_mps = "sound_speed_mps";
   std::string temperature_degc = "temperature_degc";
   std::string salinity_psu = "salinity_psu";
-};
 
-/// Limits of what a sample may hold, in a file and in a scenario alike.
-namespace sample_limits {
-inline constexpr double kDeepest_m = 12000.0, kSlowest_mps = 1300.0, kFastest_mps = 1700.0, kColdest_degc = -2.0,
-                        kWarmest_degc = 40.0, kSaltiest_psu = 45.0;
-}
+  static void parameters(auto& self, auto&& visit) {
+    visit("depth_m", "", any(), "column of depths, positive down", self.depth_m);
+    visit("sound_speed_mps", "", any(), "column of sound speeds", self.sound_speed_mps);
+    visit("temperature_degc", "", any(), "column of temperatures", self.temperature_degc);
+    visit("salinity_psu", "", any(), "column of salinities", self.salinity_psu);
+  }
+};
 
 /// Reads a cast: text with commas, semicolons or tabs between the columns; lines that start with # or % are skipped.
 /// Throws ConfigError with places in that file: no such column, a value that is no number or outside the limits, depths

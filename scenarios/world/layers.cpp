@@ -4,7 +4,9 @@
 #include <functional>
 #include <utility>
 
+#include "components/config/read_parameters.h"
 #include "kernels/seabed/law.h"
+#include "scenarios/world/layer_terms.h"
 #include "scenarios/world/sections.h"
 
 namespace ensonify {
@@ -13,16 +15,16 @@ namespace {
 using frames::Vec2;
 using Names = std::vector<std::string>;  // of the layers so far
 
-Vec2 read_place(ConfigReader& from, const char* key, bool must = false) {
-  std::array<double, 2> place{};
-  if (must) from.required(key, place, -kFarAway_m, kFarAway_m);
-  else from.optional(key, place, -kFarAway_m, kFarAway_m);
-  return {place[0], place[1]};
+/// Reads one of the terms.
+template <class Term>
+Term read_term(ConfigReader& from) {
+  Term term;
+  read_parameters(from, term);
+  return term;
 }
 
 /// A layer further up in the list.
-void read_earlier(ConfigReader& from, const char* key, const Names& earlier, std::string& name) {
-  from.optional(key, name);
+void check_earlier(const ConfigReader& from, const char* key, const Names& earlier, const std::string& name) {
   if (name.empty() || std::find(earlier.begin(), earlier.end(), name) != earlier.end()) return;
   std::string known;
   for (const std::string& layer : earlier) known += (known.empty() ? "" : ", ") + layer;
@@ -38,10 +40,9 @@ std::optional<relief::Band> read_band(const ConfigReader& mask, const char* key,
   auto from = mask.optional_section(key);
   if (!from) return std::nullopt;
   relief::Band band;
-  double low = least, high = most, soft = 0.0;
-  from->optional("from", low, least, most);
-  from->optional("to", high, least, most);
-  from->optional("soft", soft, 0, most - least);
+  terms::Band file(least, most);
+  read_parameters(*from, file);
+  const auto& [low, high, soft, lo, hi] = file;
   if (!from->has("from") && !from->has("to")) from->problem("", "needs from or to");
   if (low > high) from->problem("to", "is below from");
   if (from->has("from")) band.low = si(low);
@@ -51,29 +52,21 @@ std::optional<relief::Band> read_band(const ConfigReader& mask, const char* key,
 }
 
 layers::Mask read_mask(ConfigReader from, const Names& earlier) {
-  layers::Mask mask;
+  terms::Mask mask;
+  read_parameters(from, mask);
   const auto same = [](double x) { return x; };
   const auto slope_of = [](double deg) { return std::tan(deg * kDegrees.si); };
-  read_earlier(from, "of", earlier, mask.of);
-  from.optional("scale_m", mask.scale_m, 1e-3, kFarAway_m);
+  check_earlier(from, "of", earlier, mask.of);
   mask.depth_m = read_band(from, "depth_m", -1000, 11000, same);
   mask.slope = read_band(from, "slope_deg", 0, 80, slope_of);
   mask.curvature_1pm = read_band(from, "curvature_1pm", -100, 100, same);
-  std::vector<std::array<double, 2>> polygon;
-  from.optional("polygon_m", polygon, -kFarAway_m, kFarAway_m);
-  for (const auto& corner : polygon) mask.polygon_enu_m.emplace_back(corner[0], corner[1]);
-  if (from.has("polygon_m") && polygon.size() < 3) from.problem("polygon_m", "needs three corners or more");
-  from.optional("soft_m", mask.polygon_softness_m, 0, kFarAway_m);
+  for (const auto& corner : mask.corners_m) mask.polygon_enu_m.emplace_back(corner[0], corner[1]);
+  if (from.has("polygon_m") && mask.corners_m.size() < 3) from.problem("polygon_m", "needs three corners or more");
   mask.sediments = read_classes(from, "sediment");
   if (auto section = from.optional_section("patches")) {
-    layers::Mask::Patches patches;
-    section->required("length_m", patches.length_m, 1e-2, kFarAway_m);
-    section->optional("share", patches.share, 0.001, 0.999);
-    section->optional("soft", patches.softness, 0, 10);
-    mask.patches = patches;
+    mask.patches = read_term<terms::Patches>(*section);
   }
   for (const ConfigReader& term : from.list("any")) mask.any.push_back(read_mask(term, earlier));
-  from.optional("reverse", mask.reverse);
   return mask;
 }
 
@@ -81,51 +74,20 @@ layers::Mask read_mask(ConfigReader from, const Names& earlier) {
 // ----------------------------------------------------------------------------------------------------
 
 layers::Form read_plane(ConfigReader from) {
-  relief::Plane plane;
-  double slope_deg = 0.0;
-  from.optional("depth_m", plane.depth_m, -1000, 11000);
-  from.optional("slope_deg", slope_deg, 0, 60);
-  from.optional("downhill_heading_deg", plane.downhill_heading_rad, -360, 360, kDegrees);
-  plane.slope = std::tan(slope_deg * kDegrees.si);
-  return plane;
+  auto plane = read_term<terms::Plane>(from);
+  plane.slope = std::tan(plane.slope_deg * kDegrees.si);
+  return static_cast<relief::Plane&>(plane);
 }
 
-layers::Form read_ramp(ConfigReader from) {
-  relief::Ramp ramp;
-  ramp.middle_enu_m = read_place(from, "middle_m");
-  from.optional("heading_deg", ramp.heading_rad, -360, 360, kDegrees);
-  from.optional("depth_m", ramp.depth_m, -1000, 11000);
-  from.optional("drop_m", ramp.drop_m, -1000, 1000);
-  from.optional("run_m", ramp.run_m, 0, kFarAway_m);
-  return ramp;
-}
-
-layers::Form read_wave(ConfigReader from) {
-  relief::Wave wave;
-  from.optional("depth_m", wave.depth_m, -1000, 11000);
-  from.optional("amplitude_m", wave.amplitude_m, 0, 1000);
-  from.required("wavelength_m", wave.wavelength_m, 1e-2, kFarAway_m);
-  from.optional("heading_deg", wave.heading_rad, -360, 360, kDegrees);
-  return wave;
+template <class Term, class Form>
+layers::Form read_plain(ConfigReader from) {
+  return static_cast<Form>(read_term<Term>(from));
 }
 
 layers::Form read_sphere(ConfigReader from) {
-  relief::Sphere sphere;
-  sphere.centre_enu_m = read_place(from, "centre_m");
-  from.required("radius_m", sphere.radius_m, 1e-2, 10000);
-  from.optional("depth_m", sphere.depth_m, -1000, 11000);
-  sphere.centre_depth_m = sphere.depth_m;
-  from.optional("centre_depth_m", sphere.centre_depth_m, -1000, 11000);
-  return sphere;
-}
-
-layers::Form read_ridge(ConfigReader from) {
-  relief::Ridge ridge;
-  ridge.start_enu_m = read_place(from, "from_m", true);
-  ridge.end_enu_m = read_place(from, "to_m", true);
-  from.required("height_m", ridge.height_m, -1000, 1000);
-  from.optional("width_m", ridge.width_m, 0.1, kFarAway_m);
-  return ridge;
+  auto sphere = read_term<terms::Sphere>(from);
+  sphere.centre_depth_m = sphere.centre_m.value_or(sphere.depth_m);
+  return static_cast<relief::Sphere&>(sphere);
 }
 
 /// rms_m, or the strength that the sediment's backscatter model has, carried on to long waves.
@@ -134,9 +96,9 @@ void read_strength(ConfigReader& from, relief::Spectrum& spectrum) {
     from.problem("", from.has("rms_m") ? "has rms_m and as_sediment; give one or the other"
                                        : "needs rms_m, or as_sediment (a sediment whose roughness goes on)");
   }
-  from.optional("rms_m", spectrum.rms_m, 0, 10000);
-  std::string name;
-  from.optional("as_sediment", name);
+  const auto strength = read_term<terms::Strength>(from);
+  const std::string& name = strength.as_sediment;
+  if (from.has("rms_m")) spectrum.rms_m = strength.rms_m;
   if (name.empty()) return;
   const auto sediment = seabed::sediment_of(name);
   if (!sediment) return from.problem("as_sediment", "is \"" + name + "\", not a sediment of APL-UW TR 9407");
@@ -147,106 +109,69 @@ void read_strength(ConfigReader& from, relief::Spectrum& spectrum) {
 }
 
 layers::Form read_spectral(ConfigReader from, const Names& earlier) {
-  layers::Spectral spectral;
-  from.required("outer_scale_m", spectral.spectrum.outer_scale_m, 1e-3, 1e6);
-  from.optional("inner_scale_m", spectral.spectrum.inner_scale_m, 0, 1e6);
-  from.optional("hurst", spectral.spectrum.hurst, 0.01, 1);
-  from.optional("mean_m", spectral.mean_m, -1000, 1000);
+  auto spectral = read_term<terms::Spectral>(from);
   read_strength(from, spectral.spectrum);
-  from.optional("intermittency", spectral.intermittency, 0, 0.7);
-  from.optional("height_gain", spectral.height_gain, -1, 1);
-  from.optional("smooth_amplitude", spectral.smooth_amplitude, 0, 1);
   if (const auto rough = from.optional_section("rough")) spectral.rough = read_mask(*rough, earlier);
   else if (from.has("smooth_amplitude")) from.problem("smooth_amplitude", "needs rough, the mask of rough places");
-  return spectral;
+  return static_cast<layers::Spectral&>(spectral);
 }
 
 layers::Form read_ripples(ConfigReader from) {
-  relief::RippleParameters ripples;
-  from.required("wavelength_m", ripples.wavelength_m, 1e-2, 10000);
-  ripples.height_m = 0.65 * relief::flemming_height_m(ripples.wavelength_m);  // measured dunes: 0.5 to 0.8
-  from.optional("height_m", ripples.height_m, 0, 100);
-  from.optional("travel_heading_deg", ripples.travel_heading_rad, -360, 360, kDegrees);
-  from.optional("lee_fraction", ripples.lee_fraction, 0.3, 0.5);
-  from.optional("disorder", ripples.disorder, 0, 1);
-  from.optional("patch_wavelengths", ripples.patch_wavelengths, 0.1, 1000);
-  from.optional("height_ln_sd", ripples.height_ln_sd, 0, 1);
-  return ripples;
+  auto ripples = read_term<terms::Ripples>(from);
+  // Measured dunes: 0.5 to 0.8 of the mean.
+  ripples.height_m = ripples.crest_m.value_or(0.65 * relief::flemming_height_m(ripples.wavelength_m));
+  return static_cast<relief::RippleParameters&>(ripples);
 }
 
 layers::Form read_bodies(ConfigReader from, relief::BodyShape shape) {
-  relief::BodyParameters bodies;
+  terms::Bodies bodies;
   bodies.shape = shape;
   if (shape != relief::BodyShape::kBoulder) bodies.height_per_radius = 0.2;
-  from.required("per_km2", bodies.per_km2, 0, 1e8);
-  from.required("smallest_radius_m", bodies.smallest_radius_m, 1e-3, 1000);
-  from.required("largest_radius_m", bodies.largest_radius_m, 1e-3, 1000);
-  from.optional("size_exponent", bodies.size_exponent, 0.01, 20);
-  from.optional("height_per_radius", bodies.height_per_radius, 0, 10);
-  from.optional("height_ln_sd", bodies.height_ln_sd, 0, 2);
-  from.optional("elongation", bodies.elongation, 1, 4);
+  read_parameters(from, bodies);
   if (bodies.largest_radius_m < bodies.smallest_radius_m)
     from.problem("largest_radius_m", "is below smallest_radius_m");
-  return bodies;
+  return static_cast<relief::BodyParameters&>(bodies);
 }
 
-void read_range(ConfigReader& from, const char* key, double& least, double& most) {
-  std::array<double, 2> range{least, most};
-  from.optional(key, range, 0, 10000);
+void set_range(const ConfigReader& from, const char* key, const std::array<double, 2>& range, double& least,
+               double& most) {
   if (range[1] < range[0]) from.problem(key, "is not [least, most]");
   least = range[0];
   most = range[1];
 }
 
 layers::Form read_marks(ConfigReader from, bool pairs) {
-  relief::MarkParameters marks;
-  from.required("per_km2", marks.tracks_per_km2, 0, 1e5);
-  from.optional("length_m", marks.length_m, 0.1, 50000);
-  from.optional("heading_deg", marks.heading_rad, -360, 360, kDegrees);
-  from.optional("heading_sd_deg", marks.heading_sd_rad, 0, 180, kDegrees);
-  from.optional("curvature_sd_1pm", marks.curvature_sd_1pm, 0, 1);
-  if (pairs) read_range(from, "spacing_m", marks.least_spacing_m, marks.most_spacing_m);
-  else marks.least_spacing_m = marks.most_spacing_m = 0.0;
-  read_range(from, "half_width_m", marks.least_half_width_m, marks.most_half_width_m);
+  auto marks = read_term<terms::Marks>(from);
+  marks.least_spacing_m = marks.most_spacing_m = 0.0;
+  if (pairs) {
+    set_range(from, "spacing_m", read_term<terms::Spacing>(from).spacing_m, marks.least_spacing_m,
+              marks.most_spacing_m);
+  }
+  set_range(from, "half_width_m", marks.half_width_m, marks.least_half_width_m, marks.most_half_width_m);
   if (!(marks.least_half_width_m > 0.0)) from.problem("half_width_m", "must be above 0");
-  from.optional("depth_m", marks.depth_m, 0, 100);
-  from.optional("faded", marks.faded, 0, 1);
-  from.optional("spoil", marks.spoil, 0, 1);
-  return marks;
+  return static_cast<relief::MarkParameters&>(marks);
 }
 
 layers::Form read_dredged(ConfigReader from) {
-  layers::Dredged dredged;
-  std::vector<std::array<double, 3>> line;
-  from.required("line_m", line, -kFarAway_m, kFarAway_m);
-  for (const auto& p : line) dredged.line_enu_m.emplace_back(p[0], p[1], -p[2]);
-  if (from.has("line_m") && line.size() < 2) from.problem("line_m", "needs two places or more");
-  from.required("half_width_m", dredged.half_width_m, 1e-2, kFarAway_m);
-  double side_deg = 11.3;  // 1:5
-  from.optional("side_slope_deg", side_deg, 0.1, 80);
-  dredged.side_slope = std::tan(side_deg * kDegrees.si);
+  const auto file = read_term<terms::Dredged>(from);
+  layers::Dredged dredged{.half_width_m = file.half_width_m, .side_slope = std::tan(file.side_slope_deg * kDegrees.si)};
+  for (const auto& p : file.line_m) dredged.line_enu_m.emplace_back(p[0], p[1], -p[2]);
+  if (from.has("line_m") && file.line_m.size() < 2) from.problem("line_m", "needs two places or more");
   return dredged;
 }
 
 layers::Form read_guide(ConfigReader from) {
-  layers::Guide guide;
+  auto guide = read_term<terms::GuideFiles>(from);
   if (from.has("raster") == from.has("tiles"))
     from.problem("", "needs one of raster (a file that GDAL reads) and tiles (the folder of a tile set)");
-  from.optional_path("raster", guide.raster);
-  from.optional_path("tiles", guide.tiles_folder);
-  if (from.has("raster"))
-    from.required_choice("values", guide.values_are_depths, {{"elevation", false}, {"depth", true}});
-  from.required("cell_m", guide.cell_m, 1e-2, 1000);
-  return guide;
+  if (from.has("raster")) guide.values_are_depths = read_term<terms::GuideValues>(from).are_depths;
+  return static_cast<layers::Guide&>(guide);
 }
 
 layers::Form read_restored(ConfigReader from, const Names& earlier) {
-  layers::Restored restored;
-  from.required("guide", restored.guide);
-  read_earlier(from, "guide", earlier, restored.guide);
-  from.optional("hurst", restored.hurst, 0.01, 1);
-  from.optional("band_start_cells", restored.band_start_cells, 2, 16);
-  return restored;
+  const auto restored = read_term<terms::Restored>(from);
+  check_earlier(from, "guide", earlier, restored.guide);
+  return static_cast<const layers::Restored&>(restored);
 }
 
 /// What a layer can be, by its key.
@@ -256,7 +181,7 @@ struct Term {
   relief::Layer::Join join = relief::Layer::Join::kAdd;
 };
 
-const std::vector<Term>& terms() {
+const std::vector<Term>& all_terms() {
   const auto alone = [](layers::Form (*read)(ConfigReader)) {
     return [read](const ConfigReader& from, const Names&) { return read(from); };
   };
@@ -267,12 +192,12 @@ const std::vector<Term>& terms() {
     return [pairs](const ConfigReader& from, const Names&) { return read_marks(from, pairs); };
   };
   static const std::vector<Term> all = {{"plane", alone(read_plane)},
-                                        {"ramp", alone(read_ramp)},
-                                        {"wave", alone(read_wave)},
+                                        {"ramp", alone(read_plain<terms::Ramp, relief::Ramp>)},
+                                        {"wave", alone(read_plain<terms::Wave, relief::Wave>)},
                                         {"sphere", alone(read_sphere)},
                                         {"guide", alone(read_guide)},
                                         {"restored", read_restored},
-                                        {"ridge", alone(read_ridge)},
+                                        {"ridge", alone(read_plain<terms::Ridge, relief::Ridge>)},
                                         {"spectral", read_spectral},
                                         {"ripples", alone(read_ripples)},
                                         {"boulders", bodies(relief::BodyShape::kBoulder)},
@@ -285,10 +210,10 @@ const std::vector<Term>& terms() {
 }
 
 layers::Layer read_layer(const std::string& name, ConfigReader& from, const Names& earlier) {
-  layers::Layer layer;
+  terms::Common layer;
   layer.name = name;
   std::string found, known;
-  for (const Term& term : terms()) {
+  for (const Term& term : all_terms()) {
     known += (known.empty() ? "" : ", ") + std::string(term.key);
     if (!from.has(term.key)) continue;
     if (!found.empty()) from.problem(term.key, "stands beside " + found + "; a layer is one thing, make two of it");
@@ -296,22 +221,65 @@ layers::Layer read_layer(const std::string& name, ConfigReader& from, const Name
     layer.join = term.join;
     layer.form = term.read(from.section(term.key), earlier);
   }
-  from.optional("use", layer.used);
-  from.optional_choice(
-      "join", layer.join,
-      {{"add", relief::Layer::Join::kAdd}, {"cover", relief::Layer::Join::kCover}, {"cut", relief::Layer::Join::kCut}});
-  read_earlier(from, "above", earlier, layer.above);
+  read_parameters(from, layer);
+  check_earlier(from, "above", earlier, layer.above);
   if (from.has("above") && layer.join == relief::Layer::Join::kAdd)
     from.problem("above", "needs join: cover or cut; a layer that adds counts from the seabed under it");
   if (const auto mask = from.optional_section("mask")) layer.mask = read_mask(*mask, earlier);
-  from.optional("sediment", layer.sediment, 0, 255);
-  from.optional("shows_above_m", layer.shows_above_m, 0, 1000);
   if (found.empty() && !layer.sediment)
     from.problem("", "is nothing: it needs a sediment to paint, or one of " + known);
   return layer;
 }
 
+ParameterList mask_list(int depth) {
+  ParameterList list = parameters_of<terms::Mask>();
+  list.push_back(section_info("depth_m", "between these depths in m", parameters_of(terms::Band(-1000, 11000))));
+  list.push_back(section_info("slope_deg", "between these slopes in degrees", parameters_of(terms::Band(0, 80))));
+  list.push_back(section_info("curvature_1pm", "between these curvatures in 1/m", parameters_of(terms::Band(-100, 100))));
+  list.push_back(classes_info("sediment", "classes that the layers before this one gave"));
+  list.push_back(section_info("patches", "irregular patches that cover a share of everything",
+                              parameters_of<terms::Patches>()));
+  if (depth > 0) list.push_back(list_info("any", "at least one of these masks holds", mask_list(depth - 1)));
+  return list;
+}
+
 }  // namespace
+
+ParameterList layer_list() {
+  constexpr int kNested = 2;  // masks of masks that the schema knows
+  const ParameterList mask = mask_list(kNested);
+  const auto joined = [](ParameterList list, const ParameterList& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+  };
+  const auto optional_values = [] {
+    ParameterInfo values = parameters_of<terms::GuideValues>().front();
+    values.allowed.required = false;  // only of a raster
+    return values;
+  };
+  ParameterList spectral = joined(parameters_of<terms::Spectral>(), parameters_of<terms::Strength>());
+  spectral.push_back(section_info("rough", "mask of rough places, octave by octave", mask));
+  const ParameterList bodies = parameters_of<terms::Bodies>(), marks = parameters_of<terms::Marks>();
+  ParameterList list = parameters_of<terms::Common>();
+  list.push_back(section_info("mask", "where it applies; heights are multiplied by it", mask));
+  list.push_back(section_info("plane", "a plane", parameters_of<terms::Plane>()));
+  list.push_back(section_info("ramp", "a ramp or a step", parameters_of<terms::Ramp>()));
+  list.push_back(section_info("wave", "a cosine", parameters_of<terms::Wave>()));
+  list.push_back(section_info("sphere", "a sphere in a level bottom", parameters_of<terms::Sphere>()));
+  list.push_back(section_info("guide", "a macro shape from a file",
+                              joined(parameters_of<terms::GuideFiles>(), {optional_values()})));
+  list.push_back(section_info("restored", "detail that a guide of coarse cells lacks", parameters_of<terms::Restored>()));
+  list.push_back(section_info("ridge", "a ridge or a trough", parameters_of<terms::Ridge>()));
+  list.push_back(section_info("spectral", "relief of a spectrum, plain or multifractal", spectral));
+  list.push_back(section_info("ripples", "ripples or dunes", parameters_of<terms::Ripples>()));
+  list.push_back(section_info("boulders", "boulders", bodies));
+  list.push_back(section_info("mounds", "mounds", bodies));
+  list.push_back(section_info("pockmarks", "pockmarks", bodies));
+  list.push_back(section_info("trawl_scars", "pairs of furrows", joined(marks, parameters_of<terms::Spacing>())));
+  list.push_back(section_info("anchor_drags", "single furrows", marks));
+  list.push_back(section_info("dredged", "a channel, cut into the seabed", parameters_of<terms::Dredged>()));
+  return list;
+}
 
 std::vector<std::uint8_t> read_classes(ConfigReader& from, const char* key) {
   std::vector<double> numbers;

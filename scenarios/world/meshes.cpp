@@ -2,34 +2,93 @@
 
 #include <array>
 
+#include "components/config/read_parameters.h"
 #include "scenarios/world/sections.h"
 
 namespace ensonify {
 namespace {
-
-using frames::Vec3;
 
 void check_vertices(const ConfigReader& from, const char* key, double vertices) {
   constexpr double kMost = 500'000;
   if (vertices > kMost) from.problem(key, fmt::format("makes {:.0f} vertices; allowed: {:.0f}", vertices, kMost));
 }
 
-frames::Vec2 read_place(ConfigReader& from, const char* key) {
-  std::array<double, 2> place{};
-  from.required(key, place, -kFarAway_m, kFarAway_m);
-  return {place[0], place[1]};
-}
+const Allowed kPlace = in(-kFarAway_m, kFarAway_m);
+
+struct Wall : progressive::SheetPileWall {
+  static void parameters(auto& self, auto&& visit) {
+    visit("from_m", "m", must(kPlace), "east, north of one end", self.from_enu_m);
+    visit("to_m", "m", must(kPlace), "east, north of the other end", self.to_enu_m);
+    visit("foot_depth_m", "m", in(-100, 11000), "below chart datum: in the seabed", self.foot_depth_m);
+    visit("top_height_m", "m", in(-11000, 100), "above chart datum", self.top_height_m);
+    visit("pile_width_m", "m", in(0.1, 10), "from interlock to interlock, along the wall", self.pile_width_m);
+    visit("profile_depth_m", "m", in(0.01, 10), "across the wall, from pan to pan", self.profile_depth_m);
+    visit("out_of_line_m", "m", in(0, 1), "standard deviation of a pile's place across the wall", self.out_of_line_m);
+    visit("row_m", "m", in(0.05, 100), "vertices up a pile are so far apart, or less", self.row_m);
+  }
+};
+
+struct BarInFile : progressive::Bar {
+  static void parameters(auto& self, auto&& visit) {
+    visit("from_m", "m", must(kPlace), "middle of one end: east, north, up", self.from_m);
+    visit("to_m", "m", must(kPlace), "middle of the other end: east, north, up", self.to_m);
+    visit("diameter_m", "m", computed(in(1e-3, 1e3)), "of a round one", self.diameter_m);
+    visit("section_m", "m", computed(in(1e-3, 1e3)), "instead: how wide it is, level and across it, and across both",
+          self.section_m);
+  }
+};
+
+struct RepeatInFile : progressive::Repeat {
+  static void parameters(auto& self, auto&& visit) {
+    visit("count", "", must(in(1, 10'000)), "number of bars in the row", self.count);
+    visit("step_m", "m", must(kPlace), "from one to the next: east, north, up", self.step_m);
+  }
+};
+
+struct StrewnInFile {
+  int count = StrewnCopies{}.count;
+  progressive::Strewn where;
+  std::array<double, 2> scale{where.least_scale, where.most_scale};
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("count", "", must(in(1, 100'000)), "number of copies", self.count);
+    visit("from_m", "m", must(kPlace), "east, north of one end of the rectangle's middle line", self.where.from_enu_m);
+    visit("to_m", "m", must(kPlace), "east, north of its other end", self.where.to_enu_m);
+    visit("width_m", "m", must(in(0, kFarAway_m)), "of the rectangle, across that line", self.where.width_m);
+    visit("scale", "", in(1e-3, 1e3), "sizes: [least, most]", self.scale);
+    visit("size_exponent", "", in(0.1, 10), "the number above a size goes as size to the power of minus this",
+          self.where.size_exponent);
+  }
+};
+
+struct OfMesh {
+  std::uint8_t sediment = SeabedMesh{}.sediment;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("sediment", "", in(0, 255), "class of all of it, one of seabed.sediments", self.sediment);
+  }
+};
+struct Unit {
+  double unit_m = SeabedMesh{}.unit_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("unit_m", "m", in(1e-6, 1e3), "metres in the file's unit", self.unit_m);
+  }
+};
+struct MeshPose {
+  frames::Vec3 position_m = frames::Vec3::Zero();
+  double heading_rad = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    // A file may have a map's coordinates.
+    visit("position_m", "m", in(-1e7, 1e7), "of the file's origin, or the bars': east, north, up", self.position_m);
+    visit("heading_deg", "deg", in(-360, 360), "of its y axis, clockwise from north", self.heading_rad);
+  }
+};
 
 progressive::SheetPileWall read_wall(ConfigReader from) {
-  progressive::SheetPileWall wall;
-  wall.from_enu_m = read_place(from, "from_m");
-  wall.to_enu_m = read_place(from, "to_m");
-  from.optional("foot_depth_m", wall.foot_depth_m, -100, 11000);
-  from.optional("top_height_m", wall.top_height_m, -11000, 100);
-  from.optional("pile_width_m", wall.pile_width_m, 0.1, 10);
-  from.optional("profile_depth_m", wall.profile_depth_m, 0.01, 10);
-  from.optional("out_of_line_m", wall.out_of_line_m, 0, 1);
-  from.optional("row_m", wall.row_m, 0.05, 100);
+  Wall wall;
+  read_parameters(from, wall);
   if (!from.good()) return wall;
   if ((wall.to_enu_m - wall.from_enu_m).norm() < wall.pile_width_m)
     from.problem("to_m", "is less than a pile's width from from_m");
@@ -39,24 +98,12 @@ progressive::SheetPileWall read_wall(ConfigReader from) {
   return wall;
 }
 
-Vec3 read_point(ConfigReader& from, const char* key) {
-  std::array<double, 3> point{};
-  from.required(key, point, -kFarAway_m, kFarAway_m);
-  return {point[0], point[1], point[2]};
-}
-
 progressive::Bar read_bar(ConfigReader from) {
-  progressive::Bar bar;
-  bar.from_m = read_point(from, "from_m");
-  bar.to_m = read_point(from, "to_m");
-  std::array<double, 2> section{};
-  from.optional("diameter_m", bar.diameter_m, 1e-3, 1e3);
-  from.optional("section_m", section, 1e-3, 1e3);
-  bar.section_m = {section[0], section[1]};
+  BarInFile bar;
+  read_parameters(from, bar);
   for (ConfigReader entry : from.list("repeat")) {
-    progressive::Repeat repeat;
-    entry.required("count", repeat.count, 1, 10'000);
-    repeat.step_m = read_point(entry, "step_m");
+    RepeatInFile repeat;
+    read_parameters(entry, repeat);
     bar.repeat.push_back(repeat);
   }
   if (from.has("diameter_m") == from.has("section_m")) from.problem("", "needs one of diameter_m, section_m");
@@ -73,18 +120,11 @@ std::vector<progressive::Bar> read_bars(const ConfigReader& from) {
 }
 
 StrewnCopies read_strewn(ConfigReader from) {
-  StrewnCopies strewn{.place = from.node().place};
-  progressive::Strewn& where = strewn.where;
-  std::array<double, 2> scale{where.least_scale, where.most_scale};
-  from.required("count", strewn.count, 1, 100'000);
-  where.from_enu_m = read_place(from, "from_m");
-  where.to_enu_m = read_place(from, "to_m");
-  from.required("width_m", where.width_m, 0, kFarAway_m);
-  from.optional("scale", scale, 1e-3, 1e3);
-  from.optional("size_exponent", where.size_exponent, 0.1, 10);
-  strewn.on = read_classes(from, "on");
-  where.least_scale = scale[0], where.most_scale = scale[1];
-  if (scale[0] > scale[1]) from.problem("scale", "falls; allowed is [least, most]");
+  StrewnInFile file;
+  read_parameters(from, file);
+  StrewnCopies strewn{.count = file.count, .where = file.where, .on = read_classes(from, "on"), .place = from.node().place};
+  strewn.where.least_scale = file.scale[0], strewn.where.most_scale = file.scale[1];
+  if (file.scale[0] > file.scale[1]) from.problem("scale", "falls; allowed is [least, most]");
   return strewn;
 }
 
@@ -100,7 +140,9 @@ std::string ways_of(const ConfigReader& from) {
 SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& seabed) {
   SeabedMesh mesh;
   mesh.name = name;
-  from.optional("sediment", mesh.sediment, 0, 255);
+  OfMesh of;
+  read_parameters(from, of);
+  mesh.sediment = of.sediment;
   if (!seabed.sediments.contains(mesh.sediment)) from.problem("sediment", "is not a class of seabed.sediments");
   const std::string way = ways_of(from);
   if (way == "sheet_pile_wall") {
@@ -109,7 +151,9 @@ SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& s
   }
   if (way == "file") {
     from.required_path("file", mesh.file);
-    from.optional("unit_m", mesh.unit_m, 1e-6, 1e3);
+    Unit unit;
+    read_parameters(from, unit);
+    mesh.unit_m = unit.unit_m;
   } else if (way == "bars") {
     mesh.bars = read_bars(from);
   } else {
@@ -120,14 +164,28 @@ SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& s
     mesh.strewn = read_strewn(*strewn);
     return mesh;
   }
-  std::array<double, 3> position{};
-  from.optional("position_m", position, -1e7, 1e7);  // a file may have a map's coordinates
-  from.optional("heading_deg", mesh.heading_rad, -360, 360, kDegrees);
-  mesh.position_enu_m = {position[0], position[1], position[2]};
+  MeshPose pose;
+  read_parameters(from, pose);
+  mesh.position_enu_m = pose.position_m;
+  mesh.heading_rad = pose.heading_rad;
   return mesh;
 }
 
 }  // namespace
+
+ParameterList meshes_list() {
+  ParameterList bar = parameters_of<BarInFile>(), strewn = parameters_of<StrewnInFile>(), list = parameters_of<OfMesh>();
+  bar.push_back(list_info("repeat", "a row; two of them: a grid", parameters_of<RepeatInFile>()));
+  strewn.push_back(classes_info("on", "classes of the ground on which they stand; left out: all"));
+  list.push_back(file_info("file", "OBJ or PLY: x east, y north, z up", false));
+  for (const ParameterList& part : {parameters_of<Unit>(), parameters_of<MeshPose>()}) {
+    list.insert(list.end(), part.begin(), part.end());
+  }
+  list.push_back(section_info("sheet_pile_wall", "a quay wall of steel", parameters_of<Wall>()));
+  list.push_back(list_info("bars", "closed solids of one section from one place to another", bar));
+  list.push_back(section_info("strewn", "copies of the file or the bars on the ground", strewn));
+  return list;
+}
 
 void read_meshes(const ConfigReader& from, Seabed& seabed) {
   for (const auto& [name, mesh] : from.named_sections("meshes")) seabed.meshes.push_back(read_mesh(name, mesh, seabed));

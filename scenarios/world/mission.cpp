@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "scenarios/world/sections.h"
 #include "scenarios/world/world.h"
 
@@ -14,16 +14,52 @@ namespace {
 
 using runlines::Vec2;
 
-constexpr double kShortest_m = 1.0;       // less is no line
 constexpr double kWidestTurn_m = 1000.0;  // as turning_radius_m has: the largest ships need some hundred metres
+
+struct Positions {
+  bool geodetic = false;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("positions", "", one_of({{"metres", false}, {"geodetic", true}}),
+          "places are [east, north] from the site's origin, or [latitude, longitude] in degrees", self.geodetic);
+  }
+};
+
+/// A stay, whose key says whether it is at a place.
+struct Stay {
+  double for_s = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("for_s", "s", must(in(0, 1e6)), "how long the vehicle stays at the place", self.for_s);
+  }
+};
+struct Wait {
+  double for_s = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("wait_s", "s", must(in(0, 1e6)), "how long the vehicle stays where it is", self.for_s);
+  }
+};
+
+struct Lawnmower {
+  double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
+  int count = 0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("heading_deg", "deg", in(-360, 360), "of the first line", self.heading_rad);
+    visit("length_m", "m", must(in(1, kFarAway_m)), "length of a line", self.length_m);
+    visit("spacing_m", "m", must(in(0.1, kFarAway_m)), "from line to line", self.spacing_m);
+    visit("count", "", must(in(1, 1000)), "number of lines", self.count);
+  }
+};
 
 /// Reads places in the frame that the mission says.
 class Places {
  public:
   Places(ConfigReader& from, const std::optional<frames::Geodetic>& origin) {
-    bool geodetic = false;
-    from.optional_choice("positions", geodetic, {{"metres", false}, {"geodetic", true}});
-    if (!geodetic) return;
+    Positions positions;
+    read_parameters(from, positions);
+    if (!positions.geodetic) return;
     if (origin) {
       projection_.emplace(*origin);
     } else {
@@ -90,24 +126,13 @@ FollowLine read_line(ConfigReader& from, const Places& places) {
 
 FollowOrbit read_orbit(ConfigReader& from, const Places& places) {
   FollowOrbit orbit{places.required(from, "orbit")};
-  from.required("radius_m", orbit.radius_m, 1, 10000);
-  from.optional("turns", orbit.turns, 0.05, 1000);
-  from.optional_choice("centre_to", orbit.clockwise, {{"starboard", true}, {"port", false}});
+  read_parameters(from, orbit);
   return orbit;
 }
 
 SetSonar read_sonar(ConfigReader& from) {
   SetSonar sonar;
-  from.required("set_sonar", sonar.head);
-  from.optional("range_m", sonar.range_m, 0, 20000);
-  from.optional("source_level_db", sonar.source_level_db, 100, 260);
-  from.optional("pulse_length_s", sonar.pulse_length_s, 0, 1);
-  from.optional("gain_spreading_db", sonar.gain_spreading_db, 0, 60);
-  from.optional("gain_absorption_dbpm", sonar.gain_absorption_dbpm, 0, 1);
-  from.optional("gain_offset_db", sonar.gain_offset_db, -200, 200);
-  from.optional("swath_deg", sonar.swath_rad, 0.1, 360, kDegrees);
-  from.optional("ping_rate_hz", sonar.ping_rate_hz, 0.01, 200);
-  from.optional("mode", sonar.mode);
+  read_parameters(from, sonar);
   return sonar;
 }
 
@@ -117,29 +142,31 @@ MissionStep read_step(ConfigReader& from, const Places& places) {
   if (from.has("set_sonar")) return read_sonar(from);
   if (from.has("pass")) {
     PassPlace pass{places.required(from, "pass"), std::nullopt};
-    from.optional("heading_deg", pass.heading_rad, -360, 360, kDegrees);
+    read_parameters(from, pass);
     return pass;
   }
   if (from.has("keep") || from.has("wait_s")) {
     KeepPlace keep;
     if (from.has("keep")) {
+      Stay stay;
       keep.place_enu_m = places.required(from, "keep");
-      from.required("for_s", keep.for_s, 0, 1e6);
+      read_parameters(from, stay);
+      keep.for_s = stay.for_s;
     } else {
-      from.required("wait_s", keep.for_s, 0, 1e6);
+      Wait wait;
+      read_parameters(from, wait);
+      keep.for_s = wait.for_s;
     }
-    from.optional("within_m", keep.within_m, 0.5, 1000);
+    read_parameters(from, keep);
     return keep;
   }
   if (from.has("mark")) {
     SetMark mark;
-    from.required("mark", mark.text);
+    read_parameters(from, mark);
     return mark;
   }
   GoAt go;
-  from.optional("speed_mps", go.speed_mps, 0.01, 30);
-  from.optional("depth_m", go.depth_m, 0, 11000);
-  from.optional("altitude_m", go.altitude_m, 0.5, 1000);
+  read_parameters(from, go);
   if (go.depth_m && go.altitude_m) from.problem("altitude_m", "stands beside depth_m; give one or the other");
   if (!from.has("speed_mps") && !from.has("depth_m") && !from.has("altitude_m")) {
     from.problem("",
@@ -163,39 +190,17 @@ std::vector<runlines::Runline> read_lines(ConfigReader& from, const Places& plac
 
 std::vector<runlines::Runline> read_lawnmower(ConfigReader from, const Places& places) {
   Vec2 centre(0, 0);
-  double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
-  int count = 0;
+  Lawnmower rows;
   if (from.has("centre_m")) centre = places.required(from, "centre_m");
-  from.optional("heading_deg", heading_rad, -360, 360, kDegrees);
-  from.required("length_m", length_m, 1, kFarAway_m);
-  from.required("spacing_m", spacing_m, 0.1, kFarAway_m);
-  from.required("count", count, 1, 1000);
-  return from.good() ? runlines::lawnmower(centre, heading_rad, length_m, spacing_m, count)
+  read_parameters(from, rows);
+  return from.good() ? runlines::lawnmower(centre, rows.heading_rad, rows.length_m, rows.spacing_m, rows.count)
                      : std::vector<runlines::Runline>{};
-}
-
-AutoPlan read_auto(ConfigReader from) {
-  AutoPlan plan;
-  from.optional("count", plan.count, 1, 1000);
-  from.optional("longest_m", plan.longest_m, 1, kFarAway_m);
-  from.optional("overlap", plan.overlap, 0, 0.95);
-  from.optional("swath_deg", plan.swath_rad, 1, 170, kDegrees);
-  from.optional("spacing_m", plan.spacing_m, 0.1, kFarAway_m);
-  from.optional("heading_deg", plan.heading_rad, -360, 360, kDegrees);
-  return plan;
 }
 
 AdaptivePlan read_adaptive(ConfigReader from, const Places& places) {
   AdaptivePlan plan;
   plan.centre_enu_m = places.required(from, "centre_m");
-  from.optional("heading_deg", plan.heading_rad, -360, 360, kDegrees);
-  from.required("length_m", plan.length_m, kShortest_m, kFarAway_m);
-  from.required("width_m", plan.width_m, 1, kFarAway_m);
-  from.required("first_line_m", plan.first_line_m, 0, kFarAway_m);
-  from.optional("swath_deg", plan.swath_rad, 10, 160, kDegrees);
-  from.optional("overlap", plan.overlap, 0, 0.9);
-  from.optional("cell_m", plan.cell_m, 0.1, 1000);
-  from.optional("soundings", plan.soundings, 1, 10000);
+  read_parameters(from, plan);
   if (from.good() && plan.first_line_m > plan.width_m) from.problem("first_line_m", "lies beyond width_m");
   if (from.good() && plan.length_m * plan.width_m > 4e6 * plan.cell_m * plan.cell_m) {
     from.problem("cell_m", "makes more than 4 million cells; allowed: larger cells or a smaller rectangle");
@@ -209,25 +214,11 @@ int read_keys(ConfigReader& from, const std::optional<frames::Geodetic>& origin,
     from.problem("speed_kn", "stands beside speed_mps; give one or the other");
   }
   const Places places(from, origin);
-  from.optional("speed_mps", mission.speed_mps, 0.01, 30);
-  from.optional("speed_kn", mission.speed_mps, 0.02, 58, kKnots);
-  from.optional("depth_m", mission.depth_m, 0, 11000);
-  from.optional("altitude_m", mission.altitude_m, 0.5, 1000);
-  from.optional("least_altitude_m", mission.least_altitude_m, 0, 1000);
-  from.optional("run_in_m", mission.run_in_m, 0, 10000);
-  from.optional("run_out_m", mission.run_out_m, 0, 10000);
-  from.optional("repeat", mission.repeat, 1, 100000);
-  if (const auto section = from.optional_section("abort")) {
-    ConfigReader abort = *section;
-    abort.optional("after_s", mission.abort.after_s, 0, 1e9);
-    abort.optional("position_sd_m", mission.abort.position_sd_m, 0.01, 1e6);
-    abort.optional("too_low_s", mission.abort.too_low_s, 0, 1e6);
-  }
+  read_parameters(from, mission);
   if (from.has("runlines")) mission.steps = steps_of(read_lines(from, places));
   if (const auto section = from.optional_section("lawnmower")) {
     mission.steps = steps_of(read_lawnmower(*section, places));
   }
-  if (const auto section = from.optional_section("auto")) mission.auto_plan = read_auto(*section);
   if (const auto section = from.optional_section("adaptive")) {
     mission.adaptive = read_adaptive(*section, places);
     if (from.good()) mission.steps = steps_of({first_line(*mission.adaptive)});
@@ -267,7 +258,50 @@ void check_altitudes(const ConfigReader& from, const Mission& mission) {
   }
 }
 
+ParameterInfo place_info(const std::string& key, const std::string& about, bool required = true) {
+  return numbers_info(key, about + ", as positions says", 2, required);
+}
+
+ParameterList with(ParameterInfo first, ParameterList rest) {
+  rest.insert(rest.begin(), std::move(first));
+  return rest;
+}
+
+/// What a step can be. Which keys belong to each other is told by the step's own key.
+ParameterList step_list() {
+  ParameterList stay = parameters_of<Stay>(), wait = parameters_of<Wait>();
+  stay.push_back(parameters_of<KeepPlace>().front());
+  wait.push_back(parameters_of<KeepPlace>().front());
+  const std::vector<std::pair<const char*, ParameterList>> forms = {
+      {"line", {rows_info("line", "two places or more, run through with run-in and run-out", 2, true)}},
+      {"pass", with(place_info("pass", "a place that is passed through"), parameters_of<PassPlace>())},
+      {"keep", with(place_info("keep", "a place to stop and stay at"), stay)},
+      {"wait_s", wait},
+      {"orbit", with(place_info("orbit", "centre of a circle"), parameters_of<FollowOrbit>())},
+      {"set_sonar", parameters_of<SetSonar>()},
+      {"mark", parameters_of<SetMark>()},
+      {"", parameters_of<GoAt>()}};
+  ParameterList either;
+  for (const auto& [key, form] : forms) either.push_back(section_info(key, "", form));
+  return either;
+}
+
 }  // namespace
+
+ParameterList mission_list() {
+  ParameterList list = parameters_of<Positions>();
+  for (ParameterInfo& info : parameters_of<Mission>()) list.push_back(std::move(info));
+  list.push_back(file_info("file", "a mission of its own, mission/1; what stands beside it counts", false));
+  list.push_back(list_info("runlines", "straight lines in their order",
+                           {place_info("from_m", "start of the line"), place_info("to_m", "end of the line")}));
+  list.push_back(section_info("lawnmower", "parallel lines, to and fro",
+                              with(place_info("centre_m", "middle of all lines; left out: the origin", false),
+                                   parameters_of<Lawnmower>())));
+  list.push_back(section_info("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends",
+                              with(place_info("centre_m", "middle of the rectangle"), parameters_of<AdaptivePlan>())));
+  list.push_back(forms_info("steps", "what is done, in order", step_list()));
+  return list;
+}
 
 std::vector<MissionStep> steps_of(const std::vector<runlines::Runline>& lines) {
   std::vector<MissionStep> steps;

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/config/parameters.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/runlines/runline.h"
@@ -13,27 +14,52 @@ namespace ensonify {
 
 class ConfigReader;
 
+inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
+inline constexpr double kShortest_m = 1.0;    // less is no line
+
 /// `auto` in the file: runlines laid over an imported raster by whoever can read it.
 struct AutoPlan {
   int count = 5;
   double longest_m = 500.0;
-  double overlap = 0.2;                // of neighbouring swaths, 0..1
-  double swath_rad = 2.2689280275926;  // 130 deg, from which the spacing follows
-  std::optional<double> spacing_m;     // given: instead of the overlap
-  std::optional<double> heading_rad;   // given: instead of the longer side of the data
+  double overlap = 0.2;
+  double swath_rad = 2.2689280275926;  // 130 deg
+  std::optional<double> spacing_m;
+  std::optional<double> heading_rad;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("count", "", in(1, 1000), "number of lines", self.count);
+    visit("longest_m", "m", in(1, kFarAway_m), "a line is not longer", self.longest_m);
+    visit("overlap", "", in(0, 0.95), "of neighbouring swaths", self.overlap);
+    visit("swath_deg", "deg", in(1, 170), "full angle of the swath, from which the spacing follows", self.swath_rad);
+    visit("spacing_m", "m", in(0.1, kFarAway_m), "instead of the overlap", self.spacing_m);
+    visit("heading_deg", "deg", in(-360, 360), "instead of along the longer side of the data", self.heading_rad);
+  }
 };
 
 /// `adaptive` in the file: parallel lines over a rectangle, each laid where the coverage so far ends.
 struct AdaptivePlan {
   runlines::Vec2 centre_enu_m = runlines::Vec2::Zero();
-  double heading_rad = 0.0;            // of the first line; the survey goes on to starboard of it
-  double length_m = 100.0;             // of a line
-  double width_m = 100.0;              // of the rectangle, across the lines
-  double first_line_m = 0.0;           // distance of the first line from the rectangle's port edge
-  double swath_rad = 2.0943951023932;  // full angle that counts on, 120 deg
-  double overlap = 0.1;                // of a half swath with what is covered, 0..1
-  double cell_m = 4.0;                 // side of a cell of the coverage
-  int soundings = 9;                   // accepted ones that a covered cell has at least
+  double heading_rad = 0.0;
+  double length_m = 100.0;
+  double width_m = 100.0;
+  double first_line_m = 0.0;
+  double swath_rad = 2.0943951023932;  // 120 deg
+  double overlap = 0.1;
+  double cell_m = 4.0;
+  int soundings = 9;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("heading_deg", "deg", in(-360, 360), "of the first line; the survey goes on to starboard of it",
+          self.heading_rad);
+    visit("length_m", "m", must(in(kShortest_m, kFarAway_m)), "length of a line", self.length_m);
+    visit("width_m", "m", must(in(1, kFarAway_m)), "of the rectangle, across the lines", self.width_m);
+    visit("first_line_m", "m", must(in(0, kFarAway_m)), "distance of the first line from the rectangle's port edge",
+          self.first_line_m);
+    visit("swath_deg", "deg", in(10, 160), "full angle of the swath that counts", self.swath_rad);
+    visit("overlap", "", in(0, 0.9), "of a half swath with what is covered", self.overlap);
+    visit("cell_m", "m", in(0.1, 1000), "side of a cell of the coverage", self.cell_m);
+    visit("soundings", "", in(1, 10000), "accepted ones that a covered cell has at least", self.soundings);
+  }
 };
 
 // --- the steps of a mission, in the order run -------------------------------------------------------------------
@@ -46,55 +72,114 @@ struct FollowLine {
 struct PassPlace {
   runlines::Vec2 place_enu_m;
   std::optional<double> heading_rad;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("heading_deg", "deg", in(-360, 360), "heading there; left out: any", self.heading_rad);
+  }
 };
 /// Go to a place (not given: where the vehicle is), stop and stay there.
 struct KeepPlace {
   std::optional<runlines::Vec2> place_enu_m;
   double for_s = 0.0;
   double within_m = 5.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("within_m", "m", in(0.5, 1000), "how near to the place the vehicle stays", self.within_m);
+  }
 };
 struct FollowOrbit {
   runlines::Vec2 centre_enu_m;
   double radius_m = 0.0;
   double turns = 1.0;
-  bool clockwise = true;  // the centre to starboard
+  bool clockwise = true;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("radius_m", "m", must(in(1, 10000)), "radius of the orbit", self.radius_m);
+    visit("turns", "", in(0.05, 1000), "number of rounds", self.turns);
+    visit("centre_to", "", one_of({{"starboard", true}, {"port", false}}), "side on which the centre lies",
+          self.clockwise);
+  }
 };
 /// Speed and depth from here on; what is not given stays. A depth ends an altitude and the other way round.
 struct GoAt {
   std::optional<double> speed_mps, depth_m, altitude_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("speed_mps", "m/s", in(0.01, 30), "speed from here on", self.speed_mps);
+    visit("depth_m", "m", in(0, 11000), "depth from here on, below the water level", self.depth_m);
+    visit("altitude_m", "m", in(0.5, 1000), "altitude above the bottom from here on", self.altitude_m);
+  }
 };
 struct SetSonar {
   std::string head;
   std::optional<double> range_m, source_level_db, pulse_length_s, gain_spreading_db, gain_absorption_dbpm,
       gain_offset_db, swath_rad, ping_rate_hz;
   std::string mode;  // "": stays
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("set_sonar", "", must(any()), "the head", self.head);
+    visit("range_m", "m", in(0, 20000), "longest range", self.range_m);
+    visit("source_level_db", "dB", in(100, 260), "re 1 uPa at 1 m", self.source_level_db);
+    visit("pulse_length_s", "s", in(0, 1), "length of the transmitted pulse", self.pulse_length_s);
+    visit("gain_spreading_db", "dB", in(0, 60), "gain per decade of range", self.gain_spreading_db);
+    visit("gain_absorption_dbpm", "dB/m", in(0, 1), "gain against absorption", self.gain_absorption_dbpm);
+    visit("gain_offset_db", "dB", in(-200, 200), "constant gain", self.gain_offset_db);
+    visit("swath_deg", "deg", in(0.1, 360), "width of the swath", self.swath_rad);
+    visit("ping_rate_hz", "Hz", in(0.01, 200), "pings per second", self.ping_rate_hz);
+    visit("mode", "", computed(any()), "mode of the head; left out: it stays", self.mode);
+  }
 };
 struct SetMark {
   std::string text;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("mark", "", must(any()), "text of a mark in the record", self.text);
+  }
 };
 using MissionStep = std::variant<FollowLine, PassPlace, KeepPlace, FollowOrbit, GoAt, SetSonar, SetMark>;
 
 /// Rules for giving a mission up: come to the surface, stop and end the run. Not given: never.
 struct AbortRules {
-  std::optional<double> after_s;        // of sim time
-  std::optional<double> position_sd_m;  // estimated, the larger horizontal axis
-  std::optional<double> too_low_s;      // this long below the least altitude in one piece
+  std::optional<double> after_s;  // of sim time
+  std::optional<double> position_sd_m;
+  std::optional<double> too_low_s;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("after_s", "s", in(0, 1e9), "so long after the start of the run", self.after_s);
+    visit("position_sd_m", "m", in(0.01, 1e6), "estimated standard deviation of position, the larger horizontal axis",
+          self.position_sd_m);
+    visit("too_low_s", "s", in(0, 1e6), "this long below the least altitude in one piece", self.too_low_s);
+  }
 };
 
 struct Mission {
   double speed_mps = 2.0;
-  double depth_m = 0.0;  // of the vehicle's reference point below the water level
-  std::optional<double>
-      altitude_m;                 // above the bottom, by the altimeter; given: instead of the depth, once it is known
-  double least_altitude_m = 0.0;  // obstacle floor; 0: none
+  double depth_m = 0.0;
+  std::optional<double> altitude_m;
+  double least_altitude_m = 0.0;
   double run_in_m = 10.0;
   double run_out_m = 0.0;
-  int repeat = 1;                           // times that the steps are run
+  int repeat = 1;
   std::vector<MissionStep> steps;           // in order; lawnmowers are already laid out
   std::vector<runlines::Runline> runlines;  // all straight pieces of the steps' lines, in order
   std::optional<AutoPlan> auto_plan;        // set: `steps` is empty until it has been resolved
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
   AbortRules abort;
+
+  /// What of it has one value; plans are read by read_mission().
+  static void parameters(auto& self, auto&& visit) {
+    visit("speed_mps", "m/s", in(0.01, 30), "speed through the water", self.speed_mps);
+    visit("speed_kn", "kn", computed(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
+    visit("depth_m", "m", in(0, 11000), "of the vehicle's reference point below the water level", self.depth_m);
+    visit("altitude_m", "m", in(0.5, 1000), "above the bottom, by the altimeter; instead of the depth, once it is known",
+          self.altitude_m);
+    visit("least_altitude_m", "m", in(0, 1000), "obstacle floor; 0: none", self.least_altitude_m);
+    visit("run_in_m", "m", in(0, 10000), "straight way before each line", self.run_in_m);
+    visit("run_out_m", "m", in(0, 10000), "straight way behind each line", self.run_out_m);
+    visit("repeat", "", in(1, 100000), "times that the steps are run", self.repeat);
+    visit("abort", "rules for giving the mission up: come to the surface, stop and end the run", self.abort);
+    visit("auto", "lines laid over an imported raster", self.auto_plan);
+  }
   /// Depth at which each of `runlines` is run, below the water level; nothing where the bottom is followed.
   std::vector<std::optional<double>> runline_depths_m() const;
   std::vector<std::string> sonars() const;  // heads that SetSonar names, in order, each once

@@ -6,9 +6,9 @@
 
 namespace ensonify {
 
-Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& process) {
-  std::string wanted, names;
-  from.optional("vehicle", wanted);
+Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::string& process,
+                    const std::string& wanted) {
+  std::string names;
   const auto find = [&](const std::string& name) {
     return std::find_if(world.vehicles.begin(), world.vehicles.end(),
                         [&](const Vehicle& vehicle) { return vehicle.name == name; });
@@ -25,6 +25,12 @@ Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& p
     from.problem("vehicle", "\"" + wanted + "\" is no vehicle of the scenario; allowed: " + names);
   }
   return {};
+}
+
+Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& process) {
+  std::string wanted;
+  from.optional("vehicle", wanted);
+  return own_vehicle(from, world, process, wanted);
 }
 
 }  // namespace ensonify

@@ -6,8 +6,12 @@
 
 namespace ensonify {
 
-/// The vehicle that a process belongs to: the one that its configuration names under `vehicle`, else the one that has
-/// the process's name, else the scenario's only one. Anything else is a problem of `from`, and the result a default.
+/// The vehicle that a process belongs to: the one that its configuration names under `vehicle` (`wanted`), else the one
+/// that has the process's name, else the scenario's only one. Anything else is a problem of `from`, and the result a
+/// default.
+Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::string& process,
+                    const std::string& wanted);
+/// The same, for who has no list with that parameter.
 Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& process);
 
 }  // namespace ensonify

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "components/config/read_parameters.h"
 #include "components/config/scalars.h"
 #include "scenarios/world/facet_slope.h"
 #include "scenarios/world/sections.h"
@@ -16,11 +17,7 @@ double ratio_of(double db) { return std::pow(10.0, 0.1 * db); }
 
 LayeredSeabed read_layered(ConfigReader& from) {
   LayeredSeabed seabed;
-  std::array<double, 2> size{seabed.size_m.x(), seabed.size_m.y()}, centre{};
-  from.optional("size_m", size, 0.1, kFarAway_m);
-  from.optional("centre_m", centre, -kFarAway_m, kFarAway_m);
-  seabed.size_m = {size[0], size[1]};
-  seabed.centre_enu_m = {centre[0], centre[1]};
+  read_parameters(from, seabed);
   if (from.has("layers")) seabed.layers = read_layers(from);
   if (seabed.layers.empty()) from.problem("layers", "is empty; at least one layer is needed");
   return seabed;
@@ -28,13 +25,7 @@ LayeredSeabed read_layered(ConfigReader& from) {
 
 RasterSeabed read_raster(ConfigReader from) {
   RasterSeabed raster;
-  from.required_path("path", raster.path);
-  from.required_choice("values", raster.values,
-                       {{"elevation", RasterSeabed::Values::kElevation}, {"depth", RasterSeabed::Values::kDepth}});
-  from.optional_choice("holes", raster.holes,
-                       {{"refuse", RasterSeabed::Holes::kRefuse},
-                        {"keep", RasterSeabed::Holes::kKeep},
-                        {"fill", RasterSeabed::Holes::kFill}});
+  read_parameters(from, raster);
   return raster;
 }
 
@@ -52,30 +43,69 @@ std::optional<seabed::SedimentParameters> read_name(ConfigReader& from, const st
 }
 
 /// The six parameters, within the limits that TR 9407 states.
-seabed::SedimentParameters read_parameters(ConfigReader& from) {
-  seabed::SedimentParameters sediment;
-  from.required("density_ratio", sediment.density_ratio, 1, 3);
-  from.required("sound_speed_ratio", sediment.sound_speed_ratio, 0.8, 3);
-  from.required("loss", sediment.loss, 1e-6, 0.1);
-  from.required("volume_parameter", sediment.volume_parameter, 0, 1);
-  from.optional("spectral_exponent", sediment.spectral_exponent, 2.4, 3.9);
-  from.required("spectral_strength_cm4", sediment.spectral_strength_cm4, 1e-9, 1);
-  return sediment;
-}
+struct SixParameters : seabed::SedimentParameters {
+  static void parameters(auto& self, auto&& visit) {
+    visit("density_ratio", "", must(in(1, 3)), "of the sediment over the water's", self.density_ratio);
+    visit("sound_speed_ratio", "", must(in(0.8, 3)), "of the sediment over the water's", self.sound_speed_ratio);
+    visit("loss", "", must(in(1e-6, 0.1)), "imaginary over real wavenumber in the sediment", self.loss);
+    visit("volume_parameter", "", must(in(0, 1)), "volume scattering over attenuation cross section",
+          self.volume_parameter);
+    visit("spectral_exponent", "", in(2.4, 3.9), "of the relief spectrum", self.spectral_exponent);
+    visit("spectral_strength_cm4", "", must(in(1e-9, 1)), "of the relief spectrum, in cm^4", self.spectral_strength_cm4);
+  }
+};
 
-seabed::Gsab read_gsab(ConfigReader from) {
+struct GsabInFile {
   double specular_db = 0.0, diffuse_db = 0.0;
   std::optional<double> transition_db;
   seabed::Gsab curve;
-  from.required("specular_db", specular_db, -100, 20);
-  from.required("specular_width_deg", curve.specular_width_rad, 0.1, 90, kDegrees);
-  from.required("diffuse_db", diffuse_db, -100, 0);
-  from.optional("diffuse_exponent", curve.diffuse_exponent, 0, 20);
-  from.optional("transition_db", transition_db, -100, 20);
-  from.optional("transition_width_deg", curve.transition_width_rad, 0.1, 90, kDegrees);
-  curve.specular = ratio_of(specular_db);
-  curve.diffuse = ratio_of(diffuse_db);
-  if (transition_db) curve.transition = ratio_of(*transition_db);
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("specular_db", "dB", must(in(-100, 20)), "level at normal incidence", self.specular_db);
+    visit("specular_width_deg", "deg", must(in(0.1, 90)), "width of the specular peak", self.curve.specular_width_rad);
+    visit("diffuse_db", "dB", must(in(-100, 0)), "level of the diffuse part", self.diffuse_db);
+    visit("diffuse_exponent", "", in(0, 20), "of the cosine of incidence; 2 is Lambert's law",
+          self.curve.diffuse_exponent);
+    visit("transition_db", "dB", in(-100, 20), "level of a shoulder at moderate incidence; left out: none",
+          self.transition_db);
+    visit("transition_width_deg", "deg", in(0.1, 90), "width of that shoulder", self.curve.transition_width_rad);
+  }
+};
+
+struct Diffuser {
+  seabed::Lambert lambert;
+
+  static void parameters(auto& self, auto&& visit) {
+    // A perfect diffuser has -4.97 dB.
+    visit("lambert_mu_db", "dB", must(in(-60, -4.97)), "Lambert's law with this strength at normal incidence",
+          self.lambert.mu_db);
+  }
+};
+struct Grain {
+  double size_phi = 1.5;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("grain_size_phi", "", must(in(-1, 9)), "the sediment by its mean grain size", self.size_phi);
+  }
+};
+struct OfSediment {
+  bool capped = false;
+  std::optional<double> slope_deg;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("capped", "", any(), "no more than a diffuse reflector returns: for rock above 100 kHz", self.capped);
+    visit("facet_slope_deg", "", in(0, 35), "slope of facets in degrees: what of the relief the heights have",
+          self.slope_deg);
+  }
+};
+
+seabed::Gsab read_gsab(ConfigReader from) {
+  GsabInFile file;
+  read_parameters(from, file);
+  seabed::Gsab curve = file.curve;
+  curve.specular = ratio_of(file.specular_db);
+  curve.diffuse = ratio_of(file.diffuse_db);
+  if (file.transition_db) curve.transition = ratio_of(*file.transition_db);
   return curve;
 }
 
@@ -93,23 +123,26 @@ std::optional<seabed::Scatterer> read_scatterer(ConfigReader from) {
     return std::nullopt;
   }
   if (way == "lambert_mu_db") {
-    seabed::Lambert lambert;
-    from.required("lambert_mu_db", lambert.mu_db, -60, -4.97);  // a perfect diffuser has -4.97 dB
-    return lambert;
+    Diffuser diffuser;
+    read_parameters(from, diffuser);
+    return diffuser.lambert;
   }
   if (way == "gsab") return read_gsab(from.section("gsab"));
   std::optional<seabed::SedimentParameters> sediment;
-  bool capped = false;
   if (way == "name") sediment = read_name(from, "name");
-  if (way == "density_ratio") sediment = read_parameters(from);
-  if (way == "grain_size_phi") {
-    double grain_size_phi = 1.5;
-    from.required("grain_size_phi", grain_size_phi, -1, 9);
-    sediment = seabed::sediment_of_grain_size(grain_size_phi);
+  if (way == "density_ratio") {
+    SixParameters six;
+    read_parameters(from, six);
+    sediment = six;
   }
-  from.optional("capped", capped);
-  std::optional<double> slope_deg;  // of facets: what of the relief the heights have
-  from.optional("facet_slope_deg", slope_deg, 0, 35);
+  if (way == "grain_size_phi") {
+    Grain grain;
+    read_parameters(from, grain);
+    sediment = seabed::sediment_of_grain_size(grain.size_phi);
+  }
+  OfSediment more;
+  read_parameters(from, more);
+  const auto& [capped, slope_deg] = more;
   if (!sediment) return std::nullopt;
   if (slope_deg && capped) return on_facets(seabed::CappedSediment{*sediment}, *slope_deg);
   if (slope_deg) return on_facets(*sediment, *slope_deg);
@@ -132,15 +165,43 @@ void read_sediments(ConfigReader from, Seabed& seabed) {
   }
 }
 
+Allowed names_of_sediments() {
+  Allowed names;
+  for (const auto& sediment : seabed::named_sediments()) names.words.emplace_back(std::string(sediment.name).c_str());
+  for (const auto& other : seabed::other_sediment_names()) names.words.emplace_back(std::string(other.first).c_str());
+  return names;
+}
+
+ParameterList sediment_list() {
+  ParameterList list{word_info("name", "a sediment of APL-UW TR 9407", names_of_sediments())};
+  const ParameterList gsab{section_info("gsab", "a curve of six numbers", parameters_of<GsabInFile>())};
+  for (const ParameterList& part : {parameters_of<Grain>(), parameters_of<SixParameters>(), parameters_of<Diffuser>(),
+                                    gsab, parameters_of<OfSediment>()}) {
+    for (ParameterInfo info : part) {
+      info.allowed.required = false;  // one of five ways
+      list.push_back(std::move(info));
+    }
+  }
+  return list;
+}
+
 }  // namespace
+
+ParameterList seabed_list() {
+  ParameterList list = parameters_of<Seabed>();
+  for (ParameterInfo& info : parameters_of<LayeredSeabed>()) list.push_back(std::move(info));
+  list.push_back(words_or_maps_info("sediments", "what the classes of posts are made of, by number", "^[0-9]+$",
+                                    names_of_sediments(), sediment_list()));
+  list.push_back(named_info("layers", "of a generated seabed, from the bottom up", layer_list()));
+  list.push_back(section_info("raster", "an imported raster", parameters_of<RasterSeabed>()));
+  list.push_back(section_info("tiles", "an imported tile set", {file_info("folder", "of the tile set")}));
+  list.push_back(named_info("meshes", "what stands in the seabed", meshes_list()));
+  return list;
+}
 
 Seabed read_seabed(ConfigReader from) {
   Seabed seabed;
-  from.required_choice(
-      "kind", seabed.kind,
-      {{"layers", Seabed::Kind::kLayers}, {"raster", Seabed::Kind::kRaster}, {"tiles", Seabed::Kind::kTiles}});
-  from.optional("post_spacing_m", seabed.post_spacing_m, 0.005, 100);
-  from.optional("lsb_m", seabed.lsb_m, 1e-6, 1);
+  read_parameters(from, seabed);
   if (const auto sediments = from.optional_section("sediments")) {
     read_sediments(*sediments, seabed);
   }

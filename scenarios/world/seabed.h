@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "components/config/config_error.h"
+#include "components/config/parameters.h"
 #include "kernels/mesh/progressive/bars.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
 #include "kernels/mesh/progressive/strewn.h"
 #include "kernels/seabed/law.h"
 #include "scenarios/world/layers.h"
+#include "scenarios/world/mission.h"
 
 namespace ensonify {
 
@@ -22,14 +24,27 @@ struct RasterSeabed {
   std::string path;  // as found on disk
   Values values = Values::kElevation;
   Holes holes = Holes::kRefuse;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("path", "", must(ensonify::path()), "a file that GDAL reads", self.path);
+    visit("values", "", must(one_of({{"elevation", Values::kElevation}, {"depth", Values::kDepth}})),
+          "positive up or down", self.values);
+    visit("holes", "", one_of({{"refuse", Holes::kRefuse}, {"keep", Holes::kKeep}, {"fill", Holes::kFill}}),
+          "posts without a value", self.holes);
+  }
 };
 
 /// A seabed generated from layers, from the bottom up.
 struct LayeredSeabed {
-  std::uint64_t seed = 0;                                                             // the scenario's
-  frames::Vec2 size_m{600.0, 600.0};                                                  // east, north
-  frames::Vec2 centre_enu_m{0.0, 0.0};                                                // of that rectangle
+  std::uint64_t seed = 0;  // the scenario's
+  frames::Vec2 size_m{600.0, 600.0};
+  frames::Vec2 centre_enu_m{0.0, 0.0};
   std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("size_m", "m", in(0.1, kFarAway_m), "of a generated seabed: east, north", self.size_m);
+    visit("centre_m", "m", in(-kFarAway_m, kFarAway_m), "of that rectangle: east, north", self.centre_enu_m);
+  }
 };
 
 /// Copies that stand on the ground, each with its origin at the ground's height.
@@ -57,7 +72,7 @@ struct Seabed {
   enum class Kind { kLayers, kRaster, kTiles };
   Kind kind = Kind::kLayers;
   double post_spacing_m = 0.5;
-  double lsb_m = 2e-4;  // heights are whole multiples of this; a tile set has its own
+  double lsb_m = 2e-4;
   /// Sediments of the classes of posts. Class 0 is always there (medium sand unless it is given); a class that is
   /// not listed is as class 0.
   std::map<std::uint8_t, seabed::Scatterer> sediments = {{0, *seabed::sediment_of("medium sand")}};
@@ -65,6 +80,14 @@ struct Seabed {
   RasterSeabed raster;
   std::vector<SeabedMesh> meshes;  // in the order of the file
   std::string tiles_folder;        // a tile set (docs/manual/tiles.md), as found on disk
+
+  /// What of it has one value; the rest is read by read_seabed().
+  static void parameters(auto& self, auto&& visit) {
+    visit("kind", "", must(one_of({{"layers", Kind::kLayers}, {"raster", Kind::kRaster}, {"tiles", Kind::kTiles}})),
+          "generated from layers, or imported", self.kind);
+    visit("post_spacing_m", "m", in(0.005, 100), "distance between posts", self.post_spacing_m);
+    visit("lsb_m", "m", in(1e-6, 1), "heights are whole multiples of this; a tile set has its own", self.lsb_m);
+  }
 };
 
 }  // namespace ensonify

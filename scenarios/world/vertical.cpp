@@ -10,9 +10,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "components/config/scalars.h"
 #include "scenarios/world/motion.h"
+#include "scenarios/world/sections.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -32,16 +33,63 @@ std::ifstream opened(const std::string& path) {
   return in;
 }
 
+struct MeanLevel {
+  double mean_m = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("mean_m", "m", in(-kHighest_m, kHighest_m), "mean level above chart datum", self.mean_m);
+  }
+};
+
+struct ConstituentInFile {
+  double amplitude_m = 0.0, phase_rad = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("amplitude_m", "m", must(in(0, kHighest_m)), "with the nodal factor of the year", self.amplitude_m);
+    visit("phase_deg", "deg", in(-360, 360), "how far high water comes after reference_utc", self.phase_rad);
+  }
+};
+
+struct TideInFile {
+  double constant_m = 0.0;
+  std::string gauge;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("constant_m", "m", computed(in(-kHighest_m, kHighest_m)), "the same level always, above chart datum",
+          self.constant_m);
+    visit("gauge", "", computed(path()), "readings of a gauge: lines \"2025-06-01T12:00:00Z,1.35\"", self.gauge);
+  }
+};
+
+struct DatumsInFile {
+  struct Apart {
+    double constant_m = 0.0;
+    std::string grid;
+  };
+  Apart geoid, datum;
+
+  static void parameters(auto& self, auto&& visit) {
+    const Allowed range = in(-kFarthestApart_m, kFarthestApart_m);
+    visit("geoid_above_ellipsoid_m", "m", range, "the same everywhere", self.geoid.constant_m);
+    visit("geoid_above_ellipsoid_grid", "", computed(path()), "or an Esri ASCII grid in metres of the world",
+          self.geoid.grid);
+    visit("datum_above_geoid_m", "m", range, "chart datum, the same everywhere", self.datum.constant_m);
+    visit("datum_above_geoid_grid", "", computed(path()), "or an Esri ASCII grid in metres of the world",
+          self.datum.grid);
+  }
+};
+
 vertical::HarmonicTide read_harmonic(ConfigReader& from, double start_unix_s) {
   vertical::HarmonicTide tide;
-  from.optional("mean_m", tide.mean_m, -kHighest_m, kHighest_m);
+  MeanLevel mean;
+  read_parameters(from, mean);
+  tide.mean_m = mean.mean_m;
   for (auto& item : from.list("constituents")) {
-    vertical::Constituent constituent;
-    constituent.speed_radps = read_constituent_radps(item);
-    item.required("amplitude_m", constituent.amplitude_m, 0, kHighest_m);
-    item.optional("phase_deg", constituent.phase_rad, -360, 360, kDegrees);
-    constituent.phase_rad = phase_at_start_rad(item, constituent.phase_rad, constituent.speed_radps, start_unix_s);
-    tide.constituents.push_back(constituent);
+    ConstituentInFile constituent;
+    const double speed_radps = read_constituent_radps(item);
+    read_parameters(item, constituent);
+    tide.constituents.push_back({speed_radps, constituent.amplitude_m,
+                                 phase_at_start_rad(item, constituent.phase_rad, speed_radps, start_unix_s)});
   }
   return tide;
 }
@@ -53,13 +101,11 @@ vertical::Tide read_tide(ConfigReader from, double start_unix_s) {
                          "; give one of constant_m, constituents, gauge");
   }
   if (from.has("constituents")) return vertical::Tide(read_harmonic(from, start_unix_s));
-  double constant_m = 0.0;
-  from.optional("constant_m", constant_m, -kHighest_m, kHighest_m);
-  std::string path;
-  from.optional_path("gauge", path);
-  if (path.empty()) return vertical::Tide(constant_m);
+  TideInFile tide;
+  read_parameters(from, tide);
+  if (tide.gauge.empty()) return vertical::Tide(tide.constant_m);
   try {
-    return vertical::Tide(read_gauge(path, start_unix_s));
+    return vertical::Tide(read_gauge(tide.gauge, start_unix_s));
   } catch (const ConfigError& error) {
     from.add(error);
     return {};
@@ -69,15 +115,12 @@ vertical::Tide read_tide(ConfigReader from, double start_unix_s) {
 bool has_digit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
 
 /// A number of metres, or the path of a grid.
-vertical::Separation read_separation_of(ConfigReader& from, const char* metres, const char* grid) {
-  double constant_m = 0.0;
-  std::string path;
-  from.optional(metres, constant_m, -kFarthestApart_m, kFarthestApart_m);
-  from.optional_path(grid, path);
-  if (path.empty()) return vertical::Separation(constant_m);
+vertical::Separation separation_of(const ConfigReader& from, const DatumsInFile::Apart& apart, const char* metres,
+                                   const char* grid) {
+  if (apart.grid.empty()) return vertical::Separation(apart.constant_m);
   if (from.has(metres)) from.problem(grid, std::string("stands beside ") + metres + "; give one or the other");
   try {
-    return read_separation(path);
+    return read_separation(apart.grid);
   } catch (const ConfigError& error) {
     from.add(error);
     return {};
@@ -123,12 +166,25 @@ EsriHead read_esri_head(std::istream& in, const std::string& path) {
 
 }  // namespace
 
+ParameterList vertical_list() {
+  ParameterList constituent = constituent_list();
+  constituent.push_back(parameters_of<ConstituentInFile>().front());
+  ParameterList tide = parameters_of<TideInFile>();
+  tide.push_back(parameters_of<MeanLevel>().front());
+  tide.push_back(list_info("constituents", "harmonic constituents about the mean level", constituent));
+  ParameterList list = parameters_of<DatumsInFile>();
+  list.insert(list.begin(), section_info("tide", "one of constant_m, constituents, gauge", tide));
+  return list;
+}
+
 Vertical read_vertical(ConfigReader from, double start_unix_s) {
   Vertical result;
   if (const auto tide = from.optional_section("tide")) result.tide = read_tide(*tide, start_unix_s);
+  DatumsInFile datums;
+  read_parameters(from, datums);
   result.datums.geoid_above_ellipsoid =
-      read_separation_of(from, "geoid_above_ellipsoid_m", "geoid_above_ellipsoid_grid");
-  result.datums.datum_above_geoid = read_separation_of(from, "datum_above_geoid_m", "datum_above_geoid_grid");
+      separation_of(from, datums.geoid, "geoid_above_ellipsoid_m", "geoid_above_ellipsoid_grid");
+  result.datums.datum_above_geoid = separation_of(from, datums.datum, "datum_above_geoid_m", "datum_above_geoid_grid");
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/config/read_parameters.h"
 #include "scenarios/world/cast_file.h"
 #include "scenarios/world/sections.h"
 
@@ -15,10 +16,7 @@ std::vector<WaterSample> read_cast_of(ConfigReader& from) {
   if (const ConfigNode* node = from.node("cast"); node->is_map()) {
     ConfigReader cast = from.section("cast");
     cast.required_path("path", path);
-    cast.optional("depth_m", columns.depth_m);
-    cast.optional("sound_speed_mps", columns.sound_speed_mps);
-    cast.optional("temperature_degc", columns.temperature_degc);
-    cast.optional("salinity_psu", columns.salinity_psu);
+    read_parameters(cast, columns);
   } else {
     from.required_path("cast", path);
   }
@@ -35,11 +33,7 @@ std::vector<WaterSample> read_samples(ConfigReader& from) {
   std::vector<WaterSample> samples;
   for (auto& knot : from.list("profile")) {
     WaterSample sample;
-    using namespace sample_limits;
-    knot.required("depth_m", sample.depth_m, 0, kDeepest_m);
-    knot.optional("sound_speed_mps", sample.sound_speed_mps, kSlowest_mps, kFastest_mps);
-    knot.optional("temperature_degc", sample.temperature_degc, kColdest_degc, kWarmest_degc);
-    knot.optional("salinity_psu", sample.salinity_psu, 0, kSaltiest_psu);
+    read_parameters(knot, sample);
     if (!knot.has("sound_speed_mps") && !(knot.has("temperature_degc") && knot.has("salinity_psu"))) {
       knot.problem("", "needs sound_speed_mps, or temperature_degc and salinity_psu");
     }
@@ -54,7 +48,7 @@ std::vector<WaterSample> read_samples(ConfigReader& from) {
 /// One of sound_speed_mps, profile, cast.
 WaterProfile read_profile(ConfigReader& from) {
   WaterProfile profile;
-  from.optional("sound_speed_mps", profile.sound_speed_mps, sample_limits::kSlowest_mps, sample_limits::kFastest_mps);
+  read_parameters(from, profile);
   if (from.has("profile")) profile.samples = read_samples(from);
   if (from.has("cast")) {
     if (from.has("profile")) from.problem("cast", "stands beside profile; give one or the other");
@@ -66,18 +60,21 @@ WaterProfile read_profile(ConfigReader& from) {
   return profile;
 }
 
-water::ScatteringLayer read_layer(ConfigReader& from) {
-  water::ScatteringLayer layer{};
+/// One of the scattering layers as a file has it.
+struct LayerInFile {
   std::array<double, 2> depths_m{};
-  from.required("depth_m", depths_m, 0, sample_limits::kDeepest_m);
-  from.required("sv_db", layer.sv_db, -150, 0);
-  if (from.has("depth_m") && from.good() && depths_m[0] >= depths_m[1]) {
-    from.problem("depth_m", "is not [top, bottom] with the bottom below the top");
+  double sv_db = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("depth_m", "m", must(in(0, sample_limits::kDeepest_m)), "[top, bottom]", self.depths_m);
+    visit("sv_db", "dB", must(in(-150, 0)), "volume scattering strength re 1/m", self.sv_db);
   }
-  layer.top_depth_m = depths_m[0];
-  layer.bottom_depth_m = depths_m[1];
-  return layer;
-}
+  void check(const ConfigReader& from) const {
+    if (from.has("depth_m") && from.good() && depths_m[0] >= depths_m[1]) {
+      from.problem("depth_m", "is not [top, bottom] with the bottom below the top");
+    }
+  }
+};
 
 /// Warm and salt water at great depth may be beyond what a profile takes.
 void check_speeds(const ConfigReader& from, const Water& water, const WaterProfile& profile) {
@@ -94,18 +91,29 @@ void check_speeds(const ConfigReader& from, const Water& water, const WaterProfi
   }
 }
 
+ParameterList profile_list() {
+  ParameterList list = parameters_of<WaterProfile>();
+  list.push_back(list_info("profile", "samples; linear between them, constant beyond", parameters_of<WaterSample>()));
+  ParameterList cast = parameters_of<CastColumns>();
+  cast.insert(cast.begin(), file_info("path", "a text file with commas, semicolons or tabs between columns"));
+  list.push_back(file_or_info("cast", "a measured profile: its file, or a map with what the columns are called", cast));
+  return list;
+}
+
 }  // namespace
 
+ParameterList water_list() {
+  ParameterList list = parameters_of<Water>();
+  for (ParameterInfo& info : profile_list()) list.push_back(std::move(info));
+  list.push_back(section_info("applied", "the profile that soundings are corrected with; left out: the true one",
+                              profile_list()));
+  list.push_back(list_info("scattering_layers", "layers that scatter sound in the water", parameters_of<LayerInFile>()));
+  return list;
+}
+
 Water read_water(ConfigReader from) {
-  using namespace sample_limits;
   Water water;
-  from.optional("temperature_degc", water.temperature_degc, kColdest_degc, kWarmest_degc);
-  from.optional("salinity_psu", water.salinity_psu, 0, kSaltiest_psu);
-  from.optional("ph", water.ph, 6, 9);
-  from.optional_choice("sound_speed_law", water.sound_speed_law,
-                       {{"mackenzie", water::SoundSpeedLaw::kMackenzie},
-                        {"unesco", water::SoundSpeedLaw::kUnesco},
-                        {"del_grosso", water::SoundSpeedLaw::kDelGrosso}});
+  read_parameters(from, water);
   water.profile = read_profile(from);
   check_speeds(from, water, water.profile);
   if (auto applied = from.optional_section("applied")) {
@@ -115,14 +123,11 @@ Water read_water(ConfigReader from) {
       from.problem("applied", "needs sound_speed_mps, profile or cast");
     }
   }
-  from.optional_choice("absorption_law", water.absorption_law,
-                       {{"francois_garrison", water::AbsorptionLaw::kFrancoisGarrison},
-                        {"ainslie_mccolm", water::AbsorptionLaw::kAinslieMcColm}});
-  from.optional("absorption_db_per_km", water.absorption_dbpm, 0, 2000, FileUnit{1e-3});
-  from.optional("wind_speed_mps", water.wind_speed_mps, 0, 40);
-  from.optional("noise_level_db", water.noise_level_db, -100, 200);
-  for (auto& layer : from.list("scattering_layers")) water.scattering_layers.push_back(read_layer(layer));
-  from.optional("bubble_loss_db", water.bubble_loss_db, 0, 60);
+  for (auto& item : from.list("scattering_layers")) {
+    LayerInFile layer;
+    read_parameters(item, layer);
+    water.scattering_layers.push_back({layer.depths_m[0], layer.depths_m[1], layer.sv_db});
+  }
   return water;
 }
 

@@ -9,42 +9,86 @@
 #include <set>
 #include <stdexcept>
 
-#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
 #include "scenarios/world/motion.h"
 #include "scenarios/world/sections.h"
 
 namespace ensonify {
 namespace {
 
+struct Name {
+  std::string name = Site{}.name;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("name", "", any(), "name of the place", self.name);
+  }
+};
+struct OriginInRaster {
+  bool in_raster = false;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("origin", "", computed(one_of({{"raster", true}})),
+          "instead of the two: the raster's centre, or the tile set's own origin", self.in_raster);
+  }
+};
+struct Origin {
+  frames::Geodetic place;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("latitude_deg", "", must(in(-89.9, 89.9)), "of the world's origin, degrees north", self.place.latitude_deg);
+    visit("longitude_deg", "", must(in(-180, 180)), "of the world's origin, degrees east", self.place.longitude_deg);
+  }
+};
+
 Site read_site(ConfigReader from) {
   Site site;
-  from.optional("name", site.name);
+  Name name;
+  read_parameters(from, name);
+  site.name = name.name;
   if (from.has("origin")) {
-    std::string origin;
-    from.required_choice("origin", site.origin_from_raster, {{"raster", true}});
+    OriginInRaster origin;
+    read_parameters(from, origin);
+    site.origin_from_raster = origin.in_raster;
     if (from.has("latitude_deg") || from.has("longitude_deg")) {
       from.problem("origin", "stands beside latitude_deg or longitude_deg; give one or the other");
     }
     return site;
   }
-  from.required("latitude_deg", site.origin.latitude_deg, -89.9, 89.9);
-  from.required("longitude_deg", site.origin.longitude_deg, -180, 180);
+  Origin origin;
+  read_parameters(from, origin);
+  site.origin = origin.place;
   return site;
 }
 
-frames::Mounting read_mounting(ConfigReader from, frames::Mounting mounting = {}) {
-  std::array<double, 3> position{mounting.position_body_m.x(), mounting.position_body_m.y(),
-                                 mounting.position_body_m.z()};
+struct Angles {
   frames::Attitude turn;
-  if (from.has("roll_deg") || from.has("pitch_deg") || from.has("heading_deg")) {
-    from.optional("roll_deg", turn.roll_rad, -180, 180, kDegrees);
-    from.optional("pitch_deg", turn.pitch_rad, -90, 90, kDegrees);
-    from.optional("heading_deg", turn.heading_rad, -360, 360, kDegrees);
-    // The same three turns as a vehicle's attitude, from the body's axes instead of from north, east, down.
-    mounting.body_from_head = frames::canonical(frames::enu_from_ned().conjugate() * frames::enu_from_body(turn));
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("roll_deg", "deg", in(-180, 180), "starboard side down", self.turn.roll_rad);
+    visit("pitch_deg", "deg", in(-90, 90), "bow up", self.turn.pitch_rad);
+    visit("heading_deg", "deg", in(-360, 360), "to starboard", self.turn.heading_rad);
   }
-  from.optional("position_m", position, -500, 500);
-  mounting.position_body_m = {position[0], position[1], position[2]};
+};
+struct Place {
+  frames::Vec3 position_m = frames::Vec3::Zero();
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("position_m", "m", in(-500, 500), "from the vehicle's reference point: forward, starboard, down",
+          self.position_m);
+  }
+};
+
+frames::Mounting read_mounting(ConfigReader from, frames::Mounting mounting = {}) {
+  if (from.has("roll_deg") || from.has("pitch_deg") || from.has("heading_deg")) {
+    Angles angles;
+    read_parameters(from, angles);
+    // The same three turns as a vehicle's attitude, from the body's axes instead of from north, east, down.
+    mounting.body_from_head =
+        frames::canonical(frames::enu_from_ned().conjugate() * frames::enu_from_body(angles.turn));
+  }
+  Place place{mounting.position_body_m};
+  read_parameters(from, place);
+  mounting.position_body_m = place.position_m;
   return mounting;
 }
 
@@ -56,14 +100,44 @@ HeadMounting read_head(ConfigReader& from) {
   return head;
 }
 
-motion::Sinusoid read_sinusoid(ConfigReader from, const char* amplitude, double most, FileUnit unit) {
-  motion::Sinusoid wave;
-  wave.period_s = 6.0;
-  from.required(amplitude, wave.amplitude, 0.0, most, unit);
-  from.optional("period_s", wave.period_s, 0.2, 60);
-  from.optional("phase_deg", wave.phase_rad, -360, 360, kDegrees);
-  return wave;
+/// A regular wave as a file has it.
+void wave_parameters(auto& wave, auto&& visit, const char* amplitude, const char* unit, double most) {
+  visit(amplitude, unit, must(in(0, most)), "amplitude of the motion", wave.amplitude);
+  visit("period_s", "s", in(0.2, 60), "period of the wave", wave.period_s);
+  visit("phase_deg", "deg", in(-360, 360), "phase at the start", wave.phase_rad);
 }
+struct Roll : motion::Sinusoid {
+  Roll() { period_s = 6.0; }
+  static void parameters(auto& self, auto&& visit) {
+    wave_parameters(self, visit, "amplitude_deg", "deg", 60);
+  }
+};
+struct Heave : motion::Sinusoid {
+  Heave() { period_s = 6.0; }
+  static void parameters(auto& self, auto&& visit) {
+    wave_parameters(self, visit, "amplitude_m", "m", 20);
+  }
+};
+struct RegularWaves {
+  std::optional<Roll> roll;
+  std::optional<Heave> heave;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("roll", "a regular roll", self.roll);
+    visit("heave", "a regular heave", self.heave);
+  }
+};
+
+struct Start {
+  motion::State state;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("position_m", "m", must(in(-kFarAway_m, kFarAway_m)), "east, north, up from the water level",
+          self.state.position_enu_m);
+    visit("heading_deg", "deg", in(-360, 360), "heading at the start", self.state.heading_rad);
+    visit("speed_mps", "m/s", in(0, 30), "speed at the start", self.state.speed_mps);
+  }
+};
 
 void read_start(ConfigReader& from, Vehicle& vehicle) {
   const ConfigNode* start = from.node("start");
@@ -75,12 +149,9 @@ void read_start(ConfigReader& from, Vehicle& vehicle) {
     return;
   }
   auto section = from.section("start");
-  motion::State state;
-  std::array<double, 3> position{};
-  section.required("position_m", position, -kFarAway_m, kFarAway_m);
-  section.optional("heading_deg", state.heading_rad, -360, 360, kDegrees);
-  section.optional("speed_mps", state.speed_mps, 0, 30);
-  state.position_enu_m = {position[0], position[1], position[2]};
+  Start start_state;
+  read_parameters(section, start_state);
+  const motion::State& state = start_state.state;
   if (!vehicle.floats && state.position_enu_m.z() > 0.0) {
     section.problem("position_m", fmt::format("up {} is above the water; allowed: 0 or less, or a vehicle with floats",
                                               state.position_enu_m.z()));
@@ -88,32 +159,55 @@ void read_start(ConfigReader& from, Vehicle& vehicle) {
   vehicle.start = state;
 }
 
+struct VehicleKind {
+  bool by_forces = false;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("kind", "", one_of({{"kinematic", false}, {"hydrodynamic", true}}),
+          "moves as its limits say, or by forces as its dynamics say", self.by_forces);
+  }
+};
+struct Abilities {
+  motion::Limits limits;
+  double fastest_mps = Vehicle{}.fastest_mps;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("acceleration_mps2", "m/s^2", in(1e-3, 20), "speeding up", self.limits.acceleration_mps2);
+    visit("deceleration_mps2", "m/s^2", in(1e-3, 20), "slowing down", self.limits.deceleration_mps2);
+    visit("turning_radius_m", "m", in(0.1, 1000), "of the tightest circle", self.limits.turning_radius_m);
+    visit("turn_rate_dps", "deg/s", computed(in(0.01, 360)), "fastest turn; left out: none but the circle's",
+          self.limits.turn_rate_radps);
+    visit("turn_acceleration_dps2", "deg/s^2", in(0.1, 10000), "how fast a turn begins and ends",
+          self.limits.turn_acceleration_radps2);
+    visit("vertical_speed_mps", "m/s", in(1e-3, 20), "up and down", self.limits.vertical_speed_mps);
+    visit("vertical_acceleration_mps2", "m/s^2", in(1e-3, 20), "how fast climbs and dives begin and end",
+          self.limits.vertical_acceleration_mps2);
+    visit("fastest_mps", "m/s", in(0.01, 30), "speed through the water, at most", self.fastest_mps);
+  }
+  Abilities() {
+    limits.turn_acceleration_radps2 = 10.0 * kDegrees.si;  // assumed: a launch has its turn in a second or two
+    limits.vertical_acceleration_mps2 = 0.2;               // assumed: an AUV has its climb in two or three
+  }
+};
+
 Vehicle read_vehicle(const std::string& name, ConfigReader& from) {
   Vehicle vehicle;
   vehicle.name = name;
-  bool by_forces = false;
-  from.optional_choice("kind", by_forces, {{"kinematic", false}, {"hydrodynamic", true}});
-  if (by_forces) {
+  VehicleKind kind;
+  read_parameters(from, kind);
+  if (kind.by_forces) {
     from.required_path("dynamics", vehicle.dynamics_file);
   } else if (from.has("dynamics")) {
     from.problem("dynamics", "needs kind: hydrodynamic");
   }
-  from.optional("acceleration_mps2", vehicle.limits.acceleration_mps2, 1e-3, 20);
-  from.optional("deceleration_mps2", vehicle.limits.deceleration_mps2, 1e-3, 20);
-  from.optional("turning_radius_m", vehicle.limits.turning_radius_m, 0.1, 1000);
-  from.optional("turn_rate_dps", vehicle.limits.turn_rate_radps, 0.01, 360, kDegrees);
-  vehicle.limits.turn_acceleration_radps2 = 10.0 * kDegrees.si;  // assumed: a launch has its turn in a second or two
-  vehicle.limits.vertical_acceleration_mps2 = 0.2;               // assumed: an AUV has its climb in two or three
-  from.optional("turn_acceleration_dps2", vehicle.limits.turn_acceleration_radps2, 0.1, 10000, kDegrees);
-  from.optional("vertical_speed_mps", vehicle.limits.vertical_speed_mps, 1e-3, 20);
-  from.optional("vertical_acceleration_mps2", vehicle.limits.vertical_acceleration_mps2, 1e-3, 20);
-  from.optional("fastest_mps", vehicle.fastest_mps, 0.01, 30);
-  if (const auto roll = from.optional_section("roll")) {
-    vehicle.waves.roll_rad = read_sinusoid(*roll, "amplitude_deg", 60, kDegrees);
-  }
-  if (const auto heave = from.optional_section("heave")) {
-    vehicle.waves.heave_m = read_sinusoid(*heave, "amplitude_m", 20, kSi);
-  }
+  Abilities abilities;
+  read_parameters(from, abilities);
+  vehicle.limits = abilities.limits;
+  vehicle.fastest_mps = abilities.fastest_mps;
+  RegularWaves waves;
+  read_parameters(from, waves);
+  if (waves.roll) vehicle.waves.roll_rad = *waves.roll;
+  if (waves.heave) vehicle.waves.heave_m = *waves.heave;
   if (const auto disturbance = from.optional_section("disturbance")) {
     vehicle.disturbance = read_disturbance(*disturbance);
   }
@@ -239,6 +333,32 @@ void check_whole(ConfigReader& from, const World& world) {
 }
 
 }  // namespace
+
+ParameterList site_list() {
+  ParameterList list = parameters_of<Name>();
+  for (ParameterInfo& info : parameters_of<Origin>()) {
+    info.allowed.required = false;  // `origin` may stand instead
+    list.push_back(std::move(info));
+  }
+  list.push_back(parameters_of<OriginInRaster>().front());
+  return list;
+}
+
+ParameterList vehicle_list() {
+  ParameterList list = parameters_of<VehicleKind>(), mounting = parameters_of<Place>();
+  for (ParameterInfo& info : parameters_of<Angles>()) mounting.push_back(std::move(info));
+  list.push_back(file_info("dynamics", "of a hydrodynamic vehicle", false));
+  for (ParameterInfo& info : parameters_of<Abilities>()) list.push_back(std::move(info));
+  for (ParameterInfo& info : parameters_of<RegularWaves>()) list.push_back(std::move(info));
+  list.push_back(section_info("disturbance", "an irregular sea", disturbance_list()));
+  list.push_back(section_info("floats", "it floats on the water level; left out: it is at the mission's depth",
+                              loading_list()));
+  list.push_back(word_or_info("start", "where it is at the start", "first_runline", parameters_of<Start>()));
+  list.push_back(named_info("mountings", "heads that it carries, by their processes' names",
+                            {section_info("actual", "where the head truly is", mounting, true),
+                             section_info("measured", "where it is taken to be; left out: as actual", mounting)}));
+  return list;
+}
 
 World read_world(ConfigReader& from, const std::string& file) {
   World world;

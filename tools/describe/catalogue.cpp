@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "components/config/data_paths.h"
+#include "components/errors/exit_error.h"
 #include "components/runtime/protocol.h"
 #include "launch/file/launch_file.h"
 
@@ -130,6 +131,16 @@ std::vector<std::string> component_names() {
     }
   }
   return {names.begin(), names.end()};
+}
+
+std::map<std::string, std::string> component_schemas() {
+  std::map<std::string, std::string> schemas;
+  for (const std::string& component : component_names()) {
+    const Answer answer = run({program_of(component), "--parameters", "schema"});
+    if (answer.status != 0) throw UserError("ensonify-" + component + " --parameters schema: " + answer.text);
+    schemas[component] = answer.text;
+  }
+  return schemas;
 }
 
 ComponentFacts facts_of(const std::string& component) {

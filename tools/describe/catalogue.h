@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct ComponentFacts {
 
 /// Names of the components whose programs stand beside this one, sorted.
 std::vector<std::string> component_names();
+
+/// JSON Schema of each component's parameters, by its name; runs the programs.
+std::map<std::string, std::string> component_schemas();
 
 /// Facts of a component; runs its program with --check.
 ComponentFacts facts_of(const std::string& component);

@@ -9,8 +9,10 @@
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
+#include "launch/file/schema.h"
 #include "launch/process/run.h"
 #include "messages/schema.h"
+#include "scenarios/world/schema.h"
 #include "tools/describe/catalogue.h"
 
 namespace {
@@ -133,11 +135,13 @@ int main(int argc, char** argv) {
       "Says what there is: components with their parameters (defaults and units) and ports, messages with their "
       "fields.",
       "ensonify describe");
-  std::string name;
+  std::string name, schema;
   bool as_yaml = false, as_json = false, reference = false;
   app.add_option("NAME", name, "a component or a message type; without it, the list of both");
   auto* yaml = app.add_flag("--yaml", as_yaml, "only the parameters with their defaults, as a configuration file");
   app.add_flag("--json", as_json, "as JSON; of a message type its JSON Schema")->excludes(yaml);
+  app.add_option("--schema", schema, "JSON Schema of launch or scenario files, for editors")
+      ->check(CLI::IsMember({"launch", "scenario"}));
   app.add_flag("--reference", reference, "the page docs/manual/messages.md");
   try {
     app.parse(argc, argv);
@@ -146,7 +150,9 @@ int main(int argc, char** argv) {
   }
   return exit_code_of([&] {
     const auto components = component_names();
-    if (reference) {
+    if (!schema.empty()) {
+      fmt::print("{}", schema == "launch" ? launch_schema(component_schemas()) : scenario_schema());
+    } else if (reference) {
       fmt::print("{}", msg::reference_page());
     } else if (name.empty()) {
       print_all(as_json);

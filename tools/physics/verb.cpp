@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "components/errors/exit_error.h"
@@ -23,7 +24,10 @@ std::string option_of(const std::string& column) {
 /// Ten digits: more than any model is worth, and 0.1 stays 0.1 where a sweep has added it up.
 std::string text_of(double value) { return fmt::format("{:.10g}", value); }
 
-std::string json_of(double value) { return std::isfinite(value) ? text_of(value) : "null"; }
+/// The number that the text says; null where it is not finite.
+nlohmann::json json_of(double value) {
+  return std::isfinite(value) ? nlohmann::json::parse(text_of(value)) : nlohmann::json();
+}
 
 }  // namespace
 
@@ -97,16 +101,19 @@ std::vector<std::string> Verb::columns() const {
 }
 
 std::string Verb::row_text(const std::vector<std::string>& columns, bool first) {
-  std::vector<std::string> cells;
-  for (const Choice& choice : choices_) cells.push_back(json_ ? '"' + choice.given + '"' : choice.given);
-  const auto add = [&](double value) { cells.push_back(json_ ? json_of(value) : text_of(value)); };
-  for (const Number& number : numbers_) add(*number.value);
-  for (const double result : compute_()) add(result);
-  if (!json_) {
-    return fmt::format("{}\n", fmt::join(cells, ","));
+  std::vector<double> values;
+  for (const Number& number : numbers_) values.push_back(*number.value);
+  for (const double result : compute_()) values.push_back(result);
+  if (json_) {
+    nlohmann::ordered_json row;
+    for (const Choice& choice : choices_) row[choice.column] = choice.given;
+    for (std::size_t i = 0; i < values.size(); ++i) row[columns[choices_.size() + i]] = json_of(values[i]);
+    return (first ? "[\n  " : ",\n  ") + row.dump();
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = fmt::format("\"{}\": {}", columns[i], cells[i]);
-  return fmt::format("{}{{{}}}", first ? "[\n  " : ",\n  ", fmt::join(cells, ", "));
+  std::vector<std::string> cells;
+  for (const Choice& choice : choices_) cells.push_back(choice.given);
+  for (const double value : values) cells.push_back(text_of(value));
+  return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
 void Verb::print() try {

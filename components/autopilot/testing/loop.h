@@ -9,9 +9,10 @@
 
 #include "components/autopilot/node.h"
 #include "components/runtime/testing/node_under_test.h"
+#include "components/runtime/testing/nodes_under_test.h"
 #include "kernels/vehicle/motion/kinematics.h"
 
-/// What tests of the autopilot share: three lines, and a loop with a vehicle.
+/// Shared by tests of the autopilot: three lines, and a boat that it steers.
 namespace ensonify::piloted {
 
 using runlines::Vec2;
@@ -27,56 +28,88 @@ inline AutopilotConfig three_lines(double spacing_m) {
   return config;
 }
 
-/// The vehicle and navigation of a test: kinematics on one side, a perfect estimate on the other, 0.1 s of delay.
+/// A boat and its navigation: kinematics on one side, a perfect estimate ten times a second on the other.
+class BoatNode {
+ public:
+  struct Config {
+    motion::Limits limits;
+    motion::State start;
+    Vec2 current_enu_mps{0, 0};
+    std::function<double(double north_m)> bottom = nullptr;  // depth, NaN: not received; given: an altimeter is carried
+    std::optional<SimTime> uncertain_after = std::nullopt;   // the place to the north is known within 0.5 m, then 3 m
+  };
+
+  BoatNode(const Config& config, Ports& ports)
+      : config_(config),
+        command_{config.start.heading_rad, config.start.speed_mps, config.start.position_enu_m.z()},
+        estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{10, 1}})) {
+    if (config.bottom) altitudes_ = ports.out<msg::Altitude>("altitude", {.rate = Rate{10, 1}});
+    const auto take = [this](const msg::Guidance& order) {
+      command_.heading_rad = order.heading_grid_rad, command_.speed_mps = order.speed_mps;
+      if (!std::isnan(order.depth_m)) command_.height_m = -order.depth_m;
+    };
+    ports.in<msg::Guidance>("command", take, {.delay = 100_ms});
+    track_.push_back(config.start);
+  }
+
+  SimTime step(SimTime now) {
+    motion::State state = track_.back();
+    msg::Estimate estimate;
+    estimate.stamp_ns = now.count();
+    estimate.position_enu_m = {state.position_enu_m.x(), state.position_enu_m.y(), state.position_enu_m.z()};
+    estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{state.heading_rad, 0, 0}));
+    estimate.velocity_enu_mps = {state.speed_mps * std::sin(state.heading_rad) + config_.current_enu_mps.x(),
+                                 state.speed_mps * std::cos(state.heading_rad) + config_.current_enu_mps.y(), 0.0};
+    if (config_.uncertain_after) {
+      const double sd_m = now < *config_.uncertain_after ? 0.5 : 3.0;
+      estimate.position_covariance_enu_m2 = {0.1, 0, 0, 0, sd_m * sd_m, 0, 0, 0, 0.1};
+    }
+    estimates_.send(estimate);
+    if (altitudes_) {
+      const double range_m = config_.bottom(state.position_enu_m.y()) + state.position_enu_m.z();
+      altitudes_->send(msg::Altitude{now.count(), !std::isnan(range_m), range_m});
+    }
+    state = motion::advance(state, command_, 0.1, config_.limits);
+    state.position_enu_m.head<2>() += 0.1 * config_.current_enu_mps;
+    track_.push_back(state);
+    return now + 100_ms;
+  }
+
+  /// Its true state at a time that it has passed.
+  const motion::State& at(SimTime t) const { return track_.at(static_cast<std::size_t>(t / 100_ms)); }
+
+ private:
+  Config config_;
+  motion::Command command_;
+  std::vector<motion::State> track_;  // ten times a second
+  Ports::Out<msg::Estimate> estimates_;
+  std::optional<Ports::Out<msg::Altitude>> altitudes_;
+};
+
+/// An autopilot and its boat on one bus.
 class Loop {
  public:
   Loop(const AutopilotConfig& config, const motion::State& start, const Vec2& current_enu_mps = {0, 0})
-      : autopilot(config), limits_(config.plan.limits), state_(start), current_enu_mps_(current_enu_mps) {
-    command_ = {start.heading_rad, start.speed_mps, start.position_enu_m.z()};
-  }
+      : boat{config.plan.limits, start, current_enu_mps}, config_(config) {}
 
-  /// Runs until the mission is done or `t`; `see(mission state, vehicle state)` at each command.
+  /// Runs until the mission is done or `t`; `see(mission state, boat's true state)` at each command. Once.
   template <class See>
   void run_until(SimTime t, See&& see) {
-    motion::Command next = command_;
-    for (SimTime now = now_; now <= t && !autopilot.finished(); now += 100_ms) {
-      msg::Estimate estimate;
-      estimate.stamp_ns = now.count();
-      estimate.position_enu_m = {state_.position_enu_m.x(), state_.position_enu_m.y(), state_.position_enu_m.z()};
-      estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{state_.heading_rad, 0, 0}));
-      estimate.velocity_enu_mps = {state_.speed_mps * std::sin(state_.heading_rad) + current_enu_mps_.x(),
-                                   state_.speed_mps * std::cos(state_.heading_rad) + current_enu_mps_.y(), 0.0};
-      if (uncertain_after) {
-        const double sd_m = now < *uncertain_after ? 0.5 : 3.0;
-        estimate.position_covariance_enu_m2 = {0.1, 0, 0, 0, sd_m * sd_m, 0, 0, 0, 0.1};
-      }
-      autopilot.give("estimate", estimate);
-      if (bottom) {
-        const double range_m = bottom(state_.position_enu_m.y()) + state_.position_enu_m.z();
-        autopilot.give("altitude", msg::Altitude{now.count(), !std::isnan(range_m), range_m});
-      }
-      const auto orders = autopilot.step_until<msg::Guidance>("command", now);
-      for (const auto& mission : autopilot.step_until<msg::MissionState>("mission", now)) see(mission, state_);
-      command_ = next;
-      if (!orders.empty()) next = {orders[0].heading_grid_rad, orders[0].speed_mps, next.height_m};
-      if (!orders.empty() && !std::isnan(orders[0].depth_m)) next.height_m = -orders[0].depth_m;
-      state_ = motion::advance(state_, command_, 0.1, limits_);
-      state_.position_enu_m.head<2>() += 0.1 * current_enu_mps_;
-      now_ = now + 100_ms;
-    }
+    const BoatNode& moving = nodes.add<BoatNode>("boat", boat);
+    nodes.add<AutopilotNode>("pilot", config_);
+    nodes.watch<msg::MissionState>("pilot/mission",
+                                   [&](const msg::MissionState& mission) { see(mission, moving.at(nodes.now())); });
+    finished_ = nodes.run_until(t);
   }
 
-  NodeUnderTest<AutopilotNode> autopilot;
-  std::function<double(double north_m)> bottom;  // depth, NaN: not received; given: an altimeter is carried
-  std::optional<SimTime> uncertain_after;        // the place to the north is known within 0.5 m, and then within 3 m
-  SimTime now() const { return now_; }
+  NodesUnderTest nodes;
+  BoatNode::Config boat;
+  bool finished() const { return finished_; }
+  SimTime now() const { return nodes.now(); }
 
  private:
-  motion::Limits limits_;
-  motion::State state_;
-  motion::Command command_;
-  Vec2 current_enu_mps_;
-  SimTime now_{0};
+  AutopilotConfig config_;
+  bool finished_ = false;
 };
 
 inline AutopilotConfig steps(std::vector<MissionStep> steps) {

@@ -43,28 +43,36 @@ inline frames::Pose pose_on(const Track& track, SimTime t) {
 
 using Head = NodeUnderTest<MultibeamNode>;
 
+template <class Message>
+void put_place(Message& message, const frames::Pose& pose) {
+  for (std::size_t i = 0; i < 3; ++i) message.position_enu_m[i] = pose.position_enu_m[static_cast<Eigen::Index>(i)];
+  message.enu_from_body = frames::wxyz_of(pose.enu_from_body);
+}
+
 inline void give_motion(Head& head, const Track& track, SimTime until) {
-  for (SimTime t{0}; t <= until; t += 10_ms) {
-    const frames::Pose truth = pose_on(track, t);
+  head.give_each("pose", until, 10_ms, [&](SimTime t) {
     msg::Pose pose;
     pose.stamp_ns = t.count();
-    for (std::size_t i = 0; i < 3; ++i) pose.position_enu_m[i] = truth.position_enu_m[static_cast<Eigen::Index>(i)];
-    pose.enu_from_body = frames::wxyz_of(truth.enu_from_body);
-    head.give("pose", pose);
+    put_place(pose, pose_on(track, t));
+    return pose;
+  });
+  head.give_each("estimate", until, 10_ms, [&](SimTime t) {
+    frames::Pose estimated = pose_on(track, t);
+    estimated.position_enu_m += track.offset_enu_m;
     msg::Estimate estimate;
     estimate.stamp_ns = t.count();
-    for (std::size_t i = 0; i < 3; ++i) {
-      estimate.position_enu_m[i] = pose.position_enu_m[i] + track.offset_enu_m[static_cast<Eigen::Index>(i)];
-    }
-    estimate.enu_from_body = pose.enu_from_body;
-    head.give("estimate", estimate);
-    if (!track.motion_sensor) continue;
+    put_place(estimate, estimated);
+    return estimate;
+  });
+  if (!track.motion_sensor) return;
+  head.give_each("attitude", until, 10_ms, [&](SimTime t) {
+    const auto truth = frames::attitude_of(pose_on(track, t).enu_from_body);
     msg::Attitude attitude;
     attitude.stamp_ns = t.count();
-    attitude.heading_grid_rad = frames::attitude_of(truth.enu_from_body).heading_rad;
-    attitude.roll_rad = frames::attitude_of(truth.enu_from_body).roll_rad;
-    head.give("attitude", attitude);
-  }
+    attitude.heading_grid_rad = truth.heading_rad;
+    attitude.roll_rad = truth.roll_rad;
+    return attitude;
+  });
 }
 
 /// 20 m of water, 60 m of range.

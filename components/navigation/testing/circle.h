@@ -63,7 +63,7 @@ inline constexpr auto kLevel = [](double) { return -1.0; };
 
 template <class Height>
 void run_for(NodeUnderTest<NavigationNode>& navigation, int seconds_long, const Height& height) {
-  for (int i = 0; i <= 100 * seconds_long; ++i) navigation.give("pose", circling(i * 10_ms, height));
+  navigation.give_each("pose", seconds_long * 1_s, 10_ms, [&](SimTime t) { return circling(t, height); });
 }
 
 }  // namespace ensonify::test_run

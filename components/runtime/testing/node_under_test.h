@@ -74,6 +74,12 @@ class NodeUnderTest {
     throw std::invalid_argument("no input port " + port);
   }
 
+  /// Gives what `make(t)` returns at each t from 0 to `until`.
+  template <class Make>
+  void give_each(const std::string& port, SimTime until, SimTime period, const Make& make) {
+    for (SimTime t{0}; t <= until; t += period) give(port, make(t));
+  }
+
   /// Runs every event up to and including `t`; returns what was published on `port` since it was last asked for.
   template <msg::Message M>
   std::vector<M> step_until(const std::string& port, SimTime t) {

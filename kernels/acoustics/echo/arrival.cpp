@@ -27,7 +27,8 @@ Arrival direct_echo(const Carrier& carrier, const Vec3& source_enu_m, const Scat
   arrival.time_s = out_s + back_m * scatterer.slowness_spm;
   const double loss = power_ratio(-carrier.absorption_dbpm * scatterer.stretch * (out_m + back_m));
   const double mean_square = scatterer.scattered_upa2m2 * loss / (scatterer.spreading * back_m * back_m);
-  arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, scatterer.response);
+  arrival.pressure_upa = scatterer.share * echo_pressure(carrier, mean_square, arrival.time_s, scatterer.response);
+  arrival.contributor = scatterer.contributor;
   const Eigen::Vector3f direction_enu = (back / back_m).cast<float>() + scatterer.bend_enu;
   arrival.direction_head = (receiver.head_from_enu * direction_enu).normalized();
   return arrival;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@ struct Arrival {
   double time_s = 0.0;                                        // of its first sound, after the start of transmission
   std::complex<float> pressure_upa;                           // envelope, rms; phase at the carrier
   Eigen::Vector3f direction_head = Eigen::Vector3f::UnitZ();  // to where it comes from, unit, in the receiver's frame
+  std::uint32_t contributor = trace::kNoise;                  // by the path that it took
 };
 
 /// Arrivals of one origin, and what patterns make of each: amplitudes row by row, one row per aperture, one alone for

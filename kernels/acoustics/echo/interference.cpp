@@ -64,7 +64,8 @@ void add_echoes_of(const InterferingTransmission& other, std::span<const Arrival
     // Its phase is that at its own carrier, which began with its own transmission.
     const double cycles = (other.frequency_hz - band.frequency_hz) * time_s - other.frequency_hz * other.time_s;
     const auto pressure = band.sum == Sum::kPressure ? turned(std::sqrt(mean_square), cycles) : mean_square;
-    arrivals.push_back({time_s, echo.pressure_upa * std::complex<float>(pressure), scale * echo.direction_head});
+    arrivals.push_back(
+        {time_s, echo.pressure_upa * std::complex<float>(pressure), scale * echo.direction_head, echo.contributor});
   }
 }
 

@@ -38,7 +38,7 @@ struct Paths {
 
   /// The arrival that left a scatterer (or its image) at `from` with mean square `at_1m`, after `out_m` of path, with
   /// the reflections' amplitude `reflected` already in it.
-  Arrival arrive(double at_1m, double reflected, double out_m, const Vec3& from, std::complex<float> response) const {
+  Arrival arrive(const Scatterer& scatterer, double at_1m, double reflected, double out_m, const Vec3& from) const {
     const double guess_m = (from - pose.position_enu_m).norm();
     const Receivers::At receiver = receivers.at((out_m + guess_m) / surface.sound_speed_mps);
     const Vec3 back = from - receiver.position_enu_m;
@@ -47,7 +47,8 @@ struct Paths {
         at_1m * reflected * reflected * power_ratio(-carrier.absorption_dbpm * total_m) / (back_m * back_m);
     Arrival arrival;
     arrival.time_s = total_m / surface.sound_speed_mps;
-    arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -response : response);
+    const std::complex<float> response = reflected < 0.0 ? -scatterer.response : scatterer.response;
+    arrival.pressure_upa = scatterer.share * echo_pressure(carrier, mean_square, arrival.time_s, response);
     arrival.direction_head = receiver.head_from_enu * (back / back_m).cast<float>();
     return arrival;
   }
@@ -64,8 +65,8 @@ struct Paths {
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
     const double V = reflection(pose.position_enu_m, image);
     const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
-    return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
-            arrive(insonified, V, bounced_m, place, scatterer.response)};
+    return {arrive(scatterer, scatterer.scattered_upa2m2, V, direct_m, image),
+            arrive(scatterer, insonified, V, bounced_m, place)};
   }
 
   /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order.
@@ -76,8 +77,8 @@ struct Paths {
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
     const double V = reflection(pose.position_enu_m, image) * bottom_mirror;
     const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
-    return {arrive(scatterer.scattered_upa2m2, V, direct_m, image, scatterer.response),
-            arrive(insonified, V, bounced_m, place, scatterer.response)};
+    return {arrive(scatterer, scatterer.scattered_upa2m2, V, direct_m, image),
+            arrive(scatterer, insonified, V, bounced_m, place)};
   }
 
   /// The head's own sound by way of mirrors. It seems to come from `image` and left as if for `target`, the images of
@@ -133,12 +134,14 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
           Arrival* out = arrivals.data() + before + each * i;
           std::fill_n(out, each, Arrival{});
           if (scatterers[i].position_enu_m.z() >= level_m) continue;
-          if (parts.one_bounce) {
-            for (const Arrival& arrival : paths.one_bounce(scatterers[i])) *out++ = arrival;
-          }
-          if (parts.second_bottom) {
-            for (const Arrival& arrival : paths.second_bottom(scatterers[i])) *out++ = arrival;
-          }
+          const auto add = [&](const std::array<Arrival, 2>& pair, trace::EchoPath path) {
+            for (const Arrival& arrival : pair) {
+              *out = arrival;
+              out++->contributor = trace::by_path(scatterers[i].contributor, path);
+            }
+          };
+          if (parts.one_bounce) add(paths.one_bounce(scatterers[i]), trace::EchoPath::kViaSurface);
+          if (parts.second_bottom) add(paths.second_bottom(scatterers[i]), trace::EchoPath::kViaBottom);
         }
       },
       tbb::simple_partitioner());

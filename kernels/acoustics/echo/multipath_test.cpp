@@ -45,6 +45,25 @@ struct Geometry {
 
 static double level_db(const Arrival& arrival) { return 10 * std::log10(std::norm(arrival.pressure_upa)); }
 
+TEST_CASE("an echo's contributor says by which path it came") {
+  const Geometry geometry(4.0, 20.0);
+  Scatterer one = geometry.at(30.0);
+  one.contributor = trace::sediment_contributor(9);
+  std::vector<Arrival> arrivals;
+  add_multipath(kCarrier, geometry.head, geometry.surface, {}, geometry.pose, std::span(&one, 1), geometry.receivers,
+                arrivals);
+  REQUIRE(arrivals.size() == 5);
+  const trace::Contributors table;
+  using Path = trace::EchoPath;
+  const Path paths[] = {Path::kViaSurface, Path::kViaSurface, Path::kViaBottom, Path::kViaBottom};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(table[arrivals[i].contributor].sediment == 9);
+    CHECK((table[arrivals[i].contributor].path == paths[i]));
+    CHECK(trace::by_path(arrivals[i].contributor, Path::kDirect) == one.contributor);
+  }
+  CHECK(arrivals[4].contributor == trace::kNoise);  // the surface overhead
+}
+
 TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as pressures") {
   const Geometry geometry(4.0, 20.0);
   const double x = 30.0, D = 24.0, d = 4.0;

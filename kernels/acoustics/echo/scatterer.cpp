@@ -54,36 +54,58 @@ std::uint64_t Scatterers::cell_at(const Vec3& position_enu_m) const {
 
 Scatterers::Insonified Scatterers::insonified_by(const Transmission& transmission, std::size_t ray) const {
   const trace::Hit& hit = transmission.hits[ray];
-  if (!hit.hit()) return {kNothing, 0, 0.0F, 0.0F};
+  if (!hit.hit()) return {kNothing, 0, 0, 0.0F, 0.0F, 0.0F, 0, -1};
   const float sigma_solid =
       transmission.backscatter[ray] * transmission.rays[ray].solid_angle_sr / std::max(hit.sin_grazing, 1e-3F);
-  return {cell_at(hit.position_enu_m), static_cast<std::uint32_t>(ray), transmission.source_upa2m2[ray] * sigma_solid,
-          hit.tube_m2 * sigma_solid};
+  const float scattered_upa2m2 = transmission.source_upa2m2[ray] * sigma_solid;
+  return {cell_at(hit.position_enu_m),
+          static_cast<std::uint32_t>(ray),
+          hit.contributor,
+          scattered_upa2m2,
+          hit.tube_m2 * sigma_solid,
+          scattered_upa2m2,
+          0,
+          -1};
 }
 
-/// Brings the rays of each cell together at the front of `insonified`, in the order in which cells are first found; how
-/// many.
+/// Brings the rays of each cell and contributor together at the front of `insonified`, in the order in which they are
+/// first found; how many.
 std::size_t Scatterers::merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const {
   std::fill(table.begin(), table.end(), -1);
   const std::size_t last_slot = table.size() - 1;
-  std::size_t cells = 0;
+  std::size_t entries = 0;
   for (const Insonified& one : insonified) {
     std::size_t slot = (spread(one.cell) >> 40) & last_slot;
     while (table[slot] >= 0 && insonified[static_cast<std::size_t>(table[slot])].cell != one.cell)
       slot = (slot + 1) & last_slot;
+    const auto entry = static_cast<std::int32_t>(entries);
     if (table[slot] < 0) {
-      table[slot] = static_cast<std::int32_t>(cells);
-      insonified[cells++] = one;
+      table[slot] = entry;
+      insonified[entries] = one;
+      insonified[entries++].first = entry;
+      continue;
+    }
+    Insonified& cell = insonified[static_cast<std::size_t>(table[slot])];
+    cell.scattered_upa2m2 += one.scattered_upa2m2;
+    cell.cross_section_m2 += one.cross_section_m2;
+    Insonified* same = &cell;
+    while (same->contributor != one.contributor && same->next >= 0)
+      same = &insonified[static_cast<std::size_t>(same->next)];
+    if (same->contributor == one.contributor) {
+      same->own_upa2m2 += one.own_upa2m2;
     } else {
-      Insonified& same = insonified[static_cast<std::size_t>(table[slot])];
-      same.scattered_upa2m2 += one.scattered_upa2m2;
-      same.cross_section_m2 += one.cross_section_m2;
+      same->next = entry;
+      insonified[entries] = one;
+      insonified[entries++].first = table[slot];
     }
   }
-  return cells;
+  return entries;
 }
 
-Scatterer Scatterers::scatterer(const Transmission& transmission, const Insonified& insonified) const {
+Scatterer Scatterers::scatterer(const Transmission& transmission, std::span<const Insonified> merged,
+                                std::size_t entry) const {
+  const Insonified& own = merged[entry];
+  const Insonified& insonified = merged[static_cast<std::size_t>(own.first)];  // of all of its cell
   const trace::Hit& hit = transmission.hits[insonified.ray];
   const auto bits = stream_.bits(insonified.cell);
   const Vec3 inside(0x1p-16 * (bits[2] & 0xffff), 0x1p-16 * (bits[2] >> 16), 0x1p-16 * (bits[3] & 0xffff));
@@ -103,6 +125,9 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, const Insonifi
   found.scattered_upa2m2 = insonified.scattered_upa2m2;
   found.cross_section_m2 = insonified.cross_section_m2;
   found.response = gaussian(bits[0], bits[1]);
+  if (insonified.next >= 0 && insonified.scattered_upa2m2 > 0.0F)
+    found.share = own.own_upa2m2 / insonified.scattered_upa2m2;
+  found.contributor = own.contributor;
   return found;
 }
 
@@ -140,7 +165,7 @@ std::span<const Scatterer> Scatterers::find(const Transmission& transmission, Me
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
     const auto merged = by_cell.bucket(bucket);
     for (std::size_t i = merged_start[bucket]; i < merged_start[bucket + 1]; ++i) {
-      found[i] = scatterer(transmission, merged[i - merged_start[bucket]]);
+      found[i] = scatterer(transmission, merged, i - merged_start[bucket]);
     }
   });
   return found;

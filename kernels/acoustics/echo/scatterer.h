@@ -32,9 +32,11 @@ struct Scatterer {
   float stretch = 1.0F;                                // path length over straight distance
   float spreading = 1.0F;                              // area of the ray tube over the square of the straight distance
   float sin_grazing = 0.0F;
-  float scattered_upa2m2 = 0.0F;  // mean-square pressure at 1 m that it sends back, before absorption
+  float scattered_upa2m2 = 0.0F;  // mean-square pressure at 1 m that the patch sends back, before absorption
   float cross_section_m2 = 0.0F;  // what it would scatter of a plane wave: sum of sigma dA
   std::complex<float> response;   // its random part: complex Gaussian, mean square 1
+  float share = 1.0F;             // of the patch's pressure that is its contributor's, as its energy is shared
+  std::uint32_t contributor = 0;  // by the direct path
 };
 
 /// From hits to scatterers.
@@ -45,14 +47,20 @@ struct Scatterer {
 /// times: the sum decorrelates by these, as a real seabed's does. That needs some four rays per cell; with fewer, the
 /// scatterers that a ping finds change from ping to ping and it decorrelates sooner. Energy is right in any case.
 ///
+/// Where one cell has several contributors each has a scatterer of its own. They share the cell's place, response and
+/// pressure, so that their sum is what one scatterer of all the energy would send.
+///
 /// A cell's response is Gaussian, as that of a patch of many wavelengths: the sum of a few cells has the speckle of an
 /// incoherent seabed. Choose cells of at most half the range resolution and a quarter of the footprint. The spacing of
 /// cells is exact to 2^20 cells from the world's origin; beyond they repeat.
 class Scatterers {
   struct Insonified {  // by one ray, then by all rays of a cell
     std::uint64_t cell;
-    std::uint32_t ray;
+    std::uint32_t ray, contributor;
     float scattered_upa2m2, cross_section_m2;
+    // Once rays are merged: the cell's entries, one for each contributor.
+    float own_upa2m2;          // of this contributor
+    std::int32_t first, next;  // entries of the cell; the first has the sums of all; -1: there is no other
   };
 
  public:
@@ -80,7 +88,7 @@ class Scatterers {
   std::uint64_t cell_at(const frames::Vec3& position_enu_m) const;
   Insonified insonified_by(const Transmission& transmission, std::size_t ray) const;
   std::size_t merge(std::span<Insonified> insonified, std::span<std::int32_t> table) const;
-  Scatterer scatterer(const Transmission& transmission, const Insonified& insonified) const;
+  Scatterer scatterer(const Transmission& transmission, std::span<const Insonified> merged, std::size_t entry) const;
 
   double cell_m_, per_cell_;
   random::Stream stream_;

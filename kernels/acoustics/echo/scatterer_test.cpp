@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 
 #include "kernels/acoustics/array/line.h"
@@ -177,6 +178,42 @@ TEST_CASE("the energy of all rays arrives, whatever the cells") {
     CHECK(sum == Approx(want).epsilon(1e-5));
     CHECK(cross_section == Approx(area).epsilon(1e-5));
   }
+}
+
+TEST_CASE("contributors survive merging, and share what their cell sends") {
+  // Every third ray on another sediment: 3 cm cells hold both.
+  const frames::HeadPose pose{};
+  const auto one = strip().hits(pose);
+  auto two = one;
+  for (std::size_t i = 0; i < two.size(); i += 3) two[i].contributor = trace::sediment_contributor(4);
+  const Scatterers scatterers(0.03, {1, "seabed"});
+  Receivers receivers;
+  receivers.set({0, 1, std::span(&pose, 1)});
+  const auto arrivals = [&](const std::vector<trace::Hit>& hits) {
+    Scatterers::Memory memory;
+    std::vector<Arrival> echoes;
+    add_direct_echoes({kFrequency, 0.07}, {0, 0, 0},
+                      scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory),
+                      receivers, echoes);
+    return echoes;
+  };
+  const auto merged = arrivals(one), apart = arrivals(two);
+  REQUIRE(apart.size() > 1.5 * merged.size());
+  // Of each patch: the same time, and pressures that add up to the patch's.
+  std::map<double, std::complex<double>> patches;
+  std::size_t others = 0;
+  for (const Arrival& echo : merged) patches[echo.time_s] += std::complex<double>(echo.pressure_upa);
+  double largest = 0.0, left = 0.0;
+  for (const auto& [time_s, pressure] : patches) largest = std::max(largest, std::abs(pressure));
+  for (const Arrival& echo : apart) {
+    REQUIRE(patches.contains(echo.time_s));
+    patches[echo.time_s] -= std::complex<double>(echo.pressure_upa);
+    others += echo.contributor == trace::sediment_contributor(4) ? 1U : 0U;
+    CHECK_FALSE((echo.contributor != trace::sediment_contributor(4) && echo.contributor != one[0].contributor));
+  }
+  for (const auto& [time_s, pressure] : patches) left = std::max(left, std::abs(pressure));
+  CHECK(left < 1e-6 * largest);
+  CHECK(others > 0.5 * merged.size());
 }
 
 TEST_CASE("responses are complex Gaussians of mean square 1") {

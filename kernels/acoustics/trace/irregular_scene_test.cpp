@@ -104,7 +104,7 @@ std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
     const bool same = a[i].range_m == b[i].range_m && a[i].position_enu_m == b[i].position_enu_m &&
                       a[i].normal_enu == b[i].normal_enu && a[i].travel_time_s == b[i].travel_time_s &&
                       a[i].tube_m2 == b[i].tube_m2 && a[i].sin_grazing == b[i].sin_grazing &&
-                      a[i].facet_m == b[i].facet_m && a[i].sediment == b[i].sediment;
+                      a[i].facet_m == b[i].facet_m && a[i].contributor == b[i].contributor;
     count += same ? 0U : 1U;
   }
   return count;
@@ -112,7 +112,7 @@ std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
 
 std::size_t on(std::uint8_t sediment, const std::vector<Hit>& hits) {
   std::size_t count = 0;
-  for (const Hit& hit : hits) count += hit.hit() && hit.sediment == sediment ? 1U : 0U;
+  for (const Hit& hit : hits) count += hit.hit() && hit.contributor == sediment_contributor(sediment) ? 1U : 0U;
   return count;
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
     REQUIRE(hits[0].hit());
     // Half the section's depth and four deviations of a pile.
     CHECK(hits[0].range_m == Approx(20.0).margin(0.215 + 0.06));
-    CHECK(hits[0].sediment == kSteel);
+    CHECK(hits[0].contributor == sediment_contributor(kSteel));
     CHECK(hits[0].facet_m > 0.3F);
     CHECK(scene.heights_near({0.0, -20.0}, 30.0)->highest_m == Approx(0.0).margin(1e-5));
     CHECK_FALSE(scene.heights_near({0.0, -20.0}, 10.0).has_value());
@@ -239,7 +239,7 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
     seen.trace(head, rays, kRange_m, hits);
     for (const Hit& hit : hits) {  // of a ray by Lambert's law: solid angle over range squared and sine of grazing
       const double sine_over_range = static_cast<double>(hit.sin_grazing / std::max(1.0F, hit.range_m));
-      if (hit.hit()) sum[hit.sediment] += sine_over_range * sine_over_range;
+      if (hit.hit()) sum[Contributors()[hit.contributor].sediment] += sine_over_range * sine_over_range;
     }
   };
   for (int ping = 0; ping < 6; ++ping) {
@@ -278,7 +278,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
       double sum = 0.0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const double sine_over_range = static_cast<double>(hits[i].sin_grazing / std::max(1.0F, hits[i].range_m));
-        if (hits[i].hit() && hits[i].sediment == kSteel)
+        if (hits[i].hit() && hits[i].contributor == sediment_contributor(kSteel))
           sum += static_cast<double>(rays[i].solid_angle_sr) * sine_over_range * sine_over_range;
       }
       return sum;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "kernels/acoustics/trace/mesh.h"
 #include "kernels/base/frames/attitude.h"
 
@@ -44,6 +48,34 @@ struct Packet {
     mesh.intersect(on, rays);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) part_hit[lane] = &mesh.part(rays.hit.instID[0][lane]);
+    }
+  }
+
+  /// Lets the lanes that hit a facet of the contributor `behind` go on to the first that is of another.
+  template <class ContributorAt>  // (lane): of what it hit
+  void pass(const Mesh& mesh, std::uint32_t behind, const float (&tfar_m)[kPacket],
+            const ContributorAt& contributor_at) {
+    constexpr float kPassed_m = 1e-3F;
+    alignas(64) int going[kPacket];
+    for (;;) {
+      bool any = false;
+      for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        going[lane] = on[lane] != 0 && part_hit[lane] && contributor_at(lane) == behind ? -1 : 0;
+        if (going[lane] == 0) continue;
+        any = true;
+        const float at_m = rays.ray.tfar[lane];
+        rays.ray.tnear[lane] = std::max(at_m + kPassed_m, std::nextafter(at_m, std::numeric_limits<float>::max()));
+        rays.ray.tfar[lane] = tfar_m[lane];
+        rays.hit.geomID[lane] = rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+        part_hit[lane] = nullptr;
+        if (rays.ray.tnear[lane] >= tfar_m[lane]) going[lane] = 0;
+      }
+      if (!any) return;
+      mesh.intersect(going, rays);
+      for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        if (going[lane] != 0 && rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID)
+          part_hit[lane] = &mesh.part(rays.hit.instID[0][lane]);
+      }
     }
   }
 

@@ -112,7 +112,7 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
   hit.facet_m = packet.part_hit[lane_index]->facet_m();
   hit.tile = packet.part_hit[lane_index]->number();
-  hit.sediment = packet.part_hit[lane_index]->sediment_at(hit.position_enu_m.head<2>());
+  hit.contributor = sediment_contributor(packet.part_hit[lane_index]->sediment_at(hit.position_enu_m.head<2>()));
   return hit;
 }
 
@@ -126,7 +126,7 @@ void Scene::tabulate(const refraction::SoundSpeedProfile& profile, const frames:
 }
 
 void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
-                  const refraction::PathTable& paths) const {
+                  const refraction::PathTable& paths, std::uint32_t behind) const {
   make_elements(hits, rays.size());
   const auto heights = heights_near(head.position_enu_m.head<2>(), max_range_m);
   if (!heights) return void(std::ranges::fill(hits, Hit{}));
@@ -170,7 +170,14 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
         from[lane] = ray.at(start, source_depth);
         packet.set(lane, from[lane], ray.chord(), static_cast<float>(ray.leg.chord_m + (ray.last ? 0.0 : kOverlap_m)));
       }
+      float tfar_m[kPacket] = {};
+      for (std::size_t lane = 0; lane < kPacket; ++lane) tfar_m[lane] = packet.rays.ray.tfar[lane];
       packet.intersect(impl_->mesh);
+      if (behind != kNoise) {
+        packet.pass(impl_->mesh, behind, tfar_m, [&](std::size_t lane) {
+          return hit_of(packet, lane, *lanes[lane], from[lane] + origin, head.position_enu_m).contributor;
+        });
+      }
       for (std::size_t lane = 0; lane < count; ++lane) {
         if (!lanes[lane]) continue;
         Lane& ray = *lanes[lane];

@@ -68,7 +68,7 @@ TEST_CASE("in uniform water bent rays are straight rays") {
     REQUIRE(refracted[i].tube_m2 == Approx(straight[i].tube_m2).epsilon(3e-5));
     REQUIRE(refracted[i].sin_grazing == Approx(straight[i].sin_grazing).margin(1e-6));
     REQUIRE((refracted[i].arrival_enu - straight[i].arrival_enu).norm() < 1e-6F);
-    REQUIRE(refracted[i].sediment == straight[i].sediment);
+    REQUIRE(refracted[i].contributor == straight[i].contributor);
   }
 }
 
@@ -165,6 +165,28 @@ TEST_CASE("a table that reaches too deep costs time, not hits; no tiles, no hits
     REQUIRE(hits[i].travel_time_s == Approx(right[i].travel_time_s).epsilon(1e-6));
   }
   CHECK_FALSE(trace(Scene({0, 0}), water, rays)[0].hit());
+}
+
+TEST_CASE("a bent ray continued behind a contributor hits what stands behind it") {
+  const auto water = ensonify::refraction::summer_thermocline();
+  Scene scene = seabed(flat80);
+  ensonify::terrain::Tile plate = ensonify::terrain::sample_tile(
+      {.origin_enu_m = {-500, -500}, .spacing_m = 10.0, .cells = 100}, {0, 0}, [](double, double) { return -30.0; });
+  plate.sediment.assign(plate.height_m.size(), 7);
+  scene.insert({9, 9}, plate);
+  const auto rays = rays_of_all_sides(30, 90, 300);
+  PathTable paths;
+  scene.tabulate(water, kHead, 2, 600, paths);
+  std::vector<Hit> first, behind;
+  scene.trace(kHead, rays, 600, first, paths);
+  scene.trace(kHead, rays, 600, behind, paths, sediment_contributor(7));
+  const auto alone = trace(seabed(flat80), water, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    REQUIRE(first[i].contributor == sediment_contributor(7));
+    REQUIRE(behind[i].contributor == alone[i].contributor);
+    REQUIRE(behind[i].position_enu_m.z() == Approx(-80).margin(1e-3));
+    REQUIRE(behind[i].travel_time_s == Approx(alone[i].travel_time_s).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("bent rays are the same bits for any number of threads") {

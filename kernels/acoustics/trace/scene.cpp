@@ -56,7 +56,7 @@ Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
   hit.facet_m = part.facet_m();
   hit.tile = part.number();
-  hit.sediment = part.sediment_at(hit.position_enu_m.head<2>());
+  hit.contributor = sediment_contributor(part.sediment_at(hit.position_enu_m.head<2>()));
   return hit;
 }
 
@@ -168,7 +168,7 @@ std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radiu
 }
 
 void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
-                  double sound_speed_mps) const {
+                  double sound_speed_mps, std::uint32_t behind) const {
   const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
   make_elements(hits, rays.size());
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
@@ -184,6 +184,13 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
     }
     for (std::size_t lane = count; lane < kPacket; ++lane) packet.switch_off(lane);
     packet.intersect(impl_->mesh);
+    if (behind != kNoise) {
+      float tfar_m[kPacket];
+      std::ranges::fill(tfar_m, max_range_m);
+      packet.pass(impl_->mesh, behind, tfar_m, [&](std::size_t lane) {
+        return hit_of(packet, lane, head.position_enu_m, slowness_spm).contributor;
+      });
+    }
     for (std::size_t lane = 0; lane < count; ++lane) {
       hits[first + lane] = packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{};
     }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/trace/contributor.h"
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/mesh/lod/cover.h"
@@ -25,13 +26,13 @@ struct Hit {
   Eigen::Vector3f arrival_enu = Eigen::Vector3f::UnitZ();  // direction of travel at the hit, unit
   float range_m = 0.0F;                                    // straight distance from the head; 0 is a miss
   float travel_time_s = 0.0F;
-  float path_length_m = 0.0F;  // along the path: range_m when it is straight
-  float tube_m2 = 0.0F;        // area of the bundle, across it, per steradian of launch: range_m^2 when straight
-  float sin_grazing = 0.0F;    // sine of the angle between arrival_enu and the facet's plane, 0..1
-  float facet_m = 0.0F;        // spacing of the posts of the mesh there: a facet is half a square of it. Of an
-                               // irregular mesh, what its mean triangle is half a square of
-  std::uint8_t sediment = 0;
-  std::uint32_t tile = 0;  // of the scene, as Object has it; 0: none
+  float path_length_m = 0.0F;     // along the path: range_m when it is straight
+  float tube_m2 = 0.0F;           // area of the bundle, across it, per steradian of launch: range_m^2 when straight
+  float sin_grazing = 0.0F;       // sine of the angle between arrival_enu and the facet's plane, 0..1
+  float facet_m = 0.0F;           // spacing of the posts of the mesh there: a facet is half a square of it. Of an
+                                  // irregular mesh, what its mean triangle is half a square of
+  std::uint32_t tile = 0;         // of the scene, as Object has it; 0: none
+  std::uint32_t contributor = 0;  // that sends back, by the direct path
 
   bool hit() const { return range_m > 0.0F; }
 };
@@ -129,9 +130,10 @@ class Scene {
   const frames::Vec2& origin_enu_m() const;
 
   /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
-  /// and overwritten. sound_speed_mps gives the travel times, nothing else.
+  /// and overwritten. sound_speed_mps gives the travel times, nothing else. Rays pass all facets of the contributor
+  /// `behind`, so that they hit what it hides; what lies within 1 mm of it along the ray is passed too.
   void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
-             double sound_speed_mps = 1500.0) const;
+             double sound_speed_mps = 1500.0, std::uint32_t behind = kNoise) const;
 
   /// The first facet that each ray hits on its refracted path, at most max_range_m long. A path takes one look-up in
   /// the table down to the highest geometry within reach, and goes on from there leg by leg; a leg is hit as chords
@@ -139,7 +141,7 @@ class Scene {
   /// `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path is followed
   /// leg by leg from the head, right but slow.
   void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
-             const refraction::PathTable& paths) const;
+             const refraction::PathTable& paths, std::uint32_t behind = kNoise) const;
 
   /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the
   /// water surface gives where in the profile it is.

@@ -174,8 +174,34 @@ TEST_CASE("the class of a hit is that of the seabed there") {
   const std::vector<Ray> rays{towards({-1, 0, -20}), towards({1, 0, -20})};
   std::vector<Hit> hits;
   scene.trace(kLevel, rays, 100.0F, hits);
-  CHECK(hits[0].sediment == 3);
-  CHECK(hits[1].sediment == 5);
+  CHECK(hits[0].contributor == sediment_contributor(3));
+  CHECK(hits[1].contributor == sediment_contributor(5));
+}
+
+TEST_CASE("a ray continued behind a contributor hits what stands behind it") {
+  // A plate of two layers, 10 and 8 m above the seabed; beside it rays are as they were.
+  Scene scene({0, 0});
+  scene.insert({0, 0}, tile_of({.origin_enu_m = {-32, -32}, .spacing_m = 0.5, .cells = 128}, {0, 0}, flat));
+  const auto add = [&](std::int32_t key, double (*height)(double, double)) {
+    Tile plate = tile_of({.origin_enu_m = {-4, -4}, .spacing_m = 0.5, .cells = 16}, {0, 0}, height);
+    plate.sediment.assign(plate.height_m.size(), 7);
+    scene.insert({key, key}, plate);
+  };
+  add(8, [](double, double) { return -10.0; });
+  add(9, [](double, double) { return -12.0; });
+  const std::vector<Ray> rays{towards({0.1, 0.2, -1}), towards({1, 0, -1})};
+  std::vector<Hit> first, behind, another;
+  scene.trace(kLevel, rays, 100.0F, first);
+  scene.trace(kLevel, rays, 100.0F, behind, 1500.0, sediment_contributor(7));
+  scene.trace(kLevel, rays, 100.0F, another, 1500.0, sediment_contributor(6));
+  CHECK(first[0].contributor == sediment_contributor(7));
+  CHECK(first[0].position_enu_m.z() == Approx(-10));
+  CHECK(behind[0].contributor == sediment_contributor(0));
+  CHECK(behind[0].position_enu_m.z() == Approx(-20));
+  CHECK(behind[1].position_enu_m == first[1].position_enu_m);
+  CHECK(another[0].position_enu_m == first[0].position_enu_m);
+  scene.trace(kLevel, rays, 15.0F, behind, 1500.0, sediment_contributor(7));
+  CHECK_FALSE(behind[0].hit());  // the seabed lies beyond the range
 }
 
 TEST_CASE("a tile whose sizes do not fit is refused") {

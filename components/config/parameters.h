@@ -1,0 +1,188 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// A struct of parameters has one list of them, as a message has of its fields:
+///
+///   struct SidescanParameters {
+///     double swath_rad = 2.0;
+///     template <class Self, class Visit>
+///     static void parameters(Self& self, Visit&& visit) {
+///       visit("swath_deg", "deg", in(10, 160), "width of the swath", self.swath_rad);
+///       visit("trigger", "what starts a ping", self.trigger);  // a section: its struct has a list of its own
+///     }
+///     void check(const ConfigReader& from) const;  // optional: what no single range says; adds problems
+///   };
+///
+/// The unit and the range are those of the file; the member holds SI (file_unit). The initialiser is the only home of a
+/// default. Reading (read_parameters.h), the default file, the table and the schema (parameter_info.h) follow from the
+/// list.
+namespace ensonify {
+
+class ConfigReader;
+
+/// A word of the file and the value that it stands for: of an enum, a bool or a whole number. A text parameter keeps
+/// the word itself.
+struct Word {
+  Word(const char* word) : text(word) {}  // NOLINT(google-explicit-constructor): one_of({"a", "b"})
+  template <class T>
+  requires(std::is_enum_v<T> || std::is_integral_v<T>) Word(const char* word, T of)
+      : text(word), value(static_cast<std::int64_t>(of)) {}
+
+  std::string text;
+  std::int64_t value = 0;
+};
+
+/// Values that a parameter may take, in the unit of the file.
+struct Allowed {
+  static constexpr double kHighest = std::numeric_limits<double>::max();
+  enum class Text { kAny, kNotEmpty, kPath };
+
+  double lo = -kHighest;
+  double hi = kHighest;
+  std::vector<Word> words = {};
+  Text text = Text::kAny;
+  bool required = false;  // it has no default
+  bool computed = false;  // left out it is computed, as its sentence says
+
+  bool bounded() const { return lo > -kHighest || hi < kHighest; }
+};
+
+// What stands in a list. Bounds are inclusive.
+inline Allowed any() { return {}; }
+inline Allowed in(double lo, double hi) { return {.lo = lo, .hi = hi}; }
+inline Allowed one_of(std::initializer_list<Word> words) { return {.words = words}; }
+/// A text of at least one character.
+inline Allowed not_empty() { return {.text = Allowed::Text::kNotEmpty}; }
+/// An existing file or folder, found as ConfigReader::required_path says.
+inline Allowed path() { return {.text = Allowed::Text::kPath}; }
+/// The same, of a parameter without a default.
+inline Allowed must(Allowed allowed) {
+  allowed.required = true;
+  return allowed;
+}
+/// The same, of a parameter that is computed when it is left out.
+inline Allowed computed(Allowed allowed) {
+  allowed.computed = true;
+  return allowed;
+}
+
+/// Factor from a unit of files to SI: 1 for what is SI already. An unknown unit is a mistake of ours.
+double file_unit(const char* unit);
+
+/// The list of T: its own, or a specialisation's for structs that know nothing of files, such as those of kernels.
+template <class T>
+struct ParametersOf {
+  template <class Self, class Visit>
+  requires requires(Self& self, Visit& visit) { T::parameters(self, visit); }
+  static void parameters(Self& self, Visit&& visit) { T::parameters(self, visit); }
+
+  static void check(const ConfigReader& from, const T& values) {
+    if constexpr (requires { values.check(from); }) values.check(from);
+  }
+};
+
+struct IgnoreParameter {
+  void operator()(auto&&...) const {}
+};
+
+template <class T>
+concept HasParameters = requires(T& values, IgnoreParameter visit) {
+  ParametersOf<T>::parameters(values, visit);
+};
+
+/// Entries of a map from names that the user chooses: a struct that says which member holds its name,
+/// `static constexpr auto kNamedBy = &OtherHead::process;`. A vector of them is such a map, in the order of the file.
+template <class T>
+concept NamedParameters = HasParameters<T> && requires {
+  T::kNamedBy;
+};
+
+// clang-format off
+template <class T> struct IsOptional : std::false_type {};
+template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
+template <class T> struct IsVector : std::false_type {};
+template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+template <class T> struct IsNumbers : std::false_type {};
+template <std::size_t N> struct IsNumbers<std::array<double, N>> : std::true_type {};
+// clang-format on
+/// A vector of fixed length such as Eigen's, in a file a list of numbers.
+template <class T>
+concept FixedVector = requires(T& vector) {
+  requires static_cast<int>(T::SizeAtCompileTime) > 0;
+  { vector.data() } -> std::same_as<double*>;
+};
+/// A member whose form in the file no other kind has: it reads itself and says what it takes.
+///   void read(const ConfigReader& from, const char* key);
+///   ConfigNode in_file() const;            the default
+///   static std::string schema();           JSON Schema of the value
+template <class T>
+concept ReadsItself = requires(T& member) { { T::schema() } -> std::convertible_to<std::string>; };
+
+template <class T>
+concept ListOfParameters = IsVector<T>::value && HasParameters<typename T::value_type>;
+
+template <class T>
+bool equal_parameters(const T& a, const T& b);
+
+namespace detail {
+
+template <class T>
+bool equal_members(const T& a, const T& b) {
+  if constexpr (HasParameters<T>) {
+    return equal_parameters(a, b);
+  } else if constexpr (IsOptional<T>::value) {
+    return a.has_value() == b.has_value() && (!a || equal_members(*a, *b));
+  } else if constexpr (ListOfParameters<T>) {
+    bool equal = a.size() == b.size();
+    for (std::size_t i = 0; equal && i < a.size(); ++i) equal = equal_members(a[i], b[i]);
+    return equal;
+  } else {
+    return a == b;
+  }
+}
+
+struct CollectMembers {
+  std::vector<const void*>& members;
+  void operator()(const char*, const char*, const Allowed&, const char*, const auto& m) const { members.push_back(&m); }
+  void operator()(const char*, const char*, const auto& m) const { members.push_back(&m); }
+};
+
+struct CompareMembers {
+  const std::vector<const void*>& others;
+  std::size_t next = 0;
+  bool equal = true;
+  template <class T>
+  void operator()(const char*, const char*, const Allowed&, const char*, const T& member) {
+    (*this)("", "", member);
+  }
+  template <class T>
+  void operator()(const char*, const char*, const T& member) {
+    equal = equal_members(member, *static_cast<const T*>(others[next++])) && equal;
+  }
+};
+
+}  // namespace detail
+
+/// Equality of all that is listed, whatever else the structs hold.
+template <class T>
+bool equal_parameters(const T& a, const T& b) {
+  std::vector<const void*> others;
+  ParametersOf<T>::parameters(b, detail::CollectMembers{others});
+  detail::CompareMembers compare{others};
+  ParametersOf<T>::parameters(a, compare);
+  if constexpr (NamedParameters<T>) compare.equal = compare.equal && a.*T::kNamedBy == b.*T::kNamedBy;
+  return compare.equal;
+}
+
+}  // namespace ensonify

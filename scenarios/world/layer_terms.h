@@ -1,0 +1,235 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/config/parameters.h"
+#include "scenarios/world/layers.h"
+#include "scenarios/world/mission.h"
+
+/// The terms that a layer can be, as a file has them.
+namespace ensonify::terms {
+
+inline constexpr double kHighest_m = 1000.0, kDeepest_m = 11000.0;
+inline Allowed depth() { return in(-kHighest_m, kDeepest_m); }
+inline Allowed heading() { return in(-360, 360); }
+inline Allowed place() { return in(-kFarAway_m, kFarAway_m); }
+
+struct Plane : relief::Plane {
+  double slope_deg = 0.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("depth_m", "m", depth(), "depth at the origin", self.depth_m);
+    visit("slope_deg", "", in(0, 60), "steepest slope, degrees", self.slope_deg);
+    visit("downhill_heading_deg", "deg", heading(), "where it falls to", self.downhill_heading_rad);
+  }
+};
+
+struct Ramp : relief::Ramp {
+  static void parameters(auto& self, auto&& visit) {
+    visit("middle_m", "m", place(), "east, north of its middle", self.middle_enu_m);
+    visit("heading_deg", "deg", heading(), "where it falls to", self.heading_rad);
+    visit("depth_m", "m", depth(), "depth before it", self.depth_m);
+    visit("drop_m", "m", in(-1000, 1000), "how much deeper it is behind it", self.drop_m);
+    visit("run_m", "m", in(0, kFarAway_m), "length of the ramp; 0: a step", self.run_m);
+  }
+};
+
+struct Wave : relief::Wave {
+  static void parameters(auto& self, auto&& visit) {
+    visit("depth_m", "m", depth(), "mean depth", self.depth_m);
+    visit("amplitude_m", "m", in(0, 1000), "of a cosine with a crest at the origin", self.amplitude_m);
+    visit("wavelength_m", "m", must(in(1e-2, kFarAway_m)), "from crest to crest", self.wavelength_m);
+    visit("heading_deg", "deg", heading(), "across the crests", self.heading_rad);
+  }
+};
+
+struct Sphere : relief::Sphere {
+  std::optional<double> centre_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("centre_m", "m", place(), "east, north of its centre", self.centre_enu_m);
+    visit("radius_m", "m", must(in(1e-2, 10000)), "radius of the sphere", self.radius_m);
+    visit("depth_m", "m", depth(), "depth of the level bottom", self.depth_m);
+    visit("centre_depth_m", "m", depth(), "depth of its centre; left out: that of the bottom", self.centre_m);
+  }
+};
+
+struct Ridge : relief::Ridge {
+  static void parameters(auto& self, auto&& visit) {
+    visit("from_m", "m", must(place()), "east, north of its start", self.start_enu_m);
+    visit("to_m", "m", must(place()), "east, north of its end", self.end_enu_m);
+    visit("height_m", "m", must(in(-1000, 1000)), "height of the crest; negative: a trough", self.height_m);
+    visit("width_m", "m", in(0.1, kFarAway_m), "full width at half height", self.width_m);
+  }
+};
+
+struct Strength {
+  double rms_m = 0.0;
+  std::string as_sediment;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("rms_m", "m", computed(in(0, 10000)), "standard deviation of the height", self.rms_m);
+    visit("as_sediment", "", computed(any()), "instead: the roughness of this sediment of APL-UW TR 9407, continued",
+          self.as_sediment);
+  }
+};
+
+struct Spectral : layers::Spectral {
+  static void parameters(auto& self, auto&& visit) {
+    visit("outer_scale_m", "m", must(in(1e-3, 1e6)), "longer waves grow no higher", self.spectrum.outer_scale_m);
+    visit("inner_scale_m", "m", in(0, 1e6), "shorter waves are left out; 0: down to the posts and below",
+          self.spectrum.inner_scale_m);
+    visit("hurst", "", in(0.01, 1), "roughness: near 0 rough, near 1 smooth", self.spectrum.hurst);
+    visit("mean_m", "m", in(-1000, 1000), "mean height", self.mean_m);
+    visit("intermittency", "", in(0, 0.7), "how much roughness differs from place to place", self.intermittency);
+    visit("height_gain", "", in(-1, 1), "how much rougher high places are", self.height_gain);
+    visit("smooth_amplitude", "", in(0, 1), "amplitude where `rough` does not hold", self.smooth_amplitude);
+  }
+};
+
+struct Ripples : relief::RippleParameters {
+  std::optional<double> crest_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("wavelength_m", "m", must(in(1e-2, 10000)), "from crest to crest", self.wavelength_m);
+    visit("height_m", "m", in(0, 100), "crest to trough, mean; left out: 0.65 of Flemming's", self.crest_m);
+    visit("travel_heading_deg", "deg", heading(), "where the lee sides face; crests run across it",
+          self.travel_heading_rad);
+    visit("lee_fraction", "", in(0.3, 0.5), "of the wavelength under the lee side", self.lee_fraction);
+    visit("disorder", "", in(0, 1), "0: straight endless crests; towards 1 bent, short, forked ones", self.disorder);
+    visit("patch_wavelengths", "", in(0.1, 1000), "wavelengths over which crests bend and heights change",
+          self.patch_wavelengths);
+    visit("height_ln_sd", "", in(0, 1), "of the height's logarithm, from place to place", self.height_ln_sd);
+  }
+};
+
+struct Bodies : relief::BodyParameters {
+  static void parameters(auto& self, auto&& visit) {
+    visit("per_km2", "1/km^2", must(in(0, 1e8)), "number of the smallest radius and above", self.per_km2);
+    visit("smallest_radius_m", "m", must(in(1e-3, 1000)), "of the bodies", self.smallest_radius_m);
+    visit("largest_radius_m", "m", must(in(1e-3, 1000)), "of the bodies", self.largest_radius_m);
+    visit("size_exponent", "", in(0.01, 20), "the number above a radius goes as radius to the power of minus this",
+          self.size_exponent);
+    visit("height_per_radius", "", computed(in(0, 10)), "mean; left out: boulders 0.8, else 0.2",
+          self.height_per_radius);
+    visit("height_ln_sd", "", in(0, 2), "of that ratio's logarithm", self.height_ln_sd);
+    visit("elongation", "", in(1, 4), "longer over shorter half axis, at most; the area stays", self.elongation);
+  }
+};
+
+/// Furrows: pairs of a trawl's doors, or single ones of anchors.
+struct Marks : relief::MarkParameters {
+  std::array<double, 2> half_width_m{least_half_width_m, most_half_width_m};
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("per_km2", "1/km^2", must(in(0, 1e5)), "number of tracks", self.tracks_per_km2);
+    visit("length_m", "m", in(0.1, 50000), "of a track", self.length_m);
+    visit("heading_deg", "deg", heading(), "mean of the tracks", self.heading_rad);
+    visit("heading_sd_deg", "deg", in(0, 180), "between tracks", self.heading_sd_rad);
+    visit("curvature_sd_1pm", "1/m", in(0, 1), "curvature of the tracks, standard deviation", self.curvature_sd_1pm);
+    visit("half_width_m", "m", in(0, 10000), "[least, most]", self.half_width_m);
+    visit("depth_m", "m", in(0, 100), "depth of a fresh one", self.depth_m);
+    visit("faded", "", in(0, 1), "the share of its depth that a track has lost is uniform from 0 to this", self.faded);
+    visit("spoil", "", in(0, 1), "height of the spoil, of the depth", self.spoil);
+  }
+};
+struct Spacing {
+  std::array<double, 2> spacing_m{relief::MarkParameters{}.least_spacing_m, relief::MarkParameters{}.most_spacing_m};
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("spacing_m", "m", in(0, 10000), "[least, most] of a pair", self.spacing_m);
+  }
+};
+
+struct Dredged {
+  std::vector<std::array<double, 3>> line_m;
+  double half_width_m = layers::Dredged{}.half_width_m;
+  double side_slope_deg = 11.3;  // 1:5
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("line_m", "m", must(place()), "two places or more: east, north, depth", self.line_m);
+    visit("half_width_m", "m", must(in(1e-2, kFarAway_m)), "of its bottom", self.half_width_m);
+    visit("side_slope_deg", "", in(0.1, 80), "slope of its sides, degrees", self.side_slope_deg);
+  }
+};
+
+struct GuideFiles : layers::Guide {
+  static void parameters(auto& self, auto&& visit) {
+    visit("raster", "", computed(path()), "a file that GDAL reads", self.raster);
+    visit("tiles", "", computed(path()), "instead: the folder of a tile set", self.tiles_folder);
+    visit("cell_m", "m", must(in(1e-2, 1000)), "of the smooth surface through it", self.cell_m);
+  }
+};
+struct GuideValues {
+  bool are_depths = false;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("values", "", must(one_of({{"elevation", false}, {"depth", true}})), "of a raster: positive up or down",
+          self.are_depths);
+  }
+};
+
+struct Restored : layers::Restored {
+  static void parameters(auto& self, auto&& visit) {
+    visit("guide", "", must(any()), "the layer whose detail is restored", self.guide);
+    visit("hurst", "", in(0.01, 1), "roughness of the detail", self.hurst);
+    visit("band_start_cells", "", in(2, 16), "longest waves that are restored, in cells", self.band_start_cells);
+  }
+};
+
+// --- masks ---------------------------------------------------------------------------------------------------------
+
+struct Mask : layers::Mask {
+  std::vector<std::array<double, 2>> corners_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("of", "", computed(ensonify::any()), "layer up to which the seabed counts for depth, slope, curvature", self.of);
+    visit("scale_m", "m", in(1e-3, kFarAway_m), "at which these and sediment are looked at", self.scale_m);
+    visit("polygon_m", "m", computed(place()), "corners: [[east, north], ...]", self.corners_m);
+    visit("soft_m", "m", in(0, kFarAway_m), "width of the polygon's border", self.polygon_softness_m);
+    visit("reverse", "", ensonify::any(), "where all this does not hold", self.reverse);
+  }
+};
+
+struct Patches : layers::Mask::Patches {
+  static void parameters(auto& self, auto&& visit) {
+    visit("length_m", "m", must(in(1e-2, kFarAway_m)), "typical size of a patch", self.length_m);
+    visit("share", "", in(0.001, 0.999), "of everything that patches cover", self.share);
+    visit("soft", "", in(0, 10), "width of their border, in standard deviations of the noise that draws it",
+          self.softness);
+  }
+};
+
+/// A band in the unit of the file, between limits that the mask says.
+struct Band {
+  double low, high, soft = 0.0;
+  double least, most;
+
+  Band(double from, double to) : low(from), high(to), least(from), most(to) {}
+  static void parameters(auto& self, auto&& visit) {
+    visit("from", "", computed(in(self.least, self.most)), "lower limit", self.low);
+    visit("to", "", computed(in(self.least, self.most)), "upper limit", self.high);
+    visit("soft", "", in(0, self.most - self.least), "falls off over this beyond the limits", self.soft);
+  }
+};
+
+/// What every layer can have besides its term.
+struct Common : layers::Layer {
+  static void parameters(auto& self, auto&& visit) {
+    visit("use", "", any(), "false: as if it were not there", self.used);
+    visit("join", "",
+          computed(one_of({{"add", relief::Layer::Join::kAdd},
+                           {"cover", relief::Layer::Join::kCover},
+                           {"cut", relief::Layer::Join::kCut}})),
+          "to what lies below: add to it, the higher of both, the lower of both", self.join);
+    visit("sediment", "", in(0, 255), "class where the mask is a half or more and the layer moved the seabed",
+          self.sediment);
+    visit("shows_above_m", "m", in(0, 1000), "by more than this", self.shows_above_m);
+    visit("above", "", computed(any()), "of cover and cut: heights count from the seabed up to this layer", self.above);
+  }
+};
+
+}  // namespace ensonify::terms

@@ -1,0 +1,130 @@
+"""Editors' help for launch and scenario files.   schema_test.py BIN_FOLDER
+
+The schemas that ship are those of the lists; every launch and scenario file of the project is valid; every key has a
+sentence to show; planted mistakes are found where they are.
+"""
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import jsonschema
+import yaml
+
+SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
+FOLDER = SOURCE / "launch/schema"
+MODELINE = re.compile(r"^# yaml-language-server: \$schema=(\S+)$", re.MULTILINE)
+
+
+class Yaml12(yaml.SafeLoader):
+    """Plain scalars as YAML 1.2 has them: 1e3 is a number, `on` a text."""
+
+
+Yaml12.yaml_implicit_resolvers = {}
+for tag, pattern, first in (
+        ("bool", r"^(?:true|false)$", "tf"),
+        ("null", r"^(?:null|~|)$", ["n", "~", ""]),
+        ("int", r"^[-+]?[0-9]+$", "-+0123456789"),
+        ("float", r"^[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?$", "-+.0123456789")):
+    Yaml12.add_implicit_resolver(f"tag:yaml.org,2002:{tag}", re.compile(pattern), list(first))
+Yaml12.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
+Yaml12.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
+
+
+def texts(value):
+    """Keys as editors see them: texts, also where a scenario numbers its sediments."""
+    if isinstance(value, dict):
+        return {str(key): texts(of) for key, of in value.items()}
+    return [texts(item) for item in value] if isinstance(value, list) else value
+
+
+def load(path):
+    return texts(yaml.load(path.read_text(encoding="utf-8"), Yaml12))
+
+
+def schema_of(kind):
+    done = subprocess.run([os.path.join(sys.argv[1], "ensonify-describe"), "--schema", kind], capture_output=True,
+                          text=True, check=True)
+    written = (FOLDER / f"{kind}.json").read_text(encoding="utf-8")
+    assert done.stdout == written, f"launch/schema/{kind}.json: write it with `ensonify describe --schema {kind}`"
+    schema = json.loads(written)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def problems(validator, document):
+    """Where and what: of alternatives, what is wrong with the nearest."""
+    found = []
+    for error in validator.iter_errors(document):
+        best = jsonschema.exceptions.best_match([error])
+        found.append((".".join(str(step) for step in best.absolute_path), best.message))
+    return found
+
+
+def keys_without_sentence(schema, path=""):
+    for key, value in schema.items():
+        if not isinstance(value, dict):
+            for i, item in enumerate(value if isinstance(value, list) else []):
+                if isinstance(item, dict):
+                    yield from keys_without_sentence(item, f"{path}/{key}[{i}]")
+        elif key == "properties":
+            for name, of in value.items():
+                if not of.get("description"):
+                    yield f"{path}/{name}"
+                yield from keys_without_sentence(of, f"{path}/{name}")
+        elif key not in ("if", "then"):
+            yield from keys_without_sentence(value, f"{path}/{key}")
+
+
+def planted(validator, document, path, value, where, words):
+    """A mistake in a valid document: `value` at `path` (None: removed); what is found must say so."""
+    document = copy.deepcopy(document)
+    *steps, last = path
+    inner = document
+    for step in steps:
+        inner = inner[step]
+    if value is None:
+        del inner[last]
+    else:
+        inner[last] = value
+    found = problems(validator, document)
+    assert any(place == where and words in message for place, message in found), (path, found)
+
+
+validators = {"launch": schema_of("launch"), "scenario": schema_of("scenario")}
+shipped = {"launch": [], "scenario": []}
+for top in ("launch", "scenarios", "bench", "docs", "examples", "tests"):
+    for file in sorted((SOURCE / top).rglob("*.yaml")):
+        for kind, files in shipped.items():
+            if re.search(rf"^ensonify: {kind}/1", file.read_text(encoding="utf-8"), re.MULTILINE):
+                files.append(file)
+                wrong = problems(validators[kind], load(file))
+                assert not wrong, f"{file}: {wrong}"
+
+for kind, files in shipped.items():
+    for file in files:
+        if file.relative_to(SOURCE).parts[0] in ("launch", "scenarios"):
+            line = MODELINE.search(file.read_text(encoding="utf-8"))
+            assert line, f"{file} lacks its `# yaml-language-server: $schema=` line"
+            assert (file.parent / line[1]).resolve() == FOLDER / f"{kind}.json", f"{file}: {line[1]}"
+    silent = list(keys_without_sentence(validators[kind].schema))
+    assert not silent, f"{kind}: no sentence for {silent}"
+
+bay = load(SOURCE / "scenarios/bay/scenario.yaml")
+scenario = validators["scenario"]
+planted(scenario, bay, ["site", "latitude_deg"], 91, "site.latitude_deg", "maximum of 89.9")
+planted(scenario, bay, ["mission", "sped_mps"], 2, "mission", "'sped_mps' was unexpected")
+planted(scenario, bay, ["seabed", "kind"], "rasta", "seabed.kind", "is not one of ['layers', 'raster', 'tiles']")
+planted(scenario, bay, ["mission"], None, "", "'mission' is a required property")
+planted(scenario, bay, ["seabed", "sediments"], {"0": "medium sant"}, "seabed.sediments.0", "is not")
+
+demo = load(SOURCE / "launch/demo.yaml")
+launch = validators["launch"]
+planted(launch, demo, ["processes", "boat", "obsever"], True, "processes.boat", "'obsever' was unexpected")
+planted(launch, demo, ["processes", "pager", "config"], {"rate_hz": 21}, "processes.pager.config.rate_hz", "21")
+planted(launch, demo, ["processes", "pilot", "config"], {"patience": 1}, "processes.pilot.config", "'patience' was unexpected")
+planted(launch, demo, ["clock"], {"rate": "fast"}, "clock.rate", "fast")
+print(f"{len(shipped['launch'])} launch and {len(shipped['scenario'])} scenario files are valid")
