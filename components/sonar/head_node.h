@@ -163,9 +163,8 @@ class HeadNode {
   /// act(a, b) of the elements of two tuples, in their order.
   template <class A, class B, class Act>
   static void for_pairs(A&& a, B&& b, const Act& act) {
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (act(std::get<i>(a), std::get<i>(b)), ...);
-    }(std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<A>>>());
+    [&]<std::size_t... i>(std::index_sequence<i...>) { (act(std::get<i>(a), std::get<i>(b)), ...); }
+    (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<A>>>());
   }
 
   HeadInputs inputs_;

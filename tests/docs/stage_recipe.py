@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Does what docs/manual/adding-a-component.md says, in a folder of its own: stage_recipe.py SOURCE STAGE
+"""Does what the pages on adding a component and a head say, in a folder of its own: stage_recipe.py SOURCE STAGE
 
-Runs the page's `sh` blocks on copies of the files that they name and writes its yaml files. Of
-components/CMakeLists.txt only the lines that the page adds are left, so that the new component alone is added to the
+Runs each page's `sh` blocks on copies of the files that they name and writes its yaml files. Of
+components/CMakeLists.txt only the lines that the pages add are left, so that the new components alone are added to the
 build that called us. Files that did not change keep their times.
 """
 import filecmp
@@ -14,13 +14,30 @@ import sys
 import tempfile
 
 
+# Page, example to copy, component made of it, and the line that names it to the build.
+RECIPES = (
+    ("docs/manual/adding-a-component.md", "gyro", "compass", "ensonify_component(compass CompassNode)"),
+    ("docs/adding-a-head.md", "profiler", "pencil", "ensonify_component(pencil PencilNode)"),
+)
+
+
 def follow(source, stage):
-    page = (source / "docs/manual/adding-a-component.md").read_text()
     listing = source / "components/CMakeLists.txt"
     (stage / "components").mkdir()
     shutil.copy(listing, stage / "components")
-    shutil.copytree(source / "examples/gyro", stage / "examples/gyro")
+    for page, example, component, _ in RECIPES:
+        follow_page(source / page, source / "examples" / example, component, stage)
 
+    before = listing.read_text().splitlines()
+    added = [line for line in (stage / "components/CMakeLists.txt").read_text().splitlines() if line not in before]
+    if sorted(added) != sorted(line for *_, line in RECIPES):
+        sys.exit(f"the recipes added these lines to components/CMakeLists.txt: {added}")
+    (stage / "components/CMakeLists.txt").write_text("\n".join(added) + "\n")
+
+
+def follow_page(page, example, component, stage):
+    shutil.copytree(example, stage / "examples" / example.name)
+    page = page.read_text()
     commands = re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S)
     for command in commands:
         subprocess.run(["sh", "-e", "-c", command], cwd=stage, check=True)
@@ -30,14 +47,8 @@ def follow(source, stage):
         (stage / name).write_text(text)
     if len(commands) != 2 or len(files) != 2:
         sys.exit(f"the page has {len(commands)} sh blocks and {len(files)} yaml files; 2 and 2 are expected")
-
-    before = listing.read_text().splitlines()
-    added = [line for line in (stage / "components/CMakeLists.txt").read_text().splitlines() if line not in before]
-    if added != ["ensonify_component(compass CompassNode)"]:
-        sys.exit(f"the recipe added these lines to components/CMakeLists.txt: {added}")
-    (stage / "components/CMakeLists.txt").write_text("\n".join(added) + "\n")
-    for file in (stage / "components/compass").iterdir():
-        if "gyro" in file.read_text().lower() or "gyro" in file.name:
+    for file in (stage / "components" / component).iterdir():
+        if example.name in file.read_text().lower() or example.name in file.name:
             sys.exit(f"the recipe left the template's name in {file.name}")
 
 

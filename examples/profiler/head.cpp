@@ -1,0 +1,125 @@
+#include "examples/profiler/head.h"
+
+#include <cmath>
+
+#include "components/sonar/head_motion.h"
+#include "components/sonar/trace_summary.h"
+#include "kernels/acoustics/array/line.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kSamplesPerPulse = 4.0;
+constexpr double kStandsOut_db = 15.0;
+constexpr double kReach = 2.0;  // half-power widths from the axis beyond which nothing is sent: -48 dB one-way
+
+/// Amplitude of a Gaussian beam: half the power at half the width, no side lobes.
+AperturePattern gaussian_beam(double beamwidth_rad) {
+  const double half_power = std::sin(0.5 * beamwidth_rad);
+  const double fall = 0.5 * std::log(2.0) / (half_power * half_power);
+  return [fall](const Eigen::Vector3f& direction, float) {
+    const auto off_axis = static_cast<double>(direction.head<2>().squaredNorm());
+    return direction.z() > 0.0F ? static_cast<float>(std::exp(-fall * off_axis)) : 0.0F;
+  };
+}
+
+double resolution_m(const ProfilerConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
+
+Apertures aperture_of(const ProfilerConfig& c) {
+  Apertures aperture;
+  aperture.frequency_hz = c.frequency_hz;
+  aperture.patterns.transmit = aperture.patterns.receive = {gaussian_beam(c.beamwidth_rad)};
+  const double size_in_waves = array::length_in_waves_for(c.beamwidth_rad);
+  aperture.directivity_index_db = array::directivity_index_db(size_in_waves, size_in_waves);
+  aperture.narrowest_rad = c.beamwidth_rad;
+  aperture.nearest_m = 1.0;
+  aperture.resolution_m = resolution_m(c);
+  aperture.seed = c.world.seed;
+  aperture.process = c.process;
+  return aperture;
+}
+
+trace::RayDistribution rays_of(const ProfilerConfig& c) {
+  const double reach_rad = kReach * c.beamwidth_rad, reach = std::sin(reach_rad), main = std::sin(c.beamwidth_rad);
+  const trace::TransmitVolume cone{trace::TransmitVolume::Axis::kForward,
+                                   {-reach, reach, -main, main, main},
+                                   {-reach_rad, reach_rad, -c.beamwidth_rad, c.beamwidth_rad, c.beamwidth_rad}};
+  return {cone, {c.quality, resolution_m(c)}, {c.world.seed, c.process + "/rays"}};
+}
+
+/// The bottom by the middle of the strongest echo, if it stands out: the strongest of 10,000 samples of noise is 10 dB
+/// above their mean.
+msg::BottomTrack strongest_echo(const echo::Image& image, const echo::Sampling& sampling, const echo::Pulse& pulse,
+                                double sound_speed_mps) {
+  const auto samples = image.row(0);
+  double sum_upa2 = 0.0, most_upa2 = 0.0;
+  std::size_t strongest = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto power_upa2 = static_cast<double>(std::norm(samples[k]));
+    sum_upa2 += power_upa2;
+    if (power_upa2 <= most_upa2) continue;
+    most_upa2 = power_upa2;
+    strongest = k;
+  }
+  msg::BottomTrack bottom;
+  bottom.sound_speed_mps = sound_speed_mps;
+  if (sum_upa2 == 0.0) return bottom;
+  bottom.quality_db = 10.0 * std::log10(most_upa2 * static_cast<double>(samples.size()) / sum_upa2);
+  bottom.valid = bottom.quality_db > kStandsOut_db;
+  bottom.travel_time_s = sampling.start_s + static_cast<double>(strongest) * sampling.period_s - 0.5 * pulse.duration_s;
+  bottom.altitude_m = 0.5 * sound_speed_mps * bottom.travel_time_s;
+  return bottom;
+}
+
+}  // namespace
+
+HeadPlan Profiler::plan(const Config& config) {
+  return {.channels = {{"", config.start(), config.limits()}},
+          .longest_reception_s = config.reception_s(config.range_m),
+          .finest_beam_rad = config.beamwidth_rad};
+}
+
+Profiler::Profiler(const Config& config, std::size_t)
+    : config_(config),
+      pulse_(echo::tapered_pulse(config.pulse_length_s, 0.0)),
+      echoes_(aperture_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)) {}
+
+HeadOutputs<msg::Ping, msg::BottomTrack> Profiler::outputs() const {
+  const double samples = kSamplesPerPulse * config_.reception_s(config_.range_m) / config_.pulse_length_s;
+  return {{"ping", sizeof(float) * static_cast<std::size_t>(samples) + 65536}, {"bottom"}};
+}
+
+SentPing Profiler::transmit(SimTime, const HeadSettings& settings, const HeadInputs&) const {
+  const SimTime reception = from_seconds(config_.reception_s(settings.range_m));
+  return {{{config_.frequency_hz, config_.pulse_length_s, reception, settings}}};
+}
+
+HeadReport<msg::Ping, msg::BottomTrack> Profiler::ping(const PingEvent& event, const SentPing& sent,
+                                                       HeadInputs& inputs) {
+  const Transmission& transmission = sent.sectors.front();
+  const HeadSettings& settings = transmission.settings;
+  head_poses(inputs.truth(), config_.mounting.actual, event.transmit, transmission.reception, poses_);
+  const Emission emission{event, settings.source_level_db, seconds(transmission.reception),
+                          config_.pulse_length_s / kSamplesPerPulse};
+  const auto [image, trace] = echoes_.receive_echoes(emission, pulse_, poses_, inputs.seabed(), memory_);
+  const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
+
+  msg::Ping ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
+  ping.kind = kComponent;
+  ping.beam_angle_rad = msg::Array<float>::of({0.0F});
+  fill(ping.applied, settings);
+  ping.applied.frequency_hz = config_.frequency_hz;
+  ping.applied.pulse = "cw";
+  ping.applied.transmit_beamwidth_rad = ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
+  ping.applied.sound_speed_mps = config_.sound_speed_mps;
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, ping);
+
+  msg::BottomTrack bottom = strongest_echo(image, sampling, pulse_, config_.sound_speed_mps);
+  bottom.stamp_ns = ping.stamp_ns;
+  bottom.ping = ping.ping;
+  return {.messages = {std::move(ping), std::move(bottom)}, .trouble = no_echo_reason(trace)};
+}
+
+}  // namespace ensonify

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "examples/profiler/head.h"
+
+namespace ensonify {
+
+using ProfilerNode = HeadNode<Profiler>;
+
+}  // namespace ensonify
