@@ -31,7 +31,7 @@ int become(std::vector<std::string> words) {
 bool is_process_of_run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
-    if (word == "--name" || word.starts_with("--name=")) return true;
+    if (word == "--name" || word.starts_with("--name=") || word.starts_with("--parameters")) return true;
   }
   return false;
 }
