@@ -53,7 +53,7 @@ class Folder {
 
   Launch read(LaunchOptions options = {}) const {
     options.file = file(options.file.empty() ? "x.yaml" : options.file);
-    return read_launch(options);
+    return read_launch(options, [](ConfigReader& from, const std::string& scenario) { read_world(from, scenario); });
   }
   /// What is wrong, with the folder's own name left out.
   std::string problems(LaunchOptions options = {}) const {
@@ -228,7 +228,7 @@ TEST_CASE("mistakes in a launch file and its world are reported together") {
         "--arg rastr: is not an argument of this launch file; did you mean raster?\n"
         "world.yaml:3:16: seabed.kind: is \"sand\", not one of layers, raster, tiles\n"
         "x.yaml:5:33: processes.auv.cpus[0]: is \"a\", not a number in [0, 4095]\n"
-        "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (looked beside this file and in the "
+        "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (searched beside this file and in the "
         "data folders)\n"
         "x.yaml:11:13: wiring.bwo.pose: no process is named bwo; did you mean bow?");
 }

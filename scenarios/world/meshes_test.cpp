@@ -128,7 +128,7 @@ TEST_CASE("mistakes in meshes have a place") {
              Catch::StartsWith("s.yaml:1:36: seabed.meshes.a: needs one of file, bars, sheet_pile_wall"));
   CHECK(
       of("file: no.obj") ==
-      "s.yaml:1:43: seabed.meshes.a.file: \"no.obj\": no such file or folder (looked beside this file and in the data "
+      "s.yaml:1:43: seabed.meshes.a.file: \"no.obj\": no such file or folder (searched beside this file and in the data "
       "folders)");
   CHECK(of(wall + "}, sediment: 9") == "s.yaml:1:96: seabed.meshes.a.sediment: is not a class of seabed.sediments");
   CHECK_THAT(of("sheet_pile_wall: {from_m: [0, 0], to_m: [0.2, 0]}"),

@@ -125,7 +125,7 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
         "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster or tiles");
   CHECK(
       problems_of(kBay, "kind: layers\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
-      "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (looked beside this file and in the data "
+      "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (searched beside this file and in the data "
       "folders)\n"
       "bay.yaml:9:11: seabed.layers: is not used by this kind of seabed");
 }
