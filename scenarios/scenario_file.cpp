@@ -12,9 +12,7 @@ namespace {
 struct Seed {
   std::uint64_t seed = ScenarioHeader{}.seed;
 
-  static void parameters(auto& self, auto&& visit) {
-    visit("seed", "", any(), "of everything random", self.seed);
-  }
+  static void parameters(auto& self, auto&& visit) { visit("seed", "", any(), "of everything random", self.seed); }
 };
 struct Time {
   std::string start_utc = ScenarioHeader{}.start_utc;

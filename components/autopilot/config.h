@@ -20,11 +20,12 @@ struct AutopilotParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
-          self.vehicle);
+    visit("vehicle", "", any(),
+          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
     visit("command_rate_hz", "Hz", in(1, 100), "how often a command is published", self.command_rate_hz);
     visit("lookahead_radii", "", in(0.2, 20),
-          "line-of-sight distance in turning radii, of at least 2 s of way; smaller steers harder", self.lookahead_radii);
+          "line-of-sight distance in turning radii, of at least 2 s of way; smaller steers harder",
+          self.lookahead_radii);
     visit("turn_margin", "", in(1, 10), "planned turns are this much wider than the vehicle's turning circle",
           self.turn_margin);
     visit("turn_speed_fraction", "", in(0.1, 1), "speed in turns, of the mission's", self.turn_speed_fraction);

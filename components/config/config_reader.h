@@ -99,8 +99,9 @@ class ConfigReader {
   bool has(std::string_view key) const;
   /// The keys of this map that somebody has asked for so far.
   std::vector<std::string> known_keys() const;
-  /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out). A key inside is
-  /// written as messages show it, "channels[1].name"; where it is left out, the place is that of what should hold it.
+  /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out). A key inside
+  /// is written as messages show it, "channels[1].name"; where it is left out, the place is that of what should hold
+  /// it.
   void problem(std::string_view key, const std::string& message) const;
   /// Adds another document to the same list of problems, e.g. a file that this one names.
   ConfigReader also(ConfigDocument document, const std::string& path = "") const;

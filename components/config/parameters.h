@@ -127,7 +127,9 @@ concept FixedVector = requires(T& vector) {
 ///   ConfigNode in_file() const;            the default
 ///   static std::string schema();           JSON Schema of the value
 template <class T>
-concept ReadsItself = requires(T& member) { { T::schema() } -> std::convertible_to<std::string>; };
+concept ReadsItself = requires(T& member) {
+  { T::schema() } -> std::convertible_to<std::string>;
+};
 
 template <class T>
 concept ListOfParameters = IsVector<T>::value && HasParameters<typename T::value_type>;

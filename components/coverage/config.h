@@ -19,8 +19,8 @@ struct CoverageParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
-          self.vehicle);
+    visit("vehicle", "", any(),
+          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
     visit("rate_hz", "Hz", in(1, 10), "rate of coverage messages", self.rate_hz);
     visit("head_depth_m", "m", in(-10, 11000),
           "depth of the transducer below chart datum: swaths are counted from there", self.head_depth_m);

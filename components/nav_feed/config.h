@@ -26,8 +26,8 @@ struct NavFeedParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
-          self.vehicle);
+    visit("vehicle", "", any(),
+          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
     visit("port", "", in(1024, 65535), "UDP port on the loopback interface", self.port);
     visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
     visit("delay_s", "s", in(0, 60),

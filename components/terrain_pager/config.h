@@ -45,10 +45,11 @@ struct TerrainPagerParameters {
     visit("head_budget_mb", "MB", in(1, 1e6), "margins at which heads would hold more are refused",
           self.head_budget_mb);
     // Stays in degrees.
-    visit("corridor_half_deg", "", in(0, 85), "degrees either side of nadir along the runlines within which holes matter",
-          self.corridor_half_deg);
+    visit("corridor_half_deg", "", in(0, 85),
+          "degrees either side of nadir along the runlines within which holes matter", self.corridor_half_deg);
     visit("cache_mb", "MB", in(0, 1e5),
-          "tiles of a generated seabed are kept on disk, up to so much, for the next start; 0: none are", self.cache_mb);
+          "tiles of a generated seabed are kept on disk, up to so much, for the next start; 0: none are",
+          self.cache_mb);
     visit("cache_folder", "", any(),
           "where; \"\": $XDG_CACHE_HOME/ensonify/tiles, or ~/.cache/ensonify/tiles. May be deleted at any time",
           self.cache_folder);

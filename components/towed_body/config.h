@@ -78,7 +78,8 @@ struct TowedBodyParameters {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("vehicle", "", any(),
-          "which of the scenario's vehicles it is; \"\": the one with the process's name, or the only one", self.vehicle);
+          "which of the scenario's vehicles it is; \"\": the one with the process's name, or the only one",
+          self.vehicle);
     visit("pose_rate_hz", "Hz", in(10, 200), "rate of the true pose and of the estimate", self.pose_rate_hz);
     visit("cable", "the cable from the vessel to the body", self.cable);
     visit("body", "the body at its end", self.body);

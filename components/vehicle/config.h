@@ -24,8 +24,8 @@ struct VehicleParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(), "which of the scenario's vehicles; \"\": the one with the process's name, or the only one",
-          self.vehicle);
+    visit("vehicle", "", any(),
+          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
     visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
   }
 };

@@ -4,7 +4,6 @@
 
 #include "components/config/testing/parameter_files.h"
 
-
 using namespace ensonify;
 
 namespace {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/runtime/testing/node_under_test.h"
 #include "components/config/testing/parameter_files.h"
+#include "components/runtime/testing/node_under_test.h"
 #include "examples/gyro/node.h"
 #include "kernels/base/frames/attitude.h"
 

@@ -224,13 +224,14 @@ TEST_CASE("mistakes in a launch file and its world are reported together") {
   folder.add("world.yaml", replaced(kWorld, "layers", "sand"));
   folder.add("x.yaml", replaced(replaced(replaced(kLaunch, "bow.pose", "bwo.pose"), "cpus: [0, 1]", "cpus: [a]"),
                                 "head.yaml", "haed.yaml"));
-  CHECK(folder.problems({.args = {"rastr=x"}}) ==
-        "--arg rastr: is not an argument of this launch file; did you mean raster?\n"
-        "world.yaml:3:16: seabed.kind: is \"sand\", not one of layers, raster, tiles\n"
-        "x.yaml:5:33: processes.auv.cpus[0]: is \"a\", not a number in [0, 4095]\n"
-        "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (searched beside this file and in the "
-        "data folders)\n"
-        "x.yaml:11:13: wiring.bwo.pose: no process is named bwo; did you mean bow?");
+  CHECK(
+      folder.problems({.args = {"rastr=x"}}) ==
+      "--arg rastr: is not an argument of this launch file; did you mean raster?\n"
+      "world.yaml:3:16: seabed.kind: is \"sand\", not one of layers, raster, tiles\n"
+      "x.yaml:5:33: processes.auv.cpus[0]: is \"a\", not a number in [0, 4095]\n"
+      "x.yaml:6:36: processes.bow.config: \"haed.yaml\": no such file or folder (searched beside this file and in the "
+      "data folders)\n"
+      "x.yaml:11:13: wiring.bwo.pose: no process is named bwo; did you mean bow?");
 }
 
 TEST_CASE("other mistakes in a launch file") {

@@ -51,7 +51,8 @@ ParameterList process_list() {
   ParameterList list = parameters_of<ProcessSpec>();
   list.insert(list.begin(),
               key("run", "a component, or a program and its arguments as a list", either({kText, list_of(kScalar)})));
-  list.push_back(key("config", "its own parameters, or the path of a file with them", either({kText, map_of(kAnything)})));
+  list.push_back(
+      key("config", "its own parameters, or the path of a file with them", either({kText, map_of(kAnything)})));
   list.push_back(key("env", "environment variables", map_of(kScalar)));
   list.push_back(key("cpus", "processors that it may run on", list_of({{"type", "number"}, {"minimum", 0}})));
   return list;
@@ -81,7 +82,8 @@ ParameterList launch_list() {
   const Json argument = {{"type", {"string", "number", "boolean", "null"}}};
   return {key("ensonify", "the format", {{"const", kLaunchFormat}}, true),
           key("args", "arguments with their defaults; null: must be given", map_of(argument)),
-          key("include", "launch files that this one goes on from", either({kText, include, list_of(either({kText, include}))})),
+          key("include", "launch files that this one goes on from",
+              either({kText, include, list_of(either({kText, include}))})),
           key("scenario", "path of the scenario", kText),
           key("set", "changes of parameters: PROCESS.KEY or SECTION.KEY to a value", map_of(kAnything)),
           named_info("processes", "which processes run together, by names of your own", process_list()),

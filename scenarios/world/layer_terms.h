@@ -186,7 +186,8 @@ struct Mask : layers::Mask {
   std::vector<std::array<double, 2>> corners_m;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("of", "", computed(ensonify::any()), "layer up to which the seabed counts for depth, slope, curvature", self.of);
+    visit("of", "", computed(ensonify::any()), "layer up to which the seabed counts for depth, slope, curvature",
+          self.of);
     visit("scale_m", "m", in(1e-3, kFarAway_m), "at which these and sediment are looked at", self.scale_m);
     visit("polygon_m", "m", computed(place()), "corners: [[east, north], ...]", self.corners_m);
     visit("soft_m", "m", in(0, kFarAway_m), "width of the polygon's border", self.polygon_softness_m);

@@ -235,10 +235,11 @@ ParameterList mask_list(int depth) {
   ParameterList list = parameters_of<terms::Mask>();
   list.push_back(section_info("depth_m", "between these depths in m", parameters_of(terms::Band(-1000, 11000))));
   list.push_back(section_info("slope_deg", "between these slopes in degrees", parameters_of(terms::Band(0, 80))));
-  list.push_back(section_info("curvature_1pm", "between these curvatures in 1/m", parameters_of(terms::Band(-100, 100))));
+  list.push_back(
+      section_info("curvature_1pm", "between these curvatures in 1/m", parameters_of(terms::Band(-100, 100))));
   list.push_back(classes_info("sediment", "classes that the layers before this one gave"));
-  list.push_back(section_info("patches", "irregular patches that cover a share of everything",
-                              parameters_of<terms::Patches>()));
+  list.push_back(
+      section_info("patches", "irregular patches that cover a share of everything", parameters_of<terms::Patches>()));
   if (depth > 0) list.push_back(list_info("any", "at least one of these masks holds", mask_list(depth - 1)));
   return list;
 }
@@ -268,7 +269,8 @@ ParameterList layer_list() {
   list.push_back(section_info("sphere", "a sphere in a level bottom", parameters_of<terms::Sphere>()));
   list.push_back(section_info("guide", "a macro shape from a file",
                               joined(parameters_of<terms::GuideFiles>(), {optional_values()})));
-  list.push_back(section_info("restored", "detail that a guide of coarse cells lacks", parameters_of<terms::Restored>()));
+  list.push_back(
+      section_info("restored", "detail that a guide of coarse cells lacks", parameters_of<terms::Restored>()));
   list.push_back(section_info("ridge", "a ridge or a trough", parameters_of<terms::Ridge>()));
   list.push_back(section_info("spectral", "relief of a spectrum, plain or multifractal", spectral));
   list.push_back(section_info("ripples", "ripples or dunes", parameters_of<terms::Ripples>()));

@@ -122,7 +122,8 @@ std::vector<progressive::Bar> read_bars(const ConfigReader& from) {
 StrewnCopies read_strewn(ConfigReader from) {
   StrewnInFile file;
   read_parameters(from, file);
-  StrewnCopies strewn{.count = file.count, .where = file.where, .on = read_classes(from, "on"), .place = from.node().place};
+  StrewnCopies strewn{
+      .count = file.count, .where = file.where, .on = read_classes(from, "on"), .place = from.node().place};
   strewn.where.least_scale = file.scale[0], strewn.where.most_scale = file.scale[1];
   if (file.scale[0] > file.scale[1]) from.problem("scale", "falls; allowed is [least, most]");
   return strewn;
@@ -174,7 +175,8 @@ SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& s
 }  // namespace
 
 ParameterList meshes_list() {
-  ParameterList bar = parameters_of<BarInFile>(), strewn = parameters_of<StrewnInFile>(), list = parameters_of<OfMesh>();
+  ParameterList bar = parameters_of<BarInFile>(), strewn = parameters_of<StrewnInFile>(),
+                list = parameters_of<OfMesh>();
   bar.push_back(list_info("repeat", "a row; two of them: a grid", parameters_of<RepeatInFile>()));
   strewn.push_back(classes_info("on", "classes of the ground on which they stand; left out: all"));
   list.push_back(file_info("file", "OBJ or PLY: x east, y north, z up", false));

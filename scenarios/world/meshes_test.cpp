@@ -126,10 +126,10 @@ TEST_CASE("mistakes in meshes have a place") {
   CHECK(of("sediment: 0") == "s.yaml:1:36: seabed.meshes.a: needs one of file, bars, sheet_pile_wall");
   CHECK_THAT(of("file: /etc/hostname, " + wall + "}"),
              Catch::StartsWith("s.yaml:1:36: seabed.meshes.a: needs one of file, bars, sheet_pile_wall"));
-  CHECK(
-      of("file: no.obj") ==
-      "s.yaml:1:43: seabed.meshes.a.file: \"no.obj\": no such file or folder (searched beside this file and in the data "
-      "folders)");
+  CHECK(of("file: no.obj") ==
+        "s.yaml:1:43: seabed.meshes.a.file: \"no.obj\": no such file or folder (searched beside this file and in the "
+        "data "
+        "folders)");
   CHECK(of(wall + "}, sediment: 9") == "s.yaml:1:96: seabed.meshes.a.sediment: is not a class of seabed.sediments");
   CHECK_THAT(of("sheet_pile_wall: {from_m: [0, 0], to_m: [0.2, 0]}"),
              Catch::EndsWith("to_m: is less than a pile's width from from_m"));

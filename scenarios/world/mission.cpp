@@ -294,9 +294,9 @@ ParameterList mission_list() {
   list.push_back(file_info("file", "a mission of its own, mission/1; what stands beside it counts", false));
   list.push_back(list_info("runlines", "straight lines in their order",
                            {place_info("from_m", "start of the line"), place_info("to_m", "end of the line")}));
-  list.push_back(section_info("lawnmower", "parallel lines, to and fro",
-                              with(place_info("centre_m", "middle of all lines; left out: the origin", false),
-                                   parameters_of<Lawnmower>())));
+  list.push_back(section_info(
+      "lawnmower", "parallel lines, to and fro",
+      with(place_info("centre_m", "middle of all lines; left out: the origin", false), parameters_of<Lawnmower>())));
   list.push_back(section_info("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends",
                               with(place_info("centre_m", "middle of the rectangle"), parameters_of<AdaptivePlan>())));
   list.push_back(forms_info("steps", "what is done, in order", step_list()));

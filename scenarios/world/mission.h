@@ -15,7 +15,7 @@ namespace ensonify {
 class ConfigReader;
 
 inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
-inline constexpr double kShortest_m = 1.0;    // less is no line
+inline constexpr double kShortest_m = 1.0;   // less is no line
 
 /// `auto` in the file: runlines laid over an imported raster by whoever can read it.
 struct AutoPlan {
@@ -171,8 +171,8 @@ struct Mission {
     visit("speed_mps", "m/s", in(0.01, 30), "speed through the water", self.speed_mps);
     visit("speed_kn", "kn", computed(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
     visit("depth_m", "m", in(0, 11000), "of the vehicle's reference point below the water level", self.depth_m);
-    visit("altitude_m", "m", in(0.5, 1000), "above the bottom, by the altimeter; instead of the depth, once it is known",
-          self.altitude_m);
+    visit("altitude_m", "m", in(0.5, 1000),
+          "above the bottom, by the altimeter; instead of the depth, once it is known", self.altitude_m);
     visit("least_altitude_m", "m", in(0, 1000), "obstacle floor; 0: none", self.least_altitude_m);
     visit("run_in_m", "m", in(0, 10000), "straight way before each line", self.run_in_m);
     visit("run_out_m", "m", in(0, 10000), "straight way behind each line", self.run_out_m);

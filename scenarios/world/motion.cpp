@@ -44,7 +44,8 @@ struct DisturbancePreset {
 
   static void parameters(auto& self, auto&& visit) {
     Allowed presets;
-    for (const std::string_view name : motion::kDisturbancePresets) presets.words.emplace_back(std::string(name).c_str());
+    for (const std::string_view name : motion::kDisturbancePresets)
+      presets.words.emplace_back(std::string(name).c_str());
     visit("preset", "", computed(presets), "a published motion; what stands beside it differs", self.preset);
   }
 };
@@ -55,7 +56,12 @@ struct DisturbanceInFile {
   Turn roll, pitch, heading;
 
   explicit DisturbanceInFile(const motion::DisturbanceParameters& p = {})
-      : highest_hz(p.highest_hz), surge{p.surge}, sway{p.sway}, heave{p.heave}, roll{p.roll}, pitch{p.pitch},
+      : highest_hz(p.highest_hz),
+        surge{p.surge},
+        sway{p.sway},
+        heave{p.heave},
+        roll{p.roll},
+        pitch{p.pitch},
         heading{p.heading} {}
   motion::DisturbanceParameters si() const { return {surge, sway, heave, roll, pitch, heading, highest_hz}; }
 

@@ -51,7 +51,8 @@ struct SixParameters : seabed::SedimentParameters {
     visit("volume_parameter", "", must(in(0, 1)), "volume scattering over attenuation cross section",
           self.volume_parameter);
     visit("spectral_exponent", "", in(2.4, 3.9), "of the relief spectrum", self.spectral_exponent);
-    visit("spectral_strength_cm4", "", must(in(1e-9, 1)), "of the relief spectrum, in cm^4", self.spectral_strength_cm4);
+    visit("spectral_strength_cm4", "", must(in(1e-9, 1)), "of the relief spectrum, in cm^4",
+          self.spectral_strength_cm4);
   }
 };
 

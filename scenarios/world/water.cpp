@@ -105,9 +105,10 @@ ParameterList profile_list() {
 ParameterList water_list() {
   ParameterList list = parameters_of<Water>();
   for (ParameterInfo& info : profile_list()) list.push_back(std::move(info));
-  list.push_back(section_info("applied", "the profile that soundings are corrected with; left out: the true one",
-                              profile_list()));
-  list.push_back(list_info("scattering_layers", "layers that scatter sound in the water", parameters_of<LayerInFile>()));
+  list.push_back(
+      section_info("applied", "the profile that soundings are corrected with; left out: the true one", profile_list()));
+  list.push_back(
+      list_info("scattering_layers", "layers that scatter sound in the water", parameters_of<LayerInFile>()));
   return list;
 }
 

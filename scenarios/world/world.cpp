@@ -19,9 +19,7 @@ namespace {
 struct Name {
   std::string name = Site{}.name;
 
-  static void parameters(auto& self, auto&& visit) {
-    visit("name", "", any(), "name of the place", self.name);
-  }
+  static void parameters(auto& self, auto&& visit) { visit("name", "", any(), "name of the place", self.name); }
 };
 struct OriginInRaster {
   bool in_raster = false;
@@ -108,15 +106,11 @@ void wave_parameters(auto& wave, auto&& visit, const char* amplitude, const char
 }
 struct Roll : motion::Sinusoid {
   Roll() { period_s = 6.0; }
-  static void parameters(auto& self, auto&& visit) {
-    wave_parameters(self, visit, "amplitude_deg", "deg", 60);
-  }
+  static void parameters(auto& self, auto&& visit) { wave_parameters(self, visit, "amplitude_deg", "deg", 60); }
 };
 struct Heave : motion::Sinusoid {
   Heave() { period_s = 6.0; }
-  static void parameters(auto& self, auto&& visit) {
-    wave_parameters(self, visit, "amplitude_m", "m", 20);
-  }
+  static void parameters(auto& self, auto&& visit) { wave_parameters(self, visit, "amplitude_m", "m", 20); }
 };
 struct RegularWaves {
   std::optional<Roll> roll;
@@ -351,8 +345,8 @@ ParameterList vehicle_list() {
   for (ParameterInfo& info : parameters_of<Abilities>()) list.push_back(std::move(info));
   for (ParameterInfo& info : parameters_of<RegularWaves>()) list.push_back(std::move(info));
   list.push_back(section_info("disturbance", "an irregular sea", disturbance_list()));
-  list.push_back(section_info("floats", "it floats on the water level; left out: it is at the mission's depth",
-                              loading_list()));
+  list.push_back(
+      section_info("floats", "it floats on the water level; left out: it is at the mission's depth", loading_list()));
   list.push_back(word_or_info("start", "where it is at the start", "first_runline", parameters_of<Start>()));
   list.push_back(named_info("mountings", "heads that it carries, by their processes' names",
                             {section_info("actual", "where the head truly is", mounting, true),

@@ -123,11 +123,11 @@ TEST_CASE("mistakes in a scenario have a place, a key and what is allowed") {
         "bay.yaml:17:58: mission.runlines[0].to_m: is less than 1 m from from_m");
   CHECK(problems_of(kBay, "latitude_deg: 42.5, longitude_deg: -70.5", "origin: raster") ==
         "bay.yaml:2:7: site: origin: raster needs seabed.kind: raster or tiles");
-  CHECK(
-      problems_of(kBay, "kind: layers\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
-      "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (searched beside this file and in the data "
-      "folders)\n"
-      "bay.yaml:9:11: seabed.layers: is not used by this kind of seabed");
+  CHECK(problems_of(kBay, "kind: layers\n", "kind: raster\n  raster: {path: no.tif, values: elevation}\n") ==
+        "bay.yaml:8:18: seabed.raster.path: \"no.tif\": no such file or folder (searched beside this file and in the "
+        "data "
+        "folders)\n"
+        "bay.yaml:9:11: seabed.layers: is not used by this kind of seabed");
 }
 
 TEST_CASE("UTC times become nanoseconds") {

@@ -29,8 +29,8 @@ struct ReceiverBand {
 
 /// Interfering pulse behind our filter.
 struct Passed {
-  double start_s = 0.0;  // after its arrival; less than 0 where a chirp's filter, whose delay is taken out, receives
-                         // its upper band
+  double start_s = 0.0;     // after its arrival; less than 0 where a chirp's filter, whose delay is taken out, receives
+                            // its upper band
   double duration_s = 0.0;  // at least that of an echo of ours
   double power = 0.0;       // of the mean square at the receiver; 0..1
 };

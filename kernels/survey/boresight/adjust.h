@@ -46,7 +46,7 @@ struct Adjusted {
   Unknowns sd = Unknowns::Zero();       // standard deviations; zero of what was not solved for
   Unknowns half_95 = Unknowns::Zero();  // half widths of the 95 % intervals: 1.96 sd where many stretches of time
                                         // contribute, more where few do (a rock is passed in seconds)
-  double rms_before_m = 0.0;  // about the cells' planes
+  double rms_before_m = 0.0;            // about the cells' planes
   double rms_after_m = 0.0;
   std::size_t cells = 0;      // of the first laying
   std::size_t soundings = 0;  // used in it

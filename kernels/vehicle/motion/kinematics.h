@@ -8,11 +8,11 @@
 /// the vertical (the SUVAT equations of school physics), and a turning circle of fixed radius. No forces, no slip.
 namespace ensonify::motion {
 
-/// Value and rate of a height or a heading after dt on its quickest way to `target`, at rest there, and the acceleration
-/// in force from then on: full acceleration, then the highest rate, then full deceleration. What moves the wrong way, or
-/// too fast to stop in time, is braked first and then comes back. Exact, so one step of dt equals any number of steps that sum to
-/// dt. `fastest` and `acceleration` must be above 0, in the units of the value per second and per second squared; an
-/// infinite acceleration changes the rate at once.
+/// Value and rate of a height or a heading after dt on its quickest way to `target`, at rest there, and the
+/// acceleration in force from then on: full acceleration, then the highest rate, then full deceleration. What moves the
+/// wrong way, or too fast to stop in time, is braked first and then comes back. Exact, so one step of dt equals any
+/// number of steps that sum to dt. `fastest` and `acceleration` must be above 0, in the units of the value per second
+/// and per second squared; an infinite acceleration changes the rate at once.
 Moving approach(const Moving& from, double target, double dt_s, double fastest, double acceleration);
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();

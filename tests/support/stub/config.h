@@ -48,7 +48,8 @@ struct StubConfig {
     visit("rate_hz", "Hz", in(1, 1000), "events per second", self.rate_hz);
     visit("out", "ports that it publishes on", self.outs);
     visit("in", "ports that it takes from", self.ins);
-    visit("read_every_byte", "", any(), "sums up what arrives, as a real consumer would touch it", self.read_every_byte);
+    visit("read_every_byte", "", any(), "sums up what arrives, as a real consumer would touch it",
+          self.read_every_byte);
     visit("jitter_ms", "", in(0, 1000), "random wall-clock pauses before events, up to so many milliseconds",
           self.jitter_ms);
     visit("finish_s", "s", time, "asks for the run's end", self.finish_s);
