@@ -296,7 +296,7 @@ TEST_CASE("shipped launch files are valid; coarse posts and uneven classes are r
   CHECK(check({demo, "--set", sand}).find("warning") == std::string::npos);
   CHECK(check({demo, "--set", sand, "--set", to_22_m}).find("warning: layer relief holds at 0.6") != std::string::npos);
   const std::string survey = source + "/launch/survey.yaml";
-  CHECK(check({survey}).find("2 " + survey + ":5:3: args.raster: must be given; use --arg raster=VALUE") == 0);
+  CHECK(check({survey}).find("2 " + survey + ":6:3: args.raster: must be given; use --arg raster=VALUE") == 0);
   const std::string raster = std::string(std::getenv("ENSONIFY_SHARED")) + "/data/terrain/massbay_5m.tif";
   if (!fs::exists(raster)) {
     WARN("skipped: no " << raster);

@@ -17,6 +17,10 @@ const Json kAnything = Json::object();
 
 Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
 Json map_of(const Json& values) { return {{"type", "object"}, {"additionalProperties", values}}; }
+Json said(Json schema, const char* sentence) {
+  schema["description"] = sentence;
+  return schema;
+}
 Json either(std::initializer_list<Json> forms) { return {{"anyOf", Json(forms)}}; }
 
 ParameterInfo key(const std::string& name, const std::string& about, const Json& schema, bool required = false) {
@@ -67,18 +71,32 @@ ParameterList clock_list() {
 }
 
 ParameterList launch_list() {
-  const Json connection = {{"type", "object"},
-                           {"required", {"topic"}},
-                           {"additionalProperties", false},
-                           {"properties", {{"topic", kText}, {"delay_ms", {{"type", "number"}, {"minimum", 0}}}}}};
-  const Json include = {{"type", "object"},
-                        {"required", {"file"}},
-                        {"additionalProperties", false},
-                        {"properties", {{"file", kText}, {"args", map_of(kScalar)}}}};
-  Json expectation = {{"type", "object"}, {"additionalProperties", false}, {"properties", {{"name", kText}}}};
-  for (const char* kind : {"count", "rate", "bounds", "eventually", "never", "order", "no_gap", "same_as", "exit"}) {
-    expectation["properties"][kind] = map_of(kAnything);
-  }
+  const Json connection = {
+      {"type", "object"},
+      {"required", {"topic"}},
+      {"additionalProperties", false},
+      {"properties",
+       {{"topic", said(kText, "PROCESS/PORT of the output")},
+        {"delay_ms", said({{"type", "number"}, {"minimum", 0}}, "ms; it may only lengthen the port's own")}}}};
+  const Json include = {
+      {"type", "object"},
+      {"required", {"file"}},
+      {"additionalProperties", false},
+      {"properties",
+       {{"file", said(kText, "path of the launch file")}, {"args", said(map_of(kScalar), "values of its arguments")}}}};
+  Json expectation = {{"type", "object"},
+                      {"additionalProperties", false},
+                      {"properties", {{"name", said(kText, "what the verdict calls it; unique")}}}};
+  const std::pair<const char*, const char*> kinds[] = {{"count", "how many messages a topic has at least or at most"},
+                                                       {"rate", "messages a second of sim time"},
+                                                       {"bounds", "limits of a field, in every message"},
+                                                       {"eventually", "a message that comes within some time"},
+                                                       {"never", "a message that does not come"},
+                                                       {"order", "a message that comes after another"},
+                                                       {"no_gap", "sequence numbers without a gap"},
+                                                       {"same_as", "a record whose messages the run repeats"},
+                                                       {"exit", "how a process ends: exit code or signal"}};
+  for (const auto& [kind, sentence] : kinds) expectation["properties"][kind] = said(map_of(kAnything), sentence);
   const Json argument = {{"type", {"string", "number", "boolean", "null"}}};
   return {key("ensonify", "the format", {{"const", kLaunchFormat}}, true),
           key("args", "arguments with their defaults; null: must be given", map_of(argument)),

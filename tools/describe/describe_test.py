@@ -38,6 +38,6 @@ for message in everything["messages"]:
 
 assert describe("pimg", wanted=2) == "pimg: is neither a component nor a message type; did you mean ping?\n"
 describe("ping", "--yaml", wanted=2)
-with open(f"{SOURCE}/docs/messages.md", encoding="utf-8") as file:
+with open(f"{SOURCE}/docs/manual/messages.md", encoding="utf-8") as file:
     assert describe("--reference") == file.read()
 print(f"{len(folders)} components and {len(everything['messages'])} messages are described")
