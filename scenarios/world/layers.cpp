@@ -67,7 +67,8 @@ layers::Mask read_mask(ConfigReader from, const Names& earlier) {
     mask.patches = read_term<terms::Patches>(*section);
   }
   for (const ConfigReader& term : from.list("any")) mask.any.push_back(read_mask(term, earlier));
-  return mask;
+  const layers::Mask& read = mask;  // without what only the file has
+  return read;
 }
 
 // --- what a layer is
