@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import unittest
 
-from refused_test import BIN, LAUNCH, VEHICLE, WORLD
+from guidance_refused_test import BIN, LAUNCH, VEHICLE, WORLD
 
 # The line runs from 50 m south to 50 m north of the site's origin (53 N, 9 W, the central meridian of UTM zone 29); the
 # land begins 114 m west of it.
