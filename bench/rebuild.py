@@ -31,10 +31,10 @@ def steps_after(build, file):
     now = time.time_ns()
     os.utime(file, ns=(now, now))
     try:
-        told = subprocess.run(["ninja", "-C", str(build), "-n"], capture_output=True, text=True, check=True).stdout
+        printed = subprocess.run(["ninja", "-C", str(build), "-n"], capture_output=True, text=True, check=True).stdout
     finally:
         os.utime(file, ns=(before.st_atime_ns, before.st_mtime_ns))
-    return [line.split(" ")[-1] for line in told.splitlines() if line.startswith("[") and
+    return [line.split(" ")[-1] for line in printed.splitlines() if line.startswith("[") and
             (" Building " in line or " Linking " in line)]
 
 
