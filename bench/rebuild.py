@@ -9,8 +9,10 @@ it, so the log must be of a build without a compiler cache. No file is changed: 
 import argparse
 import os
 import pathlib
+import re
 import statistics
 import subprocess
+import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -25,13 +27,25 @@ def prices(build):
     return found
 
 
+def without_cmake(build):
+    """Writes a copy of the build file that does not first run CMake again, as a dry run always would."""
+    kept = re.sub(r"(?ms)^build build\.ninja[^\n]*: RERUN_CMAKE.*?(?=^\S)", "",
+                  (build / "build.ninja").read_text(encoding="utf-8"))
+    (build / "rebuild.ninja").write_text(kept, encoding="utf-8")
+
+
+def dry_run(build):
+    return subprocess.run(["ninja", "-C", str(build), "-f", "rebuild.ninja", "-n"], capture_output=True, text=True,
+                          check=True).stdout
+
+
 def steps_after(build, file):
     """Outputs that Ninja would make again if this file had changed."""
     before = file.stat()
     now = time.time_ns()
     os.utime(file, ns=(now, now))
     try:
-        printed = subprocess.run(["ninja", "-C", str(build), "-n"], capture_output=True, text=True, check=True).stdout
+        printed = dry_run(build)
     finally:
         os.utime(file, ns=(before.st_atime_ns, before.st_mtime_ns))
     return [line.split(" ")[-1] for line in printed.splitlines() if line.startswith("[") and
@@ -46,6 +60,9 @@ def main():
     parser.add_argument("--slowest", type=int, default=5, help="how many of each kind are named")
     options = parser.parse_args()
     build = ROOT / options.build
+    without_cmake(build)
+    if "no work to do" not in dry_run(build):
+        sys.exit(f"rebuild.py: {build} is not up to date, so no file's cost can be told: build it first")
     price = prices(build)
     files = subprocess.run(["git", "ls-files", "*.h", "*.cpp"], cwd=ROOT, capture_output=True, text=True,
                            check=True).stdout.split()
