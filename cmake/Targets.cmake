@@ -62,7 +62,7 @@ function(ensonify_program name)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
-add_custom_target(sanitize_tests)  # every test labelled `sanitize`
+add_custom_target(sanitize_tests)  # every test that runs under the sanitizer of this build
 
 # And Catch2's, for all tests.
 if(ENSONIFY_TESTS)
@@ -74,9 +74,9 @@ if(ENSONIFY_TESTS)
 endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
-# Labels: unit, physics, system, determinism, golden, wire, bench; and `sanitize` for what also runs under the address
-# and thread sanitizers (presets asan and tsan build those only), or `asan` where threads are TBB's, which the thread
-# sanitizer cannot follow into its library.
+# Labels: unit, physics, system, determinism, golden, wire, bench; `sanitize` for what also runs under the address
+# sanitizer, and `threads` for what starts threads of our own and runs under the thread sanitizer (presets asan and tsan
+# build those only). It cannot follow the threads of TBB or ZeroMQ into their libraries.
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -88,7 +88,8 @@ function(ensonify_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name} --use-colour no)
   ensonify_test_properties(${name} "${ARG_LABELS}" "${ARG_TIMEOUT}")
-  if("sanitize" IN_LIST ARG_LABELS OR ("asan" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES address))
+  if(("sanitize" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES address) OR
+     ("threads" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES thread))
     add_dependencies(sanitize_tests ${name})
   endif()
 endfunction()

@@ -88,6 +88,17 @@ class SystemTest(unittest.TestCase):
         path.write_text(text)
         return path
 
+    def kept(self, name, make):
+        """A copy of the file that `make` returns the path of; made once for all tests of the class."""
+        files = type(self).__dict__.get("kept_files")
+        if files is None:
+            files = type(self).kept_files = {}
+        if name not in files:
+            files[name] = make().read_bytes()
+        path = self.folder / name
+        path.write_bytes(files[name])
+        return path
+
     def command(self, launch, *options, out="out"):
         return [str(BIN / "ensonify"), "run", str(launch), "--out", str(self.folder / out), *map(str, options)]
 

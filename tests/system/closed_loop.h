@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdlib>
-#include <optional>
+#include <numbers>
 #include <string>
-#include <vector>
 
 #include "components/autopilot/node.h"
 #include "components/config/config_reader.h"
 #include "components/navigation/node.h"
-#include "components/runtime/testing/node_under_test.h"
-#include "components/vehicle/model.h"
+#include "components/runtime/testing/nodes_under_test.h"
+#include "components/vehicle/node.h"
 
 namespace ensonify::closed_loop {
 
@@ -35,61 +34,63 @@ inline World world_of(const std::string& vehicle, const std::string& mission, do
   return world;
 }
 
-/// What RTK and a motion sensor make of a pose: white noise of 2 cm, 2 cm/s and 0.05 degrees, each axis.
-inline msg::Estimate estimate_of(const msg::Pose& pose, const random::Stream& noise, std::uint64_t n) {
-  msg::Estimate estimate;
-  estimate.stamp_ns = pose.stamp_ns;
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    estimate.position_enu_m[axis] = pose.position_enu_m[axis] + 0.02 * noise.normal(n, axis);
-    estimate.velocity_enu_mps[axis] = pose.velocity_enu_mps[axis] + 0.02 * noise.normal(n, 3 + axis);
-  }
-  auto attitude = frames::attitude_of(frames::quaternion_of(pose.enu_from_body));
-  attitude.heading_rad += 0.05 * 3.14159265 / 180.0 * noise.normal(n, 6);
-  estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(attitude));
-  return estimate;
-}
+/// Navigation by RTK and a motion sensor: the true pose with white noise of 2 cm, 2 cm/s and 0.05 degrees, each axis.
+class RtkNode {
+ public:
+  struct Config {};
 
-/// Autopilot and vehicle, commands ten times a second and 100 ms old, until the mission is done or `end`. `instruments`
-/// of a navigation process whose filter makes the estimate; "": estimate_of(). `see(mission state, true pose,
-/// estimate)` at each command. Returns whether the mission was done.
+  RtkNode(const Config&, Ports& ports) : estimates_(ports.out<msg::Estimate>("estimate", {.rate = Rate{10, 1}})) {
+    ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
+  }
+
+  SimTime step(SimTime now) {
+    const auto n = static_cast<std::uint64_t>(now.count());
+    msg::Estimate estimate;
+    estimate.stamp_ns = pose_.stamp_ns;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      estimate.position_enu_m[axis] = pose_.position_enu_m[axis] + 0.02 * noise_.normal(n, axis);
+      estimate.velocity_enu_mps[axis] = pose_.velocity_enu_mps[axis] + 0.02 * noise_.normal(n, 3 + axis);
+    }
+    auto attitude = frames::attitude_of(frames::quaternion_of(pose_.enu_from_body));
+    attitude.heading_rad += 0.05 * std::numbers::pi / 180.0 * noise_.normal(n, 6);
+    estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body(attitude));
+    estimates_.send(estimate);
+    return now + 100_ms;
+  }
+
+ private:
+  random::Stream noise_{5, "rtk"};
+  msg::Pose pose_;
+  Ports::Out<msg::Estimate> estimates_;
+};
+
+/// Autopilot and vehicle, commands ten times a second, until the mission is done or `end`. `instruments` of a
+/// navigation process whose filter makes the estimate; "": RtkNode. `see(mission state, true pose, estimate)` at each
+/// command. Returns whether the mission was done.
 template <class See>
 bool run_line(const World& world, SimTime end, const std::string& instruments, See&& see) {
-  constexpr SimTime kPeriod = 100_ms;
   auto empty = ConfigReader::from_text("{}", "auv.yaml");
-  const auto vehicle_config = VehicleConfig::read(empty, world, "auv");
-  const auto pilot_config = AutopilotConfig::read(empty, world, "pilot");
+  auto vehicle = VehicleConfig::read(empty, world, "auv");
+  const auto pilot = AutopilotConfig::read(empty, world, "pilot");
   empty.finish();
+  vehicle.pose_rate_hz = instruments.empty() ? 10 : 50;
 
-  VehicleModel model(vehicle_config, *vehicle_config.start, 0_s);
-  NodeUnderTest<AutopilotNode> pilot(pilot_config);
-  std::optional<NodeUnderTest<NavigationNode>> navigation;
-  if (!instruments.empty()) {
+  NodesUnderTest nodes;
+  nodes.add<VehicleNode>("auv", vehicle);
+  if (instruments.empty()) {
+    nodes.add<RtkNode>("nav", {});
+  } else {
     auto from = ConfigReader::from_text(instruments, "nav.yaml");
-    const auto navigation_config = NavigationConfig::read(from, world, "nav");
+    nodes.add<NavigationNode>("nav", NavigationConfig::read(from, world, "nav"));
     from.finish();
-    navigation.emplace(navigation_config);
   }
-  const random::Stream noise(5, "rtk");
-  std::vector<msg::Guidance> orders;
-  for (SimTime now{0}; now < end && !pilot.finished(); now += kPeriod) {
-    if (!orders.empty()) model.command(orders.back());  // 100 ms old
-    std::vector<msg::Estimate> estimates;
-    msg::Pose pose;
-    for (SimTime t = now == SimTime{0} ? now : now - kPeriod + 20_ms; t <= now; t += 20_ms) {
-      model.advance(t);
-      pose = model.pose();
-      if (navigation) navigation->give("pose", pose);
-    }
-    if (navigation) {
-      estimates = navigation->step_until<msg::Estimate>("estimate", now);
-    } else {
-      estimates.push_back(estimate_of(pose, noise, static_cast<std::uint64_t>(now.count())));
-    }
-    for (const auto& estimate : estimates) pilot.give("estimate", estimate);
-    orders = pilot.step_until<msg::Guidance>("command", now);
-    for (const auto& state : pilot.step_until<msg::MissionState>("mission", now)) see(state, pose, estimates.back());
-  }
-  return pilot.finished();
+  nodes.add<AutopilotNode>("pilot", pilot);
+  msg::Pose truth;
+  msg::Estimate estimate;
+  nodes.watch<msg::Pose>("auv/pose", [&](const msg::Pose& pose) { truth = pose; });
+  nodes.watch<msg::Estimate>("nav/estimate", [&](const msg::Estimate& estimated) { estimate = estimated; });
+  nodes.watch<msg::MissionState>("pilot/mission", [&](const msg::MissionState& state) { see(state, truth, estimate); });
+  return nodes.run_until(end);
 }
 
 }  // namespace ensonify::closed_loop

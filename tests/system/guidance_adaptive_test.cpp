@@ -7,20 +7,18 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "components/autopilot/node.h"
+#include "components/autopilot/testing/loop.h"
 #include "components/config/config_reader.h"
 #include "components/coverage/node.h"
-#include "components/runtime/testing/node_under_test.h"
 #include "components/terrain/source_of.h"
-#include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify;
+using piloted::BoatNode;
 using runlines::Vec2;
 
 namespace {
@@ -94,6 +92,32 @@ msg::Soundings sound(const Slope& slope, const motion::State& boat, SimTime now)
   return soundings;
 }
 
+/// A head that pings five times a second but in turns, its soundings by geometry from where the boat truly is.
+class SounderNode {
+ public:
+  struct Config {
+    const Slope& slope;
+    const BoatNode& boat;
+  };
+
+  SounderNode(const Config& config, Ports& ports)
+      : config_(config), soundings_(ports.out<msg::Soundings>("soundings", {.max_bytes = 65536, .rate = Rate{5, 1}})) {
+    ports.in<msg::Estimate>("estimate", [](const msg::Estimate&) {});  // the boat has come as far as this head
+    ports.in<msg::MissionState>("mission", [this](const msg::MissionState& mission) { state_ = mission.state; },
+                                {.delay = 100_ms});
+  }
+
+  SimTime step(SimTime now) {
+    if (!state_.empty() && state_ != "turn") soundings_.send(sound(config_.slope, config_.boat.at(now), now));
+    return now + 200_ms;
+  }
+
+ private:
+  Config config_;
+  std::string state_;
+  Ports::Out<msg::Soundings> soundings_;
+};
+
 /// Runs a mission over the slope while coverage observes, and, where the mission is adaptive, lays the lines. Returns
 /// coverage's report.
 nlohmann::json run_line(const Slope& slope, const World& surveyed) {
@@ -103,33 +127,14 @@ nlohmann::json run_line(const Slope& slope, const World& surveyed) {
   const auto folder = std::filesystem::temp_directory_path() / "ensonify_adaptive_test";
   std::filesystem::create_directories(folder);
 
-  NodeUnderTest<AutopilotNode> pilot(pilot_config);
-  NodeUnderTest<CoverageNode> coverage(coverage_config, "test", folder);
-  motion::State boat = start_of(pilot_config.plan, surveyed.mission.runlines);
-  motion::Command command{boat.heading_rad, boat.speed_mps, 0.0};
-  for (SimTime now{0}; now < 14400_s && !pilot.finished(); now += 100_ms) {
-    msg::Estimate estimate;
-    estimate.stamp_ns = now.count();
-    estimate.position_enu_m = {boat.position_enu_m.x(), boat.position_enu_m.y(), 0.0};
-    estimate.enu_from_body = frames::wxyz_of(frames::enu_from_body({boat.heading_rad, 0.0, 0.0}));
-    estimate.velocity_enu_mps = {boat.speed_mps * std::sin(boat.heading_rad),
-                                 boat.speed_mps * std::cos(boat.heading_rad), 0.0};
-    pilot.give("estimate", estimate);
-    const auto next_lines = coverage.step_until<msg::NextLine>("next_line", now);
-    if (surveyed.mission.adaptive) {
-      for (const auto& line : next_lines) pilot.give_at("next_line", now, line);
-    }
-    const auto orders = pilot.step_until<msg::Guidance>("command", now);
-    for (const auto& mission : pilot.step_until<msg::MissionState>("mission", now)) {
-      coverage.give_at("mission", now, mission);
-      const bool pings = now.count() % 200'000'000 == 0 && mission.state != "turn";  // 5 Hz
-      if (pings) coverage.give_at("soundings", now, sound(slope, boat, now));
-    }
-    boat = motion::advance(boat, command, 0.1, pilot_config.plan.limits);
-    if (!orders.empty()) command = {orders[0].heading_grid_rad, orders[0].speed_mps, 0.0};
-  }
-  REQUIRE(pilot.finished());
-  coverage.node().finish_run();
+  NodesUnderTest nodes;
+  const auto& boat =
+      nodes.add<BoatNode>("boat", {pilot_config.plan.limits, start_of(pilot_config.plan, surveyed.mission.runlines)});
+  nodes.add<AutopilotNode>("pilot", pilot_config);
+  nodes.add<SounderNode>("sounder", {slope, boat});
+  const auto& coverage = nodes.add<CoverageNode>("coverage", coverage_config, folder);
+  REQUIRE(nodes.run_until(14400_s));
+  coverage.finish_run();
   std::ifstream stream(folder / "coverage.json");
   return nlohmann::json::parse(stream);
 }

@@ -23,10 +23,13 @@ class Replay(SystemTest):
         done = subprocess.run([BIN / "ensonify-compare", *map(str, words)], capture_output=True, text=True)
         return done.returncode, done.stdout
 
-    def recorded(self):
+    def record(self):
         result = self.run_launch(survey(seconds=3, more=RECORDER.format(file="a.mcap")))
         self.assertEqual(result.code, 0, result.stderr)
         return result.out / "a.mcap"
+
+    def recorded(self):
+        return self.kept("a.mcap", self.record)
 
     def test_a_replay_in_the_place_of_a_head_gives_the_same_messages(self):
         record = self.recorded()

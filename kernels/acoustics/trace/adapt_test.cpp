@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/acoustics/trace/scene.h"
-#include "kernels/acoustics/trace/views.h"
+#include "kernels/acoustics/trace/testing/adapted.h"
 #include "kernels/base/random/stream.h"
-#include "kernels/water/refraction/thermocline.h"
 
 using namespace ensonify;
 using namespace ensonify::trace;
+using namespace ensonify::trace::adapted;
 using frames::HeadPose;
 using frames::Vec2;
 using frames::Vec3;
@@ -47,65 +46,17 @@ HeadPose pose(int ping) {
   return {{-10.0 + 0.9 * ping, 5.0 - 0.3 * ping, -5.0}, enu_from_body(frames::Attitude{heading, 0.03, -0.05})};
 }
 
-const TransmitVolume kFan = mills_cross_volume(50.0, 50.0, 1.13);
-
-/// At random over the volume; of the main lobe alone or of all of it.
-std::vector<Ray> rays_of(int ping, std::size_t count, bool main_lobe) {
-  const random::Stream draws(11, "rays");
-  const Span& u = kFan.sine;
-  const Span& phi = kFan.angle_rad;
-  std::vector<Ray> rays;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<std::uint64_t>(ping);
-    const double sine =
-        std::lerp(main_lobe ? u.main_low : u.low, main_lobe ? u.main_high : u.high, draws.uniform(k, i, 0));
-    const double angle = std::lerp(phi.low, phi.high, draws.uniform(k, i, 1)), beside = std::sqrt(1.0 - sine * sine);
-    rays.push_back({Vec3(sine, beside * std::sin(angle), beside * std::cos(angle)).cast<float>(), 1.0F});
-  }
-  return rays;
-}
-
-std::array<lod::View, 2> views_at(const HeadPose& head, const lod::Water& water = {}) {
-  return views_of(kFan, head, static_cast<double>(kRange), water, 2);
-}
-
-std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const bool same = a[i].range_m == b[i].range_m && a[i].position_enu_m == b[i].position_enu_m &&
-                      a[i].normal_enu == b[i].normal_enu && a[i].travel_time_s == b[i].travel_time_s &&
-                      a[i].tube_m2 == b[i].tube_m2 && a[i].sin_grazing == b[i].sin_grazing;
-    count += same ? 0U : 1U;
-  }
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("main lobe rays hit bit-equal what they hit at full detail") {
   Scene scene = scene_of({.enabled = true});
-  const auto summer = refraction::summer_thermocline();
-  std::vector<Hit> all, some;
   std::size_t different = 0, side_lobes_differ = 0, missed = 0;
   for (int ping = 0; ping < 12; ++ping) {
-    const HeadPose head = pose(ping);
-    scene.adapt(views_at(head));
-    const auto rays = rays_of(ping, 100'000, true);
-    full().trace(head, rays, kRange, all);
-    scene.trace(head, rays, kRange, some);
-    different += differences(all, some);
-    for (const Hit& hit : some) missed += hit.hit() ? 0U : 1U;
-    const auto beyond = rays_of(ping, 10'000, false);
-    full().trace(head, beyond, kRange, all);
-    scene.trace(head, beyond, kRange, some);
-    side_lobes_differ += differences(all, some);
-
-    refraction::PathTable paths;
-    scene.tabulate(summer, head, 5.0, kRange, paths);
-    scene.adapt(views_at(head, water_above(summer, 5.0, 32.0)));
-    full().trace(head, rays, kRange, all, paths);
-    scene.trace(head, rays, kRange, some, paths);
-    different += differences(all, some);
+    const auto found = ping_differences(full(), scene, pose(ping), kRange, rays_of(ping, 100'000, Lobes::kMain),
+                                        rays_of(ping, 10'000, Lobes::kAll), {.head_m = 5.0, .bottom_m = 32.0});
+    different += found.main_lobe;
+    side_lobes_differ += found.all_round;
+    for (const Hit& hit : found.hits) missed += hit.hit() ? 0U : 1U;
   }
   CHECK(different == 0);
   CHECK(missed == 0);
@@ -118,7 +69,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
   std::size_t lost = 0, aimed = 0;
   for (int ping = 0; ping < 8; ++ping) {
     const HeadPose head = pose(ping);
-    scene.adapt(views_at(head));
+    scene.adapt(views_at(head, kRange));
     std::vector<Ray> rays;
     for (std::uint64_t i = 0; i < 250'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
@@ -142,12 +93,12 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
 
 TEST_CASE("the mesh of a ping does not depend on the way to it") {
   Scene wandering = scene_of({.enabled = true}), fresh = scene_of({.enabled = true}, true);
-  for (int ping : {9, 0, 11, 3, 4}) wandering.adapt(views_at(pose(ping)));
+  for (int ping : {9, 0, 11, 3, 4}) wandering.adapt(views_at(pose(ping), kRange));
   CHECK(wandering.remove({2, 2}));
   wandering.insert({2, 2}, terrain::sample_tile(kGrid, {2, 2}, rough));
-  wandering.adapt(views_at(pose(5)));
-  fresh.adapt(views_at(pose(5)));
-  const auto rays = rays_of(5, 100'000, false);
+  wandering.adapt(views_at(pose(5), kRange));
+  fresh.adapt(views_at(pose(5), kRange));
+  const auto rays = rays_of(5, 100'000, Lobes::kAll);
   std::vector<Hit> a, b;
   wandering.trace(pose(5), rays, kRange, a);
   fresh.trace(pose(5), rays, kRange, b);
@@ -157,27 +108,27 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
 TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
   Scene scene = scene_of({.enabled = true});
   std::vector<Hit> hits;
-  const auto rays = rays_of(0, 100, true);
+  const auto rays = rays_of(0, 100, Lobes::kMain);
   scene.trace(pose(0), rays, kRange, hits);
   CHECK_FALSE(hits[0].hit());
-  scene.adapt(views_at(pose(0)));
+  scene.adapt(views_at(pose(0), kRange));
   const std::size_t triangles = scene.triangles();
   CHECK(triangles > 50'000);
   CHECK(triangles < 9UL * 2 * 512 * 512 / 8);
   for (int i = 0; i < 20; ++i) {  // away and back
     HeadPose away = pose(0);
     away.position_enu_m.x() += 500.0 + i;
-    scene.adapt(views_at(away));
+    scene.adapt(views_at(away, kRange));
   }
   CHECK(scene.triangles() < triangles / 8);  // coarse ones stay
-  scene.adapt(views_at(pose(0)));
+  scene.adapt(views_at(pose(0), kRange));
   CHECK(scene.triangles() >= triangles);
 }
 
 TEST_CASE("what no view intersects is built when a ray hits it, by any number of threads") {
   Scene scene = scene_of({.enabled = true}), other = scene_of({.enabled = true});
   const HeadPose head = pose(0);
-  for (Scene* one : {&scene, &other}) one->adapt(views_at(head));
+  for (Scene* one : {&scene, &other}) one->adapt(views_at(head, kRange));
   const std::size_t in_view = scene.triangles();
   const random::Stream draws(17, "beyond");
   std::vector<Ray> rays;

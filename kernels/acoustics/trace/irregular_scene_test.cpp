@@ -6,16 +6,15 @@
 #include <cmath>
 #include <map>
 
-#include "kernels/acoustics/trace/scene.h"
-#include "kernels/acoustics/trace/views.h"
+#include "kernels/acoustics/trace/testing/adapted.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/collapse.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
-#include "kernels/water/refraction/thermocline.h"
 
 using namespace ensonify;
 using namespace ensonify::trace;
+using namespace ensonify::trace::adapted;
 using frames::HeadPose;
 using frames::Vec2;
 using frames::Vec3;
@@ -70,44 +69,9 @@ const Scene& full() {
   return scene;
 }
 
-const TransmitVolume kFan = mills_cross_volume(50.0, 50.0, 1.13);
-
 /// South of the wall, along it, passing over the reef, and turning.
 HeadPose pose(int ping) {
   return {{-30.0 + 4.0 * ping, -9.0 - 0.4 * ping, -3.0}, enu_from_body(frames::Attitude{1.5 + 0.1 * ping, 0.03, 0.4})};
-}
-
-std::array<lod::View, 2> views_at(const HeadPose& head, const lod::Water& water = {}) {
-  return views_of(kFan, head, static_cast<double>(kRange_m), water, 2);
-}
-
-enum class Lobes { kMain, kSide, kAll };
-
-std::vector<Ray> rays_of(int ping, std::size_t count, Lobes lobes) {
-  const random::Stream draws(11, "rays");
-  const Span &u = kFan.sine, &phi = kFan.angle_rad;
-  const bool main = lobes == Lobes::kMain;
-  std::vector<Ray> rays;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<std::uint64_t>(ping);
-    const double sine = std::lerp(main ? u.main_low : u.low, main ? u.main_high : u.high, draws.uniform(k, i, 0));
-    if (lobes == Lobes::kSide && u.main_low <= sine && sine <= u.main_high) continue;
-    const double angle = std::lerp(phi.low, phi.high, draws.uniform(k, i, 1)), beside = std::sqrt(1.0 - sine * sine);
-    rays.push_back({Vec3(sine, beside * std::sin(angle), beside * std::cos(angle)).cast<float>(), 1.0F});
-  }
-  return rays;
-}
-
-std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const bool same = a[i].range_m == b[i].range_m && a[i].position_enu_m == b[i].position_enu_m &&
-                      a[i].normal_enu == b[i].normal_enu && a[i].travel_time_s == b[i].travel_time_s &&
-                      a[i].tube_m2 == b[i].tube_m2 && a[i].sin_grazing == b[i].sin_grazing &&
-                      a[i].facet_m == b[i].facet_m && a[i].contributor == b[i].contributor;
-    count += same ? 0U : 1U;
-  }
-  return count;
 }
 
 std::size_t on(std::uint8_t sediment, const std::vector<Hit>& hits) {
@@ -120,28 +84,13 @@ std::size_t on(std::uint8_t sediment, const std::vector<Hit>& hits) {
 
 TEST_CASE("main lobe rays hit wall and reef bit-equal to the whole meshes") {
   Scene scene = scene_of({.enabled = true});
-  const auto summer = refraction::summer_thermocline();
-  std::vector<Hit> all, some;
   std::size_t different = 0, wall_hits = 0, reef_hits = 0, beyond_differ = 0;
   for (int ping = 0; ping < 6; ++ping) {
-    const HeadPose head = pose(ping);
-    scene.adapt(views_at(head));
-    const auto rays = rays_of(ping, 50'000, Lobes::kMain);
-    full().trace(head, rays, kRange_m, all);
-    scene.trace(head, rays, kRange_m, some);
-    different += differences(all, some);
-    wall_hits += on(kSteel, some), reef_hits += on(7, some);
-    const auto beyond = rays_of(ping, 10'000, Lobes::kAll);
-    full().trace(head, beyond, kRange_m, all);
-    scene.trace(head, beyond, kRange_m, some);
-    beyond_differ += differences(all, some);
-
-    refraction::PathTable paths;
-    scene.tabulate(summer, head, 3.0, kRange_m, paths);
-    scene.adapt(views_at(head, water_above(summer, 3.0, 14.0)));
-    full().trace(head, rays, kRange_m, all, paths);
-    scene.trace(head, rays, kRange_m, some, paths);
-    different += differences(all, some);
+    const auto found = ping_differences(full(), scene, pose(ping), kRange_m, rays_of(ping, 50'000, Lobes::kMain),
+                                        rays_of(ping, 10'000, Lobes::kAll), {.head_m = 3.0, .bottom_m = 14.0});
+    different += found.main_lobe;
+    beyond_differ += found.all_round;
+    wall_hits += on(kSteel, found.hits), reef_hits += on(7, found.hits);
   }
   CHECK(different == 0);
   CHECK(wall_hits > 20'000);
@@ -155,7 +104,7 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
   std::size_t behind = 0, aimed = 0;
   for (int ping = 0; ping < 6; ++ping) {
     const HeadPose head = pose(ping);
-    scene.adapt(views_at(head));
+    scene.adapt(views_at(head, kRange_m));
     std::vector<Ray> rays;
     for (std::uint64_t i = 0; i < 400'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
@@ -183,19 +132,19 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
 
 TEST_CASE("a ping's mesh among irregular meshes depends on neither history nor threads") {
   Scene wandering = scene_of({.enabled = true}), fresh = scene_of({.enabled = true}, true);
-  for (const int ping : {5, 0, 3}) wandering.adapt(views_at(pose(ping)));
+  for (const int ping : {5, 0, 3}) wandering.adapt(views_at(pose(ping), kRange_m));
   CHECK(wandering.remove(0));
   CHECK_FALSE(wandering.remove(0));
-  wandering.adapt(views_at(pose(1)));
+  wandering.adapt(views_at(pose(1), kRange_m));
   wandering.insert(0, wall());
   wandering.centre_near({5000.0, 0.0});
   wandering.centre_near({0.0, 0.0});
-  wandering.adapt(views_at(pose(2)));
+  wandering.adapt(views_at(pose(2), kRange_m));
   const auto rays = rays_of(2, 50'000, Lobes::kAll);
   std::vector<Hit> a, b;
   wandering.trace(pose(2), rays, kRange_m, a);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  fresh.adapt(views_at(pose(2)));
+  fresh.adapt(views_at(pose(2), kRange_m));
   fresh.trace(pose(2), rays, kRange_m, b);
   CHECK(differences(a, b) == 0);
   CHECK(wandering.triangles() == fresh.triangles());
@@ -243,7 +192,7 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
     }
   };
   for (int ping = 0; ping < 6; ++ping) {
-    scene.adapt(views_at(pose(ping)));
+    scene.adapt(views_at(pose(ping), kRange_m));
     const auto rays = rays_of(ping, 100'000, Lobes::kSide);
     add_power(full(), pose(ping), rays, all_sum);
     add_power(scene, pose(ping), rays, some_sum);
@@ -314,7 +263,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
 TEST_CASE("far fewer triangles are held than a mesh has") {
   Scene scene = scene_of({.enabled = true});
   const auto triangles = [&](const HeadPose& head) {
-    scene.adapt(views_at(head));
+    scene.adapt(views_at(head, kRange_m));
     return scene.triangles();
   };
   // No view holds the wall or the reef: what is left of both, and of the tile.
