@@ -12,7 +12,8 @@
 /// Reading of what a parameter list names.
 namespace ensonify {
 
-/// Reads every parameter of the list, then checks them together. What is left out stays as it is.
+/// Reads every parameter of the list, then checks them together. What is left out stays as it is. A struct's
+/// `void read_base(ConfigReader& from)` is called first: for a file that the map names and whose values it changes.
 template <class T>
 void read_parameters(ConfigReader& from, T& values);
 
@@ -134,6 +135,7 @@ class ParameterReader {
 
 template <class T>
 void read_parameters(ConfigReader& from, T& values) {
+  if constexpr (requires { values.read_base(from); }) values.read_base(from);
   ParametersOf<T>::parameters(values, detail::ParameterReader(from));
   if constexpr (requires { ParametersOf<T>::check(from, values); }) ParametersOf<T>::check(from, values);
 }

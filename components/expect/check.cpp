@@ -20,7 +20,7 @@ class Matcher {
     if (message.topic() != messages_.topic) return false;
     ++seen_;
     if (!messages_.where) return true;
-    const auto value = value_at(message.value(), messages_.where->field);
+    const auto value = value_at(message.value(), messages_.where->field.path);
     if (!value) return false;
     ++valued_;
     return messages_.where->holds(*value);
@@ -30,7 +30,7 @@ class Matcher {
   std::string silence() const {
     if (seen_ == 0) return "there was no message on " + messages_.topic;
     if (!messages_.where || valued_ > 0) return "";
-    return fmt::format("{} had no value in {} messages on {}", messages_.where->field, seen_, messages_.topic);
+    return fmt::format("{} had no value in {} messages on {}", messages_.where->field.path, seen_, messages_.topic);
   }
   bool seen() const { return seen_ > 0; }
   const Messages& messages() const { return messages_; }
@@ -42,7 +42,7 @@ class Matcher {
 
 std::vector<Check::Field> field_of(const Messages& messages) {
   if (!messages.where) return {};
-  return {{messages.topic, messages.where->field, messages.where->place}};
+  return {{messages.topic, messages.where->field.path, messages.where->field.place}};
 }
 
 /// A check about the messages of one topic: fails once, or is judged at the end.
@@ -124,18 +124,18 @@ class Bounds : public OneTopic {
   using OneTopic::OneTopic;
   std::vector<Field> fields() const override {
     auto fields = field_of(e_.messages);
-    fields.push_back({e_.messages.topic, e_.field, e_.field_place});
+    fields.push_back({e_.messages.topic, e_.field.path, e_.field.place});
     return fields;
   }
 
  private:
   void see_match(const Observation& message) override {
     ++matches_;
-    const auto value = value_at(message.value(), e_.field);
+    const auto value = value_at(message.value(), e_.field.path);
     if (!value) return;
     const auto* number = std::get_if<double>(&*value);
     if (!number || std::isnan(*number) || (e_.min && *number < *e_.min) || (e_.max && *number > *e_.max)) {
-      fail(message.t(), fmt::format("{} = {} (message {})", e_.field, text_of(*value), message.seq()));
+      fail(message.t(), fmt::format("{} = {} (message {})", e_.field.path, text_of(*value), message.seq()));
       return;
     }
     ++values_;
@@ -145,7 +145,7 @@ class Bounds : public OneTopic {
   Verdict judge(SimTime end) override {
     if (!matcher_.silence().empty()) return failed(end, matcher_.silence());
     if (matches_ == 0) return failed(end, "there was no " + e_.messages.text());
-    if (values_ == 0) return failed(end, fmt::format("{} had no value in {} messages", e_.field, matches_));
+    if (values_ == 0) return failed(end, fmt::format("{} had no value in {} messages", e_.field.path, matches_));
     return passed(end, fmt::format("{} values in [{}, {}]", values_, low_, high_));
   }
 

@@ -4,134 +4,133 @@
 
 #include <map>
 
-#include "components/config/config_reader.h"
+#include "components/config/parameter_info.h"
+#include "components/config/read_parameters.h"
+#include "components/config/scalars.h"
 
 namespace ensonify {
+namespace expect {
 namespace {
 
-using Kind = Expectation::Kind;
-
-constexpr double kLongest_s = 1e7;
-
-std::string limits_text(const Expectation& e) {
-  if (e.min && e.max) return fmt::format("in [{}, {}]", *e.min, *e.max);
-  return e.min ? fmt::format("at least {}", *e.min) : fmt::format("at most {}", e.max.value_or(0.0));
-}
-
-std::string after_text(const Expectation& e) { return e.after_s > 0.0 ? fmt::format(" after {} s", e.after_s) : ""; }
-
-Messages read_messages(ConfigReader& from) {
-  Messages messages;
-  from.required("topic", messages.topic);
-  if (auto where = from.optional_section("where")) messages.where = expect::Condition::read(*where);
-  return messages;
-}
-
-void read_limits(ConfigReader& from, Expectation& e, double least) {
-  from.optional("min", e.min, least, 1e300);
-  from.optional("max", e.max, least, 1e300);
-  if (!e.min && !e.max) from.problem("", "has no limit; give min, max or both");
-  if (e.min && e.max && *e.min > *e.max) from.problem("max", "is below min");
-}
-
-void read_count(ConfigReader& from, Expectation& e) {
-  e.messages = read_messages(from);
-  read_limits(from, e, 0.0);
-  e.name = fmt::format("count of {} {}", e.messages.text(), limits_text(e));
-}
-
-void read_rate(ConfigReader& from, Expectation& e) {
-  from.required("topic", e.messages.topic);
-  from.required("hz", e.hz, 1e-6, 1e6);
-  from.optional("tolerance", e.tolerance, 0, 1);
-  from.optional("after_s", e.after_s, 0, kLongest_s);
-  e.name = fmt::format("rate of {} {} Hz{}", e.messages.topic, e.hz, after_text(e));
-}
-
-void read_bounds(ConfigReader& from, Expectation& e) {
-  e.messages = read_messages(from);
-  from.required("field", e.field);
-  if (const ConfigNode* node = from.node("field")) e.field_place = node->place;
-  read_limits(from, e, -1e300);
-  from.optional("after_s", e.after_s, 0, kLongest_s);
-  e.name = fmt::format("{} of {} {}{}", e.field, e.messages.text(), limits_text(e), after_text(e));
-}
-
-void read_eventually(ConfigReader& from, Expectation& e) {
-  e.messages = read_messages(from);
-  from.required("within_s", e.within_s, 0, kLongest_s);
-  e.name = fmt::format("eventually {} within {} s", e.messages.text(), e.within_s);
-}
-
-void read_never(ConfigReader& from, Expectation& e) {
-  e.messages = read_messages(from);
-  if (!e.messages.where) from.problem("where", "is missing: to expect no message at all use count with max: 0");
-  from.optional("after_s", e.after_s, 0, kLongest_s);
-  e.name = fmt::format("never {}{}", e.messages.text(), after_text(e));
-}
-
-void read_order(ConfigReader& from, Expectation& e) {
-  auto first = from.section("first"), then = from.section("then");
-  e.messages = read_messages(first);
-  e.then = read_messages(then);
-  e.name = fmt::format("{} before {}", e.messages.text(), e.then.text());
-}
-
-void read_no_gap(ConfigReader& from, Expectation& e) {
-  from.required("topic", e.messages.topic);
-  e.name = "no gap in " + e.messages.topic;
-}
-
-void read_same_as(ConfigReader& from, Expectation& e) {
-  from.required_path("record", e.record);
-  from.optional("topics", e.topics);
-  e.name = "same as " + e.record.substr(e.record.find_last_of('/') + 1);
-}
-
-struct KindEntry {
-  const char* word;
-  Kind kind;
-  void (*read)(ConfigReader&, Expectation&);
-};
-constexpr KindEntry kKinds[] = {
-    {"count", Kind::kCount, read_count},     {"rate", Kind::kRate, read_rate},
-    {"bounds", Kind::kBounds, read_bounds},  {"eventually", Kind::kEventually, read_eventually},
-    {"never", Kind::kNeverSeen, read_never}, {"order", Kind::kOrder, read_order},
-    {"no_gap", Kind::kNoGap, read_no_gap},   {"same_as", Kind::kSameAs, read_same_as},
-};
-
-std::optional<Expectation> read_expectation(ConfigReader& from) {
-  std::optional<Expectation> found;
-  std::string words;
-  int kinds = 0;
-  for (const KindEntry& entry : kKinds) {
-    words += (words.empty() ? "" : ", ") + std::string(entry.word);
-    if (auto section = from.optional_section(entry.word)) {
-      ++kinds;
-      found.emplace().kind = entry.kind;
-      entry.read(*section, *found);
-    }
-  }
-  std::string name;
-  from.optional("name", name);
-  if (found && !name.empty()) found->name = name;
-  if (kinds != 1)
-    from.problem(
-        "", std::string(kinds == 0 ? "says nothing" : "says several things") + "; give one of " + words + ", exit");
-  return found;
+bool same(const Scalar& value, const std::string& wanted) {
+  const auto* number = std::get_if<double>(&value);
+  if (number == nullptr) return std::get<std::string>(value) == wanted;
+  const auto wanted_number = parse_number(wanted);
+  return wanted_number && *number == *wanted_number;
 }
 
 }  // namespace
 
+void FieldPath::read(ConfigReader& from, const char* key) {
+  from.required(key, path);
+  if (const ConfigNode* node = from.node(key)) place = node->place;
+}
+
+void Condition::check(const ConfigReader& from) const {
+  if (!equals && !differs && !above && !below && !at_least && !at_most) {
+    from.problem("", "compares nothing; give one of equals, not, above, below, at_least, at_most");
+  }
+}
+
+bool Condition::holds(const Scalar& value) const {
+  if (equals && !same(value, *equals)) return false;
+  if (differs && same(value, *differs)) return false;
+  if (!above && !below && !at_least && !at_most) return true;
+  const auto* number = std::get_if<double>(&value);
+  return number && (!above || *number > *above) && (!below || *number < *below) &&
+         (!at_least || *number >= *at_least) && (!at_most || *number <= *at_most);
+}
+
+std::string Condition::text() const {
+  std::vector<std::string> parts;
+  if (equals) parts.push_back("= " + *equals);
+  if (differs) parts.push_back("not " + *differs);
+  if (above) parts.push_back(fmt::format("> {}", *above));
+  if (below) parts.push_back(fmt::format("< {}", *below));
+  if (at_least) parts.push_back(fmt::format(">= {}", *at_least));
+  if (at_most) parts.push_back(fmt::format("<= {}", *at_most));
+  return fmt::format("{} {}", field.path, fmt::join(parts, " and "));
+}
+
+}  // namespace expect
+
 std::string Messages::text() const { return where ? topic + " with " + where->text() : topic; }
 
+void Expectation::check_limits(const ConfigReader& from) const {
+  if (!min && !max) from.problem("", "has no limit; give min, max or both");
+  if (min && max && *min > *max) from.problem("max", "is below min");
+}
+
+std::string Expectation::limits_text() const {
+  if (min && max) return fmt::format("in [{}, {}]", *min, *max);
+  return min ? fmt::format("at least {}", *min) : fmt::format("at most {}", max.value_or(0.0));
+}
+
+std::string Expectation::after_text() const { return after_s > 0.0 ? fmt::format(" after {} s", after_s) : ""; }
+
+std::string CountExpected::text() const { return fmt::format("count of {} {}", messages.text(), limits_text()); }
+
+std::string RateExpected::text() const { return fmt::format("rate of {} {} Hz{}", messages.topic, hz, after_text()); }
+
+std::string BoundsExpected::text() const {
+  return fmt::format("{} of {} {}{}", field.path, messages.text(), limits_text(), after_text());
+}
+
+std::string EventuallyExpected::text() const {
+  return fmt::format("eventually {} within {} s", messages.text(), within_s);
+}
+
+void NeverExpected::check(const ConfigReader& from) const {
+  if (!messages.where) from.problem("where", "is missing: to expect no message at all use count with max: 0");
+}
+
+std::string NeverExpected::text() const { return fmt::format("never {}{}", messages.text(), after_text()); }
+
+void OrderExpected::check(const ConfigReader& from) const {
+  for (const char* key : {"first", "then"}) {
+    if (!from.has(key)) from.problem(key, "is missing");
+  }
+}
+
+std::string OrderExpected::text() const { return fmt::format("{} before {}", messages.text(), then.text()); }
+
+std::string NoGapExpected::text() const { return "no gap in " + messages.topic; }
+
+std::string SameAsExpected::text() const { return "same as " + record.substr(record.find_last_of('/') + 1); }
+
+void ExpectEntry::check(const ConfigReader& from) const {
+  int kinds = 0;
+  std::string words;
+  for (const ParameterInfo& kind : parameters_of<ExpectEntry>()) {
+    if (kind.key == "name") continue;
+    words += kind.key + ", ";
+    kinds += from.has(kind.key);
+  }
+  if (kinds == 1) return;
+  from.problem("",
+               std::string(kinds == 0 ? "says nothing" : "says several things") + "; give one of " + words + "exit");
+}
+
+std::optional<Expectation> ExpectEntry::expectation() const {
+  std::optional<Expectation> found;
+  const auto take = [&](const auto& given) {
+    if (!given) return;
+    found = *given;
+    found->kind = given->kKind;
+    found->name = name.empty() ? given->text() : name;
+  };
+  take(count), take(rate), take(bounds), take(eventually), take(never), take(order), take(no_gap), take(same_as);
+  return found;
+}
+
 ExpectConfig ExpectConfig::read(ConfigReader& from) {
+  ExpectParameters given;
+  read_parameters(from, given);
+  if (given.entries.empty()) from.problem("expect", "holds no expectation");
   ExpectConfig config;
   std::map<std::string, int> names;
-  auto items = from.list("expect");
-  if (items.empty()) from.problem("expect", "holds no expectation");
-  for (ConfigReader& item : items) {
-    auto expectation = read_expectation(item);
+  for (const ExpectEntry& entry : given.entries) {
+    auto expectation = entry.expectation();
     if (!expectation) continue;
     if (const int before = names[expectation->name]++; before > 0) {
       expectation->name += fmt::format(" ({})", before + 1);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "components/config/config_reader.h"
+#include "components/config/testing/parameter_files.h"
 #include "components/errors/exit_error.h"
 #include "components/expect/node.h"
 #include "components/record/writer.h"
@@ -265,12 +265,14 @@ TEST_CASE("mistakes in the list are reported with their places") {
         std::string::npos);
 }
 
-TEST_CASE("expect/default.yaml shows every kind but the one that needs a file") {
-  auto from = ConfigReader::from_file(std::string(std::getenv("ENSONIFY_SOURCE")) + "/components/expect/default.yaml");
-  const auto config = ExpectConfig::read(from);
-  from.finish();
-  CHECK(config.expectations.size() == 7);
-  CHECK(config.expectations[0].name == "most pings have most of their beams");
+TEST_CASE("expect's default file and README table are what its list says") {
+  CHECK(parameter_files_fault("expect", parameters_of<ExpectParameters>()) == "");
+}
+
+TEST_CASE("an expectation is called what its user names it, or what it says") {
+  const auto config =
+      config_of("- {count: {topic: a/b, min: 1}, name: enough}\n- rate: {topic: nav/attitude, hz: 100}\n");
+  CHECK(config.expectations[0].name == "enough");
   CHECK(config.expectations[1].name == "rate of nav/attitude 100 Hz");
 }
 
@@ -290,8 +292,8 @@ TEST_CASE("a list's element is found by its name, and text compares as text") {
   CHECK(expect::path_fault(*msg::find_type("health/1"), "counters.late.count") == "");
   CHECK(expect::path_fault(*msg::find_type("health/1"), "counters.late.cuont").find("did you mean count?") !=
         std::string::npos);
-  expect::Condition is_ok{"state", {}, "ok", {}, {}, {}, {}, {}};
+  expect::Condition is_ok{{"state", {}}, "ok", {}, {}, {}, {}, {}};
   CHECK(is_ok.holds(*expect::value_at(value, "state")));
-  expect::Condition above{"state", {}, {}, {}, 1.0, {}, {}, {}};
+  expect::Condition above{{"state", {}}, {}, {}, 1.0, {}, {}, {}};
   CHECK_FALSE(above.holds(*expect::value_at(value, "state")));
 }

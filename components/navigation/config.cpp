@@ -1,35 +1,162 @@
 #include "components/navigation/config.h"
 
-#include "components/config/config_reader.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include "components/config/data_paths.h"
+#include "components/config/read_parameters.h"
 #include "components/sonar/environment.h"
 #include "scenarios/world/own_vehicle.h"
 
 namespace ensonify {
+namespace {
+
+constexpr const char* kGrades = "components/navigation/grades";
+
+frames::Vec3 vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+std::string known_grades(const std::string& kind) {
+  std::vector<std::string> names;
+  for (const std::string& root : data_roots()) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(root + "/" + kGrades, error)) {
+      const std::string name = entry.path().stem().string();
+      if (name.starts_with(kind + "_")) names.push_back(name.substr(kind.size() + 1));
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Path of a grade's file; "": there is none, or it is a problem of `from`.
+std::string grade_path(ConfigReader& from, const std::string& kind) {
+  const ConfigNode* node = from.node("grade");
+  if (node == nullptr || !node->is_scalar() || node->scalar.empty()) return "";
+  std::string path;
+  if (node->scalar.ends_with(".yaml")) {
+    from.optional_path("grade", path);
+    return path;
+  }
+  path = find_data(std::string(kGrades) + "/" + kind + "_" + node->scalar + ".yaml", {});
+  if (path.empty()) {
+    const std::string known = known_grades(kind);
+    from.problem("grade", "\"" + node->scalar +
+                              "\" is no grade of this instrument; allowed: " + (known.empty() ? "" : known + ", or ") +
+                              "a file *.yaml (searched for " + kGrades + " in " + data_roots_text() + ")");
+  }
+  return path;
+}
+
+/// List of what a grade's file may have.
+template <class Config>
+struct OfGrade {
+  Config& config;
+
+  static void parameters(auto& self, auto&& visit) {
+    Instrument::stamped_at(self.config.instrument, visit);
+    Config::errors_list(self.config, visit);
+  }
+};
+
+void check_spans(const ConfigReader& from, const char* key, const std::vector<double>& ends) {
+  bool rising = true;
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2) rising = rising && ends[i] < ends[i + 1];
+  if (ends.size() % 2 != 0 || !rising) {
+    from.problem(key, "is not [from, to, from, to, ...] with from before to, in seconds");
+  }
+}
+
+/// Of what detects the bottom between two distances.
+void check_ranges(const ConfigReader& from, double shortest_m, double longest_m) {
+  if (shortest_m >= longest_m)
+    from.problem("shortest_m", fmt::format("{} is not below longest_m {}; allowed: less", shortest_m, longest_m));
+}
+
+frames::Quaternion body_from(const std::array<double, 3>& roll_pitch_heading) {
+  const auto& [roll, pitch, heading] = roll_pitch_heading;
+  return frames::canonical(frames::enu_from_ned().conjugate() *
+                           frames::enu_from_body(frames::Attitude{heading, pitch, roll}));
+}
+
+}  // namespace
+
+void ParametersOf<sensors::InstrumentClock>::check(const ConfigReader& from, const sensors::InstrumentClock& clock) {
+  check_spans(from, "unlocked_s", clock.unlocked_s);
+}
+
+template <class Config>
+void InstrumentConfig<Config>::read_base(ConfigReader& from) {
+  const std::string path = grade_path(from, Config::kSection);
+  if (path.empty()) return;
+  try {
+    ConfigReader file = from.also(parse_config_file(path));
+    OfGrade<Config> grade{static_cast<Config&>(*this)};
+    read_parameters(file, grade);
+  } catch (const ConfigError& error) {
+    from.add(error);
+  }
+}
+
+template <class Config>
+void InstrumentConfig<Config>::check(const ConfigReader& from) const {
+  check_spans(from, "outages_s", instrument.outages_s);
+}
+
+void ImuConfig::check(const ConfigReader& from) const {
+  InstrumentConfig::check(from);
+  if (!instrument.outages_s.empty()) {
+    from.problem("outages_s",
+                 "without its readings there is no estimate, so an inertial unit may not fall out; "
+                 "what aids it may: gnss, velocity_log, depth, heading");
+  }
+}
+
+void DopplerLogConfig::check(const ConfigReader& from) const {
+  InstrumentConfig::check(from);
+  check_ranges(from, errors.shortest_m, errors.longest_m);
+}
+
+void AltimeterConfig::check(const ConfigReader& from) const {
+  InstrumentConfig::check(from);
+  check_ranges(from, errors.shortest_m, errors.longest_m);
+}
+
+void Instrument::mount(const frames::Vec3& centre_body_m) {
+  actual = {centre_body_m + vec3(position_m), body_from(rotation_rad)};
+  measured = {centre_body_m + vec3(measured_position_m.value_or(position_m)),
+              body_from(measured_rotation_rad.value_or(rotation_rad))};
+}
+
+void Instruments::mount(const frames::Vec3& centre_body_m) {
+  const auto mount = [&](auto& carried) {
+    if (carried) carried->instrument.mount(centre_body_m);
+  };
+  std::apply([&](auto&... carried) { (mount(carried), ...); },
+             std::tie(gnss, imu, motion_sensor, heading, velocity_log, depth, altimeter, sound_speed, ctd,
+                      current_profiler, usbl));
+  if (motion_sensor) motion_sensor->heave_point_body_m += centre_body_m;
+  if (usbl_fixes) usbl_fixes->transponder_body_m += centre_body_m;
+}
+
+NavigationParameters NavigationParameters::read(ConfigReader& from) {
+  NavigationParameters read;
+  read_parameters(from, read);
+  read.instruments.mount(vec3(read.centre_body_m));
+  if (read.instruments.usbl_fixes && !read.instruments.imu) {
+    from.problem("usbl_fixes", "they correct the filter of an inertial unit: list imu too");
+  }
+  return read;
+}
 
 NavigationConfig NavigationConfig::read(ConfigReader& from, const World& world, const std::string& process) {
-  NavigationConfig config;
-  from.optional("attitude_rate_hz", config.attitude_rate_hz, 1, 1000);
-  from.optional("position_rate_hz", config.position_rate_hz, 1, 100);
-  from.optional("position_gain", config.position_gain, 0.001, 1);
-  from.optional("motion_latency_s", config.motion_latency_s, 0, 10);
-  from.optional("position_latency_s", config.position_latency_s, 0, 10);
-  NavigationErrors& sigma = config.sigma;
-  from.optional("sigma_roll_deg", sigma.roll_rad, 0, 10, kDegrees);
-  from.optional("sigma_pitch_deg", sigma.pitch_rad, 0, 10, kDegrees);
-  from.optional("sigma_heading_deg", sigma.heading_rad, 0, 10, kDegrees);
-  from.optional("sigma_heave_m", sigma.heave_m, 0, 5);
-  from.optional("sigma_horizontal_m", sigma.horizontal_m, 0, 100);
-  from.optional("sigma_vertical_m", sigma.vertical_m, 0, 100);
-  from.optional("sigma_velocity_mps", sigma.velocity_mps, 0, 5);
-  SoundSpeedProbe& probe = config.probe;
-  from.optional("sound_speed_position_m", probe.position_body_m, -500, 500);
-  from.optional("sound_speed_rate_hz", probe.rate_hz, 1, 100);
-  from.optional("sound_speed_bias_mps", probe.bias_mps, -50, 50);
-  from.optional("sigma_sound_speed_mps", probe.sigma_mps, 0, 10);
-  from.optional("sound_speed_latency_s", probe.latency_s, 0, 10);
-
-  config.instruments = read_instruments(from);
-  const Vehicle vehicle = own_vehicle(from, world, process);  // the pose itself is wired
+  NavigationConfig config{NavigationParameters::read(from)};
+  const Vehicle vehicle = own_vehicle(from, world, process, config.vehicle);  // the pose itself is wired
   config.seed = world.seed;
   config.process = process;
   config.heights = {world.vertical.tide, world.vertical.datums, world.current, vehicle.floats,

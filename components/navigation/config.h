@@ -12,8 +12,6 @@
 
 namespace ensonify {
 
-class ConfigReader;
-
 /// The simplest instruments, in place of those that are not listed: truth and white noise. Standard deviations, each
 /// sample and axis on its own.
 struct NavigationErrors {
@@ -26,8 +24,6 @@ struct NavigationErrors {
   double horizontal_m = 0.05;
   double vertical_m = 0.05;
   double velocity_mps = 0.02;
-
-  bool operator==(const NavigationErrors&) const = default;
 };
 
 /// The sound speed probe, meant to sit beside the transducers' faces.
@@ -37,11 +33,11 @@ struct SoundSpeedProbe {
   double bias_mps = 0.0;    // measured minus true, the same all through a run
   double sigma_mps = 0.02;  // white noise
   double latency_s = 0.0;   // from the measurement to its report
-
-  bool operator==(const SoundSpeedProbe&) const = default;
 };
 
-struct NavigationConfig {
+/// Parameters of default.yaml.
+struct NavigationParameters {
+  std::string vehicle;
   int attitude_rate_hz = 100;  // attitude and estimate
   int position_rate_hz = 5;
   double position_gain = 0.2;       // how much of a fix's difference from the estimate is taken over, 0..1
@@ -49,9 +45,44 @@ struct NavigationConfig {
   double position_latency_s = 0.0;  // the same of the estimate's east and north
   NavigationErrors sigma;
   SoundSpeedProbe probe;
+  std::array<double, 3> centre_body_m{};
   Instruments instruments;
 
-  // From the scenario.
+  static void parameters(auto& self, auto&& visit) {
+    visit("vehicle", "", any(),
+          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
+    visit("attitude_rate_hz", "Hz", in(1, 1000), "attitude and estimate", self.attitude_rate_hz);
+    visit("position_rate_hz", "Hz", in(1, 100), "fixes", self.position_rate_hz);
+    visit("position_gain", "", in(0.001, 1), "how much of a fix's difference from the estimate is taken over",
+          self.position_gain);
+    visit("motion_latency_s", "s", in(0, 10), "age of attitude, heave and velocity at their stamp",
+          self.motion_latency_s);
+    visit("position_latency_s", "s", in(0, 10), "age of the estimate's east and north at its stamp",
+          self.position_latency_s);
+    visit("sigma_roll_deg", "deg", in(0, 10), "white noise where no instrument is listed, each sample on its own",
+          self.sigma.roll_rad);
+    visit("sigma_pitch_deg", "deg", in(0, 10), "the same", self.sigma.pitch_rad);
+    visit("sigma_heading_deg", "deg", in(0, 10), "the same", self.sigma.heading_rad);
+    visit("sigma_heave_m", "m", in(0, 5), "the same", self.sigma.heave_m);
+    visit("sigma_horizontal_m", "m", in(0, 100), "the same, each of east and north", self.sigma.horizontal_m);
+    visit("sigma_vertical_m", "m", in(0, 100), "the same", self.sigma.vertical_m);
+    visit("sigma_velocity_mps", "m/s", in(0, 5), "the same, each axis", self.sigma.velocity_mps);
+    visit("sound_speed_position_m", "m", in(-500, 500),
+          "of the probe, meant to sit beside the transducers' faces: forward, starboard, down from the body's origin",
+          self.probe.position_body_m);
+    visit("sound_speed_rate_hz", "Hz", in(1, 100), "of the probe", self.probe.rate_hz);
+    visit("sound_speed_bias_mps", "m/s", in(-50, 50), "measured minus true, the same all through a run",
+          self.probe.bias_mps);
+    visit("sigma_sound_speed_mps", "m/s", in(0, 10), "white noise of the probe", self.probe.sigma_mps);
+    visit("sound_speed_latency_s", "s", in(0, 10), "from the measurement to its report", self.probe.latency_s);
+    visit("centre_of_rotation_m", "m", in(-500, 500), "of the body; positions of the instruments count from it",
+          self.centre_body_m);
+    Instruments::parameters(self.instruments, visit);
+  }
+  static NavigationParameters read(ConfigReader& from);
+};
+
+struct NavigationConfig : NavigationParameters {
   std::uint64_t seed = 1;
   std::string process;
   Heights heights;
@@ -59,12 +90,6 @@ struct NavigationConfig {
   TrueWater water;
 
   static NavigationConfig read(ConfigReader& from, const World& world, const std::string& process);
-  /// The parameters that have a default in default.yaml.
-  bool operator==(const NavigationConfig& other) const {
-    return attitude_rate_hz == other.attitude_rate_hz && position_rate_hz == other.position_rate_hz &&
-           position_gain == other.position_gain && motion_latency_s == other.motion_latency_s &&
-           position_latency_s == other.position_latency_s && sigma == other.sigma && probe == other.probe;
-  }
 };
 
 }  // namespace ensonify

@@ -19,7 +19,7 @@ std::array<double, 9> rows_of(const Eigen::Matrix3d& m) {
 
 navigation_filter::FilterModel model_of(const Instruments& carried) {
   navigation_filter::FilterModel model;
-  model.imu = carried.imu->errors;
+  model.imu = carried.imu->errors();
   if (carried.gnss) {
     const sensors::GnssErrors& gnss = carried.gnss->errors;
     model.fix_wander_horizontal_m = gnss.hdop * gnss.fix.wander_horizontal_m;
@@ -27,12 +27,11 @@ navigation_filter::FilterModel model_of(const Instruments& carried) {
     model.fix_wander_s = gnss.wander_s;
   }
   if (const auto& heading = carried.heading) {
-    const sensors::ScalarErrors& errors = heading->errors.common;
-    const sensors::Deviation& left = heading->errors.deviation;
+    const sensors::ScalarErrors& errors = heading->angle;
+    const auto& [a_rad, b_rad, c_rad, d_rad, e_rad] = heading->errors.deviation.abcde_rad;
     model.compass_wander_rad = errors.wander;
     model.compass_wander_s = errors.wander_s;
-    model.compass_deviation_rad = {std::hypot(errors.bias_sigma, left.a_rad), left.b_rad, left.c_rad, left.d_rad,
-                                   left.e_rad};
+    model.compass_deviation_rad = {std::hypot(errors.bias_sigma, a_rad), b_rad, c_rad, d_rad, e_rad};
   }
   if (const auto& log = carried.velocity_log) {
     model.log_scale = log->errors.scale;
@@ -58,7 +57,7 @@ navigation_filter::FilterModel model_of(const Instruments& carried) {
 Estimator::Estimator(const Instruments& carried, std::uint64_t seed, const std::string& process)
     : config_(*carried.imu),
       model_(model_of(carried)),
-      imu_(config_.errors, {seed, process + "/gyro"}, {seed, process + "/accelerometer"}),
+      imu_(config_.errors(), {seed, process + "/gyro"}, {seed, process + "/accelerometer"}),
       alignment_(seed, process + "/alignment") {}
 
 void Estimator::align(const inertial::NavigationState& truth) {

@@ -30,13 +30,12 @@ void check_same(const navigation_filter::StartErrors& file, const navigation_fil
   CHECK(file.heading_rad == Approx(tested.heading_rad));
 }
 
-void check_same(const sensors::HeadingErrors& file, const kernel::Compass& tested) {
-  const sensors::Deviation& left = file.deviation;
-  CHECK(file.common.white == Approx(tested.white_rad));
-  CHECK(file.common.wander == Approx(tested.wander_rad));
-  CHECK(file.common.wander_s == Approx(tested.wander_s));
-  const std::array deviation{std::hypot(file.common.bias_sigma, left.a_rad), left.b_rad, left.c_rad, left.d_rad,
-                             left.e_rad};
+void check_same(const HeadingConfig& file, const kernel::Compass& tested) {
+  CHECK(file.angle.white == Approx(tested.white_rad));
+  CHECK(file.angle.wander == Approx(tested.wander_rad));
+  CHECK(file.angle.wander_s == Approx(tested.wander_s));
+  std::array deviation = file.errors.deviation.abcde_rad;
+  deviation[0] = std::hypot(file.angle.bias_sigma, deviation[0]);
   for (std::size_t i = 0; i < deviation.size(); ++i) CHECK(deviation[i] == Approx(tested.deviation_rad[i]));
 }
 
@@ -55,10 +54,10 @@ TEST_CASE("the grades that the filter's own tests know are those of the files") 
     CAPTURE(imu, heading);
     const std::string compass = *heading ? std::string("heading: { grade: ") + heading + " }" : "";
     const Instruments carried = test_run::config_of(std::string("imu: { grade: ") + imu + " }\n" + compass).instruments;
-    check_same(carried.imu->errors.gyro, tested.imu.gyro);
-    check_same(carried.imu->errors.accelerometer, tested.imu.accelerometer);
+    check_same(carried.imu->gyro, tested.imu.gyro);
+    check_same(carried.imu->accelerometer, tested.imu.accelerometer);
     check_same(carried.imu->alignment, tested.alignment);
-    if (carried.heading) check_same(carried.heading->errors, tested.compass);
+    if (carried.heading) check_same(*carried.heading, tested.compass);
   }
   const Instruments log = test_run::config_of("velocity_log: { grade: performance }").instruments;
   CHECK(log.velocity_log->errors.scale == Approx(kernel::kLogScale));

@@ -46,8 +46,8 @@ TEST_CASE("every grade reads, and names its kind") {
     ++count;
   }
   CHECK(count == 19);
-  CHECK(config_of("imu: { grade: fog }").instruments.imu->errors.gyro.turn_on_bias == Approx(0.02 * kDegree / 3600));
-  CHECK(config_of("imu: { grade: fog, gyro: { bias_degph: 0.5 } }").instruments.imu->errors.gyro.turn_on_bias ==
+  CHECK(config_of("imu: { grade: fog }").instruments.imu->gyro.turn_on_bias == Approx(0.02 * kDegree / 3600));
+  CHECK(config_of("imu: { grade: fog, gyro: { bias_degph: 0.5 } }").instruments.imu->gyro.turn_on_bias ==
         Approx(0.5 * kDegree / 3600));
 }
 
@@ -57,9 +57,9 @@ TEST_CASE("a user's grade file is found beside the file that names it, from any 
   std::ofstream(folder / "mine.yaml") << "gyro: { bias_degph: 0.5 }\n";
   std::ofstream(folder / "nav.yaml") << "imu: { grade: mine.yaml }\n";
   ConfigReader from = ConfigReader::from_file((folder / "nav.yaml").string());
-  const Instruments instruments = read_instruments(from);
+  const Instruments instruments = NavigationParameters::read(from).instruments;
   from.finish();
-  CHECK(instruments.imu->errors.gyro.turn_on_bias == Approx(0.5 * kDegree / 3600));
+  CHECK(instruments.imu->gyro.turn_on_bias == Approx(0.5 * kDegree / 3600));
   std::filesystem::remove_all(folder);
   CHECK(faults_of("imu: { grade: mine.yaml }").find("nav.yaml:1:15: imu.grade: \"mine.yaml\": no such file") !=
         std::string::npos);

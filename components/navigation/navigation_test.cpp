@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/config/testing/parameter_files.h"
 #include "components/navigation/testing/circle.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/terrain.h"
-#include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
 constexpr double kPi = std::numbers::pi;
@@ -50,10 +50,8 @@ struct Moments {
 
 }  // namespace
 
-TEST_CASE("navigation/default.yaml lists every parameter with its default") {
-  World world;
-  world.vehicles.resize(1);
-  CHECK(default_yaml_fault<NavigationConfig>("navigation", world, test_run::kSections) == "");
+TEST_CASE("navigation's default file and README table are what its list says") {
+  CHECK(parameter_files_fault("navigation", parameters_of<NavigationConfig>()) == "");
 }
 
 TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {

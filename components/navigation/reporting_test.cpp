@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "components/config/parameter_info.h"
 #include "components/navigation/testing/circle.h"
 
 using namespace ensonify;
@@ -77,10 +78,10 @@ std::vector<Came> later(const std::vector<Came>& all, SimTime comes, SimTime sta
 }  // namespace
 
 TEST_CASE("every instrument is silent in outages, stamped by its clock, late by its latency") {
-  for (const std::string& section : kSections) {
-    INFO(section);
-    if (section == "usbl_fixes") continue;  // what it receives is another vehicle's
-    CHECK(std::any_of(kTopics.begin(), kTopics.end(), [&](const Topic& topic) { return topic.section == section; }));
+  for (const ParameterInfo& section : parameters_of<Instruments>()) {
+    INFO(section.key);
+    if (section.key == "usbl_fixes") continue;  // what it receives is another vehicle's
+    CHECK(std::any_of(kTopics.begin(), kTopics.end(), [&](const Topic& t) { return t.section == section.key; }));
   }
   for (const Topic& topic : kTopics) {
     INFO(topic.section << ": " << topic.port);

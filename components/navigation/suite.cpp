@@ -29,7 +29,7 @@ Suite::Suite(const NavigationConfig& config, Ports& ports, const To& to)
     gnss_.emplace(*c, sensors::Gnss(c->errors, stream("gnss")));
   }
   if (const auto& c = carried.heading) {
-    heading_.emplace(*c, sensors::HeadingSensor(c->errors, stream("heading")));
+    heading_.emplace(*c, sensors::HeadingSensor(c->errors, c->angle, stream("heading")));
     headings_out_ = ports.out<msg::Heading>("heading", rate(c->instrument));
   }
   if (const auto& c = carried.velocity_log) {
@@ -41,7 +41,7 @@ Suite::Suite(const NavigationConfig& config, Ports& ports, const To& to)
     depths_out_ = ports.out<msg::Depth>("depth", rate(c->instrument));
   }
   if (const auto& c = carried.altimeter) {
-    altimeter_.emplace(*c, sensors::RangeSensor(c->errors, stream("altimeter")));
+    altimeter_.emplace(*c, sensors::RangeSensor(c->errors, c->distance, stream("altimeter")));
     altitudes_out_ = ports.out<msg::Altitude>("altitude", rate(c->instrument));
   }
   if (carried.use_seabed()) seabed_.connect(ports, !carried.need_seabed());
@@ -128,7 +128,7 @@ void Suite::measure_heading(const Moment& moment) {
   heading.heading_true_rad = reading;
   outbox_.publish(*headings_out_, heading, instrument, moment);
   if (moment.estimator != nullptr) {
-    const sensors::ScalarErrors& e = heading_->config.errors.common;
+    const sensors::ScalarErrors& e = heading_->config.angle;
     const double rounding_rad = e.resolution / std::sqrt(12.0);
     const double sigma_rad =
         std::max(1e-4, std::hypot(e.white, rounding_rad));  // the filter's model has the slow errors

@@ -95,7 +95,7 @@ TEST_CASE("an invalid fix and an implausible one change no estimate") {
 
 TEST_CASE("fixes by a ship need an inertial unit") {
   ConfigReader from = ConfigReader::from_text("usbl_fixes: { place_m: 0.1 }", "nav.yaml");
-  read_instruments(from);
+  NavigationParameters::read(from);
   CHECK_THROWS_WITH(from.finish(),
                     Catch::Contains("usbl_fixes: they correct the filter of an inertial unit: list imu too"));
 }

@@ -27,10 +27,4 @@ Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::str
   return {};
 }
 
-Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& process) {
-  std::string wanted;
-  from.optional("vehicle", wanted);
-  return own_vehicle(from, world, process, wanted);
-}
-
 }  // namespace ensonify

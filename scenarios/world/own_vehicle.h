@@ -11,7 +11,5 @@ namespace ensonify {
 /// default.
 Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::string& process,
                     const std::string& wanted);
-/// The same, for who has no list with that parameter.
-Vehicle own_vehicle(ConfigReader& from, const World& world, const std::string& process);
 
 }  // namespace ensonify

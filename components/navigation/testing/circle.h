@@ -16,15 +16,9 @@ namespace ensonify::test_run {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
 
-/// What a configuration may list.
-inline const std::vector<std::string> kSections{"gnss",  "imu",       "motion_sensor", "heading", "velocity_log",
-                                                "depth", "altimeter", "sound_speed",   "ctd",     "current_profiler",
-                                                "usbl",  "usbl_fixes"};
-
 inline NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 1) {
   ConfigReader from = ConfigReader::from_text(yaml, "nav.yaml");
-  NavigationConfig config;
-  config.instruments = read_instruments(from);
+  NavigationConfig config{NavigationParameters::read(from)};
   from.finish();
   config.process = "nav";
   config.seed = seed;

@@ -21,8 +21,6 @@ struct TriadErrors {
   double random_walk = 0.0;       // u sqrt(s): angle or velocity random walk, white noise of the reading
   double rate_random_walk = 0.0;  // u / sqrt(s)
   double quantum = 0.0;           // rad or m/s: smallest step of the integrated reading
-
-  bool operator==(const TriadErrors&) const = default;
 };
 
 /// Three sensors that report increments: the integral of the reading since the last sample.
@@ -49,8 +47,6 @@ class Triad {
 struct ImuErrors {
   TriadErrors gyro;
   TriadErrors accelerometer;
-
-  bool operator==(const ImuErrors&) const = default;
 };
 
 /// An inertial measurement unit: two triads, a stream for each.

@@ -16,8 +16,6 @@ struct JanusGeometry {
   double slant_rad = 0.5235987755982988;         // of each beam from down: 30 degrees
   double first_azimuth_rad = 0.785398163397448;  // of beam 0 from forward to starboard; the others follow by quarters
 
-  bool operator==(const JanusGeometry&) const = default;
-
   /// Unit vectors from the transducer outwards, in its own frame (forward, starboard, down).
   std::array<frames::Vec3, 4> directions() const;
 };
@@ -29,8 +27,6 @@ struct DopplerErrors {
   double dropout = 0.0;           // probability that a beam's ping fails though the bottom is in range
   double shortest_m = 0.5;        // range along a beam
   double longest_m = 200.0;
-
-  bool operator==(const DopplerErrors&) const = default;
 };
 
 struct DopplerReading {
@@ -70,8 +66,6 @@ struct BinLayout {
   double blanking_m = 1.0;  // depth below the transducer at which the first begins
   double thickness_m = 1.0;
   int count = 30;
-
-  bool operator==(const BinLayout&) const = default;
 
   double middle_m(int bin) const { return blanking_m + (bin + 0.5) * thickness_m; }
 };

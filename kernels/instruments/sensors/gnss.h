@@ -17,8 +17,6 @@ struct FixErrors {
   double vertical_m = 0.0;           // white
   double wander_horizontal_m = 0.0;  // slow: atmosphere, orbits, multipath; Gauss-Markov
   double wander_vertical_m = 0.0;
-
-  bool operator==(const FixErrors&) const = default;
 };
 
 struct GnssErrors {
@@ -33,8 +31,6 @@ struct GnssErrors {
   double hdop_wander = 0.0;      // how much it changes, relative, over `hdop_wander_s`
   double hdop_wander_s = 900.0;  // satellites come and go
   double washed_depth_m = 0.0;   // an antenna lower than this above the water is under it
-
-  bool operator==(const GnssErrors&) const = default;
 };
 
 struct GnssReading {

@@ -5,6 +5,7 @@
 namespace ensonify::sensors {
 
 double Deviation::at(double heading_rad) const {
+  const auto& [a_rad, b_rad, c_rad, d_rad, e_rad] = abcde_rad;
   return a_rad + b_rad * std::sin(heading_rad) + c_rad * std::cos(heading_rad) + d_rad * std::sin(2.0 * heading_rad) +
          e_rad * std::cos(2.0 * heading_rad);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "kernels/base/frames/attitude.h"
@@ -10,10 +11,9 @@ namespace ensonify::sensors {
 /// Deviation of a magnetic compass by heading, in the navigator's letters [Bowditch, ch. 6]: A + B sin h + C cos h +
 /// D sin 2h + E cos 2h, added to what the compass should read. rad.
 struct Deviation {
-  double a_rad = 0.0, b_rad = 0.0, c_rad = 0.0, d_rad = 0.0, e_rad = 0.0;
+  std::array<double, 5> abcde_rad{};
 
   double at(double heading_rad) const;
-  bool operator==(const Deviation&) const = default;
 };
 
 /// A gyrocompass or satellite compass: speed and course error of one that seeks north by pendulum, if it is not
@@ -24,18 +24,16 @@ enum class HeadingKind { kGyro, kMagnetic };
 
 struct HeadingErrors {
   HeadingKind kind = HeadingKind::kGyro;
-  ScalarErrors common;               // rad: bias, wander, white noise, resolution, lag; scale is not used
   bool speed_corrected = true;       // gyro: steaming error is taken off
   Deviation deviation;               // magnetic: what is left after swinging the compass
   double variation_error_rad = 0.0;  // magnetic: declination entered less true
-
-  bool operator==(const HeadingErrors&) const = default;
 };
 
 class HeadingSensor {
  public:
-  HeadingSensor(const HeadingErrors& errors, const random::Stream& stream)
-      : errors_(errors), sensor_(errors.common, stream) {}
+  /// Of the angle's errors (rad) scale is not used.
+  HeadingSensor(const HeadingErrors& errors, const ScalarErrors& angle, const random::Stream& stream)
+      : errors_(errors), sensor_(angle, stream) {}
 
   /// Measured true heading, [0, 2 pi), dt after the sample before.
   double measure(double heading_rad, double speed_north_mps, double latitude_rad, double dt_s);

@@ -10,8 +10,6 @@ namespace ensonify::sensors {
 struct HeaveSettings {
   double cutoff_s = 20.0;   // > 0, period of the filter's corner ("heave period" of the setup page)
   double damping = 0.7071;  // > 0; 0.707: no resonance
-
-  bool operator==(const HeaveSettings&) const = default;
 };
 
 /// Gain and phase lead at a period of motion, of H(s) = s^2 / (s^2 + 2 z w s + w^2) [Godhavn1998].
@@ -47,5 +45,31 @@ double delayed_heave_m(std::span<const double> heights_m, std::span<const double
 
 /// Weights of the slow part: a sinc that passes periods longer than the cut-off, tapered by Hann's window, sum 1.
 std::vector<double> delayed_heave_window(double cutoff_s, double half_width_s, double step_s);
+
+/// Level of a motion sensor: it assumes the mean specific force to be gravity. In a turn the mean
+/// force leans outwards, and the sensor's level leans after it with its time constant; speed and heading wired in from
+/// outside let it take off most of the turn.
+struct LevelSettings {
+  double time_s = 60.0;      // > 0, time constant with which level follows mean force
+  double aided_share = 0.9;  // 0..1 of the turn's acceleration that is known and taken off
+};
+
+/// Effect of a turn on level, roll and vertical acceleration; zero on a straight course.
+class LevelError {
+ public:
+  explicit LevelError(const LevelSettings& settings) : settings_(settings) {}
+
+  /// dt after the sample before: acceleration across the course, positive to starboard (speed times turn rate). Gives
+  /// the level's lean, rad: measured less true roll. It tends to -(1 - share) a / g.
+  double advance(double across_mps2, double dt_s);
+
+  /// Measured less true vertical acceleration (up) for the same moment: g (cos lean - 1) - a sin lean, whose first part
+  /// is small of second order and whose second is felt because the leaning axis sees the turn.
+  double vertical_error_mps2(double across_mps2) const;
+
+ private:
+  LevelSettings settings_;
+  double lean_rad_ = 0.0;
+};
 
 }  // namespace ensonify::sensors

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kernels/instruments/sensors/level.h"
-
 using namespace ensonify::sensors;
 constexpr double kPi = std::numbers::pi;
 

@@ -1,12 +1,11 @@
 #include "kernels/instruments/sensors/instrument_clock.h"
 
-#include <algorithm>
-
 namespace ensonify::sensors {
 
-bool within(const std::vector<Span>& spans, double t_s) {
-  return std::any_of(spans.begin(), spans.end(),
-                     [t_s](const Span& span) { return t_s >= span.from_s && t_s < span.to_s; });
+bool within(const std::vector<double>& ends_s, double t_s) {
+  bool inside = false;
+  for (std::size_t i = 0; i + 1 < ends_s.size(); i += 2) inside = inside || (t_s >= ends_s[i] && t_s < ends_s[i + 1]);
+  return inside;
 }
 
 double InstrumentClock::error_s(double t_s) const {
@@ -14,9 +13,10 @@ double InstrumentClock::error_s(double t_s) const {
   double lost_at_s = t_s;  // walk back through spans that overlap or touch
   for (bool moved = true; moved;) {
     moved = false;
-    for (const Span& span : unlocked) {
-      if (span.from_s < lost_at_s && (lost_at_s < span.to_s || (lost_at_s == span.to_s && lost_at_s < t_s))) {
-        lost_at_s = span.from_s;
+    for (std::size_t i = 0; i + 1 < unlocked_s.size(); i += 2) {
+      const double from_s = unlocked_s[i], to_s = unlocked_s[i + 1];
+      if (from_s < lost_at_s && (lost_at_s < to_s || (lost_at_s == to_s && lost_at_s < t_s))) {
+        lost_at_s = from_s;
         moved = true;
       }
     }

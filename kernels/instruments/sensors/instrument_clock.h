@@ -4,16 +4,8 @@
 
 namespace ensonify::sensors {
 
-/// A span of sim time, [from, to).
-struct Span {
-  double from_s = 0.0;
-  double to_s = 0.0;
-
-  bool operator==(const Span&) const = default;
-};
-
-/// Whether t lies in any of the spans.
-bool within(const std::vector<Span>& spans, double t_s);
+/// Whether t lies in any of the spans [from, to), of which `ends_s` has from, to, from, to ...
+bool within(const std::vector<double>& ends_s, double t_s);
 
 /// Moment at which an instrument stamps its measurement.
 enum class Stamping {
@@ -24,13 +16,11 @@ enum class Stamping {
 /// An instrument's own clock. Locked to 1PPS and ZDA it shows time of day to within the lock's residual; free, it goes
 /// wrong by its drift from where it was when the lock was lost. Never locked, it starts with its offset.
 struct InstrumentClock {
-  double offset_s = 0.0;       // shown less true, at sim time 0, when never locked
-  double drift_ppm = 0.0;      // of the free oscillator
-  bool locked = true;          // 1PPS and ZDA are wired
-  double residual_s = 0.0;     // shown less true while locked: cable delay, pulse width, wrong edge
-  std::vector<Span> unlocked;  // the pulse is lost
-
-  bool operator==(const InstrumentClock&) const = default;
+  double offset_s = 0.0;           // shown less true, at sim time 0, when never locked
+  double drift_ppm = 0.0;          // of the free oscillator
+  bool locked = true;              // 1PPS and ZDA are wired
+  double residual_s = 0.0;         // shown less true while locked: cable delay, pulse width, wrong edge
+  std::vector<double> unlocked_s;  // the pulse is lost: from, to, from, to ...
 
   /// Shown less true at sim time t.
   double error_s(double t_s) const;

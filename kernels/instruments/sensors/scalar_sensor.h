@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "kernels/base/random/gauss_markov.h"
 #include "kernels/base/random/stream.h"
@@ -17,8 +18,6 @@ struct ScalarErrors {
   double white = 0.0;       // standard deviation of each sample's own error
   double resolution = 0.0;  // readings are multiples of it
   double lag_s = 0.0;       // first-order response: a step is followed with this time constant
-
-  bool operator==(const ScalarErrors&) const = default;
 };
 
 /// A sensor of one quantity: pressure depth, altitude, sound speed, temperature, conductivity and their like.
@@ -35,6 +34,28 @@ class ScalarSensor {
   random::Stream stream_;
   random::GaussMarkov wander_;
   double response_ = 0.0, truth_ = 0.0;  // of the sensing element, and of the water, at the sample before
+  std::uint64_t n_ = 0;
+};
+
+/// An altimeter: a single beam that reports distance, or nothing.
+struct RangeErrors {
+  double shortest_m = 0.3;
+  double longest_m = 100.0;
+  double dropout = 0.0;  // probability of no answer though the bottom is in range
+};
+
+class RangeSensor {
+ public:
+  RangeSensor(const RangeErrors& errors, const ScalarErrors& distance, const random::Stream& stream);
+
+  /// dt after the sample before; `distance_m` is the true one along the beam, empty where there is nothing to receive.
+  std::optional<double> measure(std::optional<double> distance_m, double dt_s);
+
+ private:
+  RangeErrors errors_;
+  random::Stream stream_;
+  ScalarSensor sensor_;
+  double since_s_ = 0.0;  // the last answer
   std::uint64_t n_ = 0;
 };
 

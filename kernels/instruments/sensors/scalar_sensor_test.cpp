@@ -46,3 +46,20 @@ TEST_CASE("readings are multiples of the resolution, biased as stated") {
   ScalarSensor sensor({.bias = 0.26, .resolution = 0.1}, random::Stream(1, "r"));
   CHECK(sensor.measure(1.0, 1.0) == Approx(1.3));
 }
+
+TEST_CASE("an altimeter answers within its range, and fails as often as stated") {
+  RangeSensor sensor({.dropout = 0.25}, {}, random::Stream(1, "altimeter"));
+  int answers = 0;
+  for (int i = 0; i < 4000; ++i) {
+    if (const auto range = sensor.measure(12.5, 0.1)) {
+      REQUIRE(*range == 12.5);
+      ++answers;
+    }
+  }
+  CHECK(answers / 4000.0 == Approx(0.75).margin(0.028));  // four times sqrt(0.75 * 0.25 / 4000)
+  RangeSensor sure({}, {}, random::Stream(1, "altimeter"));
+  CHECK(!sure.measure(0.2, 0.1));
+  CHECK(!sure.measure(101.0, 0.1));
+  CHECK(!sure.measure(std::nullopt, 0.1));
+  CHECK(sure.measure(100.0, 0.1));
+}

@@ -17,8 +17,6 @@ struct UsblErrors {
   double widest_rad = 1.3;             // from the array's axis (its down): beyond, no answer
   double outlier = 0.0;                // probability that a reflection is taken for the answer
   double speed_of_sound_mps = 1500.0;  // mean over the path, for the age of the fix
-
-  bool operator==(const UsblErrors&) const = default;
 };
 
 struct UsblReading {
