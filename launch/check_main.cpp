@@ -38,7 +38,8 @@ int check(const LaunchOptions& options, bool as_json) {
     processes = launch.processes.size();
     const RunPlaces places{program_folder(), "", options.out};
     checked = check_ports(launch, places);
-    for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places)})
+    for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places),
+                              setting_problems(world.mission, checked)})
       checked.problems.insert(checked.problems.end(), found.begin(), found.end());
     warnings = resolution_warnings(checked);
     if (checked.problems.empty()) append_uneven(launch, world, warnings);

@@ -131,6 +131,19 @@ std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPort
   return wire(checked.declarations, wire_rules(launch), process_places(launch)).problems;
 }
 
+std::vector<std::string> setting_problems(const Mission& mission, const CheckedPorts& checked) {
+  std::map<std::string, std::string> facts;
+  bool steered = false;
+  for (const Declaration& process : checked.declarations) {
+    add_notes(facts, process);
+    steered = steered || process.component == "autopilot";
+  }
+  std::vector<std::string> problems;
+  if (!steered) return problems;
+  for (const ConfigProblem& problem : ensonify::setting_problems(mission, facts)) problems.push_back(problem.text());
+  return problems;
+}
+
 std::vector<std::string> resolution_warnings(const CheckedPorts& checked) {
   std::vector<std::string> warnings;
   const auto note = [](const std::map<std::string, double>& notes, const char* key) {

@@ -6,6 +6,7 @@
 #include "components/runtime/wiring.h"
 #include "launch/commands.h"
 #include "launch/file/launch_file.h"
+#include "scenarios/world/mission.h"
 
 namespace ensonify::launcher {
 
@@ -27,6 +28,9 @@ std::vector<std::string> unpaged_mission_problems(const Launch& launch, const Ru
 /// Wiring mistakes, each with its place. Nothing is said when some processes are unknown or could not report their
 /// ports, since those may be the publishers that seem to be missing.
 std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPorts& checked);
+
+/// Settings of the mission that a head of the launch does not take, where an autopilot runs the mission.
+std::vector<std::string> setting_problems(const Mission& mission, const CheckedPorts& checked);
 
 /// Warning of terrain too coarse for a head: its posts are farther apart than its finest footprint, the narrowest
 /// beam at the least depth. Names both.

@@ -152,7 +152,7 @@ TEST_CASE("a line of several legs is followed round its bends, a circuit as ofte
 TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and marks") {
   SetSonar sonar;
   sonar.head = "bow";
-  sonar.range_m = 30.0;
+  sonar.settings.range_m = 30.0;
   Loop loop(steps({PassPlace{{60, 100}, 1.5}, sonar, KeepPlace{Vec2(150, 100), 20.0, 3.0}, SetMark{"wreck"},
                    FollowOrbit{{150, 150}, 25.0, 1.25, true}}),
             kUnderWay);

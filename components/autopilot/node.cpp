@@ -37,7 +37,15 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
   }
 }
 
+/// What heads note is known when time starts.
+void AutopilotNode::check_settings() {
+  checked_ = true;
+  const auto problems = setting_problems(config_.plan.mission, ports_.facts());
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
 SimTime AutopilotNode::step(SimTime now) {
+  if (!checked_) check_settings();
   if (!commands_due_.due(now)) return commands_due_.next();
   if (!pilot_ && chart_) pilot_.emplace(config_, steps_of(planned_lines(config_.plan, *chart_)));
   if (pilot_ && estimate_) {

@@ -20,6 +20,7 @@ class AutopilotNode {
   SimTime step(SimTime now);
 
  private:
+  void check_settings();
   void report_health(SimTime now);
 
   AutopilotConfig config_;
@@ -29,7 +30,7 @@ class AutopilotNode {
   std::optional<msg::Chart> chart_;
   std::optional<msg::Altitude> altitude_;  // received since the last command
   std::optional<Pilot> pilot_;             // empty until the lines are known
-  bool finished_ = false;
+  bool checked_ = false, finished_ = false;
   Ports::Out<msg::Guidance> commands_;
   Ports::Out<msg::MissionState> missions_;
   std::map<std::string, Ports::Out<msg::SonarSettings>> settings_;  // by head

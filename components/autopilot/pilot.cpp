@@ -109,17 +109,8 @@ void Pilot::begin(const GoAt& go, SimTime) {
 }
 
 void Pilot::begin(const SetSonar& sonar, SimTime now) {
-  msg::SonarSettings settings;
+  msg::SonarSettings settings = sonar.settings;
   settings.stamp_ns = now.count();
-  settings.range_m = sonar.range_m.value_or(msg::kUnchanged);
-  settings.source_level_db = sonar.source_level_db.value_or(msg::kUnchanged);
-  settings.pulse_length_s = sonar.pulse_length_s.value_or(msg::kUnchanged);
-  settings.gain_spreading_db = sonar.gain_spreading_db.value_or(msg::kUnchanged);
-  settings.gain_absorption_dbpm = sonar.gain_absorption_dbpm.value_or(msg::kUnchanged);
-  settings.gain_offset_db = sonar.gain_offset_db.value_or(msg::kUnchanged);
-  settings.swath_rad = sonar.swath_rad.value_or(msg::kUnchanged);
-  settings.ping_rate_hz = sonar.ping_rate_hz.value_or(msg::kUnchanged);
-  settings.mode = sonar.mode;
   settings_.emplace_back(sonar.head, settings);
 }
 

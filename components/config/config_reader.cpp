@@ -136,7 +136,11 @@ void ConfigReader::problem(std::string_view key, const std::string& message) con
   if (state_->map == nullptr) {
     return;
   }
-  state_->documents->problems.push_back({nearest_node(*state_->map, key).place, state_->path_of(key), message});
+  state_->documents->problems.push_back(problem_at(key, message));
+}
+
+ConfigProblem ConfigReader::problem_at(std::string_view key, const std::string& message) const {
+  return {nearest_node(node(), key).place, state_->path_of(key), message};
 }
 
 void ConfigReader::add(const ConfigError& error) const {

@@ -103,6 +103,8 @@ class ConfigReader {
   /// is written as messages show it, "channels[1].name"; where it is left out, the place is that of what should hold
   /// it.
   void problem(std::string_view key, const std::string& message) const;
+  /// Such a problem, not added: for what is found only when other files have been read.
+  ConfigProblem problem_at(std::string_view key, const std::string& message) const;
   /// Adds another document to the same list of problems, e.g. a file that this one names.
   ConfigReader also(ConfigDocument document, const std::string& path = "") const;
   /// Adds problems that were found elsewhere, e.g. those of a file that could not be parsed.

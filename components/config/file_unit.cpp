@@ -60,6 +60,7 @@ constexpr NamedUnit kUnits[] = {
 }  // namespace
 
 double file_unit(const char* unit) {
+  if (std::string_view(unit).starts_with("dB re ")) return 1.0;
   for (const NamedUnit& known : kUnits) {
     if (known.name == unit) return known.si;
   }

@@ -31,7 +31,7 @@ HeadSettings EchosounderConfig::start() const {
 
 SettingLimits EchosounderConfig::limits() const {
   SettingLimits limits = limits_up_to(1.0, range_m, source_level_db);
-  limits.pulse_length_s = {pulse_length_s, kLongestPulse_s};  // samples come as often as the configured one needs
+  limits["pulse_length_s"] = {{pulse_length_s, kLongestPulse_s}};  // samples come as often as the configured one needs
   return limits;
 }
 

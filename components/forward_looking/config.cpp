@@ -26,7 +26,7 @@ HeadSettings ForwardLookingConfig::start() const {
 SettingLimits ForwardLookingConfig::limits() const {
   SettingLimits limits = limits_up_to(0.5, longest_range_m, source_level_db);
   allow_held_pulses(pulse, sound_speed_mps, limits);
-  limits.swath_rad = {aperture_rad, aperture_rad};
+  limits["swath_rad"] = {{aperture_rad, aperture_rad}};
   return limits;
 }
 

@@ -81,13 +81,13 @@ HeadSettings MultibeamConfig::start() const {
 
 SettingLimits MultibeamConfig::limits() const {
   SettingLimits limits = limits_up_to(1.0, range_m, source_level_db);
-  limits.auto_range = true;
+  limits["range_m"].chosen = true;
   // A tone has two samples or more; a chirp's length changes neither resolution nor samples.
-  limits.pulse_length_s = {chirp ? kLeastSweep / bandwidth_hz : 2.0 / sample_rate_hz, kLongestPulse_s};
-  limits.gain_spreading_db = {0.0, 80.0};
-  limits.gain_absorption_dbpm = {0.0, 2.0};
-  limits.swath_rad = {kNarrowestSwath_rad, kWidestSwath_rad};
-  limits.modes = {"bathymetry", "water_column"};
+  limits["pulse_length_s"] = {{chirp ? kLeastSweep / bandwidth_hz : 2.0 / sample_rate_hz, kLongestPulse_s}};
+  limits["gain_spreading_db"] = {kSpreading_db};
+  limits["gain_absorption_dbpm"] = {kAbsorption_dbpm};
+  limits["swath_rad"] = {{kNarrowestSwath_rad, kWidestSwath_rad}};
+  limits["mode"].words = {"bathymetry", "water_column"};
   return limits;
 }
 

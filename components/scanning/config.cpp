@@ -26,7 +26,7 @@ HeadSettings ScanningConfig::start() const {
 SettingLimits ScanningConfig::limits() const {
   SettingLimits limits = limits_up_to(0.5, longest_range_m, source_level_db);
   allow_held_pulses(pulse, sound_speed_mps, limits);
-  limits.swath_rad = {stride_rad(scan), 360.0 * Scan::kDegree};
+  limits["swath_rad"] = {{stride_rad(scan), 360.0 * Scan::kDegree}};
   return limits;
 }
 

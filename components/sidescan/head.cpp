@@ -195,7 +195,7 @@ msg::Ping SidescanHead::ping_message(const PingEvent& event, const HeadSettings&
 }
 
 std::size_t SidescanHead::max_ping_bytes() const {
-  const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_).pulse_length_s->most);
+  const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_)["pulse_length_s"].most);
   return 2 * sizeof(float) * static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0) + 65536;
 }
 

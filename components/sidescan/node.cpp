@@ -11,7 +11,7 @@ HeadPlan Sidescan::plan(const Config& config) {
     const SettingLimits limits = config.limits_of(channel);
     plan.channels.push_back({channel.name, config.start_of(channel), limits});
     plan.longest_reception_s =
-        std::max(plan.longest_reception_s, config.reception_s(channel.range_m, limits.pulse_length_s->most));
+        std::max(plan.longest_reception_s, config.reception_s(channel.range_m, limits.find("pulse_length_s")->most));
     plan.finest_beam_rad = std::min(plan.finest_beam_rad, channel.horizontal_beamwidth_rad);
   }
   return plan;

@@ -38,14 +38,14 @@ HeadSettings HeadConfig::start_at(double range_m, double source_level_db) const 
 
 SettingLimits HeadConfig::limits_up_to(double nearest_m, double range_m, double source_level_db) const {
   SettingLimits limits;
-  limits.range_m = {nearest_m, range_m};
-  limits.source_level_db = {source_level_db - kWeakest_db, source_level_db};
+  limits["range_m"] = {{nearest_m, range_m}};
+  limits["source_level_db"] = {{source_level_db - kWeakest_db, source_level_db}};
   if (effects.tvg) {
-    limits.gain_spreading_db = kSpreading_db;
-    limits.gain_absorption_dbpm = kAbsorption_dbpm;
+    limits["gain_spreading_db"] = {kSpreading_db};
+    limits["gain_absorption_dbpm"] = {kAbsorption_dbpm};
   }
-  limits.gain_offset_db = kOffset_db;
-  limits.ping_rate_hz = {kSlowest_hz, ping_rate_hz};
+  limits["gain_offset_db"] = {kOffset_db};
+  limits["ping_rate_hz"] = {{kSlowest_hz, ping_rate_hz}};
   return limits;
 }
 

@@ -36,8 +36,7 @@ RangedPulse pulse_at(const PulseDesign& design, double range_m, double sound_spe
 
 void allow_held_pulses(const PulseDesign& design, double sound_speed_mps, SettingLimits& limits) {
   const double shortest_s = design.chirp ? kLeastSweep / design.bandwidth_hz : design.length_s;
-  limits.pulse_length_s = {shortest_s, design.longest_s};
-  limits.auto_pulse = true;
+  limits["pulse_length_s"] = {{shortest_s, design.longest_s}, true};
   limits.shortest_pulse_s = [=](double range_m) {
     return pulse_at(design, range_m, sound_speed_mps, shortest_s).length_s;
   };

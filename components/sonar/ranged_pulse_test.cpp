@@ -48,9 +48,9 @@ TEST_CASE("commands stay within the design's pulses, with a remark if the range 
   const PulseDesign tone{.length_s = 20e-6, .longest_s = 1e-3, .most_samples = 1200};
   SettingLimits limits;
   allow_held_pulses(tone, 1500.0, limits);
-  CHECK(limits.pulse_length_s->least == 20e-6);
-  CHECK(limits.pulse_length_s->most == 1e-3);
-  CHECK(limits.auto_pulse);
+  CHECK(limits["pulse_length_s"].least == 20e-6);
+  CHECK(limits["pulse_length_s"].most == 1e-3);
+  CHECK(limits["pulse_length_s"].chosen);
   CHECK(limits.shortest_pulse_s(3.0) == Approx(20e-6));
   CHECK(limits.shortest_pulse_s(50.0) == Approx(111.11e-6).epsilon(1e-4));
 }

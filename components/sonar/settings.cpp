@@ -4,56 +4,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+
+#include "messages/fields.h"
 
 namespace ensonify {
 namespace {
 
-/// Takes over one number of a command.
-void take(const char* name, double wanted, const std::optional<SettingRange>& range, double& setting,
+/// Takes over one number of a command; whether it did.
+bool take(const std::string& name, double wanted, const SettingLimit& limit, double& setting,
           std::vector<std::string>& remarks) {
-  if (std::isnan(wanted)) return;
-  if (!range) {
-    remarks.push_back(fmt::format("{}={} refused: this head has no such setting", name, wanted));
-    return;
+  if (wanted == 0.0 && zero_chooses(name)) {
+    if (limit.chosen) setting = name == "range_m" ? limit.most : 0.0;
+    else remarks.push_back(name + "=0 refused: this head does not choose it");
+    return limit.chosen;
   }
-  if (range->least == range->most && wanted != range->least) {
-    remarks.push_back(fmt::format("{}={} refused: on this head it is fixed at {:.6g}", name, wanted, range->least));
-    return;
+  if (limit.least == limit.most && wanted != limit.least) {
+    remarks.push_back(fmt::format("{}={} refused: on this head it is fixed at {:.6g}", name, wanted, limit.least));
+    return false;
   }
-  setting = std::clamp(wanted, range->least, range->most);
+  setting = std::clamp(wanted, limit.least, limit.most);
   if (setting != wanted) {
     remarks.push_back(
-        fmt::format("{}={} is outside [{}, {}]: set to {}", name, wanted, range->least, range->most, setting));
+        fmt::format("{}={} is outside [{}, {}]: set to {}", name, wanted, limit.least, limit.most, setting));
   }
+  return true;
 }
 
-void take_range(double wanted_m, const SettingLimits& limits, HeadSettings& settings,
-                std::vector<std::string>& remarks) {
-  if (std::isnan(wanted_m)) return;
-  const bool automatic = wanted_m == 0.0;
-  if (automatic && limits.range_m && !limits.auto_range) {
-    remarks.push_back("range_m=0 refused: this head does not choose its range");
-    return;
-  }
-  if (automatic && limits.range_m) {
-    settings.auto_range = true;
-    settings.range_m = limits.range_m->most;
-    return;
-  }
-  take("range_m", wanted_m, limits.range_m, settings.range_m, remarks);
-  if (limits.range_m) settings.auto_range = false;
+bool take(const std::string& name, const std::string& wanted, const SettingLimit& limit, std::string& setting,
+          std::vector<std::string>& remarks) {
+  const bool known = std::ranges::find(limit.words, wanted) != limit.words.end();
+  if (known) setting = wanted;
+  else remarks.push_back(fmt::format("{}={} refused: not one of {}", name, wanted, fmt::join(limit.words, ", ")));
+  return known;
 }
 
-void take_pulse(double wanted_s, const SettingLimits& limits, HeadSettings& settings,
-                std::vector<std::string>& remarks) {
-  if (wanted_s != 0.0 || !limits.pulse_length_s) {
-    take("pulse_length_s", wanted_s, limits.pulse_length_s, settings.pulse_length_s, remarks);
-  } else if (limits.auto_pulse) {
-    settings.pulse_length_s = 0.0;
-  } else {
-    remarks.push_back("pulse_length_s=0 refused: this head does not choose its pulse length");
-  }
-}
+bool unchanged(double wanted) { return std::isnan(wanted); }
+bool unchanged(const std::string& wanted) { return wanted.empty(); }
 
 void report_longer_pulse(const SettingLimits& limits, const HeadSettings& settings, std::vector<std::string>& remarks) {
   if (!limits.shortest_pulse_s || settings.pulse_length_s == 0.0) return;
@@ -63,39 +50,34 @@ void report_longer_pulse(const SettingLimits& limits, const HeadSettings& settin
                                 settings.pulse_length_s, settings.range_m, shortest_s));
 }
 
-void take_mode(const std::string& wanted, const std::vector<std::string>& modes, std::string& mode,
-               std::vector<std::string>& remarks) {
-  if (wanted.empty()) return;
-  if (std::find(modes.begin(), modes.end(), wanted) != modes.end()) {
-    mode = wanted;
-    return;
-  }
-  remarks.push_back(
-      fmt::format("mode={} refused: {}", wanted,
-                  modes.empty() ? "this head has no modes" : fmt::format("not one of {}", fmt::join(modes, ", "))));
+}  // namespace
+
+HeadSettings::HeadSettings() {
+  for_settings(*this, [](auto&&, auto&&, auto&&, auto& setting) { setting = {}; });
 }
 
-}  // namespace
+bool HeadSettings::operator==(const HeadSettings& other) const {
+  return auto_range == other.auto_range && msg::to_value<msg::SonarSettings>(*this) == msg::to_value<msg::SonarSettings>(other);
+}
 
 CommandedSettings::CommandedSettings(HeadSettings start, SettingLimits limits)
     : limits_(std::move(limits)), in_force_(start), next_(std::move(start)) {}
 
 std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& command) {
   std::vector<std::string> remarks;
-  const auto number = [&](const char* name, double wanted, const std::optional<SettingRange>& range, double& setting) {
-    take(name, wanted, range, setting, remarks);
-  };
-  take_range(command.range_m, limits_, next_, remarks);
-  number("source_level_db", command.source_level_db, limits_.source_level_db, next_.source_level_db);
-  take_pulse(command.pulse_length_s, limits_, next_, remarks);
+  std::vector<const void*> members;
+  for_settings(command, [&](auto&&, auto&&, auto&&, const auto& wanted) { members.push_back(&wanted); });
+  auto member = members.begin();
+  for_settings(next_, [&](const char* name, auto&&, auto&&, auto& setting) {
+    const auto& wanted = *static_cast<const std::remove_cvref_t<decltype(setting)>*>(*member++);
+    if (unchanged(wanted)) return;
+    if (const SettingLimit* limit = limits_.find(name); limit == nullptr) {
+      remarks.push_back(fmt::format("{}={} refused: this head has no such setting", name, wanted));
+    } else if (take(name, wanted, *limit, setting, remarks) && name == std::string_view("range_m")) {
+      next_.auto_range = command.range_m == 0.0;
+    }
+  });
   if (!std::isnan(command.range_m) || !std::isnan(command.pulse_length_s)) report_longer_pulse(limits_, next_, remarks);
-  number("gain_spreading_db", command.gain_spreading_db, limits_.gain_spreading_db, next_.gain_spreading_db);
-  number("gain_absorption_dbpm", command.gain_absorption_dbpm, limits_.gain_absorption_dbpm,
-         next_.gain_absorption_dbpm);
-  number("gain_offset_db", command.gain_offset_db, limits_.gain_offset_db, next_.gain_offset_db);
-  number("swath_rad", command.swath_rad, limits_.swath_rad, next_.swath_rad);
-  number("ping_rate_hz", command.ping_rate_hz, limits_.ping_rate_hz, next_.ping_rate_hz);
-  take_mode(command.mode, limits_.modes, next_.mode, remarks);
   return remarks;
 }
 
@@ -105,15 +87,13 @@ const HeadSettings& CommandedSettings::at_ping() {
 }
 
 void fill(msg::AppliedSettings& applied, const HeadSettings& settings) {
-  applied.range_m = settings.range_m;
-  applied.source_level_db = settings.source_level_db;
-  applied.pulse_length_s = settings.pulse_length_s;
-  applied.gain_spreading_db = settings.gain_spreading_db;
-  applied.gain_absorption_dbpm = settings.gain_absorption_dbpm;
-  applied.gain_offset_db = settings.gain_offset_db;
-  applied.swath_rad = settings.swath_rad;
-  applied.ping_rate_hz = settings.ping_rate_hz;
-  applied.mode = settings.mode;
+  msg::AppliedSettings::fields(applied, [&](const std::string_view name, auto&&, auto&&, auto& in_force) {
+    for_settings(settings, [&](const std::string_view setting, auto&&, auto&&, const auto& value) {
+      if constexpr (std::is_same_v<decltype(in_force), std::remove_cvref_t<decltype(value)>&>) {
+        if (name == setting) in_force = value;
+      }
+    });
+  });
 }
 
 }  // namespace ensonify

@@ -21,13 +21,12 @@ HeadSettings start() {
 
 SettingLimits limits() {
   SettingLimits limits;
-  limits.range_m = {1.0, 200.0};
-  limits.source_level_db = {190.0, 220.0};
-  limits.pulse_length_s = {25e-6, 1e-3};
-  limits.swath_rad = {0.2, 2.4};
-  limits.ping_rate_hz = {0.1, 50.0};
-  limits.auto_range = true;
-  limits.modes = {"equiangle", "equidistant"};
+  limits["range_m"] = {{1.0, 200.0}, true};
+  limits["source_level_db"] = {{190.0, 220.0}};
+  limits["pulse_length_s"] = {{25e-6, 1e-3}};
+  limits["swath_rad"] = {{0.2, 2.4}};
+  limits["ping_rate_hz"] = {{0.1, 50.0}};
+  limits["mode"].words = {"equiangle", "equidistant"};
   return limits;
 }
 
@@ -90,16 +89,16 @@ TEST_CASE("a range of 0 lets the head choose up to the longest, where it can") {
   CHECK(settings.at_ping().range_m == 60.0);
 
   SettingLimits by_hand = limits();
-  by_hand.auto_range = false;
+  by_hand["range_m"].chosen = false;
   CommandedSettings manual(start(), by_hand);
   command.range_m = 0.0;
-  CHECK(manual.command(command) == Remarks{"range_m=0 refused: this head does not choose its range"});
+  CHECK(manual.command(command) == Remarks{"range_m=0 refused: this head does not choose it"});
   CHECK(manual.at_ping() == start());
 }
 
 TEST_CASE("a pulse length of 0 lets the head choose again, where it can") {
   SettingLimits by_range = limits();
-  by_range.auto_pulse = true;
+  by_range["pulse_length_s"].chosen = true;
   CommandedSettings settings(start(), by_range);
   msg::SonarSettings command;
   command.pulse_length_s = 0.0;
@@ -107,7 +106,7 @@ TEST_CASE("a pulse length of 0 lets the head choose again, where it can") {
   CHECK(settings.at_ping().pulse_length_s == 0.0);
 
   CommandedSettings manual(start(), limits());
-  CHECK(manual.command(command) == Remarks{"pulse_length_s=0 refused: this head does not choose its pulse length"});
+  CHECK(manual.command(command) == Remarks{"pulse_length_s=0 refused: this head does not choose it"});
   CHECK(manual.at_ping() == start());
 }
 
@@ -128,7 +127,7 @@ TEST_CASE("a pulse too short for the range is reported and kept, whichever was c
 
 TEST_CASE("what is fixed says at what") {
   SettingLimits fixed = limits();
-  fixed.swath_rad = {2.0, 2.0};
+  fixed["swath_rad"] = {{2.0, 2.0}};
   CommandedSettings settings(start(), fixed);
   msg::SonarSettings command;
   command.swath_rad = 1.0;

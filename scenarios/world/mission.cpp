@@ -133,6 +133,11 @@ FollowOrbit read_orbit(ConfigReader& from, const Places& places) {
 SetSonar read_sonar(ConfigReader& from) {
   SetSonar sonar;
   read_parameters(from, sonar);
+  sonar.given["set_sonar"] = from.problem_at("set_sonar", "");
+  for_settings(sonar.settings, [&](const char* name, const char* unit, auto&&...) {
+    const std::string key = setting_in_file(name, unit).key;
+    if (from.has(key)) sonar.given[name] = from.problem_at(key, "");
+  });
   return sonar;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,6 +10,8 @@
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/runlines/runline.h"
+#include "messages/sonar.h"
+#include "scenarios/world/sonar_settings.h"
 
 namespace ensonify {
 
@@ -110,23 +113,15 @@ struct GoAt {
     visit("altitude_m", "m", in(0.5, 1000), "altitude above the bottom from here on", self.altitude_m);
   }
 };
+/// A command to a head. `given` has the place in the file of `set_sonar` and of each field that is set.
 struct SetSonar {
   std::string head;
-  std::optional<double> range_m, source_level_db, pulse_length_s, gain_spreading_db, gain_absorption_dbpm,
-      gain_offset_db, swath_rad, ping_rate_hz;
-  std::string mode;  // "": stays
+  msg::SonarSettings settings;
+  std::map<std::string, ConfigProblem> given;
 
   static void parameters(auto& self, auto&& visit) {
     visit("set_sonar", "", must(any()), "the head", self.head);
-    visit("range_m", "m", in(0, 20000), "longest range", self.range_m);
-    visit("source_level_db", "dB", in(100, 260), "re 1 uPa at 1 m", self.source_level_db);
-    visit("pulse_length_s", "s", in(0, 1), "length of the transmitted pulse", self.pulse_length_s);
-    visit("gain_spreading_db", "dB", in(0, 60), "gain per decade of range", self.gain_spreading_db);
-    visit("gain_absorption_dbpm", "dB/m", in(0, 1), "gain against absorption", self.gain_absorption_dbpm);
-    visit("gain_offset_db", "dB", in(-200, 200), "constant gain", self.gain_offset_db);
-    visit("swath_deg", "deg", in(0.1, 360), "width of the swath", self.swath_rad);
-    visit("ping_rate_hz", "Hz", in(0.01, 200), "pings per second", self.ping_rate_hz);
-    visit("mode", "", computed(any()), "mode of the head; left out: it stays", self.mode);
+    setting_parameters(self.settings, visit);
   }
 };
 struct SetMark {

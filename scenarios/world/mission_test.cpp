@@ -58,7 +58,7 @@ TEST_CASE("a mission's steps are read in order, its straight legs with their dep
   CHECK(std::get<KeepPlace>(mission.steps[3]).within_m == 2.0);
   CHECK_FALSE(std::get<KeepPlace>(mission.steps[4]).place_enu_m);
   CHECK_FALSE(std::get<FollowOrbit>(mission.steps[5]).clockwise);
-  CHECK(*std::get<SetSonar>(mission.steps[6]).swath_rad == Approx(1.5707963));
+  CHECK(std::get<SetSonar>(mission.steps[6]).settings.swath_rad == Approx(1.5707963));
   CHECK(std::get<SetMark>(mission.steps[7]).text == "wreck");
   CHECK(mission.sonars() == std::vector<std::string>{"bow"});
   CHECK(mission.runlines.size() == 3);
@@ -123,7 +123,10 @@ TEST_CASE("what cannot be run is reported before time starts") {
             .find("depth_m needs a vehicle that dives; auv floats") != std::string::npos);
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n    - {set_sonar: bow, range_m: 20}\n",
                     "mountings: {stern: {actual: {}}}")
-            .find("set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") != std::string::npos);
+            .find("bay.yaml:8:19: mission.steps[1].set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") !=
+        std::string::npos);
+  CHECK(problems_of("  steps:\n    - {set_sonar: stren, range_m: 20}\n", "mountings: {stern: {actual: {}}}") ==
+        "bay.yaml:7:19: mission.steps[0].set_sonar: no vehicle carries a head named \"stren\"; did you mean stern?");
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n", "start: {position_m: [0, 0, 2]}")
             .find("vehicles.auv.start.position_m: up 2 is above the water; allowed: 0 or less") != std::string::npos);
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n",
@@ -139,6 +142,73 @@ TEST_CASE("what cannot be run is reported before time starts") {
   CHECK(problems_of("  steps:\n    - mark: x\n  lawnmower: {length_m: 9, spacing_m: 9, count: 1}\n")
             .find("has several plans; give one of runlines, lawnmower, auto, adaptive, steps") != std::string::npos);
   CHECK(problems_of("  speed_mps: 2\n").find("has no plan; give one of") != std::string::npos);
+}
+
+namespace {
+
+using Facts = std::map<std::string, std::string>;
+
+/// What a head with these limits notes, as the others see it.
+Facts facts_of(const SettingLimits& limits, const std::string& head = "bow") {
+  Facts facts;
+  for (const auto& [name, value] : limits.notes()) facts[head + "/" + name] = std::to_string(value);
+  return facts;
+}
+
+/// What a head refuses of a mission of one step.
+std::string refused(const std::string& settings, const Facts& facts) {
+  const Mission mission = scenario_with("  steps:\n    - {set_sonar: bow, " + settings + "}\n    - mark: end\n",
+                                        "mountings: {bow: {actual: {}}}")
+                              .mission;
+  std::string text;
+  for (const ConfigProblem& problem : setting_problems(mission, facts)) text += problem.text() + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a mission's setting beyond the limits of its head is refused, with its place") {
+  SettingLimits limits;
+  limits["source_level_db"] = {{175.0, 250.0}};
+  limits["swath_rad"] = {{0.5, 2.6179938}};
+  limits["range_m"] = {{1.0, 75.0}, true};
+  limits["pulse_length_s"] = {{1e-4, 1e-3}};
+  limits["mode"].words = {"bathymetry", "water_column"};
+  const Facts facts = facts_of(limits);
+  CHECK(refused("source_level_db: 245, swath_deg: 150, range_m: 0, mode: water_column", facts) == "");
+  CHECK(refused("source_level_db: 260", facts) ==
+        "bay.yaml:7:41: mission.steps[0].source_level_db: 260 is outside [175, 250], the limits of bow\n");
+  CHECK(refused("swath_deg: 160", facts) ==
+        "bay.yaml:7:35: mission.steps[0].swath_deg: 160 is outside [28.6479, 150], the limits of bow\n");
+  CHECK(refused("pulse_length_s: 0", facts) ==
+        "bay.yaml:7:40: mission.steps[0].pulse_length_s: 0 leaves it to bow, which does not choose; allowed: [0.0001, "
+        "0.001]\n");
+  CHECK(refused("mode: bathymetri", facts) ==
+        "bay.yaml:7:30: mission.steps[0].mode: bathymetri is no word of bow; allowed: bathymetry, water_column\n");
+  CHECK(refused("gain_offset_db: 3", facts) ==
+        "bay.yaml:7:40: mission.steps[0].gain_offset_db: bow has no such setting\n");
+  CHECK(refused("source_level_db: 260", facts_of(limits, "stern")) == "");  // bow has not declared its limits
+
+  SettingLimits narrow = limits, wide = limits;
+  narrow["source_level_db"] = {{175.0, 215.0}};
+  CHECK(refused("source_level_db: 245", facts_of(narrow)) != "");
+  narrow.widen(wide);
+  CHECK(refused("source_level_db: 245", facts_of(narrow)) == "");
+}
+
+TEST_CASE("every field of the message is a setting of missions, with limits, and no list names it again") {
+  const msg::SonarSettings message;
+  for_settings(message, [](const char* name, const char* unit, const char*, const auto& member) {
+    INFO(name);
+    constexpr bool is_text = std::is_same_v<std::remove_cvref_t<decltype(member)>, std::string>;
+    const SettingInFile file = setting_in_file(name, unit);
+    SettingLimits limits;
+    if (is_text) limits[name].words = {"7"};
+    else limits[name] = {{6.0 * file.si, 8.0 * file.si}};
+    CHECK(refused(file.key + ": 7", facts_of(limits)) == "");
+    CHECK(refused(file.key + ": 9", facts_of(limits)) != "");
+    CHECK(refused(file.key + ": 7", {{"bow/settings.other.least", "0"}}) != "");
+  });
 }
 
 TEST_CASE("an adaptive mission begins with its first line, so far from the port edge") {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "components/config/read_parameters.h"
+#include "components/errors/nearest_name.h"
 #include "scenarios/world/motion.h"
 #include "scenarios/world/sections.h"
 
@@ -298,6 +299,22 @@ void check_datums(const ConfigReader& section, const World& world) {
   check("datum_above_geoid_grid", datums.datum_above_geoid);
 }
 
+/// Steps set heads that a vehicle carries.
+void check_sonars(const ConfigReader& from, const Mission& mission, const std::set<std::string>& heads) {
+  std::vector<ConfigProblem> unknown;
+  for (const MissionStep& step : mission.steps) {
+    const auto* sonar = std::get_if<SetSonar>(&step);
+    if (sonar == nullptr || heads.contains(sonar->head)) continue;
+    const std::string near = nearest_name(sonar->head, {heads.begin(), heads.end()});
+    ConfigProblem& problem = unknown.emplace_back(sonar->given.at("set_sonar"));
+    problem.message = fmt::format("no vehicle carries a head named \"{}\"; {}", sonar->head,
+                                  !near.empty()   ? "did you mean " + near + "?"
+                                  : heads.empty() ? "there is none"
+                                                  : fmt::format("allowed: {}", fmt::join(heads, ", ")));
+  }
+  if (!unknown.empty()) from.add(ConfigError(unknown));
+}
+
 void check_whole(ConfigReader& from, const World& world) {
   if (from.good()) check_tide(from, world);
   std::set<std::string> heads;
@@ -313,13 +330,7 @@ void check_whole(ConfigReader& from, const World& world) {
   if (world.mission.depth_m > 0.0 && nobody_dives && !world.vehicles.empty()) {
     from.problem("mission", "depth_m needs a vehicle that dives; " + world.vehicles.front().name + " floats");
   }
-  for (const std::string& head : world.mission.sonars()) {
-    if (heads.contains(head)) continue;
-    std::string known;
-    for (const std::string& carried : heads) known += (known.empty() ? "" : ", ") + carried;
-    from.problem("mission", fmt::format("set_sonar: no vehicle carries a head named \"{}\"; allowed: {}", head,
-                                        known.empty() ? "none, for there is none" : known));
-  }
+  check_sonars(from, world.mission, heads);
   const bool generated = world.seabed.kind == Seabed::Kind::kLayers;
   if (world.site.origin_from_raster && generated) {
     from.problem("site", "origin: raster needs seabed.kind: raster or tiles");
