@@ -50,11 +50,11 @@ HeadPose pose(int ping) {
 const TransmitVolume kFan = mills_cross_volume(50.0, 50.0, 1.13);
 
 /// At random over the volume; of the main lobe alone or of all of it.
-std::vector<Ray> rays_of(int ping, std::size_t count, bool main_lobe) {
+Rays rays_of(int ping, std::size_t count, bool main_lobe) {
   const random::Stream draws(11, "rays");
   const Span& u = kFan.sine;
   const Span& phi = kFan.angle_rad;
-  std::vector<Ray> rays;
+  Rays rays;
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<std::uint64_t>(ping);
     const double sine =
@@ -69,7 +69,7 @@ std::array<lod::View, 2> views_at(const HeadPose& head, const lod::Water& water 
   return views_of(kFan, head, static_cast<double>(kRange), water, 2);
 }
 
-std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+std::size_t differences(const Hits& a, const Hits& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const bool same = a[i].range_m == b[i].range_m && a[i].position_enu_m == b[i].position_enu_m &&
@@ -85,7 +85,7 @@ std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
 TEST_CASE("main lobe rays hit bit-equal what they hit at full detail") {
   Scene scene = scene_of({.enabled = true});
   const auto summer = refraction::summer_thermocline();
-  std::vector<Hit> all, some;
+  Hits all, some;
   std::size_t different = 0, side_lobes_differ = 0, missed = 0;
   for (int ping = 0; ping < 12; ++ping) {
     const HeadPose head = pose(ping);
@@ -119,7 +119,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
   for (int ping = 0; ping < 8; ++ping) {
     const HeadPose head = pose(ping);
     scene.adapt(views_at(head));
-    std::vector<Ray> rays;
+    Rays rays;
     for (std::uint64_t i = 0; i < 250'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
       Vec2 at(140.0 * (draws.uniform(k, i, 0) - 0.5), 140.0 * (draws.uniform(k, i, 1) - 0.5));
@@ -131,7 +131,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
                     rough(at.x(), at.y()) - head.position_enu_m.z());
       rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
     }
-    std::vector<Hit> hits;
+    Hits hits;
     scene.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
     for (const Hit& hit : hits) lost += hit.hit() ? 0U : 1U;
@@ -148,7 +148,7 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
   wandering.adapt(views_at(pose(5)));
   fresh.adapt(views_at(pose(5)));
   const auto rays = rays_of(5, 100'000, false);
-  std::vector<Hit> a, b;
+  Hits a, b;
   wandering.trace(pose(5), rays, kRange, a);
   fresh.trace(pose(5), rays, kRange, b);
   CHECK(differences(a, b) == 0);
@@ -156,7 +156,7 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
 
 TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
   Scene scene = scene_of({.enabled = true});
-  std::vector<Hit> hits;
+  Hits hits;
   const auto rays = rays_of(0, 100, true);
   scene.trace(pose(0), rays, kRange, hits);
   CHECK_FALSE(hits[0].hit());
@@ -180,13 +180,13 @@ TEST_CASE("what no view intersects is built when a ray hits it, by any number of
   for (Scene* one : {&scene, &other}) one->adapt(views_at(head));
   const std::size_t in_view = scene.triangles();
   const random::Stream draws(17, "beyond");
-  std::vector<Ray> rays;
+  Rays rays;
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     const Vec2 at(150.0 * (draws.uniform(i, 0, 0) - 0.5), 150.0 * (draws.uniform(i, 1, 0) - 0.5));
     const Vec3 to(at.x() - head.position_enu_m.x(), at.y() - head.position_enu_m.y(), -25.0);
     rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
   }
-  std::vector<Hit> first, again, alone;
+  Hits first, again, alone;
   scene.trace(head, rays, 500.0F, first);
   const std::size_t with_others = scene.triangles();
   CHECK(with_others > in_view + 1000);
