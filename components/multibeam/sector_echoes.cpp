@@ -113,7 +113,10 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   memory.power = [this, &memory](const Eigen::Vector3f& direction, float) {
     return static_cast<double>(pattern_.transmitted_power(direction, memory.steered));
   };
-  const Shot shot{memory.poses, seconds(sent), settings.source_level_db, memory.power,
+  const Shot shot{memory.poses,
+                  seconds(sent),
+                  settings.source_level_db,
+                  memory.power,
                   {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad}};
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =
@@ -136,14 +139,15 @@ void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings
     sent.sweep_hz = config_.chirp ? config_.bandwidth_hz : 0.0;
     sent.duration_s = settings.pulse_length_s;
     sent.rejection_db = config_.sector_rejection_db;
-    echoes_.sea().add_echoes_of(own.shot, own.echoed, sent, all[i].echoed.arrivals, own.design.array.pulse, memory.foreign);
+    echoes_.sea().add_echoes_of(own.shot, own.echoed, sent, all[i].echoed.arrivals, own.design.array.pulse,
+                                memory.foreign);
   }
   std::vector<echo::InterferingTransmission> interfering = event.interfering;
   for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s;
   echoes_.sea().add_interference(own.shot, own.echoed, interfering, own.design.array.pulse, memory.foreign);
   echoes_.beamform(own.shot, own.echoed, own.design.array,
-                   {static_cast<std::uint64_t>(event.ping), own.sampling, memory.sin_beams, own.design.volume_directions,
-                    memory.foreign},
+                   {static_cast<std::uint64_t>(event.ping), own.sampling, memory.sin_beams,
+                    own.design.volume_directions, memory.foreign},
                    memory.beams);
 }
 

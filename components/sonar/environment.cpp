@@ -99,8 +99,7 @@ const seabed::ClassTables& Environment::backscatter(std::span<const double> mean
   if (memory.of != backscatter_ || !std::ranges::equal(mean_square_slope, memory.mean_square_slope)) {
     memory.of = backscatter_;
     memory.mean_square_slope.assign(mean_square_slope.begin(), mean_square_slope.end());
-    memory.tables =
-        tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);
+    memory.tables = tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);
   }
   return *memory.tables;
 }

@@ -31,8 +31,8 @@ class WaterPaths {
   }
 
   /// trace::Scene::trace through this water. `table` becomes that of the paths from this head.
-  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays,
-             double max_range_m, trace::Hits& hits, refraction::PathTable& table) const {
+  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
+             trace::Hits& hits, refraction::PathTable& table) const {
     const auto range_m = static_cast<float>(max_range_m);
     if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
     seabed.tabulate(profile_, head, depth_m(head), range_m, table);

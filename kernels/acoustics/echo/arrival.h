@@ -41,9 +41,7 @@ struct Arrivals : trace::Batch<Arrivals, Arrival> {
                     direction.z);
   }
   std::complex<float> pressure_upa(std::size_t i) const { return {pressure_re_upa[i], pressure_im_upa[i]}; }
-  Arrival operator[](std::size_t i) const {
-    return {time_s[i], pressure_upa(i), direction_head[i], contributor[i]};
-  }
+  Arrival operator[](std::size_t i) const { return {time_s[i], pressure_upa(i), direction_head[i], contributor[i]}; }
   void set(std::size_t i, const Arrival& arrival) {
     time_s[i] = arrival.time_s;
     pressure_re_upa[i] = arrival.pressure_upa.real();

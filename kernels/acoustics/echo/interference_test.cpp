@@ -171,8 +171,7 @@ TEST_CASE("without speckle an arrival holds the mean square") {
 }
 
 TEST_CASE("another sector's echoes in our band arrive as ours, at the difference of delays") {
-  const Arrivals echoes{{0.02, {3.0F, 4.0F}, Eigen::Vector3f::UnitZ()},
-                                    {0.03, {1.0F, 0.0F}, Eigen::Vector3f::UnitY()}};
+  const Arrivals echoes{{0.02, {3.0F, 4.0F}, Eigen::Vector3f::UnitZ()}, {0.03, {1.0F, 0.0F}, Eigen::Vector3f::UnitY()}};
   InterferingTransmission other = neighbour();
   Arrivals arrivals;
   add_echoes_of(other, echoes, kBand, kPulse, arrivals);

@@ -32,8 +32,8 @@ std::array<double, 2> RayDistribution::coordinates_of(const Probes& probes, cons
 
 bool RayDistribution::holds(const Probes& probes, const Vec3& direction_head) const {
   const auto [sine, angle_rad] = coordinates_of(probes, direction_head);
-  return probes.sine_edges.front() <= sine && sine <= probes.sine_edges.back() && probes.angle_edges_rad.front() <= angle_rad &&
-         angle_rad <= probes.angle_edges_rad.back();
+  return probes.sine_edges.front() <= sine && sine <= probes.sine_edges.back() &&
+         probes.angle_edges_rad.front() <= angle_rad && angle_rad <= probes.angle_edges_rad.back();
 }
 
 /// Whether a ball may reach into the volume, by its sines: beside a narrow fan, which most objects are.
@@ -54,18 +54,18 @@ double RayDistribution::rays_to_facet(const Probes& probes, const std::array<Vec
   const auto [low_u, high_u] = std::ranges::minmax(u);
   const auto [low_phi, high_phi] = std::ranges::minmax(phi);
   const auto [low_r, high_r] = std::ranges::minmax(r);
-  if (high_u < probes.sine_edges.front() || low_u > probes.sine_edges.back() || high_phi < probes.angle_edges_rad.front() ||
-      low_phi > probes.angle_edges_rad.back()) {
+  if (high_u < probes.sine_edges.front() || low_u > probes.sine_edges.back() ||
+      high_phi < probes.angle_edges_rad.front() || low_phi > probes.angle_edges_rad.back()) {
     return 0.0;
   }
   const double beams_u = (high_u - low_u) / volume_.sine.beam,
                beams_phi = (high_phi - low_phi) / volume_.angle_rad.beam;
   const double ranges = (high_r - low_r) / settings_.range_resolution_m;
   const double resolution = 0.5 * kRaysPerCell * std::max(beams_u * beams_phi, ranges * (beams_u + beams_phi));
-  const std::size_t cell =
-      cell_of(probes.sine_edges, 0.5 * (low_u + high_u)) * columns() + cell_of(probes.angle_edges_rad, 0.5 * (low_phi + high_phi));
-  const bool cut = low_u < probes.sine_edges.front() || high_u > probes.sine_edges.back() || low_phi < probes.angle_edges_rad.front() ||
-                   high_phi > probes.angle_edges_rad.back();
+  const std::size_t cell = cell_of(probes.sine_edges, 0.5 * (low_u + high_u)) * columns() +
+                           cell_of(probes.angle_edges_rad, 0.5 * (low_phi + high_phi));
+  const bool cut = low_u < probes.sine_edges.front() || high_u > probes.sine_edges.back() ||
+                   low_phi < probes.angle_edges_rad.front() || high_phi > probes.angle_edges_rad.back();
   const double whole = cut ? kCutByEdge * kRaysToFacet : kRaysToFacet;
   return std::max(1.0, settings_.quality * std::max(whole, resolution)) * importance_of(cell);
 }

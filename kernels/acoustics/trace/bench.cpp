@@ -159,8 +159,7 @@ trace::Scene deep_scene() {
 }
 
 /// Refracted rays must end where exact arcs do, or their time means nothing.
-void check_refracted(const trace::Rays& rays, const trace::Hits& hits,
-                     const refraction::PathTable& paths) {
+void check_refracted(const trace::Rays& rays, const trace::Hits& hits, const refraction::PathTable& paths) {
   for (std::size_t i = 0; i < rays.size(); i += 37) {
     const frames::Vec3 d = rays[i].direction_head.cast<double>(), off = hits[i].position_enu_m - kHigh.position_enu_m;
     const auto exact =

@@ -147,9 +147,9 @@ void gather(std::span<const Object> objects, const FacetView& view, const FacetD
           if (!(wanted > 0.0)) continue;
           const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
           facets.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
-                             corners,
-                             o,
-                             wanted});
+                            corners,
+                            o,
+                            wanted});
         }
       }
     }

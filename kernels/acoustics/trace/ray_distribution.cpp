@@ -137,10 +137,10 @@ void RayDistribution::probe(const Steer& steer, Probes& probes) const {
   for (const double u : probes.sine_edges) {
     const double beside = std::sqrt(1.0 - u * u);
     for (const double phi : probes.angle_edges_rad) {
-      probes.rays.set(next++, {direction_of(volume_.axis, static_cast<float>(u),
-                                            static_cast<float>(beside * std::sin(phi)),
-                                            static_cast<float>(beside * std::cos(phi))),
-                               0.0F});
+      probes.rays.set(next++,
+                      {direction_of(volume_.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
+                                    static_cast<float>(beside * std::cos(phi))),
+                       0.0F});
     }
   }
 }

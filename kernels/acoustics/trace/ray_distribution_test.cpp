@@ -197,5 +197,6 @@ TEST_CASE("a volume that is none, and settings that cannot be, are refused") {
   RayDistribution distribution(mills_cross(), {}, {1, "rays"});
   RayDistribution::Traced traced;
   const auto none = [](const Rays&, Hits&) {};
-  CHECK_THROWS_WITH(distribution.trace(kHead, {}, {}, kFar_m, nullptr, none, traced), "there must be one hit per probe");
+  CHECK_THROWS_WITH(distribution.trace(kHead, {}, {}, kFar_m, nullptr, none, traced),
+                    "there must be one hit per probe");
 }

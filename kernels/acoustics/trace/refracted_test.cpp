@@ -42,8 +42,8 @@ static Scene seabed(double (*height)(double, double), double half_m = 512) {
 static double flat80(double, double) { return -80.0; }
 static double rolling(double x, double y) { return -77.0 + 2.4 * std::sin(0.1 * x) * std::cos(0.13 * y); }
 
-static Hits trace(const Scene& scene, const SoundSpeedProfile& water, const Rays& rays,
-                              float range_m = 600, const HeadPose& head = kHead) {
+static Hits trace(const Scene& scene, const SoundSpeedProfile& water, const Rays& rays, float range_m = 600,
+                  const HeadPose& head = kHead) {
   PathTable paths;
   scene.tabulate(water, head, -head.position_enu_m.z(), range_m, paths);
   Hits hits;

@@ -166,8 +166,8 @@ std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radiu
   return all;
 }
 
-void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
-                  double sound_speed_mps, std::uint32_t behind) const {
+void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits, double sound_speed_mps,
+                  std::uint32_t behind) const {
   const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
   hits.make_elements(rays.size());
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
@@ -191,8 +191,7 @@ void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_rang
       });
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
-      hits.set(first + lane,
-               packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{});
+      hits.set(first + lane, packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{});
     }
   };
   tbb::parallel_for(

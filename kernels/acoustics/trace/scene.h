@@ -52,8 +52,8 @@ struct Hits : Batch<Hits, Hit> {
   }
   bool hit(std::size_t i) const { return range_m[i] > 0.0F; }
   Hit operator[](std::size_t i) const {
-    return {position_enu_m[i], normal_enu[i], arrival_enu[i], range_m[i], travel_time_s[i], path_length_m[i],
-            tube_m2[i],        sin_grazing[i], facet_m[i],    tile[i],    contributor[i]};
+    return {position_enu_m[i], normal_enu[i],  arrival_enu[i], range_m[i], travel_time_s[i], path_length_m[i],
+            tube_m2[i],        sin_grazing[i], facet_m[i],     tile[i],    contributor[i]};
   }
   void set(std::size_t i, const Hit& hit) {
     position_enu_m.set(i, hit.position_enu_m);
