@@ -88,7 +88,7 @@ ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent&
   prepare(settings);
   const auto& [ranged, array] = *design_;
   const echo::Sampling& sampling = ranged.sampling;
-  SeaAcoustics& sea = echoes_.sea();
+  const SeaAcoustics& sea = echoes_.sea();
   head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
   const Shot shot{poses_, seconds(event.transmit), settings.source_level_db, transmitted_};
   const double true_mps = sea.sound_speed_mps(shot.pose());

@@ -60,7 +60,7 @@ class ForwardLookingHead {
   // Memory of the ping path.
   std::vector<frames::HeadPose> poses_;
   ShotMemory shot_;
-  std::vector<echo::Arrival> foreign_;
+  echo::Arrivals foreign_;
   std::vector<float> sin_beams_;
   ArrayEchoes::Memory beams_;
 };

@@ -94,7 +94,7 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   sphere.response = 1.0F;
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&pose, 1)});
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
   echo::add_direct_echoes({config.frequency_hz, kAbsorption_dbpm}, pose.position_enu_m, std::span(&sphere, 1),
                           receivers, arrivals);
   const std::vector<float> gain{faces.element_amplitude(arrivals[0].direction_head)};

@@ -86,11 +86,15 @@ void detections(benchmark::State& state) {
   const PingEvent event{0, SimTime{0}, 75.0};
   MultibeamHead::Ping received;
   head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+  const uncertainty::Navigation navigation = config.uncertainty.unstated();
+  const InstrumentPing ping{event, settings, steering, truth, navigation};
+  SoundingMaker::Memory memory;
+  ReliefEstimator relief;
   std::size_t bottoms = 0;
   for (auto _ : state) {
-    const auto made = maker.make(event, settings, steering, received.sectors, truth, config.uncertainty.unstated());
-    benchmark::DoNotOptimize(made.soundings.valid.data());
-    bottoms = made.bottoms.size();
+    const Placed placed = maker.place(ping, maker.detect(ping, received.sectors, memory), relief, memory);
+    benchmark::DoNotOptimize(placed.soundings.valid.data());
+    bottoms = placed.bottoms.size();
   }
   if (bottoms < 250) throw std::runtime_error("the beams do not detect the seabed");
 }

@@ -27,7 +27,7 @@ std::shared_ptr<std::vector<float>> phase_rad(const MultibeamHead::Ping& ping) {
 MultibeamHead::Received received_of(const SectorEchoes::Sent& sent, std::span<const echo::Image> images,
                                     std::span<const float> amplitude_upa) {
   const echo::Image& whole = images.front();
-  const echo::Pulse& pulse = sent.pulse.pulse;
+  const echo::Pulse& pulse = sent.design.array.pulse;
   const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
   const double start_s = sent.sampling.start_s + (0.5 * echo_s - middle_s);
   detect::HalfApertures halves;
@@ -50,8 +50,16 @@ void MultibeamHead::receive_echoes(const PingEvent& event, const HeadSettings& s
   ping.memory.resize(sectors_.size());
   ping.sent.clear();
   ping.sectors.clear();
+  const auto fits = [&](const SectorEchoes::PingDesign& design) {
+    return design.pulse_length_s == settings.pulse_length_s && design.swath_rad == settings.swath_rad;
+  };
+  if (designs_.empty() || !fits(designs_.front())) {
+    designs_.clear();
+    for (const SectorEchoes& sector : sectors_)
+      designs_.push_back(sector.design_for(settings.pulse_length_s, settings.swath_rad));
+  }
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
-    ping.sent.push_back(sectors_[i].send(event, settings, steering, truth, seabed, ping.memory[i]));
+    ping.sent.push_back(sectors_[i].send(event, settings, designs_[i], steering, truth, seabed, ping.memory[i]));
   }
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     sectors_[i].beamform(event, settings, ping.sent, ping.memory[i]);

@@ -61,6 +61,7 @@ class MultibeamHead {
   MultibeamConfig config_;
   ArrayDesign design_;
   std::deque<SectorEchoes> sectors_;
+  std::vector<SectorEchoes::PingDesign> designs_;  // by sector, of the settings of the newest ping
 };
 
 }  // namespace ensonify

@@ -109,28 +109,30 @@ Multibeam::Report Multibeam::ping(const PingEvent& event, const Sent& sent, Head
   if (phase || every(config_.amplitude_every)) {
     std::get<0>(report.messages) = head_.ping_message(received_, event, settings, sent.steering, phase);
   }
-  auto made = soundings_.make(event, settings, sent.steering, received_.sectors, inputs.estimate(),
-                              inputs.navigation_errors().value_or(config_.uncertainty.unstated()));
-  made.soundings.applied = head_.applied(event, settings, sent.steering);
-  add_images(sent, made, report);
-  range_.update(made.bottoms, event.range_m);
+  const uncertainty::Navigation navigation = inputs.navigation_errors().value_or(config_.uncertainty.unstated());
+  const InstrumentPing known{event, settings, sent.steering, inputs.estimate(), navigation};
+  Placed placed =
+      soundings_.place(known, soundings_.detect(known, received_.sectors, sounding_memory_), relief_, sounding_memory_);
+  placed.soundings.applied = head_.applied(event, settings, sent.steering);
+  add_images(sent, placed, report);
+  range_.update(placed.bottoms, event.range_m);
   report.trouble = no_echo_reason(received_.trace);
-  if (report.trouble.empty() && !inputs.estimate().empty() && made.bottoms.empty())
+  if (report.trouble.empty() && !inputs.estimate().empty() && placed.bottoms.empty())
     report.trouble = "no beam detects the seabed";
-  std::get<1>(report.messages) = std::move(made.soundings);
+  std::get<1>(report.messages) = std::move(placed.soundings);
   return report;
 }
 
-void Multibeam::add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const {
+void Multibeam::add_images(const Sent& sent, const Placed& placed, Report& report) const {
   if (!config_.snippets && !config_.image.published) return;
   auto& snippets = std::get<2>(report.messages);
   auto& image = std::get<3>(report.messages);
-  snippets = snippets_of(received_.sectors, sent.steering, made.echoes, made.soundings);
-  snippets->applied = made.soundings.applied;
+  snippets = snippets_of(received_.sectors, sent.steering, placed.echoes, placed.soundings);
+  snippets->applied = placed.soundings.applied;
   if (!config_.image.published) return;
   image = seabed_image_of(config_, sent.sectors.front().settings, sent.steering, received_.sectors.front(),
-                          head_.design().area, *snippets, made.soundings);
-  image->applied = made.soundings.applied;
+                          head_.design().area, *snippets, placed.soundings);
+  image->applied = placed.soundings.applied;
 }
 
 }  // namespace ensonify

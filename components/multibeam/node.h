@@ -35,13 +35,15 @@ class Multibeam {
  private:
   void follow_range(const HeadSettings& settings);
   SteeringInputs steering_inputs(SimTime now, const HeadInputs& inputs) const;
-  void add_images(const Sent& sent, const SoundingMaker::Made& made, Report& report) const;
+  void add_images(const Sent& sent, const Placed& placed, Report& report) const;
 
   Config config_;
   MultibeamHead head_;
   MultibeamHead::Ping received_;
   refraction::SoundSpeedProfile applied_;
   SoundingMaker soundings_;
+  SoundingMaker::Memory sounding_memory_;
+  ReliefEstimator relief_;
   AutoRange range_;
   double swath_of_range_rad_;                 // that range_ knows
   std::optional<frames::Attitude> attitude_;  // the newest that the motion sensor gave

@@ -100,11 +100,9 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};
 }
 
-SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                      const frames::PoseHistory& truth, trace::Scene& seabed, Memory& memory) {
-  if (!design_ || design_->pulse_length_s != settings.pulse_length_s || design_->swath_rad != settings.swath_rad) {
-    design_.emplace(design_for(settings.pulse_length_s, settings.swath_rad));
-  }
+SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design,
+                                      const Steering& steering, const frames::PoseHistory& truth, trace::Scene& seabed,
+                                      Memory& memory) const {
   const double delay_s = arrays_.sectors[sector_].delay_s;
   const echo::Sampling sampling{-delay_s, 1.0 / config_.sample_rate_hz,
                                 config_.samples(event.range_m, settings.pulse_length_s)};
@@ -115,14 +113,17 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   memory.power = [this, &memory](const Eigen::Vector3f& direction, float) {
     return static_cast<double>(pattern_.transmitted_power(direction, memory.steered));
   };
-  const Shot shot{memory.poses, seconds(sent), settings.source_level_db, memory.power};
+  const Shot shot{memory.poses,
+                  seconds(sent),
+                  settings.source_level_db,
+                  memory.power,
+                  {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad}};
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =
       sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);
   const double reach_m = 0.5 * echoes_.sea().sound_speed_mps(shot.pose()) * window_s;
-  const Insonified insonified = echoes_.sea().insonify(shot, seabed, design_->array.rays, reach_m, memory.shot);
-  return {shot, echoes_.sea().echoes(shot, insonified, design_->array.scatterers, memory.shot), sampling,
-          design_->array};
+  const Insonified insonified = echoes_.sea().insonify(shot, seabed, design.array.rays, reach_m, memory.shot);
+  return {shot, echoes_.sea().echoes(shot, insonified, design.array.scatterers, memory.shot), sampling, design};
 }
 
 void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all,
@@ -138,26 +139,26 @@ void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings
     sent.sweep_hz = config_.chirp ? config_.bandwidth_hz : 0.0;
     sent.duration_s = settings.pulse_length_s;
     sent.rejection_db = config_.sector_rejection_db;
-    echoes_.sea().add_echoes_of(own.shot, own.echoed, sent, all[i].echoed.arrivals, own.pulse.pulse, memory.foreign);
+    echoes_.sea().add_echoes_of(own.shot, own.echoed, sent, all[i].echoed.arrivals, own.design.array.pulse,
+                                memory.foreign);
   }
   std::vector<echo::InterferingTransmission> interfering = event.interfering;
   for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s;
-  echoes_.sea().add_interference(own.shot, own.echoed, interfering, own.pulse.pulse, memory.foreign);
-  echoes_.beamform(own.shot, own.echoed, own.pulse,
-                   {static_cast<std::uint64_t>(event.ping), own.sampling, memory.sin_beams, design_->volume_directions,
-                    memory.foreign},
+  echoes_.sea().add_interference(own.shot, own.echoed, interfering, own.design.array.pulse, memory.foreign);
+  echoes_.beamform(own.shot, own.echoed, own.design.array,
+                   {static_cast<std::uint64_t>(event.ping), own.sampling, memory.sin_beams,
+                    own.design.volume_directions, memory.foreign},
                    memory.beams);
 }
 
 /// A flat array's delays are made for the sound speed that the head assumes; the true one turns its beams.
-void SectorEchoes::aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) {
+void SectorEchoes::aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) const {
   const double true_mps = echoes_.sea().sound_speed_mps(pose);
   const auto true_sine = [&](double sine) { return array::true_sine(sine, steering.sound_speed_mps, true_mps); };
   SteeredSector& sector = memory.steered = steering.sectors[sector_];
   sector.sin_transmit = true_sine(sector.sin_transmit);
   sector.lower_sine = true_sine(sector.lower_sine);
   sector.upper_sine = true_sine(sector.upper_sine);
-  design_->array.rays.steer(sector.sin_transmit, sector.middle_rad - design_->centre_rad);
   memory.sin_beams.clear();
   for (int beam = sector.first_beam; beam < sector.first_beam + sector.beams; ++beam) {
     const double sine = true_sine(static_cast<double>(steering.sin_beams[static_cast<std::size_t>(beam)]));

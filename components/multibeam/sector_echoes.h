@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,24 +33,8 @@ class SectorEchoes {
     TransmittedPower power;
     ShotMemory shot;
     std::vector<float> sin_beams;
-    std::vector<echo::Arrival> foreign;
+    echo::Arrivals foreign;
   };
-  /// A sector's transmission and its echoes.
-  struct Sent {
-    Shot shot;
-    Echoed echoed;
-    echo::Sampling sampling;
-    const ArrayPulse& pulse;
-  };
-
-  /// Transmission: rays from the true pose when it is sent, echoes at the true poses at reception. `truth` has a pose.
-  Sent send(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-            const frames::PoseHistory& truth, trace::Scene& seabed, Memory& memory);
-  /// Beams of the sector, in memory.beams.images, when all sectors of the ping have sent; with noise at the array's
-  /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
-  void beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all, Memory& memory) const;
-
- private:
   /// Design shared by pings of the same pulse and swath.
   struct PingDesign {
     double pulse_length_s, swath_rad;
@@ -59,16 +42,32 @@ class SectorEchoes {
     ArrayPulse array;
     std::vector<echo::VolumeDirections> volume_directions;  // empty: the water does not scatter
   };
-
   PingDesign design_for(double pulse_length_s, double swath_rad) const;
-  void aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory);
+
+  /// A sector's transmission and its echoes.
+  struct Sent {
+    Shot shot;
+    Echoed echoed;
+    echo::Sampling sampling;
+    const PingDesign& design;
+  };
+
+  /// Transmission: rays from the true pose when it is sent, echoes at the true poses at reception. The design is that
+  /// of the settings. `truth` has a pose.
+  Sent send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design, const Steering& steering,
+            const frames::PoseHistory& truth, trace::Scene& seabed, Memory& memory) const;
+  /// Beams of the sector, in memory.beams.images, when all sectors of the ping have sent; with noise at the array's
+  /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
+  void beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all, Memory& memory) const;
+
+ private:
+  void aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) const;
 
   MultibeamConfig config_;
   const ArrayDesign& arrays_;
   std::size_t sector_;
   SectorPattern pattern_;
   ArrayEchoes echoes_;
-  std::optional<PingDesign> design_;
 };
 
 }  // namespace ensonify

@@ -73,18 +73,16 @@ frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estima
   return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
 }
 
-SoundingMaker::Made SoundingMaker::make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                        std::span<const MultibeamHead::Received> received,
-                                        const frames::PoseHistory& estimate,
-                                        const uncertainty::Navigation& navigation) {
-  const Ping ping{event, settings, steering, estimate, navigation};
-  Made made{.echoes = detect(ping, received), .soundings = {}, .bottoms = {}};
-  const std::vector<Echo>& echoes = made.echoes;
-  msg::Soundings& soundings = made.soundings;
+Placed SoundingMaker::place(const InstrumentPing& ping, Detected detected, ReliefEstimator& relief,
+                            Memory& memory) const {
+  const Steering& steering = ping.steering;
+  Placed placed{.echoes = std::move(detected.echoes), .soundings = {}, .bottoms = {}};
+  const std::vector<Echo>& echoes = placed.echoes;
+  msg::Soundings& soundings = placed.soundings;
   soundings = without_measurements(echoes.size());
-  soundings.stamp_ns = event.transmit.count();
-  soundings.ping = event.ping;
-  soundings.sample_period_s = received.front().image.period_s;
+  soundings.stamp_ns = ping.event.transmit.count();
+  soundings.ping = ping.event.ping;
+  soundings.sample_period_s = detected.sample_period_s;
   std::vector<float> angle_rad;
   for (const Echo& echo : echoes) {
     angle_rad.push_back(steering.sounding_angle_rad[static_cast<std::size_t>(echo.place)]);
@@ -95,22 +93,25 @@ SoundingMaker::Made SoundingMaker::make(const PingEvent& event, const HeadSettin
   }
   if (config_.detections_per_beam > 1) soundings.detection = of_each<std::uint8_t>(echoes, &Echo::detection);
   if (sectors_.size() > 1) soundings.sector = of_each<std::uint8_t>(echoes, &Echo::sector);
-  flag(steering, made);
-  if (estimate.empty()) return made;
+  flag(steering, placed);
+  if (ping.estimate.empty()) return placed;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const detect::Detection& found = echoes[i].measured;
     if ((found.flags & detect::kNoSignal) == 0) soundings.quality_db[i] = found.snr_db;
     if (soundings.flags[i] != 0) continue;
-    measure(ping, i, received.front().echo_s, made);
-    place(ping, i, made);
+    measure(ping, i, detected.echo_s, placed);
+    place(ping, i, placed);
   }
-  state_uncertainty(ping, motion(ping), made);
-  return made;
+  const uncertainty::Geometry geometry = motion(ping);
+  const frames::Vec3 head_enu_m = estimated_pose(ping.estimate, ping.event.transmit).position_enu_m;
+  update(relief, geometry, head_enu_m, placed, memory);
+  state_uncertainty(ping, geometry, head_enu_m, relief, placed);
+  return placed;
 }
 
 /// How the head lies and moves at transmission, by the estimate: over 0.2 s, longer than the noise of attitudes and
 /// shorter than waves.
-uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
+uncertainty::Geometry SoundingMaker::motion(const InstrumentPing& ping) const {
   constexpr double kSpan_s = 0.2;
   const auto body_at = [&](SimTime t) { return *ping.estimate.at(t.count(), frames::PoseHistory::Outside::kNearest); };
   const frames::Pose now = body_at(ping.event.transmit), before = body_at(ping.event.transmit - from_seconds(kSpan_s));
@@ -126,11 +127,11 @@ uncertainty::Geometry SoundingMaker::motion(const Ping& ping) const {
 }
 
 SoundingMaker::Footprint SoundingMaker::footprint(std::size_t entry, const frames::Vec3& away_enu_m,
-                                                  const Made& made) const {
-  const SectorDesign& sector = sectors_[static_cast<std::size_t>(made.echoes[entry].sector)];
+                                                  const Placed& placed) const {
+  const SectorDesign& sector = sectors_[static_cast<std::size_t>(placed.echoes[entry].sector)];
   const double range_m = away_enu_m.norm();
   const double cos_vertical = std::max(-away_enu_m.z() / range_m, kLeastCosine);
-  const double cos_beam = std::max(std::cos(static_cast<double>(made.soundings.beam_angle_rad[entry])), kLeastCosine);
+  const double cos_beam = std::max(std::cos(static_cast<double>(placed.soundings.beam_angle_rad[entry])), kLeastCosine);
   const double receive_width = 2.0 * array::half_power_half_width(sector.receive_in_waves);  // sine
   const double transmit_width =
       2.0 * std::sin(0.5 * config_.transmit_beamwidth_rad) * config_.frequency_hz / sector.frequency_hz;  // sine
@@ -138,41 +139,42 @@ SoundingMaker::Footprint SoundingMaker::footprint(std::size_t entry, const frame
 }
 
 /// Heights' noise is that of the detection.
-void SoundingMaker::update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
-                                  const Made& made) {
-  const msg::Soundings& soundings = made.soundings;
+void SoundingMaker::update(ReliefEstimator& relief, const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+                           const Placed& placed, Memory& memory) const {
+  const msg::Soundings& soundings = placed.soundings;
   const frames::Vec3 starboard = motion.enu_from_head * frames::Vec3::UnitY();
   const frames::Vec3 across_enu = frames::Vec3(starboard.x(), starboard.y(), 0.0).normalized();
-  profile_.clear();
-  for (std::size_t i = 0; i < made.echoes.size(); ++i) {
-    const Echo& echo = made.echoes[i];
-    if (soundings.valid[i] == 0 || (!profile_.empty() && profile_.back().place == echo.place)) continue;
+  std::vector<ReliefEstimator::Sounding>& profile = memory.profile;
+  profile.clear();
+  for (std::size_t i = 0; i < placed.echoes.size(); ++i) {
+    const Echo& echo = placed.echoes[i];
+    if (soundings.valid[i] == 0 || (!profile.empty() && profile.back().place == echo.place)) continue;
     const frames::Vec3 away(soundings.position_enu_m(i, 0) - head_enu_m.x(),
                             soundings.position_enu_m(i, 1) - head_enu_m.y(),
                             soundings.position_enu_m(i, 2) - head_enu_m.z());
     const double range_m = away.norm(), cos_vertical = std::max(-away.z() / range_m, kLeastCosine);
     const double tan_vertical = std::sqrt(1.0 - cos_vertical * cos_vertical) / cos_vertical;
     const double along_ray_m = std::hypot(soundings.range_sd_m[i], range_m * tan_vertical * soundings.angle_sd_rad[i]);
-    profile_.push_back(
-        {echo.place, {away.dot(across_enu), away.z(), footprint(i, away, made).across_m, along_ray_m * cos_vertical}});
+    profile.push_back(
+        {echo.place,
+         {away.dot(across_enu), away.z(), footprint(i, away, placed).across_m, along_ray_m * cos_vertical}});
   }
-  relief_.take(profile_);
+  relief.take(profile);
 }
 
-void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, Made& made) {
-  msg::Soundings& soundings = made.soundings;
-  const frames::Vec3 head = estimated_pose(ping.estimate, ping.event.transmit).position_enu_m;
-  update_relief(motion, head, made);
+void SoundingMaker::state_uncertainty(const InstrumentPing& ping, const uncertainty::Geometry& motion,
+                                      const frames::Vec3& head, const ReliefEstimator& relief, Placed& placed) const {
+  msg::Soundings& soundings = placed.soundings;
   uncertainty::Geometry geometry = motion;
-  for (std::size_t i = 0; i < made.echoes.size(); ++i) {
+  for (std::size_t i = 0; i < placed.echoes.size(); ++i) {
     if (soundings.valid[i] == 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
       geometry.away_enu_m[k] = soundings.position_enu_m(i, axis) - head[k];
     }
-    const Footprint on_seabed = footprint(i, geometry.away_enu_m, made);
+    const Footprint on_seabed = footprint(i, geometry.away_enu_m, placed);
     const double relief_sd_m =
-        relief_.sd_m(made.echoes[i].place, on_seabed.across_m, on_seabed.along_m / on_seabed.across_m);
+        relief.sd_m(placed.echoes[i].place, on_seabed.across_m, on_seabed.along_m / on_seabed.across_m);
     const uncertainty::Matrix3 covariance_enu_m2 =
         uncertainty::covariance_enu_m2(geometry, {soundings.range_sd_m[i], soundings.angle_sd_rad[i], relief_sd_m},
                                        ping.navigation, config_.uncertainty.sources);
@@ -181,7 +183,8 @@ void SoundingMaker::state_uncertainty(const Ping& ping, const uncertainty::Geome
   }
 }
 
-std::vector<Echo> SoundingMaker::detect(const Ping& ping, std::span<const MultibeamHead::Received> received) {
+Detected SoundingMaker::detect(const InstrumentPing& ping, std::span<const MultibeamHead::Received> received,
+                               Memory& memory) const {
   const Steering& steering = ping.steering;
   detect::Settings settings;
   settings.gates.snr_db = config_.detection_threshold_db;
@@ -197,6 +200,7 @@ std::vector<Echo> SoundingMaker::detect(const Ping& ping, std::span<const Multib
     const double water_level_m = config_.world.vertical.tide.at(seconds(ping.event.transmit)).height_m;
     settings.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
   }
+  std::vector<detect::Detection>& detections = memory.detections;
   std::vector<Echo> echoes;
   std::size_t first = 0;  // place of the sector's first sounding
   for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {
@@ -209,58 +213,60 @@ std::vector<Echo> SoundingMaker::detect(const Ping& ping, std::span<const Multib
     const auto sines = std::span(steering.sin_soundings).subspan(first, count);
     const MultibeamHead::Received& as_formed = received[sector];
     const MultibeamHead::Received at =
-        steering.high_density()
-            ? at_places(steering, sector, as_formed, std::span(steering.beam_of_sounding).subspan(first, count), sines)
-            : as_formed;
-    detect::detect_bottom(settings, sines, at.image, at.halves, detections_);
-    for (std::size_t i = 0; i < detections_.size(); ++i) {
+        steering.high_density() ? at_places(steering, sector, as_formed,
+                                            std::span(steering.beam_of_sounding).subspan(first, count), sines, memory)
+                                : as_formed;
+    detect::detect_bottom(settings, sines, at.image, at.halves, detections);
+    for (std::size_t i = 0; i < detections.size(); ++i) {
       const auto place = static_cast<int>(first + i / static_cast<std::size_t>(settings.max_detections));
       const auto detection = static_cast<int>(i % static_cast<std::size_t>(settings.max_detections));
-      if (detection > 0 && !detections_[i].valid) continue;
+      if (detection > 0 && !detections[i].valid) continue;
       echoes.push_back({steering.beam_of_sounding[static_cast<std::size_t>(place)], detection, static_cast<int>(sector),
-                        place, detections_[i]});
+                        place, detections[i]});
     }
     first += count;
   }
-  return echoes;
+  return {std::move(echoes), received.front().echo_s, received.front().image.period_s};
 }
 
 /// The beams nearest to places in the swath, their halves turned from their axes to these places: what turns is the
 /// phase between the halves, what the beams receive stays.
 MultibeamHead::Received SoundingMaker::at_places(const Steering& steering, std::size_t sector,
                                                  const MultibeamHead::Received& beams,
-                                                 std::span<const int> beam_of_place,
-                                                 std::span<const float> sin_places) {
+                                                 std::span<const int> beam_of_place, std::span<const float> sin_places,
+                                                 Memory& memory) const {
+  auto& amplitude_upa = memory.amplitude_upa;
+  auto &positive_upa = memory.positive_upa, &negative_upa = memory.negative_upa;
   const auto samples = static_cast<std::size_t>(beams.image.samples), count = sin_places.size();
   const bool phase = !beams.halves.positive_upa.empty();
-  amplitude_upa_.resize(count * samples);
-  positive_upa_.resize(phase ? count * samples : 0);
-  negative_upa_.resize(positive_upa_.size());
+  amplitude_upa.resize(count * samples);
+  positive_upa.resize(phase ? count * samples : 0);
+  negative_upa.resize(positive_upa.size());
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const auto beam = static_cast<std::size_t>(beam_of_place[i]);
     const std::size_t from = (beam - static_cast<std::size_t>(steering.sectors[sector].first_beam)) * samples;
     const auto to = static_cast<std::ptrdiff_t>(i * samples);
-    std::ranges::copy(beams.image.amplitude_upa.subspan(from, samples), amplitude_upa_.begin() + to);
+    std::ranges::copy(beams.image.amplitude_upa.subspan(from, samples), amplitude_upa.begin() + to);
     if (!phase) return;
-    std::ranges::copy(beams.halves.negative_upa.subspan(from, samples), negative_upa_.begin() + to);
+    std::ranges::copy(beams.halves.negative_upa.subspan(from, samples), negative_upa.begin() + to);
     const double off_axis = static_cast<double>(sin_places[i]) - static_cast<double>(steering.sin_beams[beam]);
     const std::complex<float> turn(
         std::polar(1.0, -2.0 * std::numbers::pi * sectors_[sector].phase_centres_in_waves * off_axis));
-    std::ranges::transform(beams.halves.positive_upa.subspan(from, samples), positive_upa_.begin() + to,
+    std::ranges::transform(beams.halves.positive_upa.subspan(from, samples), positive_upa.begin() + to,
                            [&](std::complex<float> value) { return value * turn; });
   });
   MultibeamHead::Received at = beams;
   at.image.beams = static_cast<int>(count);
-  at.image.amplitude_upa = amplitude_upa_;
-  at.halves = {positive_upa_, negative_upa_};
+  at.image.amplitude_upa = amplitude_upa;
+  at.halves = {positive_upa, negative_upa};
   return at;
 }
 
 /// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam receives
 /// are the side lobes of those within it.
-void SoundingMaker::flag(const Steering& steering, Made& made) {
-  const std::vector<Echo>& echoes = made.echoes;
-  msg::Soundings& soundings = made.soundings;
+void SoundingMaker::flag(const Steering& steering, Placed& placed) {
+  const std::vector<Echo>& echoes = placed.echoes;
+  msg::Soundings& soundings = placed.soundings;
   for (std::size_t i = 0; i < echoes.size(); ++i) soundings.flags[i] = flags_of(echoes[i].measured);
   const auto sine = [&](const Echo& echo) { return steering.sin_soundings[static_cast<std::size_t>(echo.place)]; };
   const auto middle = std::ranges::lower_bound(echoes, 0.0F, {}, sine) - echoes.begin();
@@ -277,11 +283,12 @@ void SoundingMaker::flag(const Steering& steering, Made& made) {
   outward(middle - 1, -1);
 }
 
-void SoundingMaker::measure(const Ping& ping, std::size_t entry, double pulse_length_s, Made& made) const {
-  const Echo& echo = made.echoes[entry];
+void SoundingMaker::measure(const InstrumentPing& ping, std::size_t entry, double pulse_length_s,
+                            Placed& placed) const {
+  const Echo& echo = placed.echoes[entry];
   const detect::Detection& detection = echo.measured;
   const SectorDesign& sector = sectors_[static_cast<std::size_t>(echo.sector)];
-  msg::Soundings& soundings = made.soundings;
+  msg::Soundings& soundings = placed.soundings;
   const HeadSettings& settings = ping.settings;
   const double level_db = detection.echo_energy_db - 10.0 * std::log10(pulse_length_s);
   const double range_m = 0.5 * detection.two_way_s * ping.steering.sound_speed_mps;
@@ -298,8 +305,8 @@ void SoundingMaker::measure(const Ping& ping, std::size_t entry, double pulse_le
   soundings.kind[entry] = detection.phase_weight > 0.5F ? 2 : 1;
 }
 
-void SoundingMaker::place(const Ping& ping, std::size_t entry, Made& made) const {
-  const Echo& echo = made.echoes[entry];
+void SoundingMaker::place(const InstrumentPing& ping, std::size_t entry, Placed& placed) const {
+  const Echo& echo = placed.echoes[entry];
   const Steering& steering = ping.steering;
   const auto sector = static_cast<std::size_t>(echo.sector), place = static_cast<std::size_t>(echo.place);
   const SimTime transmit = ping.event.transmit + from_seconds(sectors_[sector].delay_s);
@@ -310,10 +317,11 @@ void SoundingMaker::place(const Ping& ping, std::size_t entry, Made& made) const
        steering.sound_speed_mps, two_way_s},
       applied_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    made.soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
+    placed.soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
   }
-  made.soundings.valid[entry] = 1;
-  made.bottoms.push_back({static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
+  placed.soundings.valid[entry] = 1;
+  placed.bottoms.push_back(
+      {static_cast<double>(steering.across_rad[place]), 0.5 * two_way_s * steering.sound_speed_mps});
 }
 
 }  // namespace ensonify

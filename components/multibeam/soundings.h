@@ -25,59 +25,74 @@ struct Echo {
   detect::Detection measured;
 };
 
-/// Product of the instrument from a ping: bottom detections and where they are, by what it knows: its settings (with
-/// the operator's absorption), the navigation estimate, the measured mounting, the applied sound speed profile. Never
-/// the truth.
+/// Knowledge of the instrument about a ping: its settings (with the operator's absorption), the navigation estimate,
+/// and what that states of its own errors. Never the truth.
+struct InstrumentPing {
+  const PingEvent& event;
+  const HeadSettings& settings;
+  const Steering& steering;
+  const frames::PoseHistory& estimate;
+  const uncertainty::Navigation& navigation;
+};
+
+/// Bottom detections of a ping.
+struct Detected {
+  std::vector<Echo> echoes;
+  double echo_s = 0.0, sample_period_s = 0.0;  // of the received beams
+};
+
+/// Soundings of a ping.
+struct Placed {
+  std::vector<Echo> echoes;              // the detections behind the entries of the soundings
+  msg::Soundings soundings;              // without settings and track
+  std::vector<BottomDetection> bottoms;  // returns of the valid ones
+};
+
+/// The last stages of a ping, of an instrument that knows its measured mounting and the applied sound speed profile.
 class SoundingMaker {
  public:
   /// The design must outlive it.
   SoundingMaker(const MultibeamConfig& config, const ArrayDesign& design);
 
-  struct Made {
-    std::vector<Echo> echoes;              // the detections behind the entries of the soundings
-    msg::Soundings soundings;              // without settings and track
-    std::vector<BottomDetection> bottoms;  // returns of the valid ones
+  /// Scratch: its contents do not matter.
+  struct Memory {
+    std::vector<detect::Detection> detections;  // of one sector
+    std::vector<ReliefEstimator::Sounding> profile;
+    // Beams turned to the places where soundings are sought, of high density.
+    std::vector<float> amplitude_upa;
+    std::vector<std::complex<float>> positive_upa, negative_upa;
   };
-  /// Soundings of a ping. Without an estimate none is valid. `navigation`: what the estimate says of its own errors.
-  Made make(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-            std::span<const MultibeamHead::Received> received, const frames::PoseHistory& estimate,
-            const uncertainty::Navigation& navigation);
+
+  /// Fourth stage: bottom detections in what the beams of each sector receive.
+  Detected detect(const InstrumentPing& ping, std::span<const MultibeamHead::Received> received, Memory& memory) const;
+
+  /// Fifth stage: places of the detections and their uncertainty. Without an estimate none is valid. `relief` is what
+  /// the pings before said of the seabed; this ping is added.
+  Placed place(const InstrumentPing& ping, Detected detected, ReliefEstimator& relief, Memory& memory) const;
 
  private:
   /// Half-power widths on a level seabed.
   struct Footprint {
     double across_m, along_m;
   };
-  struct Ping {
-    const PingEvent& event;
-    const HeadSettings& settings;
-    const Steering& steering;
-    const frames::PoseHistory& estimate;
-    const uncertainty::Navigation& navigation;
-  };
 
   frames::HeadPose estimated_pose(const frames::PoseHistory& estimate, SimTime t) const;
-  std::vector<Echo> detect(const Ping& ping, std::span<const MultibeamHead::Received> received);
   MultibeamHead::Received at_places(const Steering& steering, std::size_t sector, const MultibeamHead::Received& beams,
-                                    std::span<const int> beam_of_place, std::span<const float> sin_places);
-  static void flag(const Steering& steering, Made& made);
-  void measure(const Ping& ping, std::size_t entry, double pulse_length_s, Made& made) const;
-  void place(const Ping& ping, std::size_t entry, Made& made) const;
-  uncertainty::Geometry motion(const Ping& ping) const;
-  Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const Made& made) const;
-  void update_relief(const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m, const Made& made);
-  void state_uncertainty(const Ping& ping, const uncertainty::Geometry& motion, Made& made);
+                                    std::span<const int> beam_of_place, std::span<const float> sin_places,
+                                    Memory& memory) const;
+  static void flag(const Steering& steering, Placed& placed);
+  void measure(const InstrumentPing& ping, std::size_t entry, double pulse_length_s, Placed& placed) const;
+  void place(const InstrumentPing& ping, std::size_t entry, Placed& placed) const;
+  uncertainty::Geometry motion(const InstrumentPing& ping) const;
+  Footprint footprint(std::size_t entry, const frames::Vec3& away_enu_m, const Placed& placed) const;
+  void update(ReliefEstimator& relief, const uncertainty::Geometry& motion, const frames::Vec3& head_enu_m,
+              const Placed& placed, Memory& memory) const;
+  void state_uncertainty(const InstrumentPing& ping, const uncertainty::Geometry& motion,
+                         const frames::Vec3& head_enu_m, const ReliefEstimator& relief, Placed& placed) const;
 
   MultibeamConfig config_;
   refraction::SoundSpeedProfile applied_;
   const std::vector<SectorDesign>& sectors_;
-  ReliefEstimator relief_;
-  // Memory of the ping path.
-  std::vector<detect::Detection> detections_;  // of one sector
-  std::vector<ReliefEstimator::Sounding> profile_;
-  // Beams turned to the places where soundings are sought, of high density.
-  std::vector<float> amplitude_upa_;
-  std::vector<std::complex<float>> positive_upa_, negative_upa_;
 };
 
 }  // namespace ensonify

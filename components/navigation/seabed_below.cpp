@@ -41,11 +41,11 @@ std::optional<double> SeabedBelow::distance_m(const frames::HeadPose& from, cons
   if (tiles_.scene().empty()) return std::nullopt;
   tiles_.scene().centre_near(from.position_enu_m.head<2>());
   tiles_.scene().adapt(std::array{view_along(from, direction, longest_m)});
-  const std::vector<trace::Ray> ray{{direction.cast<float>(), 0.0F}};
-  std::vector<trace::Hit> hit;
+  const trace::Rays ray{{direction.cast<float>(), 0.0F}};
+  trace::Hits hit;
   tiles_.scene().trace(from, ray, static_cast<float>(longest_m), hit);
-  if (!hit[0].hit()) return std::nullopt;
-  return hit[0].range_m;
+  if (!hit.hit(0)) return std::nullopt;
+  return hit.range_m[0];
 }
 
 }  // namespace ensonify

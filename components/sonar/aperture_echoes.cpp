@@ -65,7 +65,7 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
 
 ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
                                                         std::span<const frames::HeadPose> poses, trace::Scene& seabed,
-                                                        Memory& memory) {
+                                                        Memory& memory) const {
   const PingEvent& event = emission.event;
   const Shot shot{poses, seconds(event.transmit), emission.source_level_db, transmitted_};
   const Insonified insonified = sea_.insonify(shot, seabed, distribution_, event.range_m, memory.shot);
@@ -87,7 +87,7 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
   return {memory.image, echoed.summary(shot, event.range_m, seabed)};
 }
 
-echo::EchoSet ApertureEchoes::weighed(std::span<const echo::Arrival> arrivals, const frames::HeadPose& pose,
+echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose,
                                       std::vector<float>& gain) const {
   const double half_speed_mps = 0.5 * sea_.sound_speed_mps(pose);
   const auto& patterns = apertures_.patterns.receive;

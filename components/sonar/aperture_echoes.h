@@ -61,7 +61,7 @@ class ApertureEchoes {
     echo::Image image;
     // Scratch.
     ShotMemory shot;
-    std::vector<echo::Arrival> foreign;
+    echo::Arrivals foreign;
     std::vector<float> gain, foreign_gain, volume_upa2;
     echo::TimeIndex index;
     echo::RowReverberation reverberation;
@@ -74,11 +74,10 @@ class ApertureEchoes {
   /// All stages of a ping, a function of the emission, the poses and the tiles. `poses` are where the head truly is
   /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
   Received receive_echoes(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
-                          trace::Scene& seabed, Memory& memory);
+                          trace::Scene& seabed, Memory& memory) const;
 
  private:
-  echo::EchoSet weighed(std::span<const echo::Arrival> arrivals, const frames::HeadPose& pose,
-                        std::vector<float>& gain) const;
+  echo::EchoSet weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose, std::vector<float>& gain) const;
   void beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse, const echo::Sampling& sampling,
                 Memory& memory) const;
   void add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const;

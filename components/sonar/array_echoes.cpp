@@ -40,7 +40,7 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse,
                            const ArrayReception& reception, Memory& memory) const {
-  const auto gains = [&](std::span<const echo::Arrival> arrivals, std::vector<float>& gain) {
+  const auto gains = [&](const echo::Arrivals& arrivals, std::vector<float>& gain) {
     gain.resize(arrivals.size());
     sea_.gains([&](const echo::Arrival& arrival) { return array_.element(arrival.direction_head); }, arrivals, gain);
     return echo::EchoSet{arrivals, gain};

@@ -51,7 +51,7 @@ struct ArrayReception {
   echo::Sampling sampling;
   std::span<const float> sin_beams;                // along the line, true
   std::span<const echo::VolumeDirections> volume;  // of ArrayEchoes::volume_directions; unused in clear water
-  std::span<const echo::Arrival> foreign;          // of other transmissions
+  const echo::Arrivals& foreign;                   // of other transmissions
 };
 
 /// Echoes of one transmission as the beams of a line array receive them, by the true motion and the true water: seabed,
@@ -60,7 +60,6 @@ class ArrayEchoes {
  public:
   ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects);
 
-  SeaAcoustics& sea() { return sea_; }
   const SeaAcoustics& sea() const { return sea_; }
 
   /// Directions in which the water column is received, of a transmission of this power; none where it does not scatter.

@@ -86,16 +86,22 @@ Environment::Environment(const World& world, double frequency_hz)
       absorption_dbpm_(world.water.absorption_dbpm),
       noise_level_db_(noise_level_db_of(world.water, frequency_hz)),
       sediments_(world.seabed.sediments),
-      backscatter_(tables_of(sediments_, frequency_hz, profile_.knots().back().speed_mps)),
+      backscatter_(std::make_shared<seabed::ClassTables>(
+          tables_of(sediments_, frequency_hz, profile_.knots().back().speed_mps))),
       tide_(world.vertical.tide),
       rms_wave_height_m_(surface::rms_wave_height_m(world.water.wind_speed_mps)),
       scattering_layers_(world.water.scattering_layers),
       bubble_loss_db_(world.water.bubble_loss_db) {}
 
-void Environment::set_facet_slopes(std::span<const double> mean_square_slope) {
-  if (std::ranges::equal(mean_square_slope, facet_mean_square_slope_)) return;
-  facet_mean_square_slope_.assign(mean_square_slope.begin(), mean_square_slope.end());
-  backscatter_ = tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);
+const seabed::ClassTables& Environment::backscatter(std::span<const double> mean_square_slope,
+                                                    FacetLaws& memory) const {
+  if (mean_square_slope.empty()) return *backscatter_;
+  if (memory.of != backscatter_ || !std::ranges::equal(mean_square_slope, memory.mean_square_slope)) {
+    memory.of = backscatter_;
+    memory.mean_square_slope.assign(mean_square_slope.begin(), mean_square_slope.end());
+    memory.tables = tables_of(on_mesh(sediments_, mean_square_slope), frequency_hz_, profile_.knots().back().speed_mps);
+  }
+  return *memory.tables;
 }
 
 double Environment::absorption_dbpm(double from_depth_m, double to_depth_m) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,12 +44,18 @@ class Environment {
   double noise_level_db() const { return noise_level_db_; }
 
   /// Backscattering cross section of the seabed per unit area by class of the post and grazing angle. The sediments'
-  /// laws are made for the speed of sound at the profile's last sample, and for the facets last hit.
-  const seabed::ClassTables& backscatter() const { return backscatter_; }
+  /// laws are made for the speed of sound at the profile's last sample.
+  const seabed::ClassTables& backscatter() const { return *backscatter_; }
 
-  /// The mesh that sound hits from now on says how steep its facets are, by class (trace::Scene). Tables are made anew
-  /// where that is news.
-  void set_facet_slopes(std::span<const double> mean_square_slope);
+  /// Memory of the laws of facets: its contents do not matter.
+  struct FacetLaws {
+    std::shared_ptr<const seabed::ClassTables> of;  // laws that are these on a plane
+    std::vector<double> mean_square_slope;          // by class
+    std::optional<seabed::ClassTables> tables;
+  };
+  /// The same of the facets of a mesh of these slopes (trace::Scene), in the memory unless they are none. Tables are
+  /// made where the slopes are not those of the memory.
+  const seabed::ClassTables& backscatter(std::span<const double> mean_square_slope, FacetLaws& memory) const;
 
   /// The sea surface above chart datum, m, at sim time t.
   double water_level_m(double t_s) const { return tide_.at(t_s).height_m; }
@@ -70,8 +77,7 @@ class Environment {
   std::optional<double> absorption_dbpm_;
   double noise_level_db_;
   std::map<std::uint8_t, seabed::Scatterer> sediments_;  // on a plane, or as the scenario says
-  std::vector<double> facet_mean_square_slope_;          // by class
-  seabed::ClassTables backscatter_;
+  std::shared_ptr<const seabed::ClassTables> backscatter_;
   vertical::Tide tide_;
   double rms_wave_height_m_;
   std::vector<water::ScatteringLayer> scattering_layers_;

@@ -134,8 +134,9 @@ TEST_CASE("mud with its relief in the mesh returns on average what a plane of it
                                "{ground: {plane: {}}, mud: {spectral: {as_sediment: medium silt, outer_scale_m: 20}}}");
   // What the pager indicates it: facets' slopes, which are all of the sediment's relief between posts.
   const auto& spectrum = std::get<layers::Spectral>(mud.seabed.layered.layers[1].form).spectrum;
-  Environment with_facets(mud, 300e3);
-  with_facets.set_facet_slopes(std::vector{relief::facet_mean_square_slope(spectrum, 0.1)});
+  const Environment environment(mud, 300e3);
+  Environment::FacetLaws memory;
+  const auto& facets = environment.backscatter(std::vector{relief::facet_mean_square_slope(spectrum, 0.1)}, memory);
   const auto whole = seabed::law_of(*seabed::sediment_of("medium silt"), 300e3, 1500.0);
 
   // The heights that the pager would make, each cell two triangles as the tracer has them.
@@ -161,7 +162,7 @@ TEST_CASE("mud with its relief in the mesh returns on average what a plane of it
     return sum / (2.0 * (kPosts - 1) * (kPosts - 1));
   };
   const auto of_head = [&](double grazing) {
-    return static_cast<double>(with_facets.backscatter().at_angle(0, static_cast<float>(grazing)));
+    return static_cast<double>(facets.at_angle(0, static_cast<float>(grazing)));
   };
   for (const double grazing_deg : {20.0, 45.0, 70.0, 83.0, 90.0}) {
     const double grazing = grazing_deg * std::numbers::pi / 180;
@@ -177,20 +178,20 @@ TEST_CASE("facet slopes are the mesh's, by class, unless the scenario states the
   const World world = world_with("{sound_speed_mps: 1500}",
                                  "{0: medium silt, 1: {name: medium silt, facet_slope_deg: 3}, 2: medium silt, "
                                  "3: {lambert_mu_db: -20}, 4: {name: medium silt, capped: true}}");
-  const auto up = [](const Environment& environment, std::uint8_t number) {
-    return db(environment.backscatter().at_angle(number, 0.5F * std::numbers::pi_v<float>));
+  const auto up = [](const seabed::ClassTables& tables, std::uint8_t number) {
+    return db(tables.at_angle(number, 0.5F * std::numbers::pi_v<float>));
   };
-  const Environment plane(world, 300e3);
-  Environment faceted = plane;
-  faceted.set_facet_slopes(std::vector{0.002, 0.002, 0.0, 0.002, 0.002});
+  const Environment environment(world, 300e3);
+  Environment::FacetLaws memory;
+  const auto& plane = environment.backscatter();
+  const auto& faceted = environment.backscatter(std::vector{0.002, 0.002, 0.0, 0.002, 0.002}, memory);
   CHECK(up(faceted, 0) > up(plane, 0) + 0.1);  // facets stand for more than they return alone
   CHECK(up(faceted, 1) == up(plane, 1));
   CHECK(up(faceted, 2) == up(plane, 2));
   CHECK(up(faceted, 3) == up(plane, 3));
   CHECK(up(faceted, 4) ==
         Approx(up(faceted, 0)).margin(0.02));  // the limit is off at right angles; tables have 0.01 dB
-  faceted.set_facet_slopes({});
-  CHECK(up(faceted, 0) == up(plane, 0));
+  CHECK(up(environment.backscatter({}, memory), 0) == up(plane, 0));
 }
 
 TEST_CASE("wind roughens the surface") {

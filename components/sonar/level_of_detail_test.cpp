@@ -25,8 +25,8 @@ TileSet tiles_of(const trace::LevelOfDetail& detail) {
 }
 
 struct Traced {
-  std::vector<trace::Ray> rays;
-  std::vector<trace::Hit> hits;
+  trace::Rays rays;
+  trace::Hits hits;
 };
 
 const trace::TransmitVolume kFan = trace::mills_cross_volume(50.0, 50.0, 1.0);
@@ -43,7 +43,7 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   const TransmittedPower power = [](const auto&, float) { return 1.0; };
   ShotMemory memory;
   sea.insonify({.poses = std::span(&pose, 1), .power = power}, tiles.scene(), distribution, 45.0, memory);
-  return {std::move(memory.rays), std::move(memory.hits)};
+  return {std::move(memory.traced.aimed.rays), std::move(memory.traced.hits)};
 }
 
 bool same(const Traced& a, std::size_t i, const Traced& b, std::size_t j) {

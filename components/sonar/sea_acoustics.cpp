@@ -8,7 +8,6 @@
 
 #include "components/sonar/head_motion.h"
 #include "kernels/acoustics/echo/multipath.h"
-#include "kernels/acoustics/trace/reserve.h"
 
 namespace ensonify {
 namespace {
@@ -33,17 +32,18 @@ SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, 
       effects_(effects),
       paths_(environment.profile(), effects.refraction) {}
 
-Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, trace::RayDistribution& distribution,
-                                  double range_m, ShotMemory& memory) {
+Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
+                                  double range_m, ShotMemory& memory) const {
   const frames::HeadPose& pose = shot.pose();
-  paths_.adapt(seabed, pose, distribution, range_m);
-  paths_.trace(seabed, pose, distribution.probes(), range_m, memory.hits, memory.paths);
-  distribution.fill(pose, memory.hits, seabed.objects(), static_cast<float>(range_m), memory.rays,
-                    paths_.refracted(memory.paths));
-  paths_.trace(seabed, pose, memory.rays, range_m, memory.hits, memory.paths);
-  distribution.settle(memory.rays, memory.hits);
-  environment_.set_facet_slopes(seabed.facet_mean_square_slope());
-  return {memory.rays, memory.hits};
+  paths_.adapt(seabed, pose, distribution.volume(shot.steer), range_m);
+  distribution.trace(
+      pose, shot.steer, seabed.objects(), static_cast<float>(range_m), paths_.refracted(memory.paths),
+      [&](const trace::Rays& rays, trace::Hits& hits) {
+        paths_.trace(seabed, pose, rays, range_m, hits, memory.paths);
+      },
+      memory.traced);
+  return {memory.traced.aimed.rays, memory.traced.hits,
+          environment_.backscatter(seabed.facet_mean_square_slope(), memory.facet_laws)};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
@@ -54,14 +54,14 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
                             ShotMemory& memory) const {
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
-  Echoed echoed{.arrivals = {}, .contributors = contributors_, .receivers = memory.receivers};
+  Echoed echoed{.arrivals = memory.arrivals, .contributors = contributors_, .receivers = memory.receivers};
   weigh(shot, insonified, memory, echoed);
   const frames::HeadPose& pose = shot.pose();
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
   const auto found = scatterers.find({pose, insonified.rays, insonified.hits, memory.source_upa2m2, memory.backscatter},
                                      memory.scatterers);
   memory.arrivals.clear();
-  trace::make_room(memory.arrivals, (effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
+  memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
   echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
   if (effects_.multipath) {
     const echo::MultipathHead head{
@@ -73,14 +73,13 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
     surface.rms_height_m = environment_.rms_wave_height_m();
     echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
   }
-  echoed.arrivals = memory.arrivals;
   return echoed;
 }
 
 /// What rays carry to what they hit, and how strongly that scatters.
 void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const {
-  const std::span<const trace::Ray> rays = insonified.rays;
-  const std::span<const trace::Hit> hits = insonified.hits;
+  const trace::Rays& rays = insonified.rays;
+  const trace::Hits& hits = insonified.hits;
   const double source = power_of(sent_db(shot.source_level_db));
   memory.source_upa2m2.resize(rays.size());
   memory.backscatter.resize(rays.size());
@@ -88,14 +87,14 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
       tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), HitSums{},
       [&](const auto& range, HitSums so_far) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          if (!hits[i].hit()) continue;
-          const double transmitted = shot.power(rays[i].direction_head, hits[i].path_length_m);
+          if (!hits.hit(i)) continue;
+          const double transmitted = shot.power(rays.direction_head[i], hits.path_length_m[i]);
           ++so_far.hits;
           so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
-          so_far.height_m += hits[i].position_enu_m.z();
+          so_far.height_m += hits.position_enu_m.z[i];
           memory.source_upa2m2[i] = static_cast<float>(source * transmitted);
           memory.backscatter[i] =
-              environment_.backscatter()(contributors_[hits[i].contributor].sediment, hits[i].sin_grazing);
+              insonified.backscatter(contributors_[hits.contributor[i]].sediment, hits.sin_grazing[i]);
         }
         return so_far;
       },
@@ -111,14 +110,14 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
 }
 
 void SeaAcoustics::add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
-                                 std::span<const echo::Arrival> echoes, const echo::Pulse& pulse,
-                                 std::vector<echo::Arrival>& foreign) const {
+                                 const echo::Arrivals& echoes, const echo::Pulse& pulse,
+                                 echo::Arrivals& foreign) const {
   if (effects_.interference) echo::add_echoes_of(other, echoes, band(shot, echoed), pulse, foreign);
 }
 
 void SeaAcoustics::add_interference(const Shot& shot, const Echoed& echoed,
                                     std::span<const echo::InterferingTransmission> interfering,
-                                    const echo::Pulse& pulse, std::vector<echo::Arrival>& foreign) const {
+                                    const echo::Pulse& pulse, echo::Arrivals& foreign) const {
   if (effects_.interference) echo::add_interference(interfering, band(shot, echoed), pulse, echoed.receivers, foreign);
 }
 

@@ -28,20 +28,22 @@ struct Shot {
   double transmit_s = 0.0;                  // sim time
   double source_level_db = 0.0;
   const TransmittedPower& power;
+  trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
 
   const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
 };
 
 /// Seabed that a shot insonified: rays, and the first facet that each hits.
 struct Insonified {
-  std::span<const trace::Ray> rays;
-  std::span<const trace::Hit> hits;
+  const trace::Rays& rays;
+  const trace::Hits& hits;
+  const seabed::ClassTables& backscatter;  // of its facets
 };
 
 /// Echoes of a shot, and what was found on the way. Amplitudes are pressures, or with speckle switched off mean
 /// squares.
 struct Echoed {
-  std::span<const echo::Arrival> arrivals;
+  const echo::Arrivals& arrivals;
   const trace::Contributors& contributors;  // whose indices hits and arrivals carry
   const echo::Receivers& receivers;         // where the head receives
   double absorption_dbpm = 0.0;
@@ -56,13 +58,13 @@ struct Echoed {
 
 /// Memory of the stages of a shot, sized by the first ones of a range. Results lie in it until it is used again.
 struct ShotMemory {
-  std::vector<trace::Ray> rays;
-  std::vector<trace::Hit> hits;
+  trace::RayDistribution::Traced traced;
   refraction::PathTable paths;
+  Environment::FacetLaws facet_laws;
   std::vector<float> source_upa2m2, backscatter;
   echo::Scatterers::Memory scatterers;
   echo::Receivers receivers;
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
 };
 
 /// The sea for a head of one frequency: seabed, surface, water column and other heads, by the true motion and the true
@@ -77,8 +79,8 @@ class SeaAcoustics {
 
   /// First stage: rays as the seabed asks for them (trace::RayDistribution), and what they hit within a slant range.
   /// The seabed's mesh becomes that of this shot.
-  Insonified insonify(const Shot& shot, trace::Scene& seabed, trace::RayDistribution& distribution, double range_m,
-                      ShotMemory& memory);
+  Insonified insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
+                      double range_m, ShotMemory& memory) const;
 
   /// Second stage: echoes of the seabed and those by way of the surface. `scatterers` are the patches of seabed that
   /// answer as one point.
@@ -87,12 +89,11 @@ class SeaAcoustics {
 
   /// Appends what this receiver's filter lets through of another transmission's echoes ...
   void add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
-                     std::span<const echo::Arrival> echoes, const echo::Pulse& pulse,
-                     std::vector<echo::Arrival>& foreign) const;
+                     const echo::Arrivals& echoes, const echo::Pulse& pulse, echo::Arrivals& foreign) const;
   /// ... and of what other heads send meanwhile.
   void add_interference(const Shot& shot, const Echoed& echoed,
                         std::span<const echo::InterferingTransmission> interfering, const echo::Pulse& pulse,
-                        std::vector<echo::Arrival>& foreign) const;
+                        echo::Arrivals& foreign) const;
 
   /// Whether the water column sends anything back.
   bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
@@ -103,7 +104,7 @@ class SeaAcoustics {
 
   /// Gain of a receive pattern for each arrival: the pattern's amplitude, or with speckle switched off its square.
   template <class Pattern>
-  void gains(const Pattern& pattern, std::span<const echo::Arrival> arrivals, std::span<float> gains) const {
+  void gains(const Pattern& pattern, const echo::Arrivals& arrivals, std::span<float> gains) const {
     constexpr std::size_t kPerTask = 4096;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),

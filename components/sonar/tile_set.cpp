@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "components/terrain/mesh_message.h"
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify {
 namespace {

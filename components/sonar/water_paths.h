@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/acoustics/trace/views.h"
@@ -21,21 +18,21 @@ class WaterPaths {
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
 
-  /// Makes the seabed as a transmission needs it that sends rays by this distribution from this pose: fine where it
-  /// points, and its coordinates near the head.
-  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::RayDistribution& rays,
+  /// Makes the seabed as a transmission needs it that sends rays into this volume from this pose: fine where it points,
+  /// and its coordinates near the head.
+  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::TransmitVolume& volume,
              double max_range_m) const {
     seabed.centre_near(head.position_enu_m.head<2>());
     if (!seabed.detail().enabled) return;
     const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
     const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
     const lod::Water water = refracted_ ? trace::water_above(profile_, depth_m(head), deepest_m) : lod::Water{};
-    seabed.adapt(trace::views_of(rays.volume(), head, max_range_m, water, seabed.detail().side_lobes));
+    seabed.adapt(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
   }
 
   /// trace::Scene::trace through this water. `table` becomes that of the paths from this head.
-  void trace(const trace::Scene& seabed, const frames::HeadPose& head, std::span<const trace::Ray> rays,
-             double max_range_m, std::vector<trace::Hit>& hits, refraction::PathTable& table) const {
+  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
+             trace::Hits& hits, refraction::PathTable& table) const {
     const auto range_m = static_cast<float>(max_range_m);
     if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
     seabed.tabulate(profile_, head, depth_m(head), range_m, table);

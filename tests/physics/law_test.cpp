@@ -46,7 +46,7 @@ Echo echo_of(const End& source, const Vec3& point_enu_m, const End& receiver) {
   point.scattered_upa2m2 = static_cast<float>(1e20 * source.power(point_enu_m) / (out_m * out_m));
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&receiver.pose, 1)});
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
   echo::add_direct_echoes({300e3, 0.07, echo::Sum::kMeanSquare}, source.pose.position_enu_m, std::span(&point, 1),
                           receivers, arrivals);
   const double received = array::line_power(receiver.waves, double(arrivals[0].direction_head.x()));

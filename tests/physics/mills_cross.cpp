@@ -22,12 +22,14 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
   const double resolution_m = 0.5 * kSpeed_mps * pulse_length_s;
   trace::RayDistribution distribution(trace::mills_cross_volume(length_in_waves(), length_in_waves(), half_swath_rad),
                                       {.quality = quality, .range_resolution_m = resolution_m}, {1, "rays"});
-  std::vector<trace::Ray> rays;
-  std::vector<trace::Hit> hits;
-  seabed.trace(head, distribution.probes(), static_cast<float>(range_m), hits, kSpeed_mps);
-  distribution.fill(head, hits, seabed.objects(), static_cast<float>(range_m), rays);
-  seabed.trace(head, rays, static_cast<float>(range_m), hits, kSpeed_mps);
-  distribution.settle(rays, hits);
+  const auto reach_m = static_cast<float>(range_m);
+  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
+    seabed.trace(head, rays, reach_m, hits, kSpeed_mps);
+  };
+  trace::RayDistribution::Traced traced;
+  distribution.trace(head, {}, seabed.objects(), reach_m, nullptr, trace, traced);
+  const trace::Rays& rays = traced.aimed.rays;
+  const trace::Hits& hits = traced.hits;
 
   const seabed::BackscatterTable table(backscatter);
   std::vector<float> source, cross_section;
@@ -40,7 +42,7 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
   echo::Scatterers::Memory patches;
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&head, 1)});
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
   echo::add_direct_echoes({300e3, absorption_dbpm, echo::Sum::kMeanSquare}, head.position_enu_m,
                           scatterers.find({head, rays, hits, source, cross_section}, patches), receivers, arrivals);
 

@@ -36,7 +36,7 @@ std::vector<double> receive(const std::vector<Vec3>& points_enu_m, double forwar
   }
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&head, 1)});
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
   echo::add_direct_echoes({400e3, 0.0, echo::Sum::kMeanSquare}, head.position_enu_m, points, receivers, arrivals);
   std::vector<float> power;
   for (const auto& a : arrivals) {

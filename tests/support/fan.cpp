@@ -57,7 +57,7 @@ Fan::Fan(const FanShape& shape) {
   across_edges_rad_ = across_edges_rad(shape);
 }
 
-void Fan::fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) const {
+void Fan::fill(const random::Stream& jitter, std::uint64_t ping, Rays& rays) const {
   const std::size_t along = sine_edges_.size() - 1, across = across_edges_rad_.size() - 1;
   rays.resize(along * across);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -69,7 +69,7 @@ void Fan::fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray
     const double dphi = across_edges_rad_[b + 1] - across_edges_rad_[b];
     const double u = sine_edges_[a] + du * (0x1p-32 * bits[0]);
     const double phi = across_edges_rad_[b] + dphi * (0x1p-32 * bits[1]);
-    rays[i] = {direction_of(u, phi).cast<float>(), static_cast<float>(du * dphi)};
+    rays.set(i, {direction_of(u, phi).cast<float>(), static_cast<float>(du * dphi)});
   }
 }
 

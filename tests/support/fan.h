@@ -36,7 +36,7 @@ class Fan {
   std::size_t size() const { return (sine_edges_.size() - 1) * (across_edges_rad_.size() - 1); }
 
   /// Rays that follow each other are neighbours (four rows at a time, from fore to aft), as packets want it.
-  void fill(const random::Stream& jitter, std::uint64_t ping, std::vector<Ray>& rays) const;
+  void fill(const random::Stream& jitter, std::uint64_t ping, Rays& rays) const;
 
  private:
   std::vector<double> sine_edges_;

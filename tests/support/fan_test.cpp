@@ -10,7 +10,7 @@ const Stream kJitter{1, "rays"};
 
 TEST_CASE("the solid angles of a fan sum to that of its volume") {
   const FanShape shape{.transmit_length_in_waves = 50, .along_reach = 8, .half_swath_rad = 1.2};
-  std::vector<Ray> rays;
+  Rays rays;
   Fan(shape).fill(kJitter, 0, rays);
   REQUIRE(rays.size() == 24 * 1024);
   double sum = 0;
@@ -23,7 +23,7 @@ TEST_CASE("the solid angles of a fan sum to that of its volume") {
 
 TEST_CASE("rays integrate a function of direction") {
   // A cap of half angle 30 deg about the head's z axis has 2 pi (1 - cos 30) sr; a wide fan must find it.
-  std::vector<Ray> rays;
+  Rays rays;
   Fan({.transmit_length_in_waves = 1, .along_reach = 1, .half_swath_rad = 1.5, .along = 200, .across = 500})
       .fill(kJitter, 3, rays);
   double sum = 0;
@@ -34,7 +34,7 @@ TEST_CASE("rays integrate a function of direction") {
 }
 
 TEST_CASE("rays are dense where the pattern is high and where the seabed is grazing") {
-  std::vector<Ray> rays;
+  Rays rays;
   Fan({.transmit_length_in_waves = 50}).fill(kJitter, 0, rays);
   int inside_main_lobe = 0;
   for (const Ray& ray : rays) inside_main_lobe += std::abs(ray.direction_head.x()) < 1.0 / 50;
@@ -51,7 +51,7 @@ TEST_CASE("rays are dense where the pattern is high and where the seabed is graz
 }
 
 TEST_CASE("rays repeat for a ping and move with the next") {
-  std::vector<Ray> a, b, c;
+  Rays a, b, c;
   const Fan fan({});
   fan.fill(kJitter, 5, a);
   fan.fill(kJitter, 5, b);

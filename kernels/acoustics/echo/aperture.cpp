@@ -24,8 +24,8 @@ void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPuls
       for (int row = 0; row < rows; ++row) {
         const std::complex<float> pressure =
             set.gain.empty()
-                ? set.arrivals[i].pressure_upa
-                : set.gain[static_cast<std::size_t>(row) * set.arrivals.size() + i] * set.arrivals[i].pressure_upa;
+                ? set.arrivals.pressure_upa(i)
+                : set.gain[static_cast<std::size_t>(row) * set.arrivals.size() + i] * set.arrivals.pressure_upa(i);
         std::complex<float>* sample = image.row(row).data() + from;
         for (const float e : envelope) *sample++ += e * pressure;
       }

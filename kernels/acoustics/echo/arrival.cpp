@@ -70,14 +70,14 @@ std::complex<float> echo_pressure(const Carrier& carrier, double mean_square_upa
 }
 
 void add_direct_echoes(const Carrier& carrier, const Vec3& source_enu_m, std::span<const Scatterer> scatterers,
-                       const Receivers& receivers, std::vector<Arrival>& arrivals) {
+                       const Receivers& receivers, Arrivals& arrivals) {
   const std::size_t before = arrivals.size();
   arrivals.resize(before + scatterers.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, scatterers.size(), kPerTask),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          arrivals[before + i] = direct_echo(carrier, source_enu_m, scatterers[i], receivers);
+          arrivals.set(before + i, direct_echo(carrier, source_enu_m, scatterers[i], receivers));
         }
       },
       tbb::simple_partitioner());

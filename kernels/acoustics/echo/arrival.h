@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <initializer_list>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -23,10 +24,37 @@ struct Arrival {
   std::uint32_t contributor = trace::kNoise;                  // by the path that it took
 };
 
+struct Arrivals : trace::Batch<Arrivals, Arrival> {
+  std::vector<double> time_s;
+  std::vector<float> pressure_re_upa, pressure_im_upa;
+  trace::VectorColumns<float> direction_head;
+  std::vector<std::uint32_t> contributor;
+
+  Arrivals() = default;
+  Arrivals(std::initializer_list<Arrival> arrivals) {
+    for (const Arrival& arrival : arrivals) push_back(arrival);
+  }
+  template <class Self>
+  static auto columns(Self& self) {
+    auto& direction = self.direction_head;
+    return std::tie(self.time_s, self.pressure_re_upa, self.pressure_im_upa, self.contributor, direction.x, direction.y,
+                    direction.z);
+  }
+  std::complex<float> pressure_upa(std::size_t i) const { return {pressure_re_upa[i], pressure_im_upa[i]}; }
+  Arrival operator[](std::size_t i) const { return {time_s[i], pressure_upa(i), direction_head[i], contributor[i]}; }
+  void set(std::size_t i, const Arrival& arrival) {
+    time_s[i] = arrival.time_s;
+    pressure_re_upa[i] = arrival.pressure_upa.real();
+    pressure_im_upa[i] = arrival.pressure_upa.imag();
+    direction_head.set(i, arrival.direction_head);
+    contributor[i] = arrival.contributor;
+  }
+};
+
 /// Arrivals of one origin, and what patterns make of each: amplitudes row by row, one row per aperture, one alone for
 /// the elements of a line; empty: 1.
 struct EchoSet {
-  std::span<const Arrival> arrivals;
+  const Arrivals& arrivals;
   std::span<const float> gain = {};
 
   bool fits(std::size_t rows) const { return gain.empty() || gain.size() == rows * arrivals.size(); }
@@ -75,7 +103,7 @@ struct Carrier {
 /// over the tube's area on the way back (reciprocity), with absorption both ways. Phase: -2 pi f t and that of the
 /// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0.
 void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, std::span<const Scatterer> scatterers,
-                       const Receivers& receivers, std::vector<Arrival>& arrivals);
+                       const Receivers& receivers, Arrivals& arrivals);
 
 /// The pressure of an echo of this mean square, arriving at this time from a scatterer of this response.
 std::complex<float> echo_pressure(const Carrier& carrier, double mean_square_upa2, double time_s,

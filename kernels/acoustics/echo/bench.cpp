@@ -41,14 +41,14 @@ array::LineArray receive_array() { return array::line_array_of_width(1.0 * kDeg,
 
 struct Ping {
   trace::Scene scene{{0, 0}};
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   std::vector<float> source, backscatter, sin_beams;
-  std::vector<trace::Hit> hits;
+  trace::Hits hits;
   echo::Scatterers scatterers{0.075, {1, "seabed"}};
   echo::Scatterers::Memory patches;
   std::span<const echo::Scatterer> found;
   echo::Receivers receivers;
-  std::vector<echo::Arrival> arrivals;
+  echo::Arrivals arrivals;
   echo::LineReceiver receiver{echo::element_line(receive_array(), kWave_m)};
   echo::LineReceiver::Memory memory;
   std::vector<std::vector<float>> weights;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify::echo {
 

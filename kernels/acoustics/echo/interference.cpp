@@ -49,15 +49,15 @@ Passed through_filter(const InterferingTransmission& interfering, const Receiver
   return {first_s, duration_s, std::min(1.0, energy_s / duration_s)};
 }
 
-void add_echoes_of(const InterferingTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
-                   const Pulse& pulse, std::vector<Arrival>& arrivals) {
+void add_echoes_of(const InterferingTransmission& other, const Arrivals& echoes, const ReceiverBand& band,
+                   const Pulse& pulse, Arrivals& arrivals) {
   const Passed passed = through_filter(other, band, pulse);
   const double length_s = pulse.equivalent_length_s();
   const auto places = pulses_in(passed, length_s);
   const double mean_square = passed.power * static_cast<double>(places);
   const auto scale = static_cast<float>(other.frequency_hz / band.frequency_hz);
   double place = 0.0;  // 0..1, evenly, never twice the same
-  for (const Arrival& echo : echoes) {
+  for (const Arrival echo : echoes) {
     const double after_s = std::floor(place * static_cast<double>(places)) * length_s;
     place += kGoldenRatio - std::floor(place + kGoldenRatio);
     const double time_s = other.time_s + echo.time_s + passed.start_s + after_s;
@@ -70,7 +70,7 @@ void add_echoes_of(const InterferingTransmission& other, std::span<const Arrival
 }
 
 void add_interference(std::span<const InterferingTransmission> transmissions, const ReceiverBand& band,
-                      const Pulse& pulse, const Receivers& receivers, std::vector<Arrival>& arrivals) {
+                      const Pulse& pulse, const Receivers& receivers, Arrivals& arrivals) {
   const double length_s = pulse.equivalent_length_s();
   for (const InterferingTransmission& interfering : transmissions) {
     const Passed passed = through_filter(interfering, band, pulse);

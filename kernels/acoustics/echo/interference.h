@@ -47,14 +47,14 @@ Passed through_filter(const InterferingTransmission& interfering, const Receiver
 /// the filter lets it out: one arrival an echo, each at another place of that time, with all of its energy. The line's
 /// delays are made for our frequency: directions are scaled by the ratio of both, as the phase between elements is.
 /// Source and its level are the echoes' own and not examined.
-void add_echoes_of(const InterferingTransmission& other, std::span<const Arrival> echoes, const ReceiverBand& band,
-                   const Pulse& pulse, std::vector<Arrival>& arrivals);
+void add_echoes_of(const InterferingTransmission& other, const Arrivals& echoes, const ReceiverBand& band,
+                   const Pulse& pulse, Arrivals& arrivals);
 
 /// Foreign transmissions as arrivals, appended: one after another, each an echo's length after the last, as long as
 /// what passes the filter lasts; their phase turns with the difference of frequencies. Level: source level - 20 log R -
 /// alpha R. It shows at the slant range c (time + R / c) / 2, the same in every ping while both heads keep time, and
 /// drifts when they do not.
 void add_interference(std::span<const InterferingTransmission> transmissions, const ReceiverBand& band,
-                      const Pulse& pulse, const Receivers& receivers, std::vector<Arrival>& arrivals);
+                      const Pulse& pulse, const Receivers& receivers, Arrivals& arrivals);
 
 }  // namespace ensonify::echo

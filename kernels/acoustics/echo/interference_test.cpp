@@ -24,11 +24,11 @@ InterferingTransmission neighbour() {
   return interfering;
 }
 
-std::vector<Arrival> arrivals_of(const InterferingTransmission& interfering, const Pulse& pulse = kPulse) {
+Arrivals arrivals_of(const InterferingTransmission& interfering, const Pulse& pulse = kPulse) {
   const frames::HeadPose level;  // x to north, z down
   Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&level, 1)});
-  std::vector<Arrival> arrivals;
+  Arrivals arrivals;
   add_interference(std::span(&interfering, 1), kBand, pulse, receivers, arrivals);
   return arrivals;
 }
@@ -165,16 +165,15 @@ TEST_CASE("without speckle an arrival holds the mean square") {
   ReceiverBand band = kBand;
   band.sum = Sum::kMeanSquare;
   const auto interfering = neighbour();
-  std::vector<Arrival> arrivals;
+  Arrivals arrivals;
   add_interference(std::span(&interfering, 1), band, kPulse, receivers, arrivals);
   CHECK(10 * std::log10(arrivals[0].pressure_upa.real()) == Approx(180 - 20 * std::log10(3.0)).margin(1e-4));
 }
 
 TEST_CASE("another sector's echoes in our band arrive as ours, at the difference of delays") {
-  const std::vector<Arrival> echoes{{0.02, {3.0F, 4.0F}, Eigen::Vector3f::UnitZ()},
-                                    {0.03, {1.0F, 0.0F}, Eigen::Vector3f::UnitY()}};
+  const Arrivals echoes{{0.02, {3.0F, 4.0F}, Eigen::Vector3f::UnitZ()}, {0.03, {1.0F, 0.0F}, Eigen::Vector3f::UnitY()}};
   InterferingTransmission other = neighbour();
-  std::vector<Arrival> arrivals;
+  Arrivals arrivals;
   add_echoes_of(other, echoes, kBand, kPulse, arrivals);
   other.time_s = 2e-3;  // 600 periods
   add_echoes_of(other, echoes, kBand, kPulse, arrivals);
@@ -197,8 +196,9 @@ TEST_CASE("other echoes behind a chirp's filter keep the passed energy, over its
   InterferingTransmission other = neighbour();
   other.duration_s = 200e-6;
   const Passed passed = through_filter(other, kBand, chirp);
-  const std::vector<Arrival> echoes(10'000, {0.02, {1.0F, 0.0F}, Eigen::Vector3f::UnitZ()});
-  std::vector<Arrival> arrivals;
+  Arrivals echoes;
+  for (int i = 0; i < 10'000; ++i) echoes.push_back({0.02, {1.0F, 0.0F}, Eigen::Vector3f::UnitZ()});
+  Arrivals arrivals;
   add_echoes_of(other, echoes, kBand, chirp, arrivals);
   double energy_s = 0.0, mean_s = 0.0, last_s = -1.0;
   for (const Arrival& arrival : arrivals) {

@@ -25,15 +25,15 @@ struct Flat {
   double source_level_db, transmit_waves, absorption_dbpm, depth_m, half_swath_rad;
   int along, across;
 
-  std::vector<Arrival> arrivals() const {
+  Arrivals arrivals() const {
     const frames::HeadPose pose{};
-    std::vector<trace::Ray> rays;
+    trace::Rays rays;
     trace::Fan({.transmit_length_in_waves = transmit_waves,
                 .half_swath_rad = half_swath_rad,
                 .along = along,
                 .across = across})
         .fill({9, "rays"}, 0, rays);
-    std::vector<trace::Hit> hits;
+    trace::Hits hits;
     std::vector<float> source, backscatter;
     for (const auto& ray : rays) {
       const Vec3 direction = pose.enu_from_head * ray.direction_head.cast<double>();
@@ -53,7 +53,7 @@ struct Flat {
     Scatterers::Memory memory;
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
-    std::vector<Arrival> arrivals;
+    Arrivals arrivals;
     add_direct_echoes({300e3, absorption_dbpm, Sum::kMeanSquare}, {0, 0, 0},
                       scatterers.find({pose, rays, hits, source, backscatter}, memory), receivers, arrivals);
     return arrivals;
@@ -95,11 +95,11 @@ TEST_CASE("the mean level of a sidescan on a Lambert seabed is that of the close
 
 constexpr double kOneDegree = 1.0 * kDeg;
 
-static std::vector<Arrival> below_a_multibeam(int along, int across) {
+static Arrivals below_a_multibeam(int along, int across) {
   return Flat{220, array::length_in_waves_for(kOneDegree), 0.07, 20, 70 * kDeg, along, across}.arrivals();
 }
 
-static double peak_db(const std::vector<Arrival>& arrivals, double beam_rad, double period_s) {
+static double peak_db(const Arrivals& arrivals, double beam_rad, double period_s) {
   const array::LineArray line = array::line_array_of_width(kOneDegree, 5e-3);
   LineReceiver receiver(power_line(element_line(line, 5e-3)));
   const std::vector<std::vector<float>> weights{power_weights(beam_weights(line.weights))};

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 #include "kernels/base/random/gaussian.h"
 
 namespace ensonify::echo {
@@ -172,12 +172,11 @@ void LineReceiver::spread(const Input& input, int block, const TimeIndex& index,
   std::fill(memory.grid.begin(), memory.grid.end(), std::complex<float>{});
   index.each(block, input.pulse, [&](std::size_t number, std::size_t i, int first, std::span<const float> envelope) {
     const EchoSet& set = input.echoes[number];
-    const Arrival& arrival = set.arrivals[i];
-    const float place = grid_place(arrival.direction_head.dot(line_.axis_head));
+    const float place = grid_place(set.arrivals.direction_head[i].dot(line_.axis_head));
     const int whole = std::min(static_cast<int>(place), cells_ - 1);
     Spreading::Taps taps = spreading_.taps(place - static_cast<float>(whole));
     const float gain = set.gain.empty() ? 1.0F : set.gain[i];
-    const float re = gain * arrival.pressure_upa.real(), im = gain * arrival.pressure_upa.imag();
+    const float re = gain * set.arrivals.pressure_re_upa[i], im = gain * set.arrivals.pressure_im_upa[i];
     for (int k = 0; k < kWidth; ++k) {
       taps[2 * k] *= re;
       taps[2 * k + 1] *= im;

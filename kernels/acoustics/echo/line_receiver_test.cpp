@@ -23,9 +23,9 @@ static Arrival from_sine(double sine, double time_s, Complex pressure = 1.0) {
 }
 
 /// Arrivals from everywhere, some of them in part before or after the sampled time.
-static std::vector<Arrival> many(int count) {
+static Arrivals many(int count) {
   const random::Stream stream{3, "arrivals"};
-  std::vector<Arrival> arrivals;
+  Arrivals arrivals;
   for (int i = 0; i < count; ++i) {
     const auto gauss = stream.normal_pair(i, 1);
     arrivals.push_back(
@@ -89,7 +89,7 @@ TEST_CASE("beams are the direct sum over elements, 90 dB below the peak") {
 TEST_CASE("the first side lobes of a uniform line are -13.26 and -17.83 dB across beams") {
   std::vector<float> beams;
   for (int i = 0; i <= 600; ++i) beams.push_back(float(0.3 + 5e-5 * i));  // to three nulls of a line of 100 waves
-  const std::vector<Arrival> one{from_sine(0.3, 11e-3)};
+  const Arrivals one{from_sine(0.3, 11e-3)};
   const Image image = form({200, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, uniform(200));
   const auto level_db = [&](int from, int to) {
     double peak = 0.0;
@@ -121,7 +121,7 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
     REQUIRE(std::abs(images[1].envelope_upa[i] + images[2].envelope_upa[i] - images[0].envelope_upa[i]) < 1e-4);
   }
   const std::vector<float> beam{0.2F};
-  const std::vector<Arrival> one{from_sine(0.205, 11e-3)};
+  const Arrivals one{from_sine(0.205, 11e-3)};
   const std::vector<std::vector<float>> two{lower, upper};
   std::vector<Image> pair(2);
   receiver.form({std::array{EchoSet{one}}, kPulse, kSampling, {}}, beam, two, pair, memory);
@@ -132,7 +132,7 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
 TEST_CASE("sums of mean squares have the power pattern") {
   const auto beams = sines(51);
   const auto weights = uniform(40);
-  const std::vector<Arrival> one{from_sine(0.1, 11e-3)};
+  const Arrivals one{from_sine(0.1, 11e-3)};
   const Image wave = form({40, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, weights);
   const SampledPulse squared = kPulse.squared();
   const Image power =
@@ -225,9 +225,9 @@ TEST_CASE("one set of arrivals or several of any size give the same bits") {
   const Image whole = form({60, 0.5}, {std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, uniform(60));
   CHECK(std::norm(whole.row(15)[50]) > 0);
   for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1024}}) {
-    std::vector<EchoSet> sets;
-    for (std::size_t first = 0; first < arrivals.size(); first += size)
-      sets.push_back({std::span(arrivals).subspan(first, std::min(size, arrivals.size() - first))});
+    std::vector<Arrivals> batches((arrivals.size() + size - 1) / size);
+    for (std::size_t i = 0; i < arrivals.size(); ++i) batches[i / size].push_back(arrivals[i]);
+    const std::vector<EchoSet> sets(batches.begin(), batches.end());
     CHECK(form({60, 0.5}, {sets, kPulse, kSampling, {}}, beams, uniform(60)).envelope_upa == whole.envelope_upa);
   }
 }
@@ -244,7 +244,7 @@ TEST_CASE("what does not fit is refused") {
 TEST_CASE("a beam pattern for the picture", "[.echo-pattern-csv]") {
   std::vector<float> beams;
   for (int i = 0; i < 1601; ++i) beams.push_back(float(-0.98 + 1.96 * i / 1600));
-  const std::vector<Arrival> one{from_sine(0.3, 11e-3)};
+  const Arrivals one{from_sine(0.3, 11e-3)};
   const auto taylor = array::shading_weights({array::Shading::Window::kTaylor, 30.0}, 100);
   const Image uniform_beams = form({100, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, uniform(100));
   const Image shaded_beams =

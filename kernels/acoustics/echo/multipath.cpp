@@ -119,7 +119,7 @@ double surface_reflection(const SurfaceMirror& surface, double frequency_hz, dou
 
 void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
                    const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
-                   const Receivers& receivers, std::vector<Arrival>& arrivals) {
+                   const Receivers& receivers, Arrivals& arrivals) {
   const double level_m = surface.level_enu_m;
   if (pose.position_enu_m.z() >= level_m) return;
   const Paths paths{carrier, head, surface, pose, receivers};
@@ -131,13 +131,15 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
       tbb::blocked_range<std::size_t>(0, each == 0 ? 0 : scatterers.size(), kPerTask),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          Arrival* out = arrivals.data() + before + each * i;
-          std::fill_n(out, each, Arrival{});
-          if (scatterers[i].position_enu_m.z() >= level_m) continue;
+          std::size_t out = before + each * i;
+          if (scatterers[i].position_enu_m.z() >= level_m) {
+            for (std::size_t k = 0; k < each; ++k) arrivals.set(out + k, Arrival{});
+            continue;
+          }
           const auto add = [&](const std::array<Arrival, 2>& pair, trace::EchoPath path) {
-            for (const Arrival& arrival : pair) {
-              *out = arrival;
-              out++->contributor = trace::by_path(scatterers[i].contributor, path);
+            for (Arrival arrival : pair) {
+              arrival.contributor = trace::by_path(scatterers[i].contributor, path);
+              arrivals.set(out++, arrival);
             }
           };
           if (parts.one_bounce) add(paths.one_bounce(scatterers[i]), trace::EchoPath::kViaSurface);
@@ -154,7 +156,7 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
 
 void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
                        double bottom_level_enu_m, const frames::HeadPose& pose, const Receivers& receivers,
-                       std::vector<Arrival>& arrivals) {
+                       Arrivals& arrivals) {
   const Vec3& place = pose.position_enu_m;
   if (place.z() >= surface.level_enu_m || place.z() <= bottom_level_enu_m) return;
   const Paths paths{carrier, head, surface, pose, receivers};

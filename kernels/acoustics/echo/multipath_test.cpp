@@ -35,9 +35,9 @@ struct Geometry {
     one.response = {0.6F, -0.8F};
     return one;
   }
-  std::vector<Arrival> multipath(double ground_m, const MultipathParts& parts) const {
+  Arrivals multipath(double ground_m, const MultipathParts& parts) const {
     const Scatterer one = at(ground_m);
-    std::vector<Arrival> arrivals;
+    Arrivals arrivals;
     add_multipath(kCarrier, head, surface, parts, pose, std::span(&one, 1), receivers, arrivals);
     return arrivals;
   }
@@ -49,7 +49,7 @@ TEST_CASE("an echo's contributor says by which path it came") {
   const Geometry geometry(4.0, 20.0);
   Scatterer one = geometry.at(30.0);
   one.contributor = trace::sediment_contributor(9);
-  std::vector<Arrival> arrivals;
+  Arrivals arrivals;
   add_multipath(kCarrier, geometry.head, geometry.surface, {}, geometry.pose, std::span(&one, 1), geometry.receivers,
                 arrivals);
   REQUIRE(arrivals.size() == 5);
@@ -80,7 +80,7 @@ TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as
   CHECK(20 * std::log10(std::abs(ghosts[0].pressure_upa + ghosts[1].pressure_upa)) ==
         Approx(want_db + 6.0206).margin(0.01));
   // The direct echo's phase, later by the longer way and turned over by the surface.
-  std::vector<Arrival> direct;
+  Arrivals direct;
   const Scatterer one = geometry.at(x);
   add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
   const auto turn = std::polar(1.0, -2 * std::numbers::pi * 100e3 * (ghosts[0].time_s - direct[0].time_s));
@@ -102,7 +102,7 @@ TEST_CASE("the second bottom echo comes after both heights of water") {
 
 TEST_CASE("mirror echoes are those of image sources") {
   const Geometry geometry(4.0, 20.0);
-  std::vector<Arrival> echoes = geometry.multipath(10.0, {false, false, true});
+  Arrivals echoes = geometry.multipath(10.0, {false, false, true});
   add_mirror_echoes(kCarrier, geometry.head, geometry.surface, geometry.bottom_m(), geometry.pose, geometry.receivers,
                     echoes);
   REQUIRE(echoes.size() == 5);
@@ -116,7 +116,7 @@ TEST_CASE("mirror echoes are those of image sources") {
   }
   // Seen from a hull (depth 0): second less first bottom echo is -(6.02 + 2 alpha H + BL).
   const Geometry hull(1e-6, 20.0);
-  std::vector<Arrival> two;
+  Arrivals two;
   add_mirror_echoes(kCarrier, hull.head, hull.surface, hull.bottom_m(), hull.pose, hull.receivers, two);
   CHECK(level_db(two[3]) - level_db(two[0]) == Approx(-(6.0206 + 2 * kAlpha * 20 + 12)).margin(0.001));
 }
@@ -151,7 +151,7 @@ TEST_CASE("where waves leave nothing, nothing is added") {
 TEST_CASE("nothing is added for a head in the air") {
   const Geometry above(-0.5, 20.0);
   CHECK(above.multipath(10.0, {}).empty());
-  std::vector<Arrival> none;
+  Arrivals none;
   add_mirror_echoes(kCarrier, above.head, above.surface, above.bottom_m(), above.pose, above.receivers, none);
   CHECK(none.empty());
 }
@@ -160,7 +160,7 @@ TEST_CASE("ghosts for the picture", "[.echo-multipath-csv]") {
   const Geometry geometry(4.0, 20.0);
   std::puts("ground_m,direct_s,direct_db,bounce_s,bounce_db,second_s,second_db");
   for (double x = 0; x <= 80; x += 4) {
-    std::vector<Arrival> direct;
+    Arrivals direct;
     const Scatterer one = geometry.at(x);
     add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
     const auto more = geometry.multipath(x, {true, true, false});

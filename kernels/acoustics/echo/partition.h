@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify::echo {
 

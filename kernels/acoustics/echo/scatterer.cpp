@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify::echo {
 namespace {
@@ -53,16 +53,16 @@ std::uint64_t Scatterers::cell_at(const Vec3& position_enu_m) const {
 }
 
 Scatterers::Insonified Scatterers::insonified_by(const Transmission& transmission, std::size_t ray) const {
-  const trace::Hit& hit = transmission.hits[ray];
-  if (!hit.hit()) return {kNothing, 0, 0, 0.0F, 0.0F, 0.0F, 0, -1};
+  const trace::Hits& hits = transmission.hits;
+  if (!hits.hit(ray)) return {kNothing, 0, 0, 0.0F, 0.0F, 0.0F, 0, -1};
   const float sigma_solid =
-      transmission.backscatter[ray] * transmission.rays[ray].solid_angle_sr / std::max(hit.sin_grazing, 1e-3F);
+      transmission.backscatter[ray] * transmission.rays.solid_angle_sr[ray] / std::max(hits.sin_grazing[ray], 1e-3F);
   const float scattered_upa2m2 = transmission.source_upa2m2[ray] * sigma_solid;
-  return {cell_at(hit.position_enu_m),
+  return {cell_at(hits.position_enu_m[ray]),
           static_cast<std::uint32_t>(ray),
-          hit.contributor,
+          hits.contributor[ray],
           scattered_upa2m2,
-          hit.tube_m2 * sigma_solid,
+          hits.tube_m2[ray] * sigma_solid,
           scattered_upa2m2,
           0,
           -1};
@@ -106,14 +106,14 @@ Scatterer Scatterers::scatterer(const Transmission& transmission, std::span<cons
                                 std::size_t entry) const {
   const Insonified& own = merged[entry];
   const Insonified& insonified = merged[static_cast<std::size_t>(own.first)];  // of all of its cell
-  const trace::Hit& hit = transmission.hits[insonified.ray];
+  const trace::Hit hit = transmission.hits[insonified.ray];
   const auto bits = stream_.bits(insonified.cell);
   const Vec3 inside(0x1p-16 * (bits[2] & 0xffff), 0x1p-16 * (bits[2] >> 16), 0x1p-16 * (bits[3] & 0xffff));
   const Vec3 cell = (hit.position_enu_m * per_cell_ + kShift).array().floor();
   const Vec3 somewhere = cell_m_ * (cell + inside - kShift);
   const Vec3 normal = hit.normal_enu.cast<double>();
   const double straight_m = hit.range_m;
-  const Vec3 launch = transmission.pose.enu_from_head * transmission.rays[insonified.ray].direction_head.cast<double>();
+  const Vec3 launch = transmission.pose.enu_from_head * transmission.rays.direction_head[insonified.ray].cast<double>();
 
   Scatterer found;
   found.position_enu_m = somewhere - normal * normal.dot(somewhere - hit.position_enu_m);

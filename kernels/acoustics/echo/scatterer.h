@@ -13,11 +13,11 @@
 
 namespace ensonify::echo {
 
-/// One transmission and what its rays hit. The spans have one entry per ray.
+/// One transmission and what its rays hit. Hits and spans have one entry per ray.
 struct Transmission {
   frames::HeadPose pose;
-  std::span<const trace::Ray> rays;
-  std::span<const trace::Hit> hits;
+  const trace::Rays& rays;
+  const trace::Hits& hits;
   /// Mean-square pressure at 1 m in the ray's direction, uPa^2 m^2: source level with the transmit pattern.
   std::span<const float> source_upa2m2;
   /// Scattering cross section per unit area and solid angle at the hit, a ratio (seabed kernel).

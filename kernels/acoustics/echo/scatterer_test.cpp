@@ -24,7 +24,7 @@ constexpr double kLines = 50.76;  // length of the transmit line in waves: 1 deg
 
 /// Rays of a strip about 45 deg to starboard, the same for every ping, and the flat seabed that they hit.
 struct Strip {
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   std::vector<float> source, backscatter;
 
   Strip() {
@@ -44,8 +44,8 @@ struct Strip {
     }
   }
 
-  std::vector<trace::Hit> hits(const frames::HeadPose& pose) const {
-    std::vector<trace::Hit> found;
+  trace::Hits hits(const frames::HeadPose& pose) const {
+    trace::Hits found;
     for (const trace::Ray& ray : rays) {
       const Vec3 direction = pose.enu_from_head * ray.direction_head.cast<double>();
       trace::Hit hit;
@@ -68,7 +68,7 @@ struct Strip {
     Scatterers scatterers(cell_m, {seed, "seabed"});
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
-    std::vector<Arrival> arrivals;
+    Arrivals arrivals;
     Scatterers::Memory memory;
     add_direct_echoes({kFrequency, 0.07}, position_enu_m,
                       scatterers.find({pose, rays, surface_hits, source, backscatter}, memory), receivers, arrivals);
@@ -185,13 +185,13 @@ TEST_CASE("contributors survive merging, and share what their cell sends") {
   const frames::HeadPose pose{};
   const auto one = strip().hits(pose);
   auto two = one;
-  for (std::size_t i = 0; i < two.size(); i += 3) two[i].contributor = trace::sediment_contributor(4);
+  for (std::size_t i = 0; i < two.size(); i += 3) two.contributor[i] = trace::sediment_contributor(4);
   const Scatterers scatterers(0.03, {1, "seabed"});
   Receivers receivers;
   receivers.set({0, 1, std::span(&pose, 1)});
-  const auto arrivals = [&](const std::vector<trace::Hit>& hits) {
+  const auto arrivals = [&](const trace::Hits& hits) {
     Scatterers::Memory memory;
-    std::vector<Arrival> echoes;
+    Arrivals echoes;
     add_direct_echoes({kFrequency, 0.07}, {0, 0, 0},
                       scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory),
                       receivers, echoes);

@@ -3,7 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify::echo {
 
@@ -17,12 +17,12 @@ void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, 
   trace::make_elements(received_, all);
   Received* received = received_.data();
   for (std::uint16_t number = 0; number < echoes.size(); ++number) {
-    const auto arrivals = echoes[number].arrivals;
+    const Arrivals& arrivals = echoes[number].arrivals;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, arrivals.size(), kPerTask),
         [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const auto place = pulse.place((arrivals[i].time_s - sampling.start_s) / sampling.period_s);
+            const auto place = pulse.place((arrivals.time_s[i] - sampling.start_s) / sampling.period_s);
             received[i] = {place.first, static_cast<std::uint16_t>(place.phase), number, static_cast<std::uint32_t>(i)};
           }
         },

@@ -56,7 +56,7 @@ TEST_CASE("main lobe rays hit bit-equal what they hit at full detail") {
                                         rays_of(ping, 10'000, Lobes::kAll), {.head_m = 5.0, .bottom_m = 32.0});
     different += found.main_lobe;
     side_lobes_differ += found.all_round;
-    for (const Hit& hit : found.hits) missed += hit.hit() ? 0U : 1U;
+    for (const Hit hit : found.hits) missed += hit.hit() ? 0U : 1U;
   }
   CHECK(different == 0);
   CHECK(missed == 0);
@@ -70,7 +70,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
   for (int ping = 0; ping < 8; ++ping) {
     const HeadPose head = pose(ping);
     scene.adapt(views_at(head, kRange));
-    std::vector<Ray> rays;
+    Rays rays;
     for (std::uint64_t i = 0; i < 250'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
       Vec2 at(140.0 * (draws.uniform(k, i, 0) - 0.5), 140.0 * (draws.uniform(k, i, 1) - 0.5));
@@ -82,10 +82,10 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
                     rough(at.x(), at.y()) - head.position_enu_m.z());
       rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
     }
-    std::vector<Hit> hits;
+    Hits hits;
     scene.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
-    for (const Hit& hit : hits) lost += hit.hit() ? 0U : 1U;
+    for (const Hit hit : hits) lost += hit.hit() ? 0U : 1U;
   }
   CHECK(aimed == 2'000'000);
   CHECK(lost == 0);
@@ -99,7 +99,7 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
   wandering.adapt(views_at(pose(5), kRange));
   fresh.adapt(views_at(pose(5), kRange));
   const auto rays = rays_of(5, 100'000, Lobes::kAll);
-  std::vector<Hit> a, b;
+  Hits a, b;
   wandering.trace(pose(5), rays, kRange, a);
   fresh.trace(pose(5), rays, kRange, b);
   CHECK(differences(a, b) == 0);
@@ -107,7 +107,7 @@ TEST_CASE("the mesh of a ping does not depend on the way to it") {
 
 TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
   Scene scene = scene_of({.enabled = true});
-  std::vector<Hit> hits;
+  Hits hits;
   const auto rays = rays_of(0, 100, Lobes::kMain);
   scene.trace(pose(0), rays, kRange, hits);
   CHECK_FALSE(hits[0].hit());
@@ -131,13 +131,13 @@ TEST_CASE("what no view intersects is built when a ray hits it, by any number of
   for (Scene* one : {&scene, &other}) one->adapt(views_at(head, kRange));
   const std::size_t in_view = scene.triangles();
   const random::Stream draws(17, "beyond");
-  std::vector<Ray> rays;
+  Rays rays;
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     const Vec2 at(150.0 * (draws.uniform(i, 0, 0) - 0.5), 150.0 * (draws.uniform(i, 1, 0) - 0.5));
     const Vec3 to(at.x() - head.position_enu_m.x(), at.y() - head.position_enu_m.y(), -25.0);
     rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
   }
-  std::vector<Hit> first, again, alone;
+  Hits first, again, alone;
   scene.trace(head, rays, 500.0F, first);
   const std::size_t with_others = scene.triangles();
   CHECK(with_others > in_view + 1000);

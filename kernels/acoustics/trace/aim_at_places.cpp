@@ -46,14 +46,14 @@ std::optional<Footprint> footprint_of(const std::array<Vec3, 6>& directions, dou
 
 }  // namespace
 
-bool RayDistribution::aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const {
+bool RayDistribution::aim_at_places(Part& part, const View& view, std::vector<Ray>& rays) const {
   const bool forward = volume_.axis == TransmitVolume::Axis::kForward;
   const double low = part.low_sine, high = part.high_sine, below_m = part.need.plane_m;
   const Vec2 from(std::cos(part.low_rad), std::sin(part.low_rad)), to(std::cos(part.high_rad), std::sin(part.high_rad));
   const Vec2 middle = (from + to).normalized();
   const auto direction = [&](double u, const Vec2& angle) {
     const double beside = std::sqrt(1.0 - u * u), side = beside * angle.y(), zero = beside * angle.x();
-    return Vec3(probes.enu_from_head * (forward ? Vec3(u, side, zero) : Vec3(zero, side, u)));
+    return Vec3(view.enu_from_head * (forward ? Vec3(u, side, zero) : Vec3(zero, side, u)));
   };
   auto footprint = footprint_of({direction(low, from), direction(low, middle), direction(low, to), direction(high, to),
                                  direction(high, middle), direction(high, from)},
@@ -62,11 +62,11 @@ bool RayDistribution::aim_at_places(Part& part, const View& probes, std::vector<
   const double phi_m = footprint->along_phi_m.norm();
   const GroundLattice lattice(footprint->along_phi_m, phi_m / part.along_angle,
                               footprint->area_m2 / phi_m / part.along_sine);
-  const Vec2 head_m = lattice.on_axes(probes.head.position_enu_m.head<2>());
+  const Vec2 head_m = lattice.on_axes(view.head.position_enu_m.head<2>());
   for (Vec2& corner : footprint->outline_m) corner = lattice.on_axes(corner) + head_m;
 
   // A place's direction times its distance, and which side of the part's edges it is on.
-  const Eigen::Matrix3d head_from_enu = probes.enu_from_head.transpose();
+  const Eigen::Matrix3d head_from_enu = view.enu_from_head.transpose();
   const Vec3 first = head_from_enu.leftCols<2>() * lattice.first_axis_enu(),
              second = head_from_enu.leftCols<2>() * lattice.second_axis_enu(), down = -below_m * head_from_enu.col(2);
   const double block_m3 = below_m * lattice.block_m2();

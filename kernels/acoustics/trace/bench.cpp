@@ -30,8 +30,8 @@ const terrain::Tile& tile() {
   return value;
 }
 
-std::vector<trace::Ray> fan(int across) {
-  std::vector<trace::Ray> rays;
+trace::Rays fan(int across) {
+  trace::Rays rays;
   trace::Fan({.across = across}).fill({1, "rays"}, 0, rays);
   return rays;
 }
@@ -45,7 +45,7 @@ trace::Scene scene() {
 /// Both must find the same ranges, or the times mean nothing.
 void check() {
   const auto rays = fan(1024);
-  std::vector<trace::Hit> hits;
+  trace::Hits hits;
   scene().trace(kHead, rays, kMaxRange, hits);
   const trace::EmbreeAlone alone(tile());
   auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
@@ -69,7 +69,7 @@ void trace_fan(benchmark::State& state) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const auto rays = fan(static_cast<int>(state.range(0)));
   const auto seabed_scene = scene();
-  std::vector<trace::Hit> hits;
+  trace::Hits hits;
   for (auto _ : state) seabed_scene.trace(kHead, rays, kMaxRange, hits);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
@@ -88,6 +88,12 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution,
+                trace::RayDistribution::Traced& traced) {
+  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) { seabed.trace(kHead, rays, kMaxRange, hits); };
+  distribution.trace(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced);
+}
+
 /// Probes, distribution and trace over Embree alone with the same rays made beforehand, in turns: 1 is as fast.
 void distributed_over_embree(benchmark::State& state) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -95,15 +101,10 @@ void distributed_over_embree(benchmark::State& state) {
   const trace::EmbreeAlone alone(tile());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2),
                                       {0.01 * static_cast<double>(state.range(0)), 0.075}, {1, "rays"});
-  std::vector<trace::Ray> rays;
-  std::vector<trace::Hit> seen, hits;
+  trace::RayDistribution::Traced traced;
+  const trace::Rays& rays = traced.aimed.rays;
   std::vector<double> ratios;
-  const auto whole = [&] {
-    seabed_scene.trace(kHead, distribution.probes(), kMaxRange, seen);
-    distribution.fill(kHead, seen, seabed_scene.objects(), kMaxRange, rays);
-    seabed_scene.trace(kHead, rays, kMaxRange, hits);
-    distribution.settle(rays, hits);
-  };
+  const auto whole = [&] { trace_rays(seabed_scene, distribution, traced); };
   whole();
   auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
   for (auto _ : state) {
@@ -130,14 +131,10 @@ void rock_over_none(benchmark::State& state) {
   auto with = scene();
   with.insert({9, 9}, rock());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2), {1.0, 0.075}, {1, "rays"});
-  std::vector<trace::Ray> rays;
-  std::vector<trace::Hit> seen, hits;
+  trace::RayDistribution::Traced traced;
   const auto ping = [&](const trace::Scene& of) {
-    of.trace(kHead, distribution.probes(), kMaxRange, seen);
-    distribution.fill(kHead, seen, of.objects(), kMaxRange, rays);
-    of.trace(kHead, rays, kMaxRange, hits);
-    distribution.settle(rays, hits);
-    return static_cast<double>(rays.size());
+    trace_rays(of, distribution, traced);
+    return static_cast<double>(traced.aimed.rays.size());
   };
   std::vector<double> ratios;
   for (auto _ : state) {
@@ -162,8 +159,7 @@ trace::Scene deep_scene() {
 }
 
 /// Refracted rays must end where exact arcs do, or their time means nothing.
-void check_refracted(const std::vector<trace::Ray>& rays, const std::vector<trace::Hit>& hits,
-                     const refraction::PathTable& paths) {
+void check_refracted(const trace::Rays& rays, const trace::Hits& hits, const refraction::PathTable& paths) {
   for (std::size_t i = 0; i < rays.size(); i += 37) {
     const frames::Vec3 d = rays[i].direction_head.cast<double>(), off = hits[i].position_enu_m - kHigh.position_enu_m;
     const auto exact =
@@ -184,7 +180,7 @@ void refracted_over_straight(benchmark::State& state) {
   const auto seabed_scene = deep_scene();
   const auto water = refraction::summer_thermocline();
   refraction::PathTable paths;
-  std::vector<trace::Hit> refracted, straight;
+  trace::Hits refracted, straight;
   std::vector<double> ratios;
   for (auto _ : state) {
     const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
@@ -201,7 +197,7 @@ void refracted_over_straight(benchmark::State& state) {
 
 void fill_fan(benchmark::State& state) {
   const trace::Fan shape({.across = 1024});
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   std::uint64_t ping = 0;
   for (auto _ : state) shape.fill({1, "rays"}, ping++, rays);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));

@@ -38,7 +38,7 @@ std::uint32_t facet_at(const terrain::Tile& tile, const Vec3& place_enu_m) {
 class Towards {
  public:
   /// Empty where no path, or no single one, goes to its corners.
-  static std::optional<Towards> make(const FacetRays::View& view, const Eigen::AlignedBox3d& box_enu_m) {
+  static std::optional<Towards> make(const FacetView& view, const Eigen::AlignedBox3d& box_enu_m) {
     Towards towards(view.head);
     if (view.refracted == nullptr) return towards;
     const Vec3 &head = view.head.position_enu_m, middle = box_enu_m.center();
@@ -103,29 +103,28 @@ Vec3 place_on(const std::array<Vec3, 3>& corners, std::uint32_t turn, std::uint3
   return place;
 }
 
-}  // namespace
-
-void FacetRays::take(const Object& object) {
-  if (taken_.empty() || taken_.back().tile != object.tile) {
-    taken_.push_back({object.number, object.tile, cells_.size()});
-    cells_.resize(cells_.size() + object.tile->height_m.size());
+void take(const Object& object, FacetTargets& targets) {
+  if (targets.tiles.empty() || targets.tiles.back().tile != object.tile) {
+    targets.tiles.push_back({object.number, object.tile, targets.cells.size()});
+    targets.cells.resize(targets.cells.size() + object.tile->height_m.size());
   }
   for (std::int32_t row = object.first_row; row < object.end_row; ++row) {
     for (std::int32_t column = object.first_column; column < object.end_column; ++column) {
-      cells_[taken_.back().first_cell + object.tile->post(column, row)] = true;
+      targets.cells[targets.tiles.back().first_cell + object.tile->post(column, row)] = true;
     }
   }
 }
 
 /// Of a hit on a tile that has such cells, at full detail: its facets are those of the posts. Else null.
-const FacetRays::Taken* FacetRays::tile_of(const Hit& hit) const {
-  const auto at = std::ranges::lower_bound(taken_, hit.tile, {}, &Taken::number);
-  const bool has = at != taken_.end() && at->number == hit.tile;
-  return has && hit.facet_m == static_cast<float>(at->tile->spacing_m) ? &*at : nullptr;
+const FacetTargets::Tile* tile_of(const FacetTargets& targets, std::uint32_t tile, float facet_m) {
+  const auto at = std::ranges::lower_bound(targets.tiles, tile, {}, &FacetTargets::Tile::number);
+  const bool has = at != targets.tiles.end() && at->number == tile;
+  return has && facet_m == static_cast<float>(at->tile->spacing_m) ? &*at : nullptr;
 }
 
-void FacetRays::gather(std::span<const Object> objects, const View& view, const Demand& demand) {
-  facets_.clear();
+void gather(std::span<const Object> objects, const FacetView& view, const FacetDemand& demand,
+            std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) {
+  facets.clear();
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const Object& object = objects[o];
     const double half_m = 0.5 * object.box_enu_m.diagonal().norm();
@@ -135,7 +134,7 @@ void FacetRays::gather(std::span<const Object> objects, const View& view, const 
     if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !demand.touches(off, radius_m)) continue;
     const auto towards = Towards::make(view, object.box_enu_m);
     if (!towards) continue;
-    take(object);
+    take(object, targets);
     const terrain::Tile& tile = *object.tile;
     for (std::int32_t row = object.first_row; row < object.end_row; ++row) {
       for (std::int32_t column = object.first_column; column < object.end_column; ++column) {
@@ -147,68 +146,69 @@ void FacetRays::gather(std::span<const Object> objects, const View& view, const 
           const double wanted = demand.rays({(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
           if (!(wanted > 0.0)) continue;
           const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-          facets_.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
-                             corners,
-                             o,
-                             wanted});
+          facets.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
+                            corners,
+                            o,
+                            wanted});
         }
       }
     }
   }
-  std::ranges::sort(taken_, {}, &Taken::number);
+  std::ranges::sort(targets.tiles, {}, &FacetTargets::Tile::number);
 }
 
-std::size_t FacetRays::aim(std::span<const Object> objects, const View& view, const Demand& demand) {
-  rays_.clear();
-  targets_.clear();
-  taken_.clear();
-  cells_.clear();
-  gather(objects, view, demand);
+}  // namespace
+
+void aim_at_facets(const random::Stream& stream, std::span<const Object> objects, const FacetView& view,
+                   const FacetDemand& demand, FacetMemory& memory, FacetTargets& targets) {
+  memory.rays.clear();
+  targets.facets.clear();
+  targets.tiles.clear();
+  targets.cells.clear();
+  gather(objects, view, demand, memory.facets, targets);
   double sum = 0.0;
-  for (const Facet& facet : facets_) sum += std::max(1.0, facet.wanted);
+  for (const FacetMemory::Facet& facet : memory.facets) sum += std::max(1.0, facet.wanted);
   const double share = std::min(1.0, static_cast<double>(demand.most) / std::max(1.0, sum));
   std::optional<Towards> towards;
   std::size_t of = objects.size();
-  for (const Facet& facet : facets_) {
+  for (const FacetMemory::Facet& facet : memory.facets) {
     if (facet.object != of) of = facet.object, towards = Towards::make(view, objects[of].box_enu_m);
     const double wanted = share * facet.wanted;
-    const auto random = stream_.bits(kPlaces, facet.target.facet);
+    const auto random = stream.bits(kPlaces, facet.target.facet);
     if (wanted < 1.0 && 0x1p-32 * random[0] >= wanted) continue;
     const auto count = static_cast<std::uint32_t>(std::ceil(wanted));
-    Target target = facet.target;
+    FacetTargets::Facet target = facet.target;
     target.area_m2 /= static_cast<float>(wanted < 1.0 ? wanted : static_cast<double>(count));
     for (std::uint32_t k = 0; k < count; ++k) {
       const Vec3 direction = (*towards)(place_on(facet.corners_enu_m, random[1], k));
       if (!demand.holds(direction)) continue;
-      rays_.push_back({direction.normalized().cast<float>(), 0.0F});
-      targets_.push_back(target);
+      memory.rays.push_back({direction.normalized().cast<float>(), 0.0F});
+      targets.facets.push_back(target);
     }
   }
-  return rays_.size();
 }
 
-void FacetRays::append(std::vector<Ray>& rays) {
-  first_ = rays.size();
-  rays.insert(rays.end(), rays_.begin(), rays_.end());
-}
-
-void FacetRays::settle(std::span<Ray> rays, std::span<Hit> hits) const {
-  if (hits.size() != first_ + targets_.size() || rays.size() != hits.size()) {
+void settle(const FacetTargets& targets, Rays& rays, Hits& hits) {
+  if (rays.size() != hits.size() || hits.size() < targets.facets.size()) {
     throw std::invalid_argument("there must be one hit per ray");
   }
-  if (taken_.empty()) return;
-  for (std::size_t i = 0; i < first_; ++i) {
-    const Taken* of = tile_of(hits[i]);
-    if (of && cells_[of->first_cell + facet_at(*of->tile, hits[i].position_enu_m) / 2]) hits[i] = Hit{};
+  const std::size_t first = hits.size() - targets.facets.size();
+  if (targets.tiles.empty()) return;
+  const auto facet_hit = [&](std::size_t i, const terrain::Tile& tile) {
+    return facet_at(tile, hits.position_enu_m[i]);
+  };
+  for (std::size_t i = 0; i < first; ++i) {
+    const FacetTargets::Tile* of = tile_of(targets, hits.tile[i], hits.facet_m[i]);
+    if (of && targets.cells[of->first_cell + facet_hit(i, *of->tile) / 2]) hits.set(i, Hit{});
   }
-  for (std::size_t k = 0; k < targets_.size(); ++k) {
-    Hit& hit = hits[first_ + k];
-    const Target& target = targets_[k];
-    const Taken* of = tile_of(hit);
+  for (std::size_t k = 0; k < targets.facets.size(); ++k) {
+    const std::size_t i = first + k;
+    const FacetTargets::Facet& target = targets.facets[k];
+    const FacetTargets::Tile* of = tile_of(targets, hits.tile[i], hits.facet_m[i]);
     const bool counts =
-        of && hit.tile == target.tile && facet_at(*of->tile, hit.position_enu_m) == target.facet && hit.tube_m2 > 0.0F;
-    rays[first_ + k].solid_angle_sr = counts ? target.area_m2 * hit.sin_grazing / hit.tube_m2 : 0.0F;
-    if (!counts) hit = Hit{};
+        of && hits.tile[i] == target.tile && facet_hit(i, *of->tile) == target.facet && hits.tube_m2[i] > 0.0F;
+    rays.solid_angle_sr[i] = counts ? target.area_m2 * hits.sin_grazing[i] / hits.tube_m2[i] : 0.0F;
+    if (!counts) hits.set(i, Hit{});
   }
 }
 

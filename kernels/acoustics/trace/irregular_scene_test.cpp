@@ -74,9 +74,9 @@ HeadPose pose(int ping) {
   return {{-30.0 + 4.0 * ping, -9.0 - 0.4 * ping, -3.0}, enu_from_body(frames::Attitude{1.5 + 0.1 * ping, 0.03, 0.4})};
 }
 
-std::size_t on(std::uint8_t sediment, const std::vector<Hit>& hits) {
+std::size_t on(std::uint8_t sediment, const Hits& hits) {
   std::size_t count = 0;
-  for (const Hit& hit : hits) count += hit.hit() && hit.contributor == sediment_contributor(sediment) ? 1U : 0U;
+  for (const Hit hit : hits) count += hit.hit() && hit.contributor == sediment_contributor(sediment) ? 1U : 0U;
   return count;
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
   for (int ping = 0; ping < 6; ++ping) {
     const HeadPose head = pose(ping);
     scene.adapt(views_at(head, kRange_m));
-    std::vector<Ray> rays;
+    Rays rays;
     for (std::uint64_t i = 0; i < 400'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
       // A third at vertices' columns, 0.6 m apart from 0.15 m on, and a third at their rows.
@@ -120,11 +120,11 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
           angle < kFan.angle_rad.high && to.norm() < static_cast<double>(kRange_m))
         rays.push_back({along.cast<float>(), 1.0F});
     }
-    std::vector<Hit> hits;
+    Hits hits;
     scene.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
     // Nothing else is farther north than the wall stands out: what is hit there came through it.
-    for (const Hit& hit : hits) behind += !hit.hit() || hit.position_enu_m.y() > 0.5 ? 1U : 0U;
+    for (const Hit hit : hits) behind += !hit.hit() || hit.position_enu_m.y() > 0.5 ? 1U : 0U;
   }
   CHECK(aimed > 200'000);
   CHECK(behind == 0);
@@ -141,7 +141,7 @@ TEST_CASE("a ping's mesh among irregular meshes depends on neither history nor t
   wandering.centre_near({0.0, 0.0});
   wandering.adapt(views_at(pose(2), kRange_m));
   const auto rays = rays_of(2, 50'000, Lobes::kAll);
-  std::vector<Hit> a, b;
+  Hits a, b;
   wandering.trace(pose(2), rays, kRange_m, a);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   fresh.adapt(views_at(pose(2), kRange_m));
@@ -154,14 +154,14 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
   for (const bool enabled : {false, true}) {
     Scene scene({0, 0}, {.enabled = enabled});
     const HeadPose head{{0.0, -20.0, -5.0}, enu_from_body(frames::Attitude{0.0, 0.0, 0.0})};
-    const std::vector<Ray> north{{Eigen::Vector3f::UnitX(), 1.0F}};
+    const Rays north{{Eigen::Vector3f::UnitX(), 1.0F}};
     lod::View ahead;
     ahead.frustum.apex_enu_m = head.position_enu_m;
     ahead.frustum.axis_enu = Vec3::UnitY(), ahead.frustum.zero_enu = Vec3::UnitZ(),
     ahead.frustum.side_enu = Vec3::UnitX();
     ahead.frustum.low_sine = 0.99, ahead.frustum.low_angle_rad = -3.2, ahead.frustum.high_angle_rad = 3.2;
     ahead.frustum.max_range_m = 100.0;
-    std::vector<Hit> hits;
+    Hits hits;
     scene.insert(7, wall());
     scene.adapt(std::array{ahead});
     scene.trace(head, north, 100.0F, hits);
@@ -182,11 +182,11 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
 TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB") {
   Scene scene = scene_of({.enabled = true});
   std::map<std::uint8_t, double> all_sum, some_sum;
-  std::vector<Hit> hits;
-  const auto add_power = [&](const Scene& seen, const HeadPose& head, const std::vector<Ray>& rays,
+  Hits hits;
+  const auto add_power = [&](const Scene& seen, const HeadPose& head, const Rays& rays,
                              std::map<std::uint8_t, double>& sum) {
     seen.trace(head, rays, kRange_m, hits);
-    for (const Hit& hit : hits) {  // of a ray by Lambert's law: solid angle over range squared and sine of grazing
+    for (const Hit hit : hits) {  // of a ray by Lambert's law: solid angle over range squared and sine of grazing
       const double sine_over_range = static_cast<double>(hit.sin_grazing / std::max(1.0F, hit.range_m));
       if (hit.hit()) sum[Contributors()[hit.contributor].sediment] += sine_over_range * sine_over_range;
     }
@@ -222,8 +222,8 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
     const terrain::TileGrid grid{.origin_enu_m = {-128.0, -64.0}, .spacing_m = 1.0, .cells = 256};
     scene.insert({0, 0}, terrain::sample_tile(grid, {0, 0}, [](double, double) { return -10.0; }));
     scene.insert(0, IrregularMesh{progressive::hierarchy_of(ball, progressive::collapses_of(ball)), kSteel});
-    std::vector<Hit> hits;
-    const auto power = [&](const std::vector<Ray>& rays) {  // by Lambert's law, once the rays have been traced
+    Hits hits;
+    const auto power = [&](const Rays& rays) {  // by Lambert's law, once the rays have been traced
       double sum = 0.0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const double sine_over_range = static_cast<double>(hits[i].sin_grazing / std::max(1.0F, hits[i].range_m));
@@ -236,7 +236,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
     constexpr std::uint64_t kRays = 100'000;
     const Vec3 middle = head.enu_from_head.conjugate() * (ball.origin_enu_m - head.position_enu_m);
     const double half = 0.3 / away_m;
-    std::vector<Ray> at_ball;
+    Rays at_ball;
     for (std::uint64_t i = 0; i < kRays; ++i) {
       const double u = middle.z() / middle.norm() + half * (2.0 * draws.uniform(i, 0) - 1.0);
       const double phi = std::atan2(middle.y(), middle.x()) + half * (2.0 * draws.uniform(i, 1) - 1.0);
@@ -251,7 +251,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
       RayDistribution distribution(volume, {.quality = RaySettings::kPreview, .range_resolution_m = 0.02},
                                    {draw, "rays"});
       scene.trace(head, distribution.probes(), kFar_m, hits);
-      std::vector<Ray> rays;
+      Rays rays;
       distribution.fill(head, hits, scene.objects(), kFar_m, rays);
       scene.trace(head, rays, kFar_m, hits);
       distribution.settle(rays, hits);

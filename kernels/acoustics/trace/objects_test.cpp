@@ -9,6 +9,7 @@
 #include <string>
 
 #include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/acoustics/trace/testing/sounding.h"
 #include "kernels/water/refraction/thermocline.h"
 
 // Small things in empty water and above a seabed: rays find them wherever they are.
@@ -84,14 +85,11 @@ View forward_looking() {
           [](const Ray&) { return true; }};
 }
 
-std::vector<Hit> view_from(const Scene& scene, const View& view, std::uint64_t draw, std::vector<Ray>& rays) {
+Hits view_from(const Scene& scene, const View& view, std::uint64_t draw, Rays& rays) {
   RayDistribution distribution(view.volume, {RaySettings::kNormal, 0.3}, Stream{draw, "rays"});
-  std::vector<Hit> hits;
-  scene.trace(view.head, distribution.probes(), kFar_m, hits);
-  distribution.fill(view.head, hits, scene.objects(), kFar_m, rays);
-  scene.trace(view.head, rays, kFar_m, hits);
-  distribution.settle(rays, hits);
-  return hits;
+  sounding::Sounding traced = sounding::trace_rays(scene, distribution, view.head, scene.objects());
+  rays = std::move(traced.rays);
+  return std::move(traced.hits);
 }
 
 /// Somewhere in the middle of the main lobe, 2 m away to the farthest.
@@ -112,7 +110,7 @@ struct Seen {
   std::vector<int> hits = std::vector<int>(2 * kCells * kCells);
 
   void count(const Scene& scene, const View& view, const Body& body, std::uint64_t draw, bool in_main_lobe) {
-    std::vector<Ray> rays;
+    Rays rays;
     const auto found = view_from(scene, view, draw, rays);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!found[i].hit() || found[i].facet_m != static_cast<float>(body.spacing_m())) continue;
@@ -162,7 +160,7 @@ TEST_CASE("an object takes the rays its facets need; others keep the volume's so
   const View view = multibeam();
   const Body body{0.15, -30.0, {25.0, 0.25}, true};
   Scene scene({0, 0});
-  std::vector<Ray> rays;
+  Rays rays;
   const std::size_t none = (view_from(scene, view, 1, rays), rays.size());
   body.insert(scene);
   const auto hits = view_from(scene, view, 1, rays);
@@ -173,7 +171,7 @@ TEST_CASE("an object takes the rays its facets need; others keep the volume's so
   CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));
   // A head sees half of the half sphere's facets and more: 16 rays to each of them, and as many to those in its shade.
   const double facets = 2.0 * std::numbers::pi * std::pow(body.size_m / body.spacing_m(), 2);
-  const auto on_it = std::count_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.hit(); });
+  const auto on_it = std::ranges::count_if(hits.range_m, [](float range_m) { return range_m > 0.0F; });
   CHECK(double(on_it) > 0.5 * 16 * facets);
   CHECK(double(on_it) < 1.1 * 16 * facets);
   CHECK(double(rays.size() - none) < 2.5 * double(on_it));
@@ -192,16 +190,8 @@ Answer answer(const Scene& scene, const View& view, const Body& body, double qua
   Answer sum;
   for (int draw = 0; draw < draws; ++draw) {
     RayDistribution distribution(view.volume, {quality, 0.3}, Stream{static_cast<std::uint64_t>(draw), "rays"});
-    const auto trace = [&](std::span<const Ray> rays, std::vector<Hit>& hits) {
-      water != nullptr ? scene.trace(view.head, rays, kFar_m, hits, *water)
-                       : scene.trace(view.head, rays, kFar_m, hits);
-    };
-    std::vector<Hit> hits;
-    std::vector<Ray> rays;
-    trace(distribution.probes(), hits);
-    distribution.fill(view.head, hits, by_facets ? scene.objects() : std::span<const Object>{}, kFar_m, rays, water);
-    trace(rays, hits);
-    distribution.settle(rays, hits);
+    const auto [rays, hits, share] = sounding::trace_rays(
+        scene, distribution, view.head, by_facets ? scene.objects() : std::span<const Object>{}, water);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (!hits[i].hit() || hits[i].facet_m != static_cast<float>(body.spacing_m())) continue;
       sum.energy += double(rays[i].solid_angle_sr * hits[i].sin_grazing) / draws;
@@ -299,7 +289,7 @@ TEST_CASE("of a scanned coral's facets few are unhit") {
   scene.insert({0, 0}, tile);
   const View view = forward_looking();
   const auto seen = [&](std::uint64_t draw, std::vector<int>& hits) {
-    std::vector<Ray> rays;
+    Rays rays;
     for (const Hit& hit : view_from(scene, view, draw, rays)) {
       if (!hit.hit()) continue;
       const Vec2 at = (hit.position_enu_m.head<2>() - tile.origin_enu_m) / spacing_m;

@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/acoustics/trace/reserve.h"
-
 namespace ensonify::trace {
 namespace {
 
@@ -91,7 +89,7 @@ TransmitVolume mills_cross_volume(double transmit_length_in_waves, double receiv
 
 RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings& settings,
                                  const random::Stream& stream)
-    : volume_(volume), settings_(settings), stream_(stream), facets_(stream) {
+    : volume_(volume), settings_(settings), stream_(stream) {
   check(volume.sine, -1.0, 1.0, "the sines of a transmit volume must rise within -1..1, and its beams be wider than 0");
   check(volume.angle_rad, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi,
         "the angles of a transmit volume must rise, and its beams be wider than 0");
@@ -105,9 +103,9 @@ RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings
   const double angle_width = volume.angle_rad.main_high - volume.angle_rad.main_low;
   std::size_t cells = 0;
   for (double step = std::max(sine_width, angle_width); cells < kProbeCells; step *= 0.98) {
-    volume_sines_ = edges_of(volume.sine, step);
-    volume_angles_rad_ = edges_of(volume.angle_rad, step);
-    cells = (volume_sines_.size() - 1) * (volume_angles_rad_.size() - 1);
+    sine_edges_ = edges_of(volume.sine, step);
+    angle_edges_rad_ = edges_of(volume.angle_rad, step);
+    cells = (sine_edges_.size() - 1) * (angle_edges_rad_.size() - 1);
   }
   if (settings.most_rays < 4 * cells) {
     throw std::invalid_argument("the limit of rays must be at least " + std::to_string(4 * cells));
@@ -115,40 +113,34 @@ RayDistribution::RayDistribution(const TransmitVolume& volume, const RaySettings
   if (2.0 * settings.quality * static_cast<double>(settings.fewest_rays) > static_cast<double>(settings.most_rays)) {
     throw std::invalid_argument("the fewest rays times the quality must be at most half of the most");
   }
-  aim();
 }
 
-void RayDistribution::steer(double sine, double angle_rad) {
-  if (sine == steered_sine_ && angle_rad == steered_rad_) return;
-  steered_sine_ = sine;
-  steered_rad_ = angle_rad;
-  aim();
-}
-
-TransmitVolume RayDistribution::volume() const {
+TransmitVolume RayDistribution::volume(const Steer& steer) const {
   TransmitVolume steered = volume_;
   for (double* u : {&steered.sine.low, &steered.sine.high, &steered.sine.main_low, &steered.sine.main_high}) {
-    *u = std::clamp(*u + steered_sine_, -1.0, 1.0);
+    *u = std::clamp(*u + steer.sine, -1.0, 1.0);
   }
   for (double* phi :
        {&steered.angle_rad.low, &steered.angle_rad.high, &steered.angle_rad.main_low, &steered.angle_rad.main_high}) {
-    *phi += steered_rad_;
+    *phi += steer.angle_rad;
   }
   return steered;
 }
 
-void RayDistribution::aim() {
-  sine_edges_ = volume_sines_;
-  angle_edges_rad_ = volume_angles_rad_;
-  for (double& u : sine_edges_) u = std::clamp(u + steered_sine_, -1.0, 1.0);
-  for (double& phi : angle_edges_rad_) phi += steered_rad_;
-  probes_.clear();
-  for (const double u : sine_edges_) {
+void RayDistribution::probe(const Steer& steer, Probes& probes) const {
+  probes.sine_edges = sine_edges_;
+  probes.angle_edges_rad = angle_edges_rad_;
+  for (double& u : probes.sine_edges) u = std::clamp(u + steer.sine, -1.0, 1.0);
+  for (double& phi : probes.angle_edges_rad) phi += steer.angle_rad;
+  probes.rays.resize(sine_edges_.size() * angle_edges_rad_.size());
+  std::size_t next = 0;
+  for (const double u : probes.sine_edges) {
     const double beside = std::sqrt(1.0 - u * u);
-    for (const double phi : angle_edges_rad_) {
-      probes_.push_back({direction_of(volume_.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
-                                      static_cast<float>(beside * std::cos(phi))),
-                         0.0F});
+    for (const double phi : probes.angle_edges_rad) {
+      probes.rays.set(next++,
+                      {direction_of(volume_.axis, static_cast<float>(u), static_cast<float>(beside * std::sin(phi)),
+                                    static_cast<float>(beside * std::cos(phi))),
+                       0.0F});
     }
   }
 }
@@ -162,44 +154,45 @@ struct RayDistribution::Corners {
   double plane_m;       // of Need
 };
 
-bool RayDistribution::find_corners(std::size_t i, std::size_t j, const View& probes, Corners& corners) const {
+bool RayDistribution::find_corners(std::size_t i, std::size_t j, const View& view, Corners& corners) const {
   const std::array<std::size_t, 4> at{corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)};
-  const Hit* farthest = nullptr;
-  double sum_of_z_m = 0.0, hits = 0.0;
+  const Hits& hits = view.hits;
+  Hit farthest;
+  double sum_of_z_m = 0.0, count = 0.0;
   for (const std::size_t k : at) {
-    const Hit& hit = probes.hits[k];
-    if (!hit.hit()) continue;
-    sum_of_z_m += hit.position_enu_m.z(), hits += 1.0;
-    if (!farthest || hit.path_length_m > farthest->path_length_m) farthest = &hit;
+    if (!hits.hit(k)) continue;
+    sum_of_z_m += hits.position_enu_m.z[k], count += 1.0;
+    if (!farthest.hit() || hits.path_length_m[k] > farthest.path_length_m) farthest = hits[k];
   }
-  if (!farthest) return false;
-  corners.facet_m = farthest->facet_m;
+  if (!farthest.hit()) return false;
+  corners.facet_m = farthest.facet_m;
   corners.finer_per_sr = 0.0;
-  const Vec3 normal = farthest->normal_enu.cast<double>();
-  const double off_m = normal.dot(farthest->position_enu_m - probes.head.position_enu_m);
+  const Vec3 normal = farthest.normal_enu.cast<double>();
+  const double off_m = normal.dot(farthest.position_enu_m - view.head.position_enu_m);
   for (std::size_t c = 0; c < 4; ++c) {
-    const Hit& hit = probes.hits[at[c]];
-    if (hit.hit()) {
-      corners.place_m[c] = hit.position_enu_m - probes.head.position_enu_m;
-      corners.range_m[c] = hit.path_length_m;
-      if (hit.facet_m < farthest->facet_m) {
-        corners.finer_per_sr += 0.25 * facing_facets_per_sr(hit.path_length_m, hit.facet_m);
+    const std::size_t k = at[c];
+    if (hits.hit(k)) {
+      corners.place_m[c] = hits.position_enu_m[k] - view.head.position_enu_m;
+      corners.range_m[c] = hits.path_length_m[k];
+      if (hits.facet_m[k] < farthest.facet_m) {
+        corners.finer_per_sr += 0.25 * facing_facets_per_sr(hits.path_length_m[k], hits.facet_m[k]);
       }
     } else {
-      const Vec3 direction = probes.enu_from_head * probes_[at[c]].direction_head.cast<double>();
+      const Vec3 direction = view.enu_from_head * view.probes.rays.direction_head[k].cast<double>();
       const double to_plane_m = off_m / normal.dot(direction);
-      corners.range_m[c] = to_plane_m > 0.0 ? std::min(to_plane_m, probes.max_range_m) : probes.max_range_m;
+      corners.range_m[c] = to_plane_m > 0.0 ? std::min(to_plane_m, view.max_range_m) : view.max_range_m;
       corners.place_m[c] = corners.range_m[c] * direction;
     }
   }
-  corners.plane_m = plane_below(probes.head.position_enu_m.z(), sum_of_z_m / hits);
+  corners.plane_m = plane_below(view.head.position_enu_m.z(), sum_of_z_m / count);
   return true;
 }
 
-RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const View& probes) const {
+RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const View& view) const {
   Corners seen;
-  const double du = sine_edges_[i + 1] - sine_edges_[i], dphi = angle_edges_rad_[j + 1] - angle_edges_rad_[j];
-  if (!(du > 0.0) || !find_corners(i, j, probes, seen)) return {};
+  const auto &sines = view.probes.sine_edges, &angles_rad = view.probes.angle_edges_rad;
+  const double du = sines[i + 1] - sines[i], dphi = angles_rad[j + 1] - angles_rad[j];
+  if (!(du > 0.0) || !find_corners(i, j, view, seen)) return {};
 
   // In units of what is resolved: beams, and ranges within a beam.
   const auto& r = seen.range_m;
@@ -227,14 +220,14 @@ RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const 
 
 double RayDistribution::importance_of(std::size_t cell) const {
   const std::size_t i = cell / columns(), j = cell % columns();
-  return importance(volume_.sine, volume_sines_[i], volume_sines_[i + 1]) *
-         importance(volume_.angle_rad, volume_angles_rad_[j], volume_angles_rad_[j + 1]);
+  return importance(volume_.sine, sine_edges_[i], sine_edges_[i + 1]) *
+         importance(volume_.angle_rad, angle_edges_rad_[j], angle_edges_rad_[j + 1]);
 }
 
 /// Cuts the parts into strata, for this share of what they need; the number of rays.
-std::size_t RayDistribution::cut(double share) {
+std::size_t RayDistribution::cut(double share, std::span<Part> parts) {
   std::size_t rays = 0;
-  for (Part& part : parts_) {
+  for (Part& part : parts) {
     const double wanted = std::max(1.0, share * part.need.rays);
     const double along_u = std::clamp(std::ceil(std::sqrt(wanted * part.need.sine_to_angle)), 1.0, std::ceil(wanted));
     part.along_sine = static_cast<std::uint32_t>(along_u);
@@ -244,80 +237,87 @@ std::size_t RayDistribution::cut(double share) {
   return rays;
 }
 
-void RayDistribution::fill(const frames::HeadPose& head, std::span<const Hit> probe_hits,
-                           std::span<const Object> objects, float max_range_m, std::vector<Ray>& rays,
-                           const refraction::PathTable* refracted) {
-  if (probe_hits.size() != probes_.size()) throw std::invalid_argument("there must be one hit per probe");
-  const View probes{head, head.enu_from_head.toRotationMatrix(), probe_hits, max_range_m};
+void RayDistribution::fill(const frames::HeadPose& head, const Probes& probes, const Hits& probe_hits,
+                           std::span<const Object> objects, float max_range_m, const refraction::PathTable* refracted,
+                           Memory& memory, Aimed& aimed) const {
+  if (probe_hits.size() != probes.rays.size()) throw std::invalid_argument("there must be one hit per probe");
+  const View view{head, head.enu_from_head.toRotationMatrix(), probes, probe_hits, max_range_m};
+  std::vector<Part>& parts = memory.parts;
   const auto for_parts = [&](const auto& work) {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, parts_.size(), kCellsPerTask),
+        tbb::blocked_range<std::size_t>(0, parts.size(), kCellsPerTask),
         [&](const auto& range) {
           for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
         },
         tbb::simple_partitioner());
   };
-  parts_.resize((sine_edges_.size() - 1) * columns());
+  const auto &sines = probes.sine_edges, &angles_rad = probes.angle_edges_rad;
+  parts.resize((sines.size() - 1) * columns());
   for_parts([&](std::size_t k) {
     const std::size_t i = k / columns(), j = k % columns();
-    parts_[k] = {sine_edges_[i], sine_edges_[i + 1], angle_edges_rad_[j], angle_edges_rad_[j + 1], need(i, j, probes)};
+    parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
   });
-  const std::size_t to_facets =
-      facets_.aim(objects, {head, max_range_m, refracted},
-                  {[this](const auto& corners) { return rays_to_facet(corners); },
-                   [this](const Vec3& direction) { return holds(direction); },
-                   [this](const Vec3& middle, double radius_m) { return touches(middle, radius_m); },
-                   settings_.most_rays / kMostToFacets});
-  if (rays_.size() < parts_.size()) rays_.resize(parts_.size());
+  aim_at_facets(stream_, objects, {head, max_range_m, refracted},
+                {[&](const auto& corners) { return rays_to_facet(probes, corners); },
+                 [&](const Vec3& direction) { return holds(probes, direction); },
+                 [&](const Vec3& middle, double radius_m) { return touches(probes, middle, radius_m); },
+                 settings_.most_rays / kMostToFacets},
+                memory.facets, aimed.to_facets);
+  if (memory.rays.size() < parts.size()) memory.rays.resize(parts.size());
 
-  const bool any = std::any_of(probe_hits.begin(), probe_hits.end(), [](const Hit& hit) { return hit.hit(); });
-  const auto most = static_cast<double>(settings_.most_rays - to_facets);
+  const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });
+  const auto most = static_cast<double>(settings_.most_rays - memory.facets.rays.size());
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
-  share_ = 1.0;
+  double share = 1.0;
   const auto draw = [&] {  // what falls within the cells varies by a per cent
-    auto count = static_cast<double>(cut(share_));
-    for (; count > most; count = static_cast<double>(cut(share_))) share_ *= 0.999 * most / count;
-    for (; count < kSpare * fewest; count = static_cast<double>(cut(share_))) share_ *= 1.001 * kSpare * fewest / count;
-    for_parts([&](std::size_t k) { fill_part(k, probes); });
+    auto count = static_cast<double>(cut(share, parts));
+    for (; count > most; count = static_cast<double>(cut(share, parts))) share *= 0.999 * most / count;
+    for (; count < kSpare * fewest; count = static_cast<double>(cut(share, parts)))
+      share *= 1.001 * kSpare * fewest / count;
+    for_parts([&](std::size_t k) { fill_part(k, view, memory); });
     count = 0.0;
-    for (std::size_t k = 0; k < parts_.size(); ++k) count += static_cast<double>(rays_[k].size());
+    for (std::size_t k = 0; k < parts.size(); ++k) count += static_cast<double>(memory.rays[k].size());
     return count;
   };
   for (double count = draw(); count > most || count < fewest; count = draw()) {
-    share_ *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
+    share *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
-  gather(rays, to_facets);
-  facets_.append(rays);
+  aimed.share = share;
+  gather(memory, aimed.rays);
 }
 
-/// All rays, and room for so many more; those to places share the solid angle of their parts, as the lattices' edges
-/// leave a little more or less.
-void RayDistribution::gather(std::vector<Ray>& rays, std::size_t more) {
+/// All rays, those to facets last. Those to places share the solid angle of their parts, as the lattices' edges leave a
+/// little more or less.
+void RayDistribution::gather(Memory& memory, Rays& rays) {
+  std::vector<Part>& parts = memory.parts;
   double places_sr = 0.0, parts_sr = 0.0;
-  for (const Part& part : parts_) {
+  for (const Part& part : parts) {
     places_sr += part.to_places_sr;
     if (part.to_places_sr > 0.0) parts_sr += part.solid_angle_sr();
   }
   const auto scale = static_cast<float>(parts_sr / places_sr);
   std::size_t count = 0;
-  for (std::size_t k = 0; k < parts_.size(); count += rays_[k++].size()) parts_[k].first_ray = count;
-  make_room(rays, count + more);
-  rays.resize(count);
-  tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t k) {
-    const float share = parts_[k].to_places_sr > 0.0 ? scale : 1.0F;
-    for (std::size_t i = 0; i < rays_[k].size(); ++i)
-      rays[parts_[k].first_ray + i] = {rays_[k][i].direction_head, share * rays_[k][i].solid_angle_sr};
+  for (std::size_t k = 0; k < parts.size(); count += memory.rays[k++].size()) parts[k].first_ray = count;
+  const Rays& to_facets = memory.facets.rays;
+  rays.make_elements(count + to_facets.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+    const float share = parts[k].to_places_sr > 0.0 ? scale : 1.0F;
+    for (std::size_t i = 0; i < memory.rays[k].size(); ++i) {
+      const Ray& ray = memory.rays[k][i];
+      rays.set(parts[k].first_ray + i, {ray.direction_head, share * ray.solid_angle_sr});
+    }
   });
+  for (std::size_t k = 0; k < to_facets.size(); ++k) rays.set(count + k, to_facets[k]);
 }
 
-void RayDistribution::fill_part(std::size_t index, const View& probes) {
-  Part& part = parts_[index];
-  std::vector<Ray>& rays = rays_[index];
+void RayDistribution::fill_part(std::size_t index, const View& view, Memory& memory) const {
+  Part& part = memory.parts[index];
+  std::vector<Ray>& rays = memory.rays[index];
   rays.clear();
   part.to_places_sr = 0.0;
   const std::size_t strata = std::size_t{part.along_sine} * part.along_angle;
   if (rays.capacity() < 2 * strata) rays.reserve(4 * strata);  // the next pings need about as many: no memory for them
-  if (part.need.plane_m > 0.0 && strata >= kFewestToPlaces && aim_at_places(part, probes, rays)) return;
+  if (part.need.plane_m > 0.0 && strata >= kFewestToPlaces && aim_at_places(part, view, rays)) return;
   fill_strata(part, index, rays);
 }
 

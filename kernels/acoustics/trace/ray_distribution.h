@@ -72,33 +72,67 @@ struct RaySettings {
 /// lying on the plane of the farthest facet that its cell sees, and no farther than the range. A cell that sees nothing
 /// has one ray.
 class RayDistribution {
+  struct Part;
+
  public:
   /// Throws std::invalid_argument for empty or overlapping spans, and for settings that are not positive.
   RayDistribution(const TransmitVolume& volume, const RaySettings& settings, const random::Stream& stream);
 
-  /// Turns the volume from now on: to a sine, as phase shifts along the axis do, and by an angle about the axis.
-  /// Neither changes solid angles; sines beyond -1 and 1 are lost. (0, 0) is the volume as given.
-  void steer(double sine, double angle_rad);
-
+  /// Turn of the volume: to a sine, as phase shifts along the axis do, and by an angle about the axis. Neither changes
+  /// solid angles; sines beyond -1 and 1 are lost.
+  struct Steer {
+    double sine = 0.0, angle_rad = 0.0;
+  };
   /// Directions of the rays, as steered.
-  TransmitVolume volume() const;
+  TransmitVolume volume(const Steer& steer) const;
 
-  /// The rays traced first; their solid angles are 0. They change with steer().
-  std::span<const Ray> probes() const { return probes_; }
+  /// Rays traced first, one to each corner of the cells; their solid angles are 0.
+  struct Probes {
+    std::vector<double> sine_edges, angle_edges_rad;  // of the cells, as steered
+    Rays rays;
+  };
+  void probe(const Steer& steer, Probes& probes) const;
 
+  /// Rays of a transmission: first those that are spread over directions, then those to facets.
+  struct Aimed {
+    Rays rays;
+    FacetTargets to_facets;
+    double share = 1.0;  // of the rays that the quality asks for; less where most_rays limits them, more where there
+                         // are fewest_rays
+  };
+  /// Scratch: its contents do not matter.
+  class Memory {
+    friend RayDistribution;
+    std::vector<Part> parts;
+    std::vector<std::vector<Ray>> rays;  // of each part
+    FacetMemory facets;
+  };
   /// The rays for what the probes hit within max_range_m, and for the objects' facets. Neighbours follow each other,
-  /// as packets want it. Through bent water `bent` is what Scene::tabulate made for this head. Throws
-  /// std::invalid_argument unless there is one hit per probe.
-  void fill(const frames::HeadPose& head, std::span<const Hit> probe_hits, std::span<const Object> objects,
-            float max_range_m, std::vector<Ray>& rays, const refraction::PathTable* refracted = nullptr);
+  /// as packets want it. Through bent water `refracted` is what Scene::tabulate made for this head. When they are
+  /// traced, settle(to_facets, rays, hits) is due: only then do those to facets carry a solid angle, and do hits that
+  /// do not count become misses. Throws std::invalid_argument unless there is one hit per probe.
+  void fill(const frames::HeadPose& head, const Probes& probes, const Hits& probe_hits, std::span<const Object> objects,
+            float max_range_m, const refraction::PathTable* refracted, Memory& memory, Aimed& aimed) const;
 
-  /// After the rays of the last fill have been traced: only then do those to objects carry a solid angle, and do hits
-  /// that do not count become misses. Throws std::invalid_argument unless there is one hit per ray.
-  void settle(std::span<Ray> rays, std::span<Hit> hits) const { facets_.settle(rays, hits); }
-
-  /// Share of the rays required by the quality in the last fill: 1; less where most_rays limits them, more where
-  /// there are fewest_rays.
-  double share() const { return share_; }
+  /// Memory of all of it, the caller's. Results lie in it: the rays and what they hit.
+  struct Traced {
+    Aimed aimed;
+    Hits hits;
+    // Scratch.
+    Probes probes;
+    Memory memory;
+  };
+  /// Probes, rays for what those hit, and what the rays hit, settled. trace(rays, hits) finds what rays hit; the table
+  /// `refracted` may be made in it.
+  template <class Trace>
+  void trace(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,
+             const refraction::PathTable* refracted, const Trace& trace, Traced& traced) const {
+    probe(steer, traced.probes);
+    trace(traced.probes.rays, traced.hits);
+    fill(head, traced.probes, traced.hits, objects, max_range_m, refracted, traced.memory, traced.aimed);
+    trace(traced.aimed.rays, traced.hits);
+    settle(traced.aimed.to_facets, traced.aimed.rays, traced.hits);
+  }
 
  private:
   static constexpr double kRaysPerCell = 12.0;  // of resolution, at normal quality
@@ -109,7 +143,8 @@ class RayDistribution {
   struct View {
     const frames::HeadPose& head;
     Eigen::Matrix3d enu_from_head;
-    std::span<const Hit> hits;
+    const Probes& probes;
+    const Hits& hits;
     double max_range_m;
   };
   struct Part {  // of the volume: a cell
@@ -124,37 +159,29 @@ class RayDistribution {
   std::size_t columns() const { return angle_edges_rad_.size() - 1; }
   std::size_t corner(std::size_t i, std::size_t j) const { return i * angle_edges_rad_.size() + j; }
   double importance_of(std::size_t cell) const;
-  void aim();
-  bool find_corners(std::size_t i, std::size_t j, const View& probes, Corners& corners) const;
-  Need need(std::size_t i, std::size_t j, const View& probes) const;
+  bool find_corners(std::size_t i, std::size_t j, const View& view, Corners& corners) const;
+  Need need(std::size_t i, std::size_t j, const View& view) const;
   /// Two triangles to a square of the posts' spacing.
   static double facing_facets_per_sr(double range_m, double facet_m) {
     return 2.0 * range_m * range_m / (facet_m * facet_m);
   }
   /// Sine and angle of a direction, the angle in the turn about the volume's middle.
-  std::array<double, 2> coordinates_of(const frames::Vec3& direction_head) const;
-  double rays_to_facet(const std::array<frames::Vec3, 3>& corners_head_m) const;
-  bool holds(const frames::Vec3& direction_head) const;
-  bool touches(const frames::Vec3& middle_head_m, double radius_m) const;
-  std::size_t cut(double share);
-  void fill_part(std::size_t index, const View& probes);
-  void gather(std::vector<Ray>& rays, std::size_t more);
+  std::array<double, 2> coordinates_of(const Probes& probes, const frames::Vec3& direction_head) const;
+  double rays_to_facet(const Probes& probes, const std::array<frames::Vec3, 3>& corners_head_m) const;
+  bool holds(const Probes& probes, const frames::Vec3& direction_head) const;
+  bool touches(const Probes& probes, const frames::Vec3& middle_head_m, double radius_m) const;
+  static std::size_t cut(double share, std::span<Part> parts);
+  void fill_part(std::size_t index, const View& view, Memory& memory) const;
+  static void gather(Memory& memory, Rays& rays);
   /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
   /// is seen too flat.
-  bool aim_at_places(Part& part, const View& probes, std::vector<Ray>& rays) const;
+  bool aim_at_places(Part& part, const View& view, std::vector<Ray>& rays) const;
   void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
 
   TransmitVolume volume_;
   RaySettings settings_;
   random::Stream stream_;
-  double steered_sine_ = 0.0, steered_rad_ = 0.0;
-  std::vector<double> volume_sines_, volume_angles_rad_;  // edges of the cells, as given ...
-  std::vector<double> sine_edges_, angle_edges_rad_;      // ... and as steered
-  std::vector<Ray> probes_;
-  std::vector<Part> parts_;
-  std::vector<std::vector<Ray>> rays_;  // of each part
-  FacetRays facets_;
-  double share_ = 1.0;
+  std::vector<double> sine_edges_, angle_edges_rad_;  // of the cells, not steered
 };
 
 }  // namespace ensonify::trace

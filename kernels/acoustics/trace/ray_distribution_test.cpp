@@ -99,14 +99,13 @@ TEST_CASE("rays follow range cells, not beams") {
 TEST_CASE("a steered volume keeps its solid angles, but for what is beyond endfire") {
   const auto extent = [](double sine, double angle_rad) {
     RayDistribution distribution(mills_cross_volume(50, 50, 30 * kDegree), {RaySettings::kPreview}, {1, "rays"});
-    distribution.steer(sine, angle_rad);
-    std::vector<Ray> rays;
-    const std::vector<Hit> nothing(distribution.probes().size());
-    distribution.fill(kHead, nothing, {}, kFar_m, rays);
+    RayDistribution::Traced traced;
+    const auto nothing = [](const Rays& rays, Hits& hits) { hits.resize(rays.size()); };
+    distribution.trace(kHead, {sine, angle_rad}, {}, kFar_m, nullptr, nothing, traced);
     struct {
       double solid_angle_sr = 0, least_sine = 1, most_sine = -1, least_rad = 4, most_rad = -4;
     } e;
-    for (const Ray& ray : rays) {
+    for (const Ray& ray : traced.aimed.rays) {
       REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
       e.solid_angle_sr += ray.solid_angle_sr;
       e.least_sine = std::min(e.least_sine, double(ray.direction_head.x()));
@@ -162,7 +161,7 @@ TEST_CASE("the same pose over the same tiles has the same rays, on any number of
   };
   const auto one = with(1, 1), two = with(2, 1), other = with(2, 2);
   REQUIRE(one.size() == two.size());
-  CHECK(std::memcmp(one.data(), two.data(), one.size() * sizeof(Ray)) == 0);
+  CHECK(one == two);
   CHECK(one[77].direction_head != other[77].direction_head);
 }
 
@@ -196,6 +195,8 @@ TEST_CASE("a volume that is none, and settings that cannot be, are refused") {
                     "the fewest rays times the quality must be at most half of the most");
   CHECK_THROWS_WITH(make(mills_cross(), {.most_rays = 100}), Catch::Contains("the limit of rays must be at least "));
   RayDistribution distribution(mills_cross(), {}, {1, "rays"});
-  std::vector<Ray> rays;
-  CHECK_THROWS_WITH(distribution.fill(kHead, {}, {}, kFar_m, rays), "there must be one hit per probe");
+  RayDistribution::Traced traced;
+  const auto none = [](const Rays&, Hits&) {};
+  CHECK_THROWS_WITH(distribution.trace(kHead, {}, {}, kFar_m, nullptr, none, traced),
+                    "there must be one hit per probe");
 }

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "kernels/acoustics/trace/packet.h"
-#include "kernels/acoustics/trace/reserve.h"
 #include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -125,11 +124,14 @@ void Scene::tabulate(const refraction::SoundSpeedProfile& profile, const frames:
   paths.build(profile, head_depth_m, head_depth_m + above);
 }
 
-void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
                   const refraction::PathTable& paths, std::uint32_t behind) const {
-  make_elements(hits, rays.size());
+  hits.make_elements(rays.size());
   const auto heights = heights_near(head.position_enu_m.head<2>(), max_range_m);
-  if (!heights) return void(std::ranges::fill(hits, Hit{}));
+  if (!heights) {
+    for (std::size_t i = 0; i < hits.size(); ++i) hits.set(i, Hit{});
+    return;
+  }
   const double source_depth = paths.source_depth_m(), z = head.position_enu_m.z();
   const Band band{source_depth + (z - heights->highest_m - kMargin_m),
                   source_depth + (z - heights->lowest_m + kMargin_m)};
@@ -150,7 +152,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
         packet.switch_off(lane);
         continue;
       }
-      const Vec3 direction = enu_from_head * rays[first + lane].direction_head.cast<double>();
+      const Vec3 direction = enu_from_head * rays.direction_head[first + lane].cast<double>();
       const double sine = -direction.z(), cosine = direction.head<2>().norm();
       lanes[lane].emplace(use_table ? paths.path(sine, cosine) : Path(paths.profile(), source_depth, sine, cosine),
                           source_slowness * direction.head<2>());
@@ -159,7 +161,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
       } else {
         packet.switch_off(lane);
         lanes[lane].reset();
-        hits[first + lane] = Hit{};
+        hits.set(first + lane, Hit{});
       }
     }
     while (alive > 0) {
@@ -182,13 +184,13 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
         if (!lanes[lane]) continue;
         Lane& ray = *lanes[lane];
         if (packet.part_hit[lane]) {
-          hits[first + lane] = hit_of(packet, lane, ray, from[lane] + origin, head.position_enu_m);
+          hits.set(first + lane, hit_of(packet, lane, ray, from[lane] + origin, head.position_enu_m));
         } else if (!ray.last) {
           ray.path.take(ray.leg);
           if (ray.reach(band, max_range_m)) continue;
-          hits[first + lane] = Hit{};
+          hits.set(first + lane, Hit{});
         } else {
-          hits[first + lane] = Hit{};
+          hits.set(first + lane, Hit{});
         }
         lanes[lane].reset();
         packet.on[lane] = 0;

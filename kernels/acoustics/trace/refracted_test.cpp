@@ -22,8 +22,8 @@ static Ray ray(double azimuth_rad, double depression_rad) {
                  std::sin(depression_rad));
   return {ned.cast<float>(), 1.0F};
 }
-static std::vector<Ray> rays_of_all_sides(double from_deg, double to_deg, int count) {
-  std::vector<Ray> rays;
+static Rays rays_of_all_sides(double from_deg, double to_deg, int count) {
+  Rays rays;
   for (int i = 0; i < count; ++i) rays.push_back(ray(2.4 * i, (from_deg + (to_deg - from_deg) * i / count) * kDeg));
   return rays;
 }
@@ -42,11 +42,11 @@ static Scene seabed(double (*height)(double, double), double half_m = 512) {
 static double flat80(double, double) { return -80.0; }
 static double rolling(double x, double y) { return -77.0 + 2.4 * std::sin(0.1 * x) * std::cos(0.13 * y); }
 
-static std::vector<Hit> trace(const Scene& scene, const SoundSpeedProfile& water, const std::vector<Ray>& rays,
-                              float range_m = 600, const HeadPose& head = kHead) {
+static Hits trace(const Scene& scene, const SoundSpeedProfile& water, const Rays& rays, float range_m = 600,
+                  const HeadPose& head = kHead) {
   PathTable paths;
   scene.tabulate(water, head, -head.position_enu_m.z(), range_m, paths);
-  std::vector<Hit> hits;
+  Hits hits;
   scene.trace(head, rays, range_m, hits, paths);
   return hits;
 }
@@ -55,7 +55,7 @@ TEST_CASE("in uniform water bent rays are straight rays") {
   const Scene scene = seabed(rolling);
   const auto rays = rays_of_all_sides(9, 90, 2000);
   const auto refracted = trace(scene, SoundSpeedProfile::uniform(1480), rays);
-  std::vector<Hit> straight;
+  Hits straight;
   scene.trace(kHead, rays, 600, straight, 1480);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     REQUIRE(refracted[i].hit() == straight[i].hit());
@@ -127,7 +127,7 @@ TEST_CASE("rays that turn: up and back to the seabed, or away from it") {
   const auto thermocline = ensonify::refraction::summer_thermocline();
   const Scene scene = seabed(flat80, 2048);
   const HeadPose deep{{0, 0, -45}, ensonify::frames::enu_from_ned()};
-  const std::vector<Ray> up{ray(1, -2 * kDeg), ray(2, -4 * kDeg), ray(3, -60 * kDeg)};
+  const Rays up{ray(1, -2 * kDeg), ray(2, -4 * kDeg), ray(3, -60 * kDeg)};
   const auto back = trace(scene, thermocline, up, 1500, deep);
   for (int i : {0, 1}) {
     const auto exact = path_to_depth(thermocline, 45, depression(up[i]), 80, 1);
@@ -147,7 +147,7 @@ TEST_CASE("rays that turn: up and back to the seabed, or away from it") {
 
 TEST_CASE("the greatest range is a length of path") {
   const auto water = ensonify::refraction::summer_thermocline();
-  const std::vector<Ray> rays{ray(0, 20 * kDeg)};
+  const Rays rays{ray(0, 20 * kDeg)};
   const double length = path_to_depth(water, 2, depression(rays[0]), 80)->path_length_m;
   CHECK(trace(seabed(flat80), water, rays, float(length + 0.1))[0].hit());
   CHECK_FALSE(trace(seabed(flat80), water, rays, float(length - 0.1))[0].hit());
@@ -158,7 +158,7 @@ TEST_CASE("a table that reaches too deep costs time, not hits; no tiles, no hits
   const auto rays = rays_of_all_sides(12, 90, 100);
   PathTable paths;
   paths.build(water, 2, 79.5);
-  std::vector<Hit> hits;
+  Hits hits;
   seabed(rolling).trace(kHead, rays, 600, hits, paths);
   const auto right = trace(seabed(rolling), water, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -177,7 +177,7 @@ TEST_CASE("a bent ray continued behind a contributor hits what stands behind it"
   const auto rays = rays_of_all_sides(30, 90, 300);
   PathTable paths;
   scene.tabulate(water, kHead, 2, 600, paths);
-  std::vector<Hit> first, behind;
+  Hits first, behind;
   scene.trace(kHead, rays, 600, first, paths);
   scene.trace(kHead, rays, 600, behind, paths, sediment_contributor(7));
   const auto alone = trace(seabed(flat80), water, rays);

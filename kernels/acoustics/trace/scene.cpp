@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "kernels/acoustics/trace/packet.h"
-#include "kernels/acoustics/trace/reserve.h"
 #include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
@@ -167,10 +166,10 @@ std::optional<Heights> Scene::heights_near(const Vec2& place_enu_m, double radiu
   return all;
 }
 
-void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
-                  double sound_speed_mps, std::uint32_t behind) const {
+void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits, double sound_speed_mps,
+                  std::uint32_t behind) const {
   const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
-  make_elements(hits, rays.size());
+  hits.make_elements(rays.size());
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
   const Vec3 start(head.position_enu_m.x() - impl_->origin_enu_m.x(), head.position_enu_m.y() - impl_->origin_enu_m.y(),
                    head.position_enu_m.z());
@@ -180,7 +179,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
     const std::size_t count = std::min(kPacket, rays.size() - first);
     Packet packet;
     for (std::size_t lane = 0; lane < count; ++lane) {
-      packet.set(lane, start, enu_from_head * rays[first + lane].direction_head.cast<double>(), max_range_m);
+      packet.set(lane, start, enu_from_head * rays.direction_head[first + lane].cast<double>(), max_range_m);
     }
     for (std::size_t lane = count; lane < kPacket; ++lane) packet.switch_off(lane);
     packet.intersect(impl_->mesh);
@@ -192,7 +191,7 @@ void Scene::trace(const frames::HeadPose& head, std::span<const Ray> rays, float
       });
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
-      hits[first + lane] = packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{};
+      hits.set(first + lane, packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{});
     }
   };
   tbb::parallel_for(

@@ -37,6 +37,39 @@ struct Hit {
   bool hit() const { return range_m > 0.0F; }
 };
 
+struct Hits : Batch<Hits, Hit> {
+  VectorColumns<double> position_enu_m;
+  VectorColumns<float> normal_enu, arrival_enu;
+  std::vector<float> range_m, travel_time_s, path_length_m, tube_m2, sin_grazing, facet_m;
+  std::vector<std::uint32_t> tile, contributor;
+
+  template <class Self>
+  static auto columns(Self& self) {
+    auto &place = self.position_enu_m, &normal = self.normal_enu, &arrival = self.arrival_enu;
+    return std::tie(self.range_m, self.travel_time_s, self.path_length_m, self.tube_m2, self.sin_grazing, self.facet_m,
+                    self.tile, self.contributor, place.x, place.y, place.z, normal.x, normal.y, normal.z, arrival.x,
+                    arrival.y, arrival.z);
+  }
+  bool hit(std::size_t i) const { return range_m[i] > 0.0F; }
+  Hit operator[](std::size_t i) const {
+    return {position_enu_m[i], normal_enu[i],  arrival_enu[i], range_m[i], travel_time_s[i], path_length_m[i],
+            tube_m2[i],        sin_grazing[i], facet_m[i],     tile[i],    contributor[i]};
+  }
+  void set(std::size_t i, const Hit& hit) {
+    position_enu_m.set(i, hit.position_enu_m);
+    normal_enu.set(i, hit.normal_enu);
+    arrival_enu.set(i, hit.arrival_enu);
+    range_m[i] = hit.range_m;
+    travel_time_s[i] = hit.travel_time_s;
+    path_length_m[i] = hit.path_length_m;
+    tube_m2[i] = hit.tube_m2;
+    sin_grazing[i] = hit.sin_grazing;
+    facet_m[i] = hit.facet_m;
+    tile[i] = hit.tile;
+    contributor[i] = hit.contributor;
+  }
+};
+
 /// ENU z of what lies lowest and highest.
 struct Heights {
   double lowest_m = 0.0;
@@ -132,7 +165,7 @@ class Scene {
   /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
   /// and overwritten. sound_speed_mps gives the travel times, nothing else. Rays pass all facets of the contributor
   /// `behind`, so that they hit what it hides; what lies within 1 mm of it along the ray is passed too.
-  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
              double sound_speed_mps = 1500.0, std::uint32_t behind = kNoise) const;
 
   /// The first facet that each ray hits on its refracted path, at most max_range_m long. A path takes one look-up in
@@ -140,7 +173,7 @@ class Scene {
   /// that stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end. paths is what
   /// `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path is followed
   /// leg by leg from the head, right but slow.
-  void trace(const frames::HeadPose& head, std::span<const Ray> rays, float max_range_m, std::vector<Hit>& hits,
+  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
              const refraction::PathTable& paths, std::uint32_t behind = kNoise) const;
 
   /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the

@@ -30,8 +30,8 @@ static Ray towards(const Vec3& enu) {  // for a level head
 TEST_CASE("a flat seabed is hit at depth over cosine, at the right grazing angle") {
   Scene scene({0, 0});
   scene.insert({0, 0}, tile_of({.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 256}, {0, 0}, flat));
-  const std::vector<Ray> rays{towards({0, 0, -1}), towards({1, 0, -1}), towards({0, -1, -2}), towards({0, 0, 1})};
-  std::vector<Hit> hits;
+  const Rays rays{towards({0, 0, -1}), towards({1, 0, -1}), towards({0, -1, -2}), towards({0, 0, 1})};
+  Hits hits;
   scene.trace(kLevel, rays, 100.0F, hits, 1480.0);
   CHECK(hits[0].range_m == Approx(20));
   CHECK(hits[0].travel_time_s == Approx(20 / 1480.0));
@@ -58,9 +58,9 @@ TEST_CASE("hits on a slope lie on the plane with its normal, also far from the o
     scene.insert({0, 0}, tile);
     HeadPose head = kLevel;
     head.position_enu_m += Vec3(origin.x(), origin.y(), 0);
-    std::vector<Ray> rays;
+    Rays rays;
     for (int i = 0; i < 100; ++i) rays.push_back(towards({std::sin(i), std::cos(1.7 * i), -1.0}));
-    std::vector<Hit> hits;
+    Hits hits;
     scene.trace(head, rays, 100.0F, hits);
     const Vec3 normal = Vec3(-0.1, 0.2, 1).normalized();
     for (const Hit& hit : hits) {
@@ -77,13 +77,13 @@ TEST_CASE("no ray passes between neighbouring tiles") {
   Scene scene({0, 0});
   for (int e : {0, 1})
     for (int n : {0, 1}) scene.insert({e, n}, tile_of(grid, {e, n}, bumpy));
-  std::vector<Ray> rays;
+  Rays rays;
   for (int i = -4000; i <= 4000; ++i) {
     const double along = i * 15.9 / 4000;
     rays.push_back(towards({0.0, along, bumpy(0.0, along)}));       // the seam x = 0
     rays.push_back(towards({along, 1e-7 * i, bumpy(along, 0.0)}));  // and about y = 0
   }
-  std::vector<Hit> hits;
+  Hits hits;
   scene.trace(kLevel, rays, 100.0F, hits);
   for (const Hit& hit : hits) REQUIRE(hit.hit());
 }
@@ -94,14 +94,14 @@ TEST_CASE("a hole lets rays through its own four cells and no others") {
   tile.height_m[tile.post(20, 20)] = std::nanf("");
   Scene scene({0, 0});
   scene.insert({0, 0}, tile);
-  std::vector<Ray> rays;
+  Rays rays;
   std::vector<Vec2> places;
   for (double x = -30; x < 30; x += 0.37)
     for (double y = -30; y < 30; y += 0.41) {
       places.push_back({x, y});
       rays.push_back(towards({x, y, -20}));
     }
-  std::vector<Hit> hits;
+  Hits hits;
   scene.trace(kLevel, rays, 100.0F, hits);
   int missed = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -115,13 +115,13 @@ TEST_CASE("an all-hole tile and an empty scene answer nothing") {
   Tile tile = tile_of({.origin_enu_m = {-4, -4}, .spacing_m = 0.5, .cells = 16}, {0, 0}, flat);
   tile.height_m.assign(tile.height_m.size(), std::nanf(""));
   Scene scene({0, 0});
-  std::vector<Hit> hits;
-  const std::vector<Ray> rays{towards({0, 0, -1})};
+  Hits hits;
+  const Rays rays{towards({0, 0, -1})};
   scene.trace(kLevel, rays, 100.0F, hits);
-  CHECK_FALSE(hits.at(0).hit());
+  CHECK_FALSE(hits[0].hit());
   scene.insert({0, 0}, tile);
   scene.trace(kLevel, rays, 100.0F, hits);
-  CHECK_FALSE(hits.at(0).hit());
+  CHECK_FALSE(hits[0].hit());
 }
 
 TEST_CASE("a scene leaves the process as many threads as it had") {
@@ -145,12 +145,12 @@ TEST_CASE("threads, the order of insertion and removed tiles change no bit") {
   other.centre_near({-1000, 1000});
   CHECK(other.size() == 4);
 
-  std::vector<Ray> rays;
+  Rays rays;
   Fan({}).fill({1, "rays"}, 0, rays);
   const HeadPose head{{0.1, 0.2, -1.0}, enu_from_body(ensonify::frames::Attitude{0.3, 0.02, -0.1})};
   const auto trace_with = [&](const Scene& s, std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    std::vector<Hit> hits;
+    Hits hits;
     s.trace(head, rays, 200.0F, hits);
     return hits;
   };
@@ -171,8 +171,8 @@ TEST_CASE("the class of a hit is that of the seabed there") {
     for (int column = 65; column < tile.columns; ++column) tile.sediment[tile.post(column, row)] = 5;
   Scene scene({0, 0});
   scene.insert({0, 0}, tile);
-  const std::vector<Ray> rays{towards({-1, 0, -20}), towards({1, 0, -20})};
-  std::vector<Hit> hits;
+  const Rays rays{towards({-1, 0, -20}), towards({1, 0, -20})};
+  Hits hits;
   scene.trace(kLevel, rays, 100.0F, hits);
   CHECK(hits[0].contributor == sediment_contributor(3));
   CHECK(hits[1].contributor == sediment_contributor(5));
@@ -189,8 +189,8 @@ TEST_CASE("a ray continued behind a contributor hits what stands behind it") {
   };
   add(8, [](double, double) { return -10.0; });
   add(9, [](double, double) { return -12.0; });
-  const std::vector<Ray> rays{towards({0.1, 0.2, -1}), towards({1, 0, -1})};
-  std::vector<Hit> first, behind, another;
+  const Rays rays{towards({0.1, 0.2, -1}), towards({1, 0, -1})};
+  Hits first, behind, another;
   scene.trace(kLevel, rays, 100.0F, first);
   scene.trace(kLevel, rays, 100.0F, behind, 1500.0, sediment_contributor(7));
   scene.trace(kLevel, rays, 100.0F, another, 1500.0, sediment_contributor(6));

@@ -190,9 +190,9 @@ void check_rays(const Passed& passed, const trace::Scene& whole, const trace::Sc
   Eigen::AlignedBox3d box;
   for (const auto& vertex : passed.mesh.vertex_m) box.extend(passed.mesh.origin_enu_m + vertex.cast<double>());
   const Eigen::AlignedBox3d well_inside = inside(box, 1.0);
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
-  std::vector<trace::Hit> all, some;
+  trace::Hits all, some;
   whole.trace(head, rays, static_cast<float>(passed.max_range_m), all);
   scene.trace(head, rays, static_cast<float>(passed.max_range_m), some);
   int main_lobe = 0;
@@ -243,9 +243,9 @@ void adapt_to_survey(benchmark::State& state) { adapt_irregular(state, survey())
 void endless_over_small(benchmark::State& state) {
   World small(21.0, false), endless(21.0, true);
   const Track straight{4.0, 10.0, 0.0};
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
-  std::vector<trace::Hit> hits;
+  trace::Hits hits;
   double small_s = 0.0, endless_s = 0.0;
   int ping = 0;
   const auto one = [&](World& world, const frames::HeadPose& head) {
@@ -294,9 +294,9 @@ void check() {
   world.page({0, 0}, 170.0);
   const frames::HeadPose head = Track{4.0, 5.0, 0.1}.at(3);
   world.scene().adapt(trace::views_of(kFan, head, 130.0, {}, 2));
-  std::vector<trace::Ray> rays;
+  trace::Rays rays;
   trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
-  std::vector<trace::Hit> hits;
+  trace::Hits hits;
   world.scene().trace(head, rays, 130.0F, hits);
   for (const trace::Hit& hit : hits) {
     if (hit.hit()) continue;

@@ -21,11 +21,11 @@ inline std::array<lod::View, 2> views_at(const frames::HeadPose& head, float ran
 enum class Lobes { kMain, kSide, kAll };
 
 /// At random over the volume or a part of it; fewer than `count` of side lobes alone.
-inline std::vector<Ray> rays_of(int ping, std::size_t count, Lobes lobes) {
+inline Rays rays_of(int ping, std::size_t count, Lobes lobes) {
   const random::Stream draws(11, "rays");
   const Span &u = kFan.sine, &phi = kFan.angle_rad;
   const bool main = lobes == Lobes::kMain;
-  std::vector<Ray> rays;
+  Rays rays;
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<std::uint64_t>(ping);
     const double sine = std::lerp(main ? u.main_low : u.low, main ? u.main_high : u.high, draws.uniform(k, i, 0));
@@ -37,7 +37,7 @@ inline std::vector<Ray> rays_of(int ping, std::size_t count, Lobes lobes) {
 }
 
 /// Number of hits that are not equal to the bit.
-inline std::size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+inline std::size_t differences(const Hits& a, const Hits& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const bool same = a[i].range_m == b[i].range_m && a[i].position_enu_m == b[i].position_enu_m &&
@@ -58,14 +58,14 @@ struct Depths {
 /// directions. `scene` is left adapted to the water; `hits` are the straight main lobe's in it.
 struct PingDifferences {
   std::size_t main_lobe = 0, all_round = 0;
-  std::vector<Hit> hits;
+  Hits hits;
 };
 
 inline PingDifferences ping_differences(const Scene& full, Scene& scene, const frames::HeadPose& head, float range_m,
-                                        const std::vector<Ray>& main_lobe, const std::vector<Ray>& all_round,
+                                        const Rays& main_lobe, const Rays& all_round,
                                         const Depths& depths) {
   PingDifferences found;
-  std::vector<Hit> all, some;
+  Hits all, some;
   scene.adapt(views_at(head, range_m));
   full.trace(head, main_lobe, range_m, all);
   scene.trace(head, main_lobe, range_m, found.hits);

@@ -43,7 +43,7 @@ class EmbreeAlone {
   EmbreeAlone& operator=(const EmbreeAlone&) = delete;
 
   /// Rays that do not fill a packet of 16 are left out.
-  static std::vector<RTCRayHit16> packets_of(const frames::HeadPose& head, std::span<const Ray> rays) {
+  static std::vector<RTCRayHit16> packets_of(const frames::HeadPose& head, const Rays& rays) {
     std::vector<RTCRayHit16> packets(rays.size() / 16);
     const Eigen::Matrix3d turn = head.enu_from_head.toRotationMatrix();
     for (std::size_t i = 0; i < packets.size() * 16; ++i) {

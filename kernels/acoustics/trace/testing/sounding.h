@@ -24,21 +24,25 @@ inline TransmitVolume mills_cross() { return mills_cross_volume(50, 50, kSwath_r
 inline double flat(double, double) { return -kDepth_m; }
 
 struct Sounding {
-  std::vector<Ray> rays;
-  std::vector<Hit> hits;
+  Rays rays;
+  Hits hits;
   double share = 1.0;
 };
 
+/// Through water where paths are straight, or that of a table.
+inline Sounding trace_rays(const Scene& scene, const RayDistribution& distribution, const frames::HeadPose& head,
+                           std::span<const Object> objects, const refraction::PathTable* water = nullptr) {
+  const auto trace = [&](const Rays& rays, Hits& hits) {
+    water != nullptr ? scene.trace(head, rays, kFar_m, hits, *water) : scene.trace(head, rays, kFar_m, hits);
+  };
+  RayDistribution::Traced traced;
+  distribution.trace(head, {}, objects, kFar_m, water, trace, traced);
+  return {std::move(traced.aimed.rays), std::move(traced.hits), traced.aimed.share};
+}
+
 inline Sounding trace_ping(const Scene& scene, const RaySettings& settings, std::uint64_t seed = 1,
                            const frames::HeadPose& head = kHead, const TransmitVolume& volume = mills_cross()) {
-  RayDistribution distribution(volume, settings, random::Stream{seed, "rays"});
-  Sounding s;
-  scene.trace(head, distribution.probes(), kFar_m, s.hits);
-  distribution.fill(head, s.hits, scene.objects(), kFar_m, s.rays);
-  scene.trace(head, s.rays, kFar_m, s.hits);
-  distribution.settle(s.rays, s.hits);
-  s.share = distribution.share();
-  return s;
+  return trace_rays(scene, {volume, settings, random::Stream{seed, "rays"}}, head, scene.objects());
 }
 
 inline Scene scene_of(const std::function<double(double, double)>& height, double spacing_m = 0.25, int cells = 800) {

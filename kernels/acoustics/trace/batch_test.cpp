@@ -1,7 +1,9 @@
-#include "kernels/acoustics/trace/reserve.h"
+#include "kernels/acoustics/trace/batch.h"
 
 #include <catch2/catch.hpp>
 #include <numeric>
+
+#include "kernels/acoustics/trace/ray.h"
 
 using namespace ensonify::trace;
 
@@ -28,4 +30,18 @@ TEST_CASE("room of less than a page, and none") {
   CHECK(bytes.empty());
   make_elements(bytes, 3);
   CHECK(bytes.size() == 3);
+}
+
+TEST_CASE("a batch gives back the rows that it was given, in columns of one length") {
+  const Rays two{{Eigen::Vector3f(0.6F, 0.0F, 0.8F), 0.1F}, {Eigen::Vector3f::UnitX(), 0.2F}};
+  Rays rays;
+  for (const Ray& ray : two) rays.push_back(ray);
+  CHECK(rays == two);
+  CHECK(rays[0].direction_head == Eigen::Vector3f(0.6F, 0.0F, 0.8F));
+  CHECK(rays.direction_head.x[1] == 1.0F);
+  rays.resize(3);
+  CHECK(rays.solid_angle_sr == std::vector<float>{0.1F, 0.2F, 0.0F});
+  rays.make_elements(5);
+  CHECK(rays.size() == 5);
+  CHECK(rays.direction_head.z.size() == 5);
 }
