@@ -1,5 +1,6 @@
 # What lands under <prefix>, in two components.
-#   programs      programs in bin (Targets.cmake), worlds and launch files in share/ensonify, manual pages, completions
+#   programs      programs in bin (Targets.cmake), worlds and launch files in share/ensonify, pages in share/doc/ensonify,
+#                 manual pages, completions
 #   development   the kernels and messages libraries with their public headers, for `find_package(ensonify)`: targets
 #                 ensonify::messages, ensonify::kernels
 include(CMakePackageConfigHelpers)
@@ -9,6 +10,14 @@ file(GLOB_RECURSE data RELATIVE ${CMAKE_SOURCE_DIR}
 foreach(file IN LISTS data)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${file} DESTINATION share/ensonify/${folder})
+endforeach()
+
+# The pages as they lie here, so that their links hold and the `docs/...` that programs name is found.
+file(GLOB_RECURSE pages RELATIVE ${CMAKE_SOURCE_DIR} docs/*.md docs/*.png docs/*.svg docs/*.bib scenarios/*.md
+     clients/README.md components/README.md examples/README.md kernels/README.md launch/README.md tools/README.md)
+foreach(file IN LISTS pages ITEMS README.md)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION share/doc/ensonify/${folder})
 endforeach()
 
 # Written from what the installed programs say for --help.

@@ -56,6 +56,7 @@ done'
 
 say "help as installed"
 as_user 'ensonify --version; ensonify doctor
+  test -s /usr/share/doc/ensonify/docs/manual/wire.md
   for verb in $(ensonify --help | sed --quiet "s/^  \([a-z]*\) .*/\1/p"); do test -s /usr/share/man/man1/ensonify-$verb.1.gz; done
   source /usr/share/bash-completion/completions/ensonify
   COMP_WORDS=(ensonify terrain im) COMP_CWORD=2; _ensonify; test "${COMPREPLY[*]}" = import'

@@ -250,12 +250,11 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
     for (std::uint64_t draw = 0; draw < 3; ++draw) {
       RayDistribution distribution(volume, {.quality = RaySettings::kPreview, .range_resolution_m = 0.02},
                                    {draw, "rays"});
-      scene.trace(head, distribution.probes(), kFar_m, hits);
-      Rays rays;
-      distribution.fill(head, hits, scene.objects(), kFar_m, rays);
-      scene.trace(head, rays, kFar_m, hits);
-      distribution.settle(rays, hits);
-      CHECK(10.0 * std::log10(power(rays) / wanted) == Approx(0.0).margin(most_db));
+      RayDistribution::Traced traced;
+      const auto trace = [&](const Rays& rays, Hits& hit) { scene.trace(head, rays, kFar_m, hit); };
+      distribution.trace(head, {}, scene.objects(), kFar_m, nullptr, trace, traced);
+      hits = traced.hits;
+      CHECK(10.0 * std::log10(power(traced.aimed.rays) / wanted) == Approx(0.0).margin(most_db));
     }
   }
 }
