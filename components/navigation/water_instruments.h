@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "components/navigation/heights.h"
+#include "components/navigation/world_frame.h"
 #include "components/navigation/mounted_instrument.h"
 #include "components/navigation/seabed_below.h"
 #include "components/navigation/true_water.h"

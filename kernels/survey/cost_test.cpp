@@ -1,4 +1,4 @@
-#include "kernels/survey/cost.h"
+#include "kernels/survey/spacing.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "kernels/survey/feature.h"
+#include "kernels/survey/spacing.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "tools/doctor/libraries.h"
+#include "tools/doctor/machine.h"
 
 #include <catch2/catch.hpp>
 

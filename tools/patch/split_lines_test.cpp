@@ -1,4 +1,4 @@
-#include "tools/patch/split_lines.h"
+#include "tools/patch/record_soundings.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tools/topic/select.h"
+#include "tools/topic/pretty.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "kernels/survey/boresight/spread.h"
+#include "kernels/survey/boresight/adjust.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "kernels/survey/grid/holes.h"
+#include "kernels/survey/grid/defects.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
