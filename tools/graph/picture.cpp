@@ -30,10 +30,6 @@ std::string delay_words(SimTime delay) {
   return delay > SimTime{0} ? fmt::format("delayed {:g} ms", 1e3 * seconds(delay)) : "";
 }
 
-}  // namespace
-
-namespace {
-
 std::size_t index_of(const Picture& picture, const std::string& process) {
   const auto found = std::find_if(picture.processes.begin(), picture.processes.end(),
                                   [&](const Picture::Process& p) { return p.name == process; });
