@@ -3,7 +3,7 @@
 #include <string>
 
 #include "components/config/parameters.h"
-#include "kernels/survey/cost.h"
+#include "kernels/survey/spacing.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {

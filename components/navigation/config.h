@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "components/navigation/heights.h"
 #include "components/navigation/instrument_config.h"
 #include "components/navigation/true_water.h"
+#include "components/navigation/world_frame.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {

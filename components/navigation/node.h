@@ -4,13 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "components/navigation/dead_reckoning.h"
 #include "components/navigation/estimator.h"
-#include "components/navigation/motion_sensor.h"
-#include "components/navigation/output_age.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
-#include "components/navigation/usbl_fixes.h"
 #include "components/navigation/usbl_tracker.h"
 #include "components/runtime/ports.h"
 

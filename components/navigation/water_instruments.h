@@ -3,10 +3,10 @@
 #include <functional>
 #include <optional>
 
-#include "components/navigation/heights.h"
 #include "components/navigation/mounted_instrument.h"
 #include "components/navigation/seabed_below.h"
 #include "components/navigation/true_water.h"
+#include "components/navigation/world_frame.h"
 #include "messages/navigation.h"
 
 namespace ensonify {

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "components/runtime/sim_time.h"
+
 namespace ensonify {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -37,6 +39,15 @@ void report_position(msg::Position& position, const frames::LocalProjection& wor
   position.longitude_deg = place.longitude_deg;
   position.height_above_geoid_m = vertical::geoid_height_m(datums, {east_m, north_m, up_m});
   position.geoid_above_ellipsoid_m = datums.geoid_above_ellipsoid.at({east_m, north_m});
+}
+
+double Heights::mean_m(const msg::Pose& body) const {
+  const double t_s = seconds(SimTime{body.stamp_ns});
+  const double unladen_m = water_level_m(t_s) + rest_m;
+  if (!floats) return unladen_m;
+  const frames::Vec2 over_ground(body.velocity_enu_mps[0], body.velocity_enu_mps[1]);
+  const double through_water_mps = (over_ground - current.velocity_enu_mps(-unladen_m, t_s)).norm();
+  return unladen_m - vertical::sinkage_m(*floats, through_water_mps, t_s);
 }
 
 }  // namespace ensonify

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "components/record/value_difference.h"
 #include "components/record/writer.h"
 #include "messages/codec.h"
 #include "messages/health.h"

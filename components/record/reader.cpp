@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "components/record/crc32.h"
+#include "components/record/bytes.h"
 
 namespace ensonify::record {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "components/record/crc32.h"
+#include "components/record/bytes.h"
 #include "components/record/reader.h"
 #include "components/record/writer.h"
 #include "messages/codec.h"

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "components/errors/assert.h"
-#include "components/record/crc32.h"
+#include "components/record/bytes.h"
 
 namespace ensonify::record {
 

@@ -1,8 +1,8 @@
-#include "kernels/survey/cost.h"
-
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <vector>
+
+#include "kernels/survey/spacing.h"
 
 using namespace ensonify;
 using namespace ensonify::survey;

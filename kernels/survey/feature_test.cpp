@@ -1,8 +1,8 @@
-#include "kernels/survey/feature.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/survey/spacing.h"
 
 using namespace ensonify::survey;
 

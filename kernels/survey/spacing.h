@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "kernels/vehicle/runlines/runline.h"
+
 /// Cost of a survey: where lines go, how fast, how long. Values in, values out.
 namespace ensonify::survey {
 
@@ -33,5 +35,50 @@ double next_line_across_m(std::span<const CoveredEdge> rows, const Swath& swath,
 /// survey from `shallow_m` to `deep_m`: the limit of narrow swaths, d1 ln(d2 / d1) / (d2 - d1). 1 on level ground.
 /// Both > 0.
 double adaptive_share(double shallow_m, double deep_m);
+
+/// Pings a second of a head that waits for its farthest echo: 1 / (2 range / sound speed + dead time), not above
+/// `highest_hz`. range_m > 0, dead_s >= 0.
+double ping_rate_hz(double range_m, double sound_speed_mps, double dead_s, double highest_hz);
+
+/// Length of a beam's footprint along the track straight below: 2 depth tan(width / 2).
+double footprint_m(double depth_m, double along_width_rad);
+
+/// Highest speed over ground at which a feature of a length along the track is hit by at least `pings` pings, wherever
+/// they fall: (length + footprint) rate / pings, where a ping counts whose footprint touches the feature; with a
+/// footprint of 0 only pings whose axis hits it count. pings >= 1.
+double fastest_for_feature_mps(double feature_m, double footprint_m, double rate_hz, int pings);
+
+/// Soundings across a feature of a width across the track, at least: of beams equally spaced over the bottom by
+/// `beam_spacing_m`.
+int soundings_across(double feature_m, double beam_spacing_m);
+
+/// Parameters of running lines, and their costs.
+struct RunRules {
+  double speed_mps = 2.0;       // over ground on lines, > 0
+  double turn_speed_mps = 2.0;  // > 0
+  double turning_radius_m = 10.0;
+  double run_in_m = 0.0;   // before each line, at its speed
+  double run_out_m = 0.0;  // behind it
+  double data_bytes_per_s = 0.0;
+  bool record_in_turns = false;
+  double cost_per_day = 0.0;  // any currency, of 24 h
+};
+
+struct RunCost {
+  double line_m = 0.0;  // on lines alone
+  double turn_m = 0.0;  // between them, by the shortest ways of the turning circle
+  double line_s = 0.0;
+  double turn_s = 0.0;  // with run-in and run-out
+  double total_s = 0.0;
+  double data_bytes = 0.0;
+  double cost = 0.0;
+};
+
+/// Time, way and cost of lines run one after the other, the first from its run-in on.
+RunCost run_cost(std::span<const runlines::Runline> lines, const RunRules& rules);
+
+/// Redundancy of the coverage: swath of each line times its length, over the area. 1 is no place twice, where all is
+/// covered.
+double redundancy(std::span<const runlines::Runline> lines, std::span<const double> swath_m, double area_m2);
 
 }  // namespace ensonify::survey

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -115,20 +114,4 @@ TEST_CASE("a uniform transmit line's soundings are too deep by its fan's thickne
   CHECK(uniform == Approx(expected).margin(2e-4));
   CHECK(shaded == Approx(1e-4).margin(1e-4));
   CHECK(uniform - shaded > 1.5e-4);
-}
-
-TEST_CASE("bias of a head by beam angle for the page", "[.bias-csv]") {
-  for (const char* window : {"uniform", "taylor"}) {
-    std::map<int, Errors> all;
-    for (const double source_level_db : {180.0, 185.0, 190.0, 195.0}) {
-      for (const auto& [number, errors] : survey(source_level_db, window)) {
-        Errors& bin = all[number];
-        bin.n += errors.n, bin.sum += errors.sum, bin.squares += errors.squares;
-      }
-    }
-    for (const auto& [number, errors] : all) {
-      std::printf("%s,%.1f,%.0f,%.4f,%.4f\n", window, (number + 0.5) * kBinDegrees, errors.n, 100 * errors.bias(),
-                  100 * errors.sd() / std::sqrt(errors.n));
-    }
-  }
 }

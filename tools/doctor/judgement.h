@@ -3,11 +3,23 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include "tools/doctor/finding.h"
+#include <vector>
 
 /// Limits of what is good enough. Pure: the facts come from machine.h.
 namespace ensonify::doctor {
+
+enum class Level { kOk, kWarn, kFail };
+
+/// Finding of one check. `advice` is empty when all is well.
+struct Finding {
+  std::string check;  // one or two words
+  Level level = Level::kOk;
+  std::string text;
+  std::string advice;
+};
+using Findings = std::vector<Finding>;
+
+inline const char* word_of(Level level) { return level == Level::kOk ? "ok" : level == Level::kWarn ? "warn" : "fail"; }
 
 /// `flags`: the "flags" line of /proc/cpuinfo; "" when it cannot be read.
 Finding judge_cpu(const std::string& flags);

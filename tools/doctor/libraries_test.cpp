@@ -1,6 +1,6 @@
-#include "tools/doctor/libraries.h"
-
 #include <catch2/catch.hpp>
+
+#include "tools/doctor/machine.h"
 
 namespace ensonify::doctor {
 

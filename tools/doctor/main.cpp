@@ -7,9 +7,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
-#include "tools/doctor/libraries.h"
 #include "tools/doctor/machine.h"
-#include "tools/doctor/runs.h"
 
 namespace {
 

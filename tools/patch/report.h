@@ -5,7 +5,6 @@
 
 #include "kernels/survey/boresight/adjust.h"
 #include "tools/patch/record_soundings.h"
-#include "tools/patch/split_lines.h"
 
 namespace ensonify::patch_tool {
 

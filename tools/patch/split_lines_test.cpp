@@ -1,7 +1,7 @@
-#include "tools/patch/split_lines.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "tools/patch/record_soundings.h"
 
 using namespace ensonify;
 using patch_tool::split_lines;

@@ -9,8 +9,7 @@
 
 #include "kernels/seabed/reflection.h"
 #include "kernels/seabed/table.h"
-#include "tools/physics/decibel.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

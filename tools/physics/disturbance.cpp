@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "kernels/vehicle/motion/disturbance_presets.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "kernels/acoustics/sonar_equation.h"
 #include "kernels/seabed/lambert.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 int main(int argc, char** argv) {
   using namespace ensonify;
@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   physics::add_noise(app, verbs);
   physics::add_pattern(app, verbs);
   physics::add_ray(app, verbs);
+  physics::add_receiver(app, verbs);
   physics::add_relief(app, verbs);
   physics::add_sound_speed(app, verbs);
   physics::add_stabilisation(app, verbs);

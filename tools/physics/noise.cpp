@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

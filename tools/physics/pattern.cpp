@@ -6,7 +6,7 @@
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/near_field.h"
 #include "kernels/acoustics/array/sectors.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

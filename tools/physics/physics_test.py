@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -77,6 +78,9 @@ sidescan = [float(row["level_db"]) for row in rows(
 near(sidescan[0], 77.06, 0.01)
 near(sidescan[1], 51.95, 0.01)
 near(value("level_db", "level", "multibeam", "--source-level-db", "220", "--beam-angle-deg", "60"), 107.68, 0.1)
+near(value("gain_db", "gain", "--range-m", "10", "--absorption-dbpm", "0.05"), 30 + 2 * 0.05 * 10, 1e-5)
+near(value("envelope", "pulse", "--time-s", "50e-6"), 1, 1e-9)
+near(value("angular_db", "flattening", "--range-m", "40"), 20 * math.log10(20 / 40), 1e-6)  # Lambert's law at 60 degrees
 near(value("level_db", "level", "target", "--range-m", "100", "--absorption-db-per-km", "0", "--bubble-loss-db", "2",
            "--patterns-db", "-3"), 210 - 80 - 4 - 20 - 3, 1e-9)
 near(value("level_db", "level", "volume", "--range-m", "100", "--absorption-db-per-km", "0", "--solid-angle-sr", "1"),

@@ -8,7 +8,7 @@
 
 #include "kernels/water/refraction/path_table.h"
 #include "kernels/water/refraction/thermocline.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -14,7 +14,7 @@
 #include "kernels/seabed/relief/ripples.h"
 #include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

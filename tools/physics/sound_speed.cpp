@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "kernels/water/pressure.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

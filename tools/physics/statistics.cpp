@@ -12,7 +12,7 @@
 #include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
 #include "kernels/seabed/statistics/structure.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -2,8 +2,7 @@
 #include <numbers>
 
 #include "kernels/acoustics/sea_surface.h"
-#include "tools/physics/decibel.h"
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -1,7 +1,7 @@
-#include "tools/physics/sweep.h"
-
 #include <catch2/catch.hpp>
 #include <string>
+
+#include "tools/physics/verb.h"
 
 using ensonify::physics::sweep;
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <numbers>
 
-#include "tools/physics/verbs.h"
+#include "tools/physics/verb.h"
 
 namespace ensonify::physics {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <string>
@@ -90,5 +91,34 @@ class Verb {
 
 /// The verbs of the program; each file of a verb adds its own.
 using Verbs = std::deque<Verb>;
+
+/// The values of an input as the user wrote it: a number, or `from:to:step`. A sweep begins at `from`, goes up or down
+/// as its step says, and ends at the last value that does not pass `to`.
+///
+/// std::invalid_argument with cause and what is allowed: for text that is neither, a step that never arrives, a value
+/// outside [low, high] or more than kMostRows values.
+std::vector<double> sweep(const std::string& text, double low, double high);
+
+constexpr double kMostRows = 1e6;
+
+/// 10 log10 of a ratio of intensities; -inf of 0.
+inline double db(double ratio) { return 10.0 * std::log10(ratio); }
+
+// One file per verb, named like it.
+void add_absorption(CLI::App& app, Verbs& verbs);
+void add_backscatter(CLI::App& app, Verbs& verbs);
+void add_disturbance(CLI::App& app, Verbs& verbs);
+void add_level(CLI::App& app, Verbs& verbs);
+void add_material(CLI::App& app, Verbs& verbs);
+void add_noise(CLI::App& app, Verbs& verbs);
+void add_pattern(CLI::App& app, Verbs& verbs);
+void add_receiver(CLI::App& app, Verbs& verbs);  // pulse, gain, flattening
+void add_ray(CLI::App& app, Verbs& verbs);
+void add_relief(CLI::App& app, Verbs& verbs);
+void add_sound_speed(CLI::App& app, Verbs& verbs);
+void add_stabilisation(CLI::App& app, Verbs& verbs);
+void add_statistics(CLI::App& app, Verbs& verbs);
+void add_surface(CLI::App& app, Verbs& verbs);
+void add_tide(CLI::App& app, Verbs& verbs);
 
 }  // namespace ensonify::physics

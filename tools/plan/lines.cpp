@@ -9,7 +9,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/terrain/source_of.h"
-#include "kernels/survey/cost.h"
+#include "kernels/survey/spacing.h"
 #include "scenarios/world/world.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "components/errors/exit_error.h"
-#include "kernels/survey/feature.h"
+#include "kernels/survey/spacing.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
 

@@ -6,7 +6,7 @@
 
 #include "components/errors/exit_error.h"
 #include "messages/schema.h"
-#include "tools/topic/select.h"
+#include "tools/topic/pretty.h"
 #include "tools/topic/topic.h"
 
 namespace ensonify::topic_tool {

@@ -10,7 +10,6 @@
 #include "components/errors/nearest_name.h"
 #include "components/runtime/tool.h"
 #include "tools/topic/pretty.h"
-#include "tools/topic/select.h"
 #include "tools/topic/topic.h"
 
 namespace ensonify::topic_tool {

@@ -9,7 +9,7 @@
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "tools/topic/meter.h"
-#include "tools/topic/select.h"
+#include "tools/topic/pretty.h"
 #include "tools/topic/topic.h"
 
 namespace ensonify::topic_tool {

@@ -1,8 +1,7 @@
-#include "tools/topic/select.h"
-
 #include <catch2/catch.hpp>
 
 #include "components/errors/exit_error.h"
+#include "tools/topic/pretty.h"
 
 namespace ensonify::topic_tool {
 

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 """Draws the pictures of docs/physics/acoustics/detection.md and seabed-image.md from the detector's test, beside theory.
 
-    docs/physics/draw/detection.py build/dev/tests/detect_test
+    docs/physics/draw/detection.py build/dev/tests/detect_test build/dev/bin/ensonify-physics
 """
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from values import save, table
+from values import physics, save, table
 
 LENGTH = 50.76  # waves: 1 degree
 DEPTH_M, SPEED_MPS, PULSE_S = 20.0, 1500.0, 100e-6
@@ -80,7 +80,13 @@ def lambert_peak_db(angle_rad):
 
 
 def draw_seabed_image():
-    data = table(sys.argv[1], "seabed-image-csv")
+    def flattening(*words):
+        return physics("flattening", "--range-m=20.01:80:0.05", "--absorption-dbpm=0.07", *words)
+
+    found = flattening()
+    data = {"range_m": found["range_m"], "area_db": found["area_db"], "lambert_db": found["angular_db"],
+            "peaked_db": flattening("--normal-excess-db=12")["angular_db"], "flattened_100db": found["flattened_db"],
+            "range_law_100db": found["range_law_db"]}
     angle = np.degrees(np.arccos(DEPTH_M / data["range_m"]))
     figure, axes = plt.subplots(3, 1, figsize=(9, 11), constrained_layout=True, sharex=True)
     axes[0].plot(angle, data["lambert_db"], label="no excess at normal incidence")

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/acoustics/echo.md, multipath.md and gain.md from the echo kernel's tests, beside theory.
+"""Draws the pictures of docs/physics/acoustics/echo.md, multipath.md and gain.md from the echo kernel's tests and `ensonify physics`, beside theory.
 
-    docs/physics/draw/echo.py build/dev/tests/echo_test
+    docs/physics/draw/echo.py build/dev/tests/echo_test build/dev/bin/ensonify-physics
 """
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from values import save, table
+from values import physics, save, table
 
 SPEED_MPS, PULSE_S = 1500.0, 100e-6
 
@@ -76,18 +76,25 @@ def draw_speckle():
 
 
 def draw_pattern():
-    data = table(sys.argv[1], "echo-pattern-csv")
+    line = ("pattern", "--elements=100", "--spacing-m=0.0025", f"--steer-deg={np.degrees(np.arcsin(0.3))}",
+            "--angle-deg=-78:78:0.05")
     figure, axis = plt.subplots(figsize=(10, 4.5), constrained_layout=True)
-    for name, label in (("uniform", "uniform, 100 elements"), ("shaded", "Taylor 30 dB"),
-                        ("error", "uniform, FFT less direct sum")):
-        axis.plot(data["sine"], 20 * np.log10(data[name] + 1e-9), lw=0.9, label=label)
+    for shading, label in (("uniform", "uniform, 100 elements"), ("taylor", "Taylor 30 dB")):
+        data = physics(*line, f"--shading={shading}")
+        axis.plot(np.sin(np.radians(data["angle_deg"])), data["pattern_db"], lw=0.9, label=label)
     axis.axhline(-13.26, color="k", ls=":", lw=0.8, label="-13.26 dB")
-    axis.set(xlabel="sine of beam axis", ylabel="dB", ylim=(-150, 3), title="all beams, one echo from sine 0.3")
+    axis.set(xlabel="sine of beam axis", ylabel="dB", ylim=(-80, 3), title="all beams, one echo from sine 0.3")
     finish(figure, "echo_pattern")
 
 
 def draw_pulses():
-    data = table(sys.argv[1], "echo-pulse-csv")
+    def envelope(*words):
+        return physics("pulse", "--time-s=-150e-6:150e-6:0.25e-6", *words)
+
+    chirp = ("--pulse=chirp", "--pulse-length-s=2e-3", "--bandwidth-hz=50e3", "--dynamic-range-db=60")
+    tone = envelope()
+    data = {"time_s": tone["time_s"], "tone": tone["envelope"], "tapered": envelope("--tapered-fraction=0.5")["envelope"],
+            "chirp": envelope(*chirp)["envelope"], "hann": envelope(*chirp, "--window=hann")["envelope"]}
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     time_us = 1e6 * data["time_s"]
     axes[0].plot(time_us, data["tone"], label="tone, 100 µs")
@@ -123,9 +130,20 @@ def draw_multipath():
 
 
 def draw_gain():
-    data = table(sys.argv[1], "echo-gain-csv")
+    def gain_db(*words):
+        return physics("gain", "--range-m=7.5:150:0.3", "--spreading-db=30", "--offset-db=-60", *words)
+
+    data = {"range_m": gain_db()["range_m"]}
+    R, random = data["range_m"], np.random.default_rng(1)
+    noise = 10 ** (95 / 20) * (random.standard_normal(R.size) + 1j * random.standard_normal(R.size)) / np.sqrt(2)
+    echo = np.abs(10 ** ((180 - 30 * np.log10(R) - 0.14 * R) / 20) + noise)
+    data["echo_db"] = 20 * np.log10(echo)
+    for name, words in (("right", ["--absorption-dbpm=0.07"]), ("wrong", ["--absorption-dbpm=0.05"]),
+                        ("steps", ["--absorption-dbpm=0.07", "--max-db=12", "--step-db=2"])):
+        data[f"{name}_gain_db"] = gain_db(*words)["gain_db"]
+        counts = np.clip(np.round(echo * 10 ** (data[f"{name}_gain_db"] / 20) / (1e7 / 4095)), 0, 4095)
+        data[f"{name}_db"] = 20 * np.log10(counts * 1e7 / 4095 + 1e-4)
     figure, axes = plt.subplots(2, 1, figsize=(9, 8), constrained_layout=True, sharex=True)
-    R = data["range_m"]
     axes[0].plot(R, data["right_gain_db"], label="30 log R + 2 · 0.07 R - 60")
     axes[0].plot(R, data["wrong_gain_db"], label="30 log R + 2 · 0.05 R - 60")
     axes[0].plot(R, data["steps_gain_db"], lw=0.9, label="steps of 2 dB, at most 12 dB")

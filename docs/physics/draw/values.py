@@ -34,10 +34,10 @@ def table(program, tag):
 
 
 def physics(*words):
-    """The columns of one call of `ensonify physics`, which is the script's first argument."""
-    if len(sys.argv) != 2:
+    """The columns of one call of `ensonify physics`, which is the script's last argument."""
+    if len(sys.argv) < 2:
         sys.exit(f"{sys.argv[0]}: give the program, such as build/dev/bin/ensonify-physics")
-    done = subprocess.run([sys.argv[1], *map(str, words)], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.argv[-1], *map(str, words)], capture_output=True, text=True, check=True)
     return columns(done.stdout)
 
 

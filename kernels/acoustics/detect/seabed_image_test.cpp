@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <vector>
 
@@ -78,18 +77,4 @@ TEST_CASE("a snippet becomes an image sample by sample, silence included") {
                     "seabed_image_db: a snippet of 3 samples does not fit an image of 2");
   CHECK_THROWS_WITH(seabed_image_db(law, 220.0, snippet, 0.0, 0.05, flat),
                     Catch::Contains("first range 0.000000 m and step 0.050000 m must be above 0"));
-}
-
-// What docs/physics/draw/detection.py draws.
-TEST_CASE("print what the flattening assumes", "[.seabed-image-csv]") {
-  FlatteningModel model{.absorption_dbpm = 0.07};
-  std::puts("range_m,area_db,lambert_db,peaked_db,flattened_100db,range_law_100db");
-  for (double range = 20.01; range < 80.0; range *= 1.002) {
-    model.normal_excess_db = 0.0;
-    const double lambert = assumed_angular_db(model, range);
-    const double flattened = flattened_reflectivity_db(model, 1e5, range);
-    model.normal_excess_db = 12.0;
-    std::printf("%g,%g,%g,%g,%g,%g\n", range, assumed_area_db(model, range), lambert, assumed_angular_db(model, range),
-                flattened, range_law_reflectivity_db({30.0, 0.07, 0.0}, 220.0, 1e5, range));
-  }
 }

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "kernels/acoustics/echo/noise.h"
 
@@ -90,38 +89,4 @@ TEST_CASE("n bits err as a uniform error of one step") {
   for (std::size_t i = 0; i < counts.size(); ++i)
     error += std::pow(double(counts[i]) - double(amplitude[i]), 2) / 40000;
   CHECK(error == Approx(1.0 / 12).epsilon(0.02));  // 40,000 uniform errors: sd of the mean square 0.45 %
-}
-
-TEST_CASE("gain for the picture", "[.echo-gain-csv]") {
-  // Echo and noise before and after gain of the right and a wrong absorption, 12 bits.
-  const Sampling sampling{10e-3, 1e-4, 1900};
-  std::puts("range_m,echo_db,right_gain_db,wrong_gain_db,right_db,wrong_db,steps_gain_db");
-  std::vector<float> right, wrong, steps;
-  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.07, .offset_db = -60}, sampling, right);
-  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.05, .offset_db = -60}, sampling, wrong);
-  tvg_db({.spreading_db = 30, .absorption_dbpm = 0.07, .offset_db = -60, .max_db = 12, .step_db = 2}, sampling, steps);
-  Image image;
-  image.resize(1, 1900);
-  add_noise(95, 1, {1, "noise"}, image);
-  for (int k = 0; k < 1900; ++k) {
-    const double R = 750 * (10e-3 + 1e-4 * k);
-    image.row(0)[k] += float(std::pow(10, 0.05 * (180 - 30 * std::log10(R) - 0.14 * R)));
-  }
-  std::vector<float> echo, with_right, with_wrong;
-  amplitude_upa(image, echo);
-  const double step = 1e7 / 4095;
-  const auto recorded = [&](const std::vector<float>& gain_db, std::vector<float>& amplitude) {
-    std::vector<std::uint16_t> counts;
-    amplitude = echo;
-    apply_gain(gain_db, amplitude);
-    amplitude_counts(amplitude, step, 12, counts);
-    for (std::size_t k = 0; k < counts.size(); ++k) amplitude[k] = float(step) * counts[k];
-  };
-  recorded(right, with_right);
-  recorded(wrong, with_wrong);
-  const auto db = [](float p) { return 20 * std::log10(p + 1e-4F); };
-  for (int k = 0; k < 1900; k += 4) {
-    std::printf("%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n", 750 * (10e-3 + 1e-4 * k), db(echo[k]), right[k], wrong[k],
-                db(with_right[k]), db(with_wrong[k]), steps[k]);
-  }
 }

@@ -5,7 +5,6 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "kernels/base/testing/allocations.h"
@@ -239,24 +238,4 @@ TEST_CASE("what does not fit is refused") {
   const std::vector<std::vector<float>> wrong{uniform(9)};
   CHECK_THROWS_AS(receiver.form({{}, kPulse, kSampling, {}}, {}, wrong, images, memory), std::invalid_argument);
   CHECK_THROWS_AS(LineReceiver({0, 0.5}), std::invalid_argument);
-}
-
-TEST_CASE("a beam pattern for the picture", "[.echo-pattern-csv]") {
-  std::vector<float> beams;
-  for (int i = 0; i < 1601; ++i) beams.push_back(float(-0.98 + 1.96 * i / 1600));
-  const Arrivals one{from_sine(0.3, 11e-3)};
-  const auto taylor = array::shading_weights({array::Shading::Window::kTaylor, 30.0}, 100);
-  const Image uniform_beams = form({100, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, uniform(100));
-  const Image shaded_beams =
-      form({100, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, beam_weights(taylor));
-  std::puts("sine,uniform,error,shaded");
-  for (int b = 0; b < 1601; ++b) {
-    Complex direct;
-    for (int m = 0; m < 100; ++m) {
-      direct += 0.01 * std::polar(1.0, kTurn * 0.5 * (m - 50) * (double(one[0].direction_head.y()) - beams[b]));
-    }
-    const Complex fast(uniform_beams.row(b)[41]);
-    std::printf("%.6f,%.3e,%.3e,%.3e\n", beams[b], std::abs(fast), std::abs(fast - direct),
-                std::abs(shaded_beams.row(b)[41]));
-  }
 }

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 
 using namespace ensonify::echo;
 
@@ -101,14 +100,4 @@ TEST_CASE("what cannot be is said") {
                     "a sample period of 60.000000 us does not suit the pulse: at most 50.000000 us are allowed");
   CHECK_THROWS_AS(compressed_chirp(100e-6, 20e3), std::invalid_argument);
   CHECK_THROWS_AS(tapered_pulse(1e-4, 1.5), std::invalid_argument);
-}
-
-TEST_CASE("envelopes for the picture", "[.echo-pulse-csv]") {
-  const Pulse tone = rectangular_pulse(100e-6), tapered = tapered_pulse(100e-6, 0.5);
-  const Pulse chirp = compressed_chirp(2e-3, 50e3, Window::kNone, 60),
-              hann = compressed_chirp(2e-3, 50e3, Window::kHann, 60);
-  std::puts("time_s,tone,tapered,chirp,hann");
-  for (double t = -150e-6; t < 150e-6; t += 0.25e-6) {
-    std::printf("%.4e,%.5f,%.5f,%.5f,%.5f\n", t, tone.at(t), tapered.at(t), chirp.at(t), hann.at(t));
-  }
 }

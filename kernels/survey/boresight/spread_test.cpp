@@ -1,6 +1,6 @@
-#include "kernels/survey/boresight/spread.h"
-
 #include <catch2/catch.hpp>
+
+#include "kernels/survey/boresight/adjust.h"
 
 using namespace ensonify::boresight;
 

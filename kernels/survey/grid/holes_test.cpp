@@ -1,11 +1,10 @@
-#include "kernels/survey/grid/holes.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "kernels/base/random/stream.h"
+#include "kernels/survey/grid/defects.h"
 
 using namespace ensonify;
 using namespace ensonify::survey_grid;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/terrain/terrain_source.h"
-#include "kernels/survey/grid/holes.h"
+#include "kernels/survey/grid/defects.h"
 #include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/survey/grid/band.h"
-#include "kernels/survey/grid/spikes.h"
+#include "kernels/survey/grid/defects.h"
 #include "kernels/survey/grid/stripes.h"
 #include "tools/terrain/import/options.h"
 #include "tools/terrain/import/points.h"
