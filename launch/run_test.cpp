@@ -277,7 +277,7 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("shipped launch files are valid; coarse posts and uneven classes are reported") {
+TEST_CASE("shipped launches are valid; coarse posts, uneven classes and a head's limits are reported") {
   const Workplace place;
   const std::string source = std::getenv("ENSONIFY_SOURCE");
   const auto check = [&](std::vector<std::string> words) {
@@ -295,6 +295,18 @@ TEST_CASE("shipped launch files are valid; coarse posts and uneven classes are r
       "seabed.layers.relief={spectral: {as_sediment: medium sand, outer_scale_m: 40}, mask: {depth_m: {to: 22}}}";
   CHECK(check({demo, "--set", sand}).find("warning") == std::string::npos);
   CHECK(check({demo, "--set", sand, "--set", to_22_m}).find("warning: layer relief holds at 0.6") != std::string::npos);
+
+  const auto with_level = [&](const std::string& level_db, const std::string& highest_db) {
+    place.write("mission.yaml", "ensonify: mission/1\nsteps:\n  - {set_sonar: bow, source_level_db: " + level_db +
+                                    "}\n  - line: [[0, -40], [0, 40]]\n");
+    return check({demo, "--set", "mission={file: " + place.file("mission.yaml") + "}", "--set",
+                  "bow.source_level_db=" + highest_db});
+  };
+  const std::string at = "2 " + place.file("mission.yaml") + ":3:39: steps[0].source_level_db: ";
+  CHECK(with_level("245", "250") == "0 " + demo + ": 7 processes, sound");
+  CHECK(with_level("260", "250").find(at + "260 is outside [210, 250], the limits of bow") == 0);
+  CHECK(with_level("245", "230").find(at + "245 is outside [190, 230], the limits of bow") == 0);
+
   const std::string survey = source + "/launch/survey.yaml";
   CHECK(check({survey}).find("2 " + survey + ":6:3: args.raster: must be given; use --arg raster=VALUE") == 0);
   const std::string raster = std::string(std::getenv("ENSONIFY_SHARED")) + "/data/terrain/massbay_5m.tif";

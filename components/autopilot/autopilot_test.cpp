@@ -5,14 +5,9 @@
 
 #include "components/autopilot/testing/loop.h"
 #include "components/config/config_error.h"
-#include "components/config/testing/parameter_files.h"
 
 using namespace ensonify;
 using namespace ensonify::piloted;
-
-TEST_CASE("autopilot: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("autopilot", parameters_of<AutopilotParameters>()) == "");
-}
 
 TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the run ends") {
   for (const double spacing_m : {8.0, 20.0, 24.0, 40.0}) {  // below, at and above two turning radii

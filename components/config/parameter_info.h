@@ -132,7 +132,8 @@ class DescribeParameters {
       info.kind = Kind::kNumbers;
     } else {
       info.kind = Kind::kRows;
-      info.width = std::tuple_size_v<typename T::value_type>;
+      if constexpr (FixedVectors<T>) info.width = static_cast<std::size_t>(T::value_type::SizeAtCompileTime);
+      else info.width = std::tuple_size_v<typename T::value_type>;
     }
   }
 

@@ -122,6 +122,9 @@ concept FixedVector = requires(T& vector) {
   requires static_cast<int>(T::SizeAtCompileTime) > 0;
   { vector.data() } -> std::same_as<double*>;
 };
+/// A vector of such vectors, in a file a list of lists.
+template <class T>
+concept FixedVectors = IsVector<T>::value && FixedVector<typename T::value_type>;
 /// A member whose form in the file no other kind has: it reads itself and says what it takes.
 ///   void read(const ConfigReader& from, const char* key);
 ///   ConfigNode in_file() const;            the default

@@ -69,6 +69,12 @@ class ParameterReader {
       std::copy(member.begin(), member.end(), numbers.begin());
       read_number(key, unit, allowed, numbers);
       std::copy(numbers.begin(), numbers.end(), member.begin());
+    } else if constexpr (FixedVectors<T>) {
+      using Row = typename T::value_type;
+      std::vector<std::array<double, Row::SizeAtCompileTime>> rows;
+      read_number(key, unit, allowed, rows);
+      if (from_.has(key)) member.clear();
+      for (const auto& row : rows) std::copy(row.begin(), row.end(), member.emplace_back(Row::Zero()).begin());
     } else {
       if constexpr (std::is_integral_v<T>) {
         if (!allowed.bounded()) {

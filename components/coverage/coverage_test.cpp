@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "components/config/config_error.h"
-#include "components/config/testing/parameter_files.h"
 #include "components/coverage/node.h"
 #include "components/runtime/testing/node_under_test.h"
 
@@ -56,10 +55,6 @@ msg::Soundings ping_at(double east_m, double north_m, SimTime t) {
 }
 
 }  // namespace
-
-TEST_CASE("coverage: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("coverage", parameters_of<CoverageParameters>()) == "");
-}
 
 TEST_CASE("a mission that is not adaptive has nothing to cover") {
   ConfigReader from = ConfigReader::from_text("{}", "coverage.yaml");

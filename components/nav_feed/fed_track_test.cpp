@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <map>
 
-#include "components/config/testing/parameter_files.h"
 #include "components/nav_feed/node.h"
 #include "components/nav_feed/testing/sentence.h"
 
@@ -53,10 +52,6 @@ std::string motion_sentence(double utc_s, double roll_deg, double heave_m) {
 SimTime at_s(double t_s) { return from_seconds(t_s); }
 
 }  // namespace
-
-TEST_CASE("nav_feed: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("nav_feed", parameters_of<NavFeedParameters>()) == "");
-}
 
 TEST_CASE("a vehicle follows its fixes delayed, across midnight, with their derivatives") {
   Fed fed;

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "components/config/testing/parameter_files.h"
 #include "scenarios/scenario_file.h"
 
 using namespace ensonify;
@@ -26,10 +25,6 @@ std::string problem(const std::string& yaml) {
 }
 
 }  // namespace
-
-TEST_CASE("recorder: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("recorder", parameters_of<RecorderParameters>()) == "");
-}
 
 TEST_CASE("topics are all, a list or a map") {
   CHECK(read("topics: all").topics == std::vector<RecordedTopics>{{"*", 1}});

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "components/config/config_reader.h"
-#include "components/config/testing/parameter_files.h"
 #include "components/errors/exit_error.h"
 #include "components/record/writer.h"
 #include "components/runtime/testing/node_under_test.h"
@@ -148,8 +147,4 @@ TEST_CASE("replay parameters are read with their places, and its defaults are wr
   CHECK(problem("topics: []") == "r.yaml:2:9: topics: names no topic");
   CHECK(problem("topics: some") == "r.yaml:2:9: topics: \"some\" is not all or a list of topics");
   CHECK(problem("topics: all\nrename: {}\nfinish: false").empty());
-}
-
-TEST_CASE("replay: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("replay", parameters_of<ReplayParameters>()) == "");
 }

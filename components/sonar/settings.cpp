@@ -57,7 +57,8 @@ HeadSettings::HeadSettings() {
 }
 
 bool HeadSettings::operator==(const HeadSettings& other) const {
-  return auto_range == other.auto_range && msg::to_value<msg::SonarSettings>(*this) == msg::to_value<msg::SonarSettings>(other);
+  return auto_range == other.auto_range &&
+         msg::to_value<msg::SonarSettings>(*this) == msg::to_value<msg::SonarSettings>(other);
 }
 
 CommandedSettings::CommandedSettings(HeadSettings start, SettingLimits limits)

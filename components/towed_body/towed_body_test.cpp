@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/config/testing/parameter_files.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "components/towed_body/node.h"
 
@@ -71,10 +70,6 @@ double across_m(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }
 
 }  // namespace
-
-TEST_CASE("towed_body: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("towed_body", parameters_of<TowedBodyParameters>()) == "");
-}
 
 TEST_CASE("on a straight course the body runs at the cable's end, its motion the derivative") {
   const Towed towed = run(kShort + kQuiet, 20);

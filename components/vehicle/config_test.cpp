@@ -1,8 +1,7 @@
 #include "components/vehicle/config.h"
 
 #include <catch2/catch.hpp>
-
-#include "components/config/testing/parameter_files.h"
+#include <cstdlib>
 
 using namespace ensonify;
 
@@ -32,10 +31,6 @@ std::string problem(const std::string& yaml, const World& world, const std::stri
 }
 
 }  // namespace
-
-TEST_CASE("vehicle: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("vehicle", parameters_of<VehicleParameters>()) == "");
-}
 
 TEST_CASE("a process finds its vehicle by its own name or by the key") {
   const World world = two_vehicles();

@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/config/testing/parameter_files.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "examples/gyro/node.h"
 #include "kernels/base/frames/attitude.h"
@@ -13,10 +12,6 @@ static msg::Pose heading_east(SimTime t) {
   pose.stamp_ns = t.count();
   pose.enu_from_body = frames::wxyz_of(frames::enu_from_body(frames::Attitude{1.5, 0.0, 0.2}));
   return pose;
-}
-
-TEST_CASE("gyro: default.yaml and the README's table are the list's") {
-  CHECK(parameter_files_fault("gyro", parameters_of<GyroParameters>()) == "");
 }
 
 TEST_CASE("the gyro reports heading plus its bias, ten times a second, whatever the roll") {

@@ -25,6 +25,10 @@ Json enum_of(const Allowed& allowed) {
 
 }  // namespace
 
+ParameterInfo format_info(const std::string& format) {
+  return other_info("ensonify", "the format", Json{{"const", format}}.dump(), true);
+}
+
 ParameterInfo text_info(const std::string& key, const std::string& about, bool required) {
   return plain(Kind::kText, key, about, any(), required);
 }
@@ -37,20 +41,8 @@ ParameterInfo word_info(const std::string& key, const std::string& about, Allowe
   return plain(Kind::kWord, key, about, std::move(words), false);
 }
 
-ParameterInfo numbers_info(const std::string& key, const std::string& about, int width, bool required) {
-  ParameterInfo info = plain(Kind::kNumbers, key, about, any(), required);
-  info.width = static_cast<std::size_t>(width);
-  return info;
-}
-
 ParameterInfo classes_info(const std::string& key, const std::string& about) {
   return plain(Kind::kNumbers, key, about, in(0, 255), false);
-}
-
-ParameterInfo rows_info(const std::string& key, const std::string& about, int width, bool required) {
-  ParameterInfo info = numbers_info(key, about, width, required);
-  info.kind = Kind::kRows;
-  return info;
 }
 
 ParameterInfo file_or_info(const std::string& key, const std::string& about, const ParameterList& map) {

@@ -7,15 +7,13 @@
 /// Keys of a scenario whose reader is code, for the schema of scenario files.
 namespace ensonify {
 
+/// `ensonify: scenario/1` at the head of a file.
+ParameterInfo format_info(const std::string& format);
 ParameterInfo text_info(const std::string& key, const std::string& about, bool required = false);
 ParameterInfo file_info(const std::string& key, const std::string& about, bool required = true);
 ParameterInfo word_info(const std::string& key, const std::string& about, Allowed words);
-/// So many numbers.
-ParameterInfo numbers_info(const std::string& key, const std::string& about, int width, bool required);
 /// A list of classes of the seabed.
 ParameterInfo classes_info(const std::string& key, const std::string& about);
-/// Lists of so many numbers.
-ParameterInfo rows_info(const std::string& key, const std::string& about, int width, bool required);
 /// A file's path, or a map.
 ParameterInfo file_or_info(const std::string& key, const std::string& about, const ParameterList& map);
 /// One word, or a map.

@@ -14,38 +14,22 @@ namespace {
 
 using runlines::Vec2;
 
-constexpr double kWidestTurn_m = 1000.0;  // as turning_radius_m has: the largest ships need some hundred metres
-
-struct Positions {
-  bool geodetic = false;
+struct RunlineInFile {
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
 
   static void parameters(auto& self, auto&& visit) {
-    visit("positions", "", one_of({{"metres", false}, {"geodetic", true}}),
-          "places are [east, north] from the site's origin, or [latitude, longitude] in degrees", self.geodetic);
-  }
-};
-
-/// A stay, whose key says whether it is at a place.
-struct Stay {
-  double for_s = 0.0;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("for_s", "s", must(in(0, 1e6)), "how long the vehicle stays at the place", self.for_s);
-  }
-};
-struct Wait {
-  double for_s = 0.0;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("wait_s", "s", must(in(0, 1e6)), "how long the vehicle stays where it is", self.for_s);
+    visit("from_m", "", must(place()), "start of the line, as positions says", self.from);
+    visit("to_m", "", must(place()), "end of the line, as positions says", self.to);
   }
 };
 
 struct Lawnmower {
+  std::optional<Vec2> centre;
   double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
   int count = 0;
 
   static void parameters(auto& self, auto&& visit) {
+    visit("centre_m", "", place(), "middle of all lines, as positions says; left out: the origin", self.centre);
     visit("heading_deg", "deg", in(-360, 360), "of the first line", self.heading_rad);
     visit("length_m", "m", must(in(1, kFarAway_m)), "length of a line", self.length_m);
     visit("spacing_m", "m", must(in(0.1, kFarAway_m)), "from line to line", self.spacing_m);
@@ -53,13 +37,87 @@ struct Lawnmower {
   }
 };
 
-/// Reads places in the frame that the mission says.
+/// Kinds of steps, as they are before a file is read.
+const std::vector<MissionStep>& kinds_of_step() {
+  static const std::vector<MissionStep> kKinds = {FollowLine{},
+                                                  PassPlace{Vec2::Zero(), {}},
+                                                  KeepPlace{Vec2(0, 0)},
+                                                  KeepPlace{},
+                                                  FollowOrbit{Vec2::Zero()},
+                                                  SetSonar{},
+                                                  SetMark{},
+                                                  GoAt{}};
+  return kKinds;
+}
+
+ParameterList list_of(const MissionStep& kind) {
+  return std::visit([](const auto& step) { return parameters_of(step); }, kind);
+}
+
+void note_places(const ConfigReader&, auto&) {}
+void note_places(const ConfigReader& from, SetSonar& sonar) {
+  sonar.given["set_sonar"] = from.problem_at("set_sonar", "");
+  for_settings(sonar.settings, [&](const char* name, const char* unit, auto&&...) {
+    const std::string key = setting_in_file(name, unit).key;
+    if (from.has(key)) sonar.given[name] = from.problem_at(key, "");
+  });
+}
+
+/// Steps with what they are read from, for problems that are found later.
+struct Steps {
+  std::vector<std::pair<ConfigReader, MissionStep>> all;
+
+  void read(const ConfigReader& from, const char* key) {
+    static const std::vector<std::string> kKeys = [] {
+      std::vector<std::string> keys;
+      for (const MissionStep& kind : kinds_of_step()) keys.push_back(list_of(kind).front().key);
+      return keys;
+    }();
+    for (ConfigReader& item : from.list(key)) {
+      std::size_t kind = 0;
+      while (kind + 1 < kKeys.size() && !item.has(kKeys[kind])) ++kind;  // the last has no key of its own
+      auto& [reader, step] = all.emplace_back(item, kinds_of_step()[kind]);
+      std::visit(
+          [&](auto& read) {
+            read_parameters(item, read);
+            note_places(item, read);
+          },
+          step);
+    }
+  }
+  ConfigNode in_file() const { return detail::list_node(); }
+  static std::string schema() {
+    ParameterList forms;
+    for (const MissionStep& kind : kinds_of_step()) forms.push_back(section_info("", "", list_of(kind)));
+    return forms_info("", "", forms).schema;
+  }
+};
+
+/// A mission's keys, its places not yet in metres.
+struct MissionInFile {
+  Mission mission;
+  bool geodetic = false;
+  std::vector<RunlineInFile> runlines;
+  std::optional<Lawnmower> lawnmower;
+  std::optional<AdaptivePlan> adaptive;
+  Steps steps;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("positions", "", one_of({{"metres", false}, {"geodetic", true}}),
+          "places are [east, north] from the site's origin, or [latitude, longitude] in degrees", self.geodetic);
+    Mission::parameters(self.mission, visit);
+    visit("runlines", "straight lines in their order", self.runlines);
+    visit("lawnmower", "parallel lines, to and fro", self.lawnmower);
+    visit("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends", self.adaptive);
+    visit("steps", "", computed(any()), "what is done, in order", self.steps);
+  }
+};
+
+/// Makes metres of places, in the frame that the mission says.
 class Places {
  public:
-  Places(ConfigReader& from, const std::optional<frames::Geodetic>& origin) {
-    Positions positions;
-    read_parameters(from, positions);
-    if (!positions.geodetic) return;
+  Places(const ConfigReader& from, bool geodetic, const std::optional<frames::Geodetic>& origin) : from_(from) {
+    if (!geodetic) return;
     if (origin) {
       projection_.emplace(*origin);
     } else {
@@ -67,40 +125,42 @@ class Places {
     }
   }
 
-  Vec2 required(ConfigReader& from, std::string_view key) const {
-    std::array<double, 2> found{};
-    from.required(key, found, lowest(), highest());
-    return from.good() ? place(from, key, found) : Vec2(0, 0);
+  void place(const std::string& key, Vec2& found) const { place(from_, key, found); }
+  void place(const ConfigReader& from, const std::string& key, Vec2& found) const {
+    if (!projection_) return;
+    const double off_m = distance_m(found[0], found[1]);
+    if (off_m <= kFarAway_m) {
+      found = projection_->enu_of({found[0], found[1]});
+      return;
+    }
+    const bool swapped = distance_m(found[1], found[0]) < kFarAway_m;
+    from.problem(key, fmt::format("[{}, {}] is {} from the site's origin; allowed: 100 km{}", found[0], found[1],
+                                  std::isfinite(off_m) ? fmt::format("{:.0f} km", 1e-3 * off_m) : "not a place",
+                                  swapped ? "; are latitude and longitude swapped?" : ""));
+    found = Vec2::Zero();
   }
 
-  std::vector<Vec2> required_list(ConfigReader& from, std::string_view key) const {
-    std::vector<std::array<double, 2>> found;
-    from.required(key, found, lowest(), highest());
-    std::vector<Vec2> places;
-    for (const auto& each : found) places.push_back(place(from, key, each));
-    return places;
+  void place(const ConfigReader& from, FollowLine& line) const {
+    for (Vec2& point : line.points_enu_m) place(from, "line", point);
+    if (!from.good()) return;
+    if (line.points_enu_m.size() < 2) from.problem("line", "has fewer than 2 places");
+    for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
+      if ((line.points_enu_m[i] - line.points_enu_m[i - 1]).norm() < kShortest_m) {
+        from.problem("line", fmt::format("place {} is less than 1 m from the one before", i + 1));
+      }
+    }
   }
+  void place(const ConfigReader& from, PassPlace& pass) const { place(from, "pass", pass.place_enu_m); }
+  void place(const ConfigReader& from, KeepPlace& keep) const {
+    if (keep.place_enu_m) place(from, "keep", *keep.place_enu_m);
+  }
+  void place(const ConfigReader& from, FollowOrbit& orbit) const { place(from, "orbit", orbit.centre_enu_m); }
+  void place(const ConfigReader&, auto&) const {}
 
  private:
-  double highest() const { return projection_ ? 180.0 : kFarAway_m; }
-  double lowest() const { return -highest(); }
-
-  Vec2 place(const ConfigReader& from, std::string_view key, const std::array<double, 2>& found) const {
-    if (!projection_) return {found[0], found[1]};
-    const double off_m = distance_m(found[0], found[1]);
-    if (off_m > kFarAway_m) {
-      const bool swapped = distance_m(found[1], found[0]) < kFarAway_m;
-      from.problem(key, fmt::format("[{}, {}] is {} from the site's origin; allowed: 100 km{}", found[0], found[1],
-                                    std::isfinite(off_m) ? fmt::format("{:.0f} km", 1e-3 * off_m) : "not a place",
-                                    swapped ? "; are latitude and longitude swapped?" : ""));
-      return {0, 0};
-    }
-    return projection_->enu_of({found[0], found[1]});
-  }
-
   /// Roughly, by the sphere: the projection is not made for other continents.
   double distance_m(double latitude_deg, double longitude_deg) const {
-    if (std::abs(latitude_deg) > 90.0) return INFINITY;
+    if (std::abs(latitude_deg) > 90.0 || std::abs(longitude_deg) > 180.0) return INFINITY;
     const double r = kDegrees.si;
     const double a = latitude_deg * r, b = projection_->origin().latitude_deg * r;
     const double h = std::pow(std::sin(0.5 * (a - b)), 2) +
@@ -109,108 +169,22 @@ class Places {
     return 2.0 * 6371e3 * std::asin(std::min(1.0, std::sqrt(h)));
   }
 
+  const ConfigReader& from_;
   std::optional<frames::LocalProjection> projection_;
 };
 
-FollowLine read_line(ConfigReader& from, const Places& places) {
-  const FollowLine line{places.required_list(from, "line")};
-  if (!from.good()) return line;
-  if (line.points_enu_m.size() < 2) from.problem("line", "has fewer than 2 places");
-  for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
-    if ((line.points_enu_m[i] - line.points_enu_m[i - 1]).norm() < kShortest_m) {
-      from.problem("line", fmt::format("place {} is less than 1 m from the one before", i + 1));
-    }
+std::vector<runlines::Runline> placed(const ConfigReader& from, std::vector<RunlineInFile> lines,
+                                      const Places& places) {
+  std::vector<runlines::Runline> runlines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string key = fmt::format("runlines[{}].", i);
+    places.place(key + "from_m", lines[i].from);
+    places.place(key + "to_m", lines[i].to);
+    runlines.push_back({lines[i].from, lines[i].to});
+    if (from.good() && runlines::length_m(runlines.back()) < kShortest_m)
+      from.problem(key + "to_m", "is less than 1 m from from_m");
   }
-  return line;
-}
-
-FollowOrbit read_orbit(ConfigReader& from, const Places& places) {
-  FollowOrbit orbit{places.required(from, "orbit")};
-  read_parameters(from, orbit);
-  return orbit;
-}
-
-SetSonar read_sonar(ConfigReader& from) {
-  SetSonar sonar;
-  read_parameters(from, sonar);
-  sonar.given["set_sonar"] = from.problem_at("set_sonar", "");
-  for_settings(sonar.settings, [&](const char* name, const char* unit, auto&&...) {
-    const std::string key = setting_in_file(name, unit).key;
-    if (from.has(key)) sonar.given[name] = from.problem_at(key, "");
-  });
-  return sonar;
-}
-
-MissionStep read_step(ConfigReader& from, const Places& places) {
-  if (from.has("line")) return read_line(from, places);
-  if (from.has("orbit")) return read_orbit(from, places);
-  if (from.has("set_sonar")) return read_sonar(from);
-  if (from.has("pass")) {
-    PassPlace pass{places.required(from, "pass"), std::nullopt};
-    read_parameters(from, pass);
-    return pass;
-  }
-  if (from.has("keep") || from.has("wait_s")) {
-    KeepPlace keep;
-    if (from.has("keep")) {
-      Stay stay;
-      keep.place_enu_m = places.required(from, "keep");
-      read_parameters(from, stay);
-      keep.for_s = stay.for_s;
-    } else {
-      Wait wait;
-      read_parameters(from, wait);
-      keep.for_s = wait.for_s;
-    }
-    read_parameters(from, keep);
-    return keep;
-  }
-  if (from.has("mark")) {
-    SetMark mark;
-    read_parameters(from, mark);
-    return mark;
-  }
-  GoAt go;
-  read_parameters(from, go);
-  if (go.depth_m && go.altitude_m) from.problem("altitude_m", "stands beside depth_m; give one or the other");
-  if (!from.has("speed_mps") && !from.has("depth_m") && !from.has("altitude_m")) {
-    from.problem("",
-                 "is no step; allowed: line, pass, keep, wait_s, orbit, set_sonar, mark, or speed_mps with depth_m "
-                 "or altitude_m");
-  }
-  return go;
-}
-
-std::vector<runlines::Runline> read_lines(ConfigReader& from, const Places& places) {
-  std::vector<runlines::Runline> lines;
-  for (auto& item : from.list("runlines")) {
-    const runlines::Runline line{places.required(item, "from_m"), places.required(item, "to_m")};
-    if (item.good() && item.has("from_m") && item.has("to_m") && runlines::length_m(line) < kShortest_m) {
-      item.problem("to_m", "is less than 1 m from from_m");
-    }
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-std::vector<runlines::Runline> read_lawnmower(ConfigReader from, const Places& places) {
-  Vec2 centre(0, 0);
-  Lawnmower rows;
-  if (from.has("centre_m")) centre = places.required(from, "centre_m");
-  read_parameters(from, rows);
-  return from.good() ? runlines::lawnmower(centre, rows.heading_rad, rows.length_m, rows.spacing_m, rows.count)
-                     : std::vector<runlines::Runline>{};
-}
-
-AdaptivePlan read_adaptive(ConfigReader from, const Places& places) {
-  AdaptivePlan plan;
-  plan.centre_enu_m = places.required(from, "centre_m");
-  read_parameters(from, plan);
-  if (from.good() && plan.first_line_m > plan.width_m) from.problem("first_line_m", "lies beyond width_m");
-  if (from.good() && plan.length_m * plan.width_m > 4e6 * plan.cell_m * plan.cell_m) {
-    from.problem("cell_m", "makes more than 4 million cells; allowed: larger cells or a smaller rectangle");
-  }
-  return plan;
+  return runlines;
 }
 
 /// The keys that a mission file and the section of a scenario share. Gives how many plans they hold.
@@ -218,19 +192,30 @@ int read_keys(ConfigReader& from, const std::optional<frames::Geodetic>& origin,
   if (from.has("speed_kn") && from.has("speed_mps")) {
     from.problem("speed_kn", "stands beside speed_mps; give one or the other");
   }
-  const Places places(from, origin);
-  read_parameters(from, mission);
-  if (from.has("runlines")) mission.steps = steps_of(read_lines(from, places));
-  if (const auto section = from.optional_section("lawnmower")) {
-    mission.steps = steps_of(read_lawnmower(*section, places));
+  MissionInFile file{mission};
+  read_parameters(from, file);
+  mission = std::move(file.mission);
+  const Places places(from, file.geodetic, origin);
+  if (from.has("runlines")) mission.steps = steps_of(placed(from, std::move(file.runlines), places));
+  if (auto& rows = file.lawnmower; rows) {
+    if (rows->centre) places.place("lawnmower.centre_m", *rows->centre);
+    mission.steps.clear();
+    if (from.good())
+      mission.steps = steps_of(runlines::lawnmower(rows->centre.value_or(Vec2(0, 0)), rows->heading_rad, rows->length_m,
+                                                   rows->spacing_m, rows->count));
   }
-  if (const auto section = from.optional_section("adaptive")) {
-    mission.adaptive = read_adaptive(*section, places);
-    if (from.good()) mission.steps = steps_of({first_line(*mission.adaptive)});
+  if (file.adaptive) {
+    places.place("adaptive.centre_m", file.adaptive->centre_enu_m);
+    if (from.good()) mission.steps = steps_of({first_line(*file.adaptive)});
+    mission.adaptive = std::move(file.adaptive);
   }
-  for (auto& step : from.list("steps")) mission.steps.push_back(read_step(step, places));
-  return int{from.has("runlines")} + int{from.has("lawnmower")} + int{from.has("auto")} + int{from.has("adaptive")} +
-         int{from.has("steps")};
+  for (auto& [reader, step] : file.steps.all) {
+    std::visit([&, &reader = reader](auto& read) { places.place(reader, read); }, step);
+    mission.steps.push_back(std::move(step));
+  }
+  int plans = 0;
+  for (const char* plan : {"runlines", "lawnmower", "auto", "adaptive", "steps"}) plans += int{from.has(plan)};
+  return plans;
 }
 
 /// Where a mission has lines there must be one to start at; where it has none, the vehicle needs a start.
@@ -263,48 +248,35 @@ void check_altitudes(const ConfigReader& from, const Mission& mission) {
   }
 }
 
-ParameterInfo place_info(const std::string& key, const std::string& about, bool required = true) {
-  return numbers_info(key, about + ", as positions says", 2, required);
-}
-
-ParameterList with(ParameterInfo first, ParameterList rest) {
-  rest.insert(rest.begin(), std::move(first));
-  return rest;
-}
-
-/// What a step can be. Which keys belong to each other is told by the step's own key.
-ParameterList step_list() {
-  ParameterList stay = parameters_of<Stay>(), wait = parameters_of<Wait>();
-  stay.push_back(parameters_of<KeepPlace>().front());
-  wait.push_back(parameters_of<KeepPlace>().front());
-  const std::vector<std::pair<const char*, ParameterList>> forms = {
-      {"line", {rows_info("line", "two places or more, run through with run-in and run-out", 2, true)}},
-      {"pass", with(place_info("pass", "a place that is passed through"), parameters_of<PassPlace>())},
-      {"keep", with(place_info("keep", "a place to stop and stay at"), stay)},
-      {"wait_s", wait},
-      {"orbit", with(place_info("orbit", "centre of a circle"), parameters_of<FollowOrbit>())},
-      {"set_sonar", parameters_of<SetSonar>()},
-      {"mark", parameters_of<SetMark>()},
-      {"", parameters_of<GoAt>()}};
-  ParameterList either;
-  for (const auto& [key, form] : forms) either.push_back(section_info(key, "", form));
-  return either;
-}
-
 }  // namespace
 
-ParameterList mission_list() {
-  ParameterList list = parameters_of<Positions>();
-  for (ParameterInfo& info : parameters_of<Mission>()) list.push_back(std::move(info));
-  list.push_back(file_info("file", "a mission of its own, mission/1; what stands beside it counts", false));
-  list.push_back(list_info("runlines", "straight lines in their order",
-                           {place_info("from_m", "start of the line"), place_info("to_m", "end of the line")}));
-  list.push_back(section_info(
-      "lawnmower", "parallel lines, to and fro",
-      with(place_info("centre_m", "middle of all lines; left out: the origin", false), parameters_of<Lawnmower>())));
-  list.push_back(section_info("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends",
-                              with(place_info("centre_m", "middle of the rectangle"), parameters_of<AdaptivePlan>())));
-  list.push_back(forms_info("steps", "what is done, in order", step_list()));
+void AdaptivePlan::check(const ConfigReader& from) const {
+  if (from.good() && first_line_m > width_m) from.problem("first_line_m", "lies beyond width_m");
+  if (from.good() && length_m * width_m > 4e6 * cell_m * cell_m) {
+    from.problem("cell_m", "makes more than 4 million cells; allowed: larger cells or a smaller rectangle");
+  }
+}
+
+void GoAt::check(const ConfigReader& from) const {
+  if (depth_m && altitude_m) from.problem("altitude_m", "stands beside depth_m; give one or the other");
+  if (!from.has("speed_mps") && !from.has("depth_m") && !from.has("altitude_m")) {
+    from.problem("",
+                 "is no step; allowed: line, pass, keep, wait_s, orbit, set_sonar, mark, or speed_mps with depth_m "
+                 "or altitude_m");
+  }
+}
+
+ParameterList mission_list(bool in_scenario) {
+  ParameterList list = parameters_of<MissionInFile>();
+  if (in_scenario)
+    list.push_back(file_info("file", "a mission of its own, mission/1; what stands beside it counts", false));
+  return list;
+}
+
+ParameterList step_list() {
+  ParameterList list;
+  for (const MissionStep& kind : kinds_of_step())
+    for (ParameterInfo& info : list_of(kind)) list.push_back(std::move(info));
   return list;
 }
 
@@ -365,79 +337,6 @@ Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& o
   mission.runlines = straight_pieces(mission.steps);
   check_altitudes(from, mission);
   return mission;
-}
-
-namespace {
-
-/// What of a mission a vehicle is too fast, too slow to turn or too light for.
-class VehicleCheck {
- public:
-  VehicleCheck(const ConfigReader& from, const std::string& vehicle, double fastest_mps, const motion::Limits& limits)
-      : from_(from), vehicle_(vehicle), fastest_mps_(fastest_mps), limits_(limits) {}
-
-  void check(const Mission& mission) const {
-    if (mission.speed_mps > fastest_mps_)
-      from_.problem("mission", "speed_mps is above what " + vehicle_ + " can do (fastest_mps)");
-    if (const double circle_m = circle(mission.speed_mps); circle_m > kWidestTurn_m) {
-      from_.problem("vehicles", fmt::format("{}: turn_rate_dps makes it turn on a radius of {:.0f} m at {} m/s; "
-                                            "allowed: {:.0f} m or less",
-                                            vehicle_, circle_m, mission.speed_mps, kWidestTurn_m));
-    }
-    double speed_mps = mission.speed_mps;
-    for (std::size_t i = 0; i < mission.steps.size(); ++i) {
-      if (const auto* go = std::get_if<GoAt>(&mission.steps[i]); go != nullptr && go->speed_mps) {
-        speed_mps = *go->speed_mps;
-        check_speed(i, speed_mps);
-      }
-    }
-    check_orbits(mission, mission.speed_mps);
-    if (mission.repeat > 1 && speed_mps != mission.speed_mps) check_orbits(mission, speed_mps);
-  }
-
- private:
-  double circle(double speed_mps) const { return motion::turning_circle_m(speed_mps, limits_); }
-  void problem(std::size_t step, const std::string& what) const {
-    from_.problem("mission", fmt::format("step {}: {}", step + 1, what));
-  }
-
-  void check_speed(std::size_t step, double speed_mps) const {
-    if (speed_mps > fastest_mps_) problem(step, "speed_mps is above what " + vehicle_ + " can do (fastest_mps)");
-    if (circle(speed_mps) > kWidestTurn_m) {
-      problem(step,
-              fmt::format("at speed_mps {} turn_rate_dps makes {} turn on a radius of {:.0f} m; allowed: {:.0f} m "
-                          "or less",
-                          speed_mps, vehicle_, circle(speed_mps), kWidestTurn_m));
-    }
-  }
-
-  /// Of a round that begins at a speed.
-  void check_orbits(const Mission& mission, double speed_mps) const {
-    for (std::size_t i = 0; i < mission.steps.size(); ++i) {
-      if (const auto* go = std::get_if<GoAt>(&mission.steps[i])) speed_mps = go->speed_mps.value_or(speed_mps);
-      const auto* orbit = std::get_if<FollowOrbit>(&mission.steps[i]);
-      if (orbit == nullptr || orbit->radius_m >= circle(speed_mps)) continue;
-      problem(i, fmt::format("radius_m {} is less than {} can turn at {} m/s; allowed: {} m or more", orbit->radius_m,
-                             vehicle_, speed_mps, circle(speed_mps)));
-    }
-  }
-
-  const ConfigReader& from_;
-  const std::string& vehicle_;
-  double fastest_mps_;
-  const motion::Limits& limits_;
-};
-
-}  // namespace
-
-void check_mission(const ConfigReader& from, const Mission& mission, const std::string& vehicle, double fastest_mps,
-                   const motion::Limits& limits, bool floats) {
-  VehicleCheck(from, vehicle, fastest_mps, limits).check(mission);
-  const bool dives = mission.altitude_m || std::ranges::any_of(mission.steps, [](const MissionStep& step) {
-                       const auto* go = std::get_if<GoAt>(&step);
-                       return go != nullptr && (go->depth_m || go->altitude_m);
-                     });
-  if (dives && floats)
-    from.problem("mission", "altitude_m and depth_m of steps need a vehicle that dives; " + vehicle + " floats");
 }
 
 }  // namespace ensonify

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "components/config/parameters.h"
+#include "components/config/parameter_info.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/runlines/runline.h"
@@ -19,6 +19,10 @@ class ConfigReader;
 
 inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
 inline constexpr double kShortest_m = 1.0;   // less is no line
+
+/// Places as the file has them, in metres of the world or, as `positions` says, in degrees; read_mission() makes metres
+/// of them.
+inline Allowed place() { return in(-kFarAway_m, kFarAway_m); }
 
 /// `auto` in the file: runlines laid over an imported raster by whoever can read it.
 struct AutoPlan {
@@ -51,7 +55,9 @@ struct AdaptivePlan {
   double cell_m = 4.0;
   int soundings = 9;
 
+  void check(const ConfigReader& from) const;
   static void parameters(auto& self, auto&& visit) {
+    visit("centre_m", "", must(place()), "middle of the rectangle, as positions says", self.centre_enu_m);
     visit("heading_deg", "deg", in(-360, 360), "of the first line; the survey goes on to starboard of it",
           self.heading_rad);
     visit("length_m", "m", must(in(kShortest_m, kFarAway_m)), "length of a line", self.length_m);
@@ -67,9 +73,15 @@ struct AdaptivePlan {
 
 // --- the steps of a mission, in the order run -------------------------------------------------------------------
 
+// The first parameter of each is the key by which a step is known; GoAt is what has none of them.
+
 /// A line through two places or more, with run-in and run-out.
 struct FollowLine {
   std::vector<runlines::Vec2> points_enu_m;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("line", "", must(place()), "two places or more, run through with run-in and run-out", self.points_enu_m);
+  }
 };
 /// Pass through a place, on a heading where one is given.
 struct PassPlace {
@@ -77,6 +89,7 @@ struct PassPlace {
   std::optional<double> heading_rad;
 
   static void parameters(auto& self, auto&& visit) {
+    visit("pass", "", must(place()), "a place that is passed through, as positions says", self.place_enu_m);
     visit("heading_deg", "deg", in(-360, 360), "heading there; left out: any", self.heading_rad);
   }
 };
@@ -87,6 +100,12 @@ struct KeepPlace {
   double within_m = 5.0;
 
   static void parameters(auto& self, auto&& visit) {
+    if (self.place_enu_m) {
+      visit("keep", "", must(place()), "a place to stop and stay at, as positions says", *self.place_enu_m);
+      visit("for_s", "s", must(in(0, 1e6)), "how long the vehicle stays at the place", self.for_s);
+    } else {
+      visit("wait_s", "s", must(in(0, 1e6)), "how long the vehicle stays where it is", self.for_s);
+    }
     visit("within_m", "m", in(0.5, 1000), "how near to the place the vehicle stays", self.within_m);
   }
 };
@@ -97,6 +116,7 @@ struct FollowOrbit {
   bool clockwise = true;
 
   static void parameters(auto& self, auto&& visit) {
+    visit("orbit", "", must(place()), "centre of a circle, as positions says", self.centre_enu_m);
     visit("radius_m", "m", must(in(1, 10000)), "radius of the orbit", self.radius_m);
     visit("turns", "", in(0.05, 1000), "number of rounds", self.turns);
     visit("centre_to", "", one_of({{"starboard", true}, {"port", false}}), "side on which the centre lies",
@@ -107,6 +127,7 @@ struct FollowOrbit {
 struct GoAt {
   std::optional<double> speed_mps, depth_m, altitude_m;
 
+  void check(const ConfigReader& from) const;
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", in(0.01, 30), "speed from here on", self.speed_mps);
     visit("depth_m", "m", in(0, 11000), "depth from here on, below the water level", self.depth_m);
@@ -161,7 +182,7 @@ struct Mission {
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
   AbortRules abort;
 
-  /// What of it has one value; plans are read by read_mission().
+  /// What of it has one value; steps and plans are read by read_mission().
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", in(0.01, 30), "speed through the water", self.speed_mps);
     visit("speed_kn", "kn", computed(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
@@ -187,6 +208,11 @@ inline constexpr const char* kMissionFormat = "mission/1";
 /// what lies farther than 100 km from `origin` is a problem, which says if latitude and longitude look swapped. Without
 /// an origin (it comes from a raster) geodetic places are a problem.
 Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& origin);
+
+/// Keys of a mission: of a file, or with `file`, which names one, of a scenario's section.
+ParameterList mission_list(bool in_scenario);
+/// Keys of all steps, one kind after another.
+ParameterList step_list();
 
 /// The depth in force after an order, given the one before it; nothing: the bottom is followed.
 std::optional<double> depth_after(const GoAt& order, std::optional<double> before_m);

@@ -121,10 +121,11 @@ TEST_CASE("what cannot be run is reported before time starts") {
             .find("need a vehicle that dives; auv floats") != std::string::npos);
   CHECK(problems_of("  depth_m: 3\n  steps:\n    - line: [[0, 0], [0, 90]]\n", "floats: {}")
             .find("depth_m needs a vehicle that dives; auv floats") != std::string::npos);
-  CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n    - {set_sonar: bow, range_m: 20}\n",
-                    "mountings: {stern: {actual: {}}}")
-            .find("bay.yaml:8:19: mission.steps[1].set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") !=
-        std::string::npos);
+  CHECK(
+      problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n    - {set_sonar: bow, range_m: 20}\n",
+                  "mountings: {stern: {actual: {}}}")
+          .find("bay.yaml:8:19: mission.steps[1].set_sonar: no vehicle carries a head named \"bow\"; allowed: stern") !=
+      std::string::npos);
   CHECK(problems_of("  steps:\n    - {set_sonar: stren, range_m: 20}\n", "mountings: {stern: {actual: {}}}") ==
         "bay.yaml:7:19: mission.steps[0].set_sonar: no vehicle carries a head named \"stren\"; did you mean stern?");
   CHECK(problems_of("  steps:\n    - line: [[0, 0], [0, 90]]\n", "start: {position_m: [0, 0, 2]}")

@@ -1,5 +1,3 @@
-#include "scenarios/world/motion.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +7,6 @@
 #include "kernels/vehicle/motion/disturbance_presets.h"
 #include "kernels/vehicle/vertical/tide.h"
 #include "scenarios/world/sections.h"
-#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

@@ -12,9 +12,7 @@
 
 #include "components/config/read_parameters.h"
 #include "components/config/scalars.h"
-#include "scenarios/world/motion.h"
 #include "scenarios/world/sections.h"
-#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

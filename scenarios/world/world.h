@@ -78,6 +78,10 @@ struct World : ScenarioHeader {
   std::optional<std::pair<std::string, HeadMounting>> mounting(const std::string& head) const;
 };
 
+/// Keys of a scenario file, and of a mission's: for schemas and tables.
+ParameterList scenario_list();
+ParameterList mission_file_list();
+
 /// Reads a scenario file. Throws ConfigError with every problem.
 World read_world(const std::string& path, const Overrides& overrides = {});
 

@@ -133,13 +133,15 @@ std::vector<std::string> component_names() {
   return {names.begin(), names.end()};
 }
 
+std::string parameters_as(const std::string& form, const std::string& component) {
+  const Answer answer = run({program_of(component), "--parameters", form});
+  if (answer.status != 0) throw UserError("ensonify-" + component + " --parameters " + form + ": " + answer.text);
+  return answer.text;
+}
+
 std::map<std::string, std::string> component_schemas() {
   std::map<std::string, std::string> schemas;
-  for (const std::string& component : component_names()) {
-    const Answer answer = run({program_of(component), "--parameters", "schema"});
-    if (answer.status != 0) throw UserError("ensonify-" + component + " --parameters schema: " + answer.text);
-    schemas[component] = answer.text;
-  }
+  for (const std::string& component : component_names()) schemas[component] = parameters_as("schema", component);
   return schemas;
 }
 

@@ -23,7 +23,10 @@ struct ComponentFacts {
 /// Names of the components whose programs stand beside this one, sorted.
 std::vector<std::string> component_names();
 
-/// JSON Schema of each component's parameters, by its name; runs the programs.
+/// A component's parameters as yaml, table or schema; runs its program.
+std::string parameters_as(const std::string& form, const std::string& component);
+
+/// JSON Schema of each component's parameters, by its name.
 std::map<std::string, std::string> component_schemas();
 
 /// Facts of a component; runs its program with --check.

@@ -21,6 +21,8 @@ reported = []
 for component in everything["components"]:
     with open(f"{SOURCE}/components/{component}/default.yaml", encoding="utf-8") as file:
         assert describe(component, "--yaml") == file.read(), component
+    assert describe(component, "--table").startswith("| parameter |"), component
+    assert json.loads(describe(component, "--schema"))["title"] == component
     facts = json.loads(describe(component, "--json"))
     assert facts["about"] and facts["parameters"] is not None, component
     if "ports" in facts:
@@ -38,6 +40,10 @@ for message in everything["messages"]:
 
 assert describe("pimg", wanted=2) == "pimg: is neither a component nor a message type; did you mean ping?\n"
 describe("ping", "--yaml", wanted=2)
+describe("ping", "--table", wanted=2)
+describe("--table", wanted=2)
+describe("scenario.watre", "--table", wanted=2)
+assert "`profile[].depth_m`" in describe("scenario.water", "--table")
 with open(f"{SOURCE}/docs/manual/messages.md", encoding="utf-8") as file:
     assert describe("--reference") == file.read()
 print(f"{len(folders)} components and {len(everything['messages'])} messages are described")

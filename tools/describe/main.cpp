@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "components/config/config_error.h"
 #include "components/config/config_node.h"
@@ -12,7 +13,7 @@
 #include "launch/file/schema.h"
 #include "launch/process/run.h"
 #include "messages/schema.h"
-#include "scenarios/world/schema.h"
+#include "scenarios/world/world.h"
 #include "tools/describe/catalogue.h"
 
 namespace {
@@ -120,12 +121,41 @@ const msg::TypeInfo* message_named(const std::string& name) {
   return found;
 }
 
+/// Keys of a kind of file that users write, or of a part of it: "scenario.water", "mission.steps".
+std::optional<ParameterList> list_of_file(const std::string& name) {
+  if (name == "mission.steps") return step_list();
+  const std::size_t end = std::min(name.find('.'), name.size());
+  const std::string file = name.substr(0, end), part = name.substr(std::min(end + 1, name.size()));
+  if (file != "scenario" && file != "mission") return std::nullopt;
+  ParameterList list = file == "scenario" ? scenario_list() : mission_file_list();
+  if (part.empty()) return list;
+  const auto found = std::ranges::find(list, part, &ParameterInfo::key);
+  if (found == list.end() || found->members.empty()) throw UserError(name + ": there is no such section");
+  return found->members;
+}
+
 [[noreturn]] void refuse(const std::string& name) {
   std::vector<std::string> known = component_names();
   for (const msg::TypeInfo& type : msg::message_types()) known.push_back(type.type.substr(0, type.type.find('/')));
   const std::string near = nearest_name(name, known);
   throw UserError(name + ": is neither a component nor a message type" +
                   (near.empty() ? "; `ensonify describe` lists them" : "; did you mean " + near + "?"));
+}
+
+/// The parameters of a component or a file, as a schema for editors or a table for pages.
+std::string parameters_of_name(const std::string& name, bool as_schema) {
+  if (name == "launch" && as_schema) return launch_schema(component_schemas());
+  if (const auto list = list_of_file(name)) {
+    return as_schema ? parameter_schema("Ensonify " + name, *list) : parameter_table(*list);
+  }
+  const auto components = component_names();
+  if (std::ranges::find(components, name) != components.end()) {
+    return parameters_as(as_schema ? "schema" : "table", name);
+  }
+  const msg::TypeInfo* type = message_named(name);
+  if (type && as_schema) return Json::parse(msg::json_schema(type)).dump(2) + "\n";
+  if (!type) refuse(name);
+  throw UserError(name + " is a message type; --table prints the parameters of a component, a scenario or a mission");
 }
 
 }  // namespace
@@ -135,13 +165,15 @@ int main(int argc, char** argv) {
       "Says what there is: components with their parameters (defaults and units) and ports, messages with their "
       "fields.",
       "ensonify describe");
-  std::string name, schema;
-  bool as_yaml = false, as_json = false, reference = false;
-  app.add_option("NAME", name, "a component or a message type; without it, the list of both");
+  std::string name;
+  bool as_yaml = false, as_json = false, as_schema = false, as_table = false, reference = false;
+  app.add_option("NAME", name,
+                 "a component or a message type; without it, the list of both. With --schema or --table also launch, "
+                 "scenario, mission, or a part of one: scenario.water");
   auto* yaml = app.add_flag("--yaml", as_yaml, "only the parameters with their defaults, as a configuration file");
   app.add_flag("--json", as_json, "as JSON; of a message type its JSON Schema")->excludes(yaml);
-  app.add_option("--schema", schema, "JSON Schema of launch or scenario files, for editors")
-      ->check(CLI::IsMember({"launch", "scenario"}));
+  auto* schema = app.add_flag("--schema", as_schema, "JSON Schema of the file or the parameters, for editors");
+  app.add_flag("--table", as_table, "only the parameters, as a Markdown table")->excludes(yaml)->excludes(schema);
   app.add_flag("--reference", reference, "the page docs/manual/messages.md");
   try {
     app.parse(argc, argv);
@@ -150,8 +182,9 @@ int main(int argc, char** argv) {
   }
   return exit_code_of([&] {
     const auto components = component_names();
-    if (!schema.empty()) {
-      fmt::print("{}", schema == "launch" ? launch_schema(component_schemas()) : scenario_schema());
+    if (as_schema || as_table) {
+      if (name.empty()) throw UserError("--schema and --table need a NAME: launch, scenario, mission or a component");
+      fmt::print("{}", parameters_of_name(name, as_schema));
     } else if (reference) {
       fmt::print("{}", msg::reference_page());
     } else if (name.empty()) {

@@ -1,6 +1,6 @@
-"""Editors' help for launch and scenario files.   schema_test.py BIN_FOLDER
+"""Editors' help for launch, scenario and mission files.   schema_test.py BIN_FOLDER
 
-The schemas that ship are those of the lists; every launch and scenario file of the project is valid; every key has a
+The schemas that ship are those of the lists; every such file of the project, and the manual's mission, is valid; every key has a
 sentence to show; planted mistakes are found where they are.
 """
 import copy
@@ -46,10 +46,10 @@ def load(path):
 
 
 def schema_of(kind):
-    done = subprocess.run([os.path.join(sys.argv[1], "ensonify-describe"), "--schema", kind], capture_output=True,
+    done = subprocess.run([os.path.join(sys.argv[1], "ensonify-describe"), kind, "--schema"], capture_output=True,
                           text=True, check=True)
     written = (FOLDER / f"{kind}.json").read_text(encoding="utf-8")
-    assert done.stdout == written, f"launch/schema/{kind}.json: write it with `ensonify describe --schema {kind}`"
+    assert done.stdout == written, f"launch/schema/{kind}.json: write it with cmake/generate_parameters.py"
     schema = json.loads(written)
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
@@ -94,8 +94,8 @@ def planted(validator, document, path, value, where, words):
     assert any(place == where and words in message for place, message in found), (path, found)
 
 
-validators = {"launch": schema_of("launch"), "scenario": schema_of("scenario")}
-shipped = {"launch": [], "scenario": []}
+shipped = {"launch": [], "scenario": [], "mission": []}
+validators = {kind: schema_of(kind) for kind in shipped}
 for top in ("launch", "scenarios", "bench", "docs", "examples", "tests"):
     for file in sorted((SOURCE / top).rglob("*.yaml")):
         for kind, files in shipped.items():
@@ -120,6 +120,14 @@ planted(scenario, bay, ["mission", "sped_mps"], 2, "mission", "'sped_mps' was un
 planted(scenario, bay, ["seabed", "kind"], "rasta", "seabed.kind", "is not one of ['layers', 'raster', 'tiles']")
 planted(scenario, bay, ["mission"], None, "", "'mission' is a required property")
 planted(scenario, bay, ["seabed", "sediments"], {"0": "medium sant"}, "seabed.sediments.0", "is not")
+
+manual = (SOURCE / "docs/manual/missions.md").read_text(encoding="utf-8")
+example = texts(yaml.load(re.search(r"^```yaml\n(ensonify: mission/1\n.*?)^```", manual, re.MULTILINE | re.DOTALL)[1], Yaml12))
+mission = validators["mission"]
+assert not problems(mission, example), problems(mission, example)
+planted(mission, example, ["repeat"], 0, "repeat", "minimum of 1")
+planted(mission, example, ["steps", 3, "source_levl_db"], 200, "steps.3", "not valid under any")
+planted(mission, example, ["file"], "other.yaml", "", "'file' was unexpected")
 
 demo = load(SOURCE / "launch/demo.yaml")
 launch = validators["launch"]

@@ -1,126 +1,146 @@
 #include "components/vehicle/hydrodynamic/dynamics_file.h"
 
-#include <stdexcept>
-
-#include "components/config/config_reader.h"
-#include "scenarios/world/world.h"
+#include "components/config/read_parameters.h"
 
 namespace ensonify {
-namespace {
 
 using frames::Vec3;
 
-void read_vec3(ConfigReader& from, const char* key, Vec3& value, double most) {
-  std::array<double, 3> numbers{value.x(), value.y(), value.z()};
-  from.optional(key, numbers, -most, most);
-  value = {numbers[0], numbers[1], numbers[2]};
-}
-
-void read_direction(ConfigReader& from, const char* key, Vec3& value) {
-  read_vec3(from, key, value, 1.0);
-  if (value.norm() < 0.1) return from.problem(key, "has no direction");
-  value.normalize();
-}
-
-void read_six(ConfigReader& from, const char* key, motion::Vec6& value) {
-  std::array<double, 6> numbers{};
-  from.optional(key, numbers, 0, 1e9);
-  value = Eigen::Map<const motion::Vec6>(numbers.data());
-}
-
-void read_hull(ConfigReader& from, motion::HydrodynamicParameters& p) {
-  if (auto section = from.optional_section("lift")) {
-    p.lift.emplace();
-    section->required("span_m", p.lift->span_m, 1e-3, 100);
-    section->required("area_m2", p.lift->area_m2, 1e-6, 1e4);
-    section->required("drag_coefficient", p.lift->drag_coefficient, 0, 10);
+template <>
+struct ParametersOf<motion::LiftingHull> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("span_m", "m", must(in(1e-3, 100)), "span of the lifting hull", self.span_m);
+    visit("area_m2", "m^2", must(in(1e-6, 1e4)), "its area", self.area_m2);
+    visit("drag_coefficient", "", must(in(0, 10)), "without angle of attack, on the area", self.drag_coefficient);
   }
-  if (auto section = from.optional_section("cross_flow")) {
-    p.cross_flow.emplace();
-    section->required("length_m", p.cross_flow->length_m, 1e-3, 500);
-    section->required("height_m", p.cross_flow->height_m, 1e-3, 100);
-    section->required("coefficient", p.cross_flow->coefficient, 0, 10);
+};
+
+template <>
+struct ParametersOf<motion::CrossFlow> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("length_m", "m", must(in(1e-3, 500)), "of the hull", self.length_m);
+    visit("height_m", "m", must(in(1e-3, 100)), "of the hull below the water", self.height_m);
+    visit("coefficient", "", must(in(0, 10)), "drag coefficient of a strip, two-dimensional", self.coefficient);
   }
-  if (auto section = from.optional_section("waterplane")) {
-    p.waterplane.emplace();
-    section->required("heave_npm", p.waterplane->heave_npm, 1e-3, 1e12);
-    section->required("roll_nm", p.waterplane->roll_nm, 0, 1e12);
-    section->required("pitch_nm", p.waterplane->pitch_nm, 0, 1e12);
+};
+
+template <>
+struct ParametersOf<motion::Waterplane> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("heave_npm", "N/m", must(in(1e-3, 1e12)), "stiffness in heave", self.heave_npm);
+    visit("roll_nm", "N m", must(in(0, 1e12)), "stiffness in roll, per rad", self.roll_nm);
+    visit("pitch_nm", "N m", must(in(0, 1e12)), "stiffness in pitch, per rad", self.pitch_nm);
   }
-}
+};
 
-void read_body(ConfigReader from, motion::HydrodynamicParameters& p) {
-  from.optional("density_kgpm3", p.density_kgpm3, 900, 1100);
-  from.optional("gravity_mps2", p.gravity_mps2, 9.7, 9.9);
-  from.required("mass_kg", p.mass_kg, 1e-3, 1e9);
-  std::array<double, 3> inertia{};
-  from.required("inertia_kgm2", inertia, 1e-9, 1e15);
-  p.inertia_kgm2 = {inertia[0], inertia[1], inertia[2]};
-  read_vec3(from, "gravity_centre_m", p.gravity_centre_body_m, 100);
-  read_vec3(from, "buoyancy_centre_m", p.buoyancy_centre_body_m, 100);
-  p.buoyancy_n = p.mass_kg * p.gravity_mps2;
-  from.optional("buoyancy_n", p.buoyancy_n, 0, 1e12);
-  read_six(from, "added_mass", p.added_mass);
-  from.optional("munk_moments", p.munk_moments);
-  read_six(from, "linear_damping", p.linear_damping);
-  read_six(from, "damping_fade_spm", p.damping_fade_spm);
-  read_six(from, "quadratic_damping", p.quadratic_damping);
-  read_hull(from, p);
-}
+/// Buoyancy comes from the mass where the file leaves it out.
+template <>
+struct ParametersOf<motion::HydrodynamicParameters> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("density_kgpm3", "kg/m^3", in(900, 1100), "of the water", self.density_kgpm3);
+    visit("gravity_mps2", "m/s^2", in(9.7, 9.9), "acceleration of gravity", self.gravity_mps2);
+    visit("mass_kg", "kg", must(in(1e-3, 1e9)), "of the body", self.mass_kg);
+    visit("inertia_kgm2", "kg m^2", must(in(1e-9, 1e15)), "about the centre of gravity, axes along the body's",
+          self.inertia_kgm2);
+    visit("gravity_centre_m", "m", in(-100, 100), "centre of gravity, body frame", self.gravity_centre_body_m);
+    visit("buoyancy_centre_m", "m", in(-100, 100), "centre of buoyancy, body frame", self.buoyancy_centre_body_m);
+    visit("buoyancy_n", "N", computed(in(0, 1e12)), "submerged, or floating at rest; left out: the weight",
+          self.buoyancy_n);
+    visit("added_mass", "", in(0, 1e9), "its diagonal: kg, kg m^2", self.added_mass);
+    visit("munk_moments", "", any(), "moments of the added mass in pitch and yaw that grow with speed",
+          self.munk_moments);
+    visit("linear_damping", "", in(0, 1e9), "its diagonal: N per m/s, N m per rad/s", self.linear_damping);
+    visit("damping_fade_spm", "", in(0, 1e9), "linear damping times exp(-fade * speed), s/m", self.damping_fade_spm);
+    visit("quadratic_damping", "", in(0, 1e9), "its diagonal: N per (m/s)^2, N m per (rad/s)^2",
+          self.quadratic_damping);
+    visit("lift", "lift and drag of the hull in its vertical plane", self.lift);
+    visit("cross_flow", "drag of the hull in the horizontal plane, by strips", self.cross_flow);
+    visit("waterplane", "springs of a floating hull; left out: submerged", self.waterplane);
+  }
+};
 
-motion::Propeller read_propeller(ConfigReader& from) {
-  motion::Propeller propeller;
-  read_vec3(from, "position_m", propeller.position_body_m, 500);
-  read_direction(from, "direction", propeller.direction_body);
-  from.required("ahead_ns2", propeller.ahead_ns2, 1e-9, 1e9);
-  from.required("astern_ns2", propeller.astern_ns2, 1e-9, 1e9);
-  from.optional("advance_loss_ns2pm", propeller.advance_loss_ns2pm, 0, 1e9);
-  from.optional("torque_nms2", propeller.torque_nms2, -1e9, 1e9);
-  from.optional("torque_loss_nms2pm", propeller.torque_loss_nms2pm, -1e9, 1e9);
-  from.required("fastest_rps", propeller.fastest_rps, 1e-3, 1000);
-  from.optional("time_constant_s", propeller.time_constant_s, 0.05, 60);
-  return propeller;
-}
+template <>
+struct ParametersOf<motion::Propeller> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("position_m", "m", in(-500, 500), "body frame", self.position_body_m);
+    visit("direction", "", in(-1, 1), "of the thrust ahead, body frame", self.direction_body);
+    visit("ahead_ns2", "", must(in(1e-9, 1e9)), "thrust ahead, N per (rev/s)^2", self.ahead_ns2);
+    visit("astern_ns2", "", must(in(1e-9, 1e9)), "thrust astern, N per (rev/s)^2", self.astern_ns2);
+    visit("advance_loss_ns2pm", "", in(0, 1e9), "thrust that the way takes off, N per rev/s and per m/s",
+          self.advance_loss_ns2pm);
+    visit("torque_nms2", "", in(-1e9, 1e9), "on the hull, about the direction, N m per (rev/s)^2", self.torque_nms2);
+    visit("torque_loss_nms2pm", "", in(-1e9, 1e9), "torque that the way takes off, N m per rev/s and per m/s",
+          self.torque_loss_nms2pm);
+    visit("fastest_rps", "", must(in(1e-3, 1000)), "revolutions per second, at most", self.fastest_rps);
+    visit("time_constant_s", "s", in(0.05, 60), "of the revolutions towards what is ordered", self.time_constant_s);
+  }
+};
 
-motion::Fin read_fin(ConfigReader& from) {
-  motion::Fin fin;
-  read_vec3(from, "position_m", fin.position_body_m, 500);
-  read_direction(from, "lift", fin.lift_body);
-  from.required("area_m2", fin.area_m2, 1e-6, 100);
-  from.required("lift_slope", fin.lift_slope, 1e-3, 10);
-  from.required("largest_deg", fin.largest_rad, 1, 60, kDegrees);
-  from.optional("time_constant_s", fin.time_constant_s, 0.05, 60);
-  return fin;
-}
+template <>
+struct ParametersOf<motion::Fin> {
+  static void parameters(auto& self, auto&& visit) {
+    visit("position_m", "m", in(-500, 500), "body frame", self.position_body_m);
+    visit("lift", "", in(-1, 1), "direction of the force of a positive angle, body frame", self.lift_body);
+    visit("area_m2", "m^2", must(in(1e-6, 100)), "of the fin", self.area_m2);
+    visit("lift_slope", "", must(in(1e-3, 10)), "lift coefficient per rad", self.lift_slope);
+    visit("largest_deg", "deg", must(in(1, 60)), "angle, at most", self.largest_rad);
+    visit("time_constant_s", "s", in(0.05, 60), "of the angle towards what is ordered", self.time_constant_s);
+  }
+};
 
-motion::HelmParameters read_helm(ConfigReader from) {
-  using Depth = motion::HelmParameters::Depth;
-  motion::HelmParameters helm;
-  from.optional("surge_ps", helm.surge_ps, 1e-3, 5);
-  from.optional("heading_ps", helm.heading_ps, 1e-3, 5);
-  from.optional("turn_rate_dps", helm.turn_rate_radps, 0.1, 180, kDegrees);
-  from.optional_choice("depth", helm.depth,
-                       {{"none", Depth::kNone}, {"by_heave", Depth::kByHeave}, {"by_pitch", Depth::kByPitch}});
-  from.optional("depth_ps", helm.depth_ps, 1e-3, 5);
-  from.optional("climb_mps", helm.climb_mps, 1e-3, 20);
-  from.optional("pitch_ps", helm.pitch_ps, 1e-3, 5);
-  from.optional("steepest_deg", helm.steepest_rad, 1, 80, kDegrees);
-  return helm;
+template <>
+struct ParametersOf<motion::HelmParameters> {
+  static void parameters(auto& self, auto&& visit) {
+    using Depth = motion::HelmParameters::Depth;
+    visit("surge_ps", "1/s", in(1e-3, 5), "how fast an error of speed falls", self.surge_ps);
+    visit("heading_ps", "1/s", in(1e-3, 5), "how fast an error of heading falls", self.heading_ps);
+    visit("turn_rate_dps", "deg/s", in(0.1, 180), "highest ordered", self.turn_rate_radps);
+    visit("depth", "", one_of({{"none", Depth::kNone}, {"by_heave", Depth::kByHeave}, {"by_pitch", Depth::kByPitch}}),
+          "it floats, thrusters push it up and down, or it goes there", self.depth);
+    visit("depth_ps", "1/s", in(1e-3, 5), "how fast an error of depth falls", self.depth_ps);
+    visit("climb_mps", "m/s", in(1e-3, 20), "fastest ordered climb or dive", self.climb_mps);
+    visit("pitch_ps", "1/s", in(1e-3, 5), "how fast an error of pitch falls, and of a roll kept level", self.pitch_ps);
+    visit("steepest_deg", "deg", in(1, 80), "pitch ordered, at most; by_pitch only", self.steepest_rad);
+  }
+};
+
+namespace {
+
+struct DynamicsFile {
+  HydrodynamicVehicle vehicle;
+
+  static void parameters(auto& self, auto&& visit) {
+    auto& body = self.vehicle.body;
+    visit("body", "the hull: mass, added mass, damping", body);
+    visit("propellers", "one or more", body.propellers);
+    visit("fins", "movable fins", body.fins);
+    visit("helm", "what steers it", self.vehicle.helm);
+  }
+};
+
+void make_unit(const ConfigReader& from, const std::string& key, Vec3& direction) {
+  if (direction.norm() < 0.1) return from.problem(key, "has no direction");
+  direction.normalize();
 }
 
 }  // namespace
 
 HydrodynamicVehicle read_dynamics(const std::string& path) {
   auto from = ConfigReader::from_file(path);
-  HydrodynamicVehicle vehicle;
+  DynamicsFile file;
   read_format(from, kDynamicsFormat);
-  read_body(from.section("body"), vehicle.body);
-  for (auto& item : from.list("propellers")) vehicle.body.propellers.push_back(read_propeller(item));
-  for (auto& item : from.list("fins")) vehicle.body.fins.push_back(read_fin(item));
-  if (const auto helm = from.optional_section("helm")) vehicle.helm = read_helm(*helm);
-  if (vehicle.body.propellers.empty()) from.problem("propellers", "are missing: nothing moves it");
+  read_parameters(from, file);
+  motion::HydrodynamicParameters& body = file.vehicle.body;
+  const ConfigNode* hull = from.node("body");
+  if (hull == nullptr) from.problem("body", "is missing; allowed: a map of keys");
+  if (hull == nullptr || hull->find("buoyancy_n") == nullptr) body.buoyancy_n = body.mass_kg * body.gravity_mps2;
+  const auto entry = [](const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]."; };
+  for (std::size_t i = 0; i < body.propellers.size(); ++i)
+    make_unit(from, entry("propellers", i) + "direction", body.propellers[i].direction_body);
+  for (std::size_t i = 0; i < body.fins.size(); ++i) make_unit(from, entry("fins", i) + "lift", body.fins[i].lift_body);
+  if (body.propellers.empty()) from.problem("propellers", "are missing: nothing moves it");
   from.finish();
-  return vehicle;
+  return file.vehicle;
 }
 
 }  // namespace ensonify
