@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kernels/acoustics/echo/noise.h"
+#include "kernels/acoustics/echo/image.h"
 
 using namespace ensonify::echo;
 
