@@ -78,7 +78,7 @@ void take_mode(const std::string& wanted, const std::vector<std::string>& modes,
 }  // namespace
 
 CommandedSettings::CommandedSettings(HeadSettings start, SettingLimits limits)
-    : limits_(std::move(limits)), in_force_(start), next_(std::move(start)) {}
+    : limits_(std::move(limits)), next_(std::move(start)) {}
 
 std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& command) {
   std::vector<std::string> remarks;
@@ -97,11 +97,6 @@ std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& co
   number("ping_rate_hz", command.ping_rate_hz, limits_.ping_rate_hz, next_.ping_rate_hz);
   take_mode(command.mode, limits_.modes, next_.mode, remarks);
   return remarks;
-}
-
-const HeadSettings& CommandedSettings::at_ping() {
-  in_force_ = next_;
-  return in_force_;
 }
 
 void fill(msg::AppliedSettings& applied, const HeadSettings& settings) {
