@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/pattern_table.h"
@@ -100,15 +100,12 @@ EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event
   received.trace = trace;
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
   received.bottom = bottom_.find(image, sampling, pulse, config_.sound_speed_mps);
-  received.bottom.stamp_ns = received.ping.stamp_ns = event.transmit.count();
-  received.bottom.ping = received.ping.ping = event.ping;
-  received.ping.kind = "echosounder";
+  received.ping = ping_message(event, "echosounder", config_.frequency_hz, settings, config_.sound_speed_mps);
+  received.bottom.stamp_ns = received.ping.stamp_ns;
+  received.bottom.ping = received.ping.ping;
   received.ping.beam_angle_rad = msg::Array<float>::of({0.0F});
-  fill(received.ping.applied, settings);
-  received.ping.applied.frequency_hz = config_.frequency_hz;
   fill_shape(false, config_.tapered_fraction, received.ping.applied);
   received.ping.applied.transmit_beamwidth_rad = received.ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
-  received.ping.applied.sound_speed_mps = config_.sound_speed_mps;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, received.ping);
   return received;
 }

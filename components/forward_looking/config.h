@@ -3,7 +3,7 @@
 #include <string>
 
 #include "components/sonar/head_config.h"
-#include "components/sonar/line_shading.h"
+#include "components/sonar/line_design.h"
 #include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/shading.h"
 

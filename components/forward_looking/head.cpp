@@ -5,8 +5,7 @@
 #include <numbers>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/patch.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/near_field.h"
@@ -117,21 +116,16 @@ void ForwardLookingHead::point_beams(double true_mps, double known_mps) {
 msg::Ping ForwardLookingHead::ping_message(const PingEvent& event, const HeadSettings& settings,
                                            double known_sound_speed_mps) const {
   const RangedPulse& ranged = design_->ranged;
-  msg::Ping ping;
-  ping.stamp_ns = event.transmit.count();
-  ping.ping = event.ping;
-  ping.kind = "forward_looking";
+  msg::Ping ping =
+      ensonify::ping_message(event, "forward_looking", config_.frequency_hz, settings, known_sound_speed_mps);
   ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling,
                 beams_.images.front(), ping);
-  fill(ping.applied, settings);
-  ping.applied.frequency_hz = config_.frequency_hz;
   fill_shape(config_.pulse.chirp, config_.pulse.tapered_fraction, ping.applied);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.bandwidth_hz = config_.pulse.chirp ? ranged.band_hz : 0.0;
   ping.applied.transmit_beamwidth_rad = config_.transmit_vertical_rad;
   ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
-  ping.applied.sound_speed_mps = known_sound_speed_mps;
   return ping;
 }
 

@@ -5,7 +5,7 @@
 
 #include "components/config/read_parameters.h"
 #include "components/sonar/environment.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 
 namespace ensonify {
 namespace {

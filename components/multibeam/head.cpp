@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 
 namespace ensonify {
 namespace {

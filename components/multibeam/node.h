@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "components/multibeam/head.h"
-#include "components/multibeam/heading_mean.h"
 #include "components/multibeam/soundings.h"
+#include "components/multibeam/steering.h"
 #include "components/sonar/auto_range.h"
 #include "components/sonar/head_node.h"
 #include "messages/navigation.h"

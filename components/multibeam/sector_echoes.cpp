@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/patch.h"
 #include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {

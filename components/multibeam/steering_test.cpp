@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/heading_mean.h"
 #include "components/multibeam/testing/head.h"
 #include "kernels/acoustics/array/stabilisation.h"
 

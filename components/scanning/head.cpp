@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/pattern_table.h"
@@ -103,20 +103,14 @@ ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, cons
   const auto [image, trace] =
       echoes_.receive_echoes(emission, echo_pulse(config_.pulse, ranged), poses_, seabed, memory_);
 
-  Received received{.ping = {}, .trace = trace};
+  Received received{ping_message(event, "scanning", config_.frequency_hz, settings, known_sound_speed_mps), trace};
   msg::Ping& ping = received.ping;
-  ping.stamp_ns = event.transmit.count();
-  ping.ping = event.ping;
-  ping.kind = "scanning";
   ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
   write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
-  fill(ping.applied, settings);
-  ping.applied.frequency_hz = config_.frequency_hz;
   fill_shape(false, config_.pulse.tapered_fraction, ping.applied);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;
-  ping.applied.sound_speed_mps = known_sound_speed_mps;
   return received;
 }
 

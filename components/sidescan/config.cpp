@@ -4,7 +4,7 @@
 #include <set>
 
 #include "components/config/read_parameters.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/line_array.h"
 
 namespace ensonify {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/sonar/head_config.h"
-#include "components/sonar/line_shading.h"
+#include "components/sonar/line_design.h"
 #include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/shading.h"
 #include "kernels/acoustics/echo/pulse.h"

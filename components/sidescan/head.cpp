@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/tone_shape.h"
+#include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/near_field.h"
@@ -178,19 +178,13 @@ SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, cons
 }
 
 msg::Ping SidescanHead::ping_message(const PingEvent& event, const HeadSettings& settings) const {
-  msg::Ping ping;
-  ping.stamp_ns = event.transmit.count();
-  ping.ping = event.ping;
-  ping.kind = "sidescan";
+  msg::Ping ping = ensonify::ping_message(event, "sidescan", channel_.frequency_hz, settings, config_.sound_speed_mps);
   const auto broadside = static_cast<float>(0.5 * std::numbers::pi - channel_.depression_rad);
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
-  fill(ping.applied, settings);
-  ping.applied.frequency_hz = channel_.frequency_hz;
   fill_shape(channel_.chirp, channel_.tapered_fraction, ping.applied);
   ping.applied.bandwidth_hz = channel_.bandwidth_hz;
   ping.applied.transmit_beamwidth_rad = channel_.horizontal_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = channel_.vertical_beamwidth_rad;
-  ping.applied.sound_speed_mps = config_.sound_speed_mps;
   return ping;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/acoustics/echo/noise.h"
+#include "kernels/acoustics/echo/image.h"
 #include "kernels/water/noise.h"
 
 namespace ensonify {
@@ -16,8 +16,6 @@ namespace {
 constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kPatchesPerLobe = 4.0;  // of seabed that answers as one point, across the lobe at the nearest range
 constexpr double kVolumeReach = 4.0;     // widths of the narrow lobe, to either side, in which the water is received
-
-double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
 double patch_m(const Apertures& a) {
   return std::min(0.5 * a.resolution_m, a.nearest_m * a.narrowest_rad / kPatchesPerLobe);

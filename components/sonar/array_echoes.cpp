@@ -7,8 +7,6 @@
 namespace ensonify {
 namespace {
 
-double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
-
 random::Stream stream_of(const ReceiveArray& array, const char* what) {
   return {array.seed, array.process + "/" + what + array.suffix};
 }

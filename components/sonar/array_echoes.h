@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -15,6 +17,13 @@
 #include "kernels/base/random/stream.h"
 
 namespace ensonify {
+
+/// Side of the patches of seabed that answer as one point, from what it is at preview or below. A patch has about as
+/// many rays whatever the quality: with fewer, the next ping would not find it again. At most four times finer, which
+/// misplaces nothing that a head resolves.
+inline double patch_m(double at_preview_m, double quality) {
+  return at_preview_m * std::clamp(std::sqrt(trace::RaySettings::kPreview / quality), 0.25, 1.0);
+}
 
 /// A receive line of one frequency as its beams are made.
 struct ReceiveArray {

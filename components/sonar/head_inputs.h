@@ -52,7 +52,7 @@ class HeadInputs {
   std::optional<double> probe_mps() const { return probe_mps_; }
 
   /// The settings of a channel for the ping that goes out now.
-  const HeadSettings& settings_at_ping(std::size_t channel = 0) { return settings_[channel].at_ping(); }
+  const HeadSettings& settings_at_ping(std::size_t channel = 0) const { return settings_[channel].at_ping(); }
 
   /// Poses of the head during reception, by the estimate and the measured mounting.
   void fill_track(msg::HeadTrack& track, SimTime transmit, SimTime reception) const;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "components/config/parameters.h"
 #include "kernels/acoustics/array/line_array.h"
 #include "kernels/acoustics/array/pattern_table.h"
+#include "kernels/acoustics/array/shading.h"
 
 namespace ensonify {
 
@@ -16,6 +18,26 @@ struct LineDesign {
   double effective_in_waves;  // ... and of the one that would see the same area
   double first_null;          // sine
   array::PatternTable pattern;
+};
+
+/// Shading of a head's line, within what array::shading_weights takes.
+template <>
+struct ParametersOf<array::Shading> {
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    using Window = array::Shading::Window;
+    visit("window", "",
+          one_of({{"uniform", Window::kUniform},
+                  {"hann", Window::kHann},
+                  {"hamming", Window::kHamming},
+                  {"dolph_chebyshev", Window::kDolphChebyshev},
+                  {"taylor", Window::kTaylor}}),
+          "weights along the line", self.window);
+    visit("side_lobe_db", "dB", in(13, 100), "of dolph_chebyshev and taylor: one-way, below the main lobe",
+          self.side_lobe_db);
+    visit("nbar", "", in(1, 100), "of taylor: how many side lobes are level, the next ones fall", self.nbar);
+  }
+  static void check(const ConfigReader& from, const array::Shading& shading);
 };
 
 }  // namespace ensonify

@@ -1,8 +1,7 @@
-#include "components/sonar/line_shading.h"
-
 #include <catch2/catch.hpp>
 
 #include "components/config/read_parameters.h"
+#include "components/sonar/line_design.h"
 
 using namespace ensonify;
 using Window = array::Shading::Window;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "components/config/config_reader.h"
-#include "components/sonar/tone_shape.h"
 
 namespace ensonify {
 namespace {
@@ -51,6 +50,15 @@ double longest_reception_s(const PulseDesign& design, double longest_range_m, do
 echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse) {
   return design.chirp ? echo::compressed_chirp(pulse.length_s, pulse.band_hz, design.window)
                       : echo::tapered_pulse(pulse.length_s, design.tapered_fraction);
+}
+
+void check_taper(const ConfigReader& from, bool chirp, double tapered_fraction) {
+  if (chirp && tapered_fraction != 0.0) from.problem("tapered_fraction", "is of tones; chirps have a window");
+}
+
+void fill_shape(bool chirp, double tapered_fraction, msg::AppliedSettings& applied) {
+  applied.pulse = chirp ? "fm_up" : (tapered_fraction > 0.0 ? "cw_tapered" : "cw");
+  applied.tapered_fraction = tapered_fraction;
 }
 
 }  // namespace ensonify

@@ -4,6 +4,7 @@
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
+#include "messages/sonar.h"
 
 namespace ensonify {
 
@@ -72,5 +73,11 @@ void allow_held_pulses(const PulseDesign& design, double sound_speed_mps, Settin
 double longest_reception_s(const PulseDesign& design, double longest_range_m, double sound_speed_mps);
 
 echo::Pulse echo_pulse(const PulseDesign& design, const RangedPulse& pulse);
+
+/// Adds a problem where a chirp has tapered ends, as only tones do (echo::tapered_pulse). A chirp has a window instead.
+void check_taper(const ConfigReader& from, bool chirp, double tapered_fraction);
+
+/// Gives what kind of pulse is sent.
+void fill_shape(bool chirp, double tapered_fraction, msg::AppliedSettings& applied);
 
 }  // namespace ensonify

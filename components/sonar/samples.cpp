@@ -23,6 +23,18 @@ echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps) {
   return law;
 }
 
+msg::Ping ping_message(const PingEvent& event, const char* kind, double frequency_hz, const HeadSettings& settings,
+                       double sound_speed_mps) {
+  msg::Ping ping;
+  ping.stamp_ns = event.transmit.count();
+  ping.ping = event.ping;
+  ping.kind = kind;
+  fill(ping.applied, settings);
+  ping.applied.frequency_hz = frequency_hz;
+  ping.applied.sound_speed_mps = sound_speed_mps;
+  return ping;
+}
+
 void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
                    const echo::Image& envelope, msg::Ping& ping) {
   auto amplitude = std::make_shared<std::vector<float>>();

@@ -5,6 +5,7 @@
 
 #include "components/config/parameters.h"
 #include "components/sonar/effects.h"
+#include "components/sonar/ping_event.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/gain.h"
 #include "kernels/acoustics/echo/image.h"
@@ -26,6 +27,11 @@ struct Converter {
 
 /// The gain that an operator set, as kernels/acoustics/echo wants it.
 echo::TvgLaw tvg_of(const HeadSettings& settings, double sound_speed_mps);
+
+/// A head's message of a ping at one frequency, yet without beams and samples: its time and number, the settings in
+/// force and the speed of sound that the head knows.
+msg::Ping ping_message(const PingEvent& event, const char* kind, double frequency_hz, const HeadSettings& settings,
+                       double sound_speed_mps);
 
 /// Writes what the receiver records of an envelope: counts behind the gain, or, without a converter, amplitudes, from
 /// which the gain is taken out again. First sample, period and amplitudes of `ping` are overwritten.

@@ -22,8 +22,6 @@ struct HitSums {
   double height_m = 0.0;  // sum of z
 };
 
-double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
-
 }  // namespace
 
 SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects)

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "kernels/acoustics/echo/volume.h"
 
 namespace ensonify {
+
+inline double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
 /// Power of a transmission in a direction (unit vector, head frame) as it is at this range, times the range squared; 1
 /// on its axis far away (range infinite). Called from several threads.

@@ -62,7 +62,7 @@ bool HeadSettings::operator==(const HeadSettings& other) const {
 }
 
 CommandedSettings::CommandedSettings(HeadSettings start, SettingLimits limits)
-    : limits_(std::move(limits)), in_force_(start), next_(std::move(start)) {}
+    : limits_(std::move(limits)), next_(std::move(start)) {}
 
 std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& command) {
   std::vector<std::string> remarks;
@@ -80,11 +80,6 @@ std::vector<std::string> CommandedSettings::command(const msg::SonarSettings& co
   });
   if (!std::isnan(command.range_m) || !std::isnan(command.pulse_length_s)) report_longer_pulse(limits_, next_, remarks);
   return remarks;
-}
-
-const HeadSettings& CommandedSettings::at_ping() {
-  in_force_ = next_;
-  return in_force_;
 }
 
 void fill(msg::AppliedSettings& applied, const HeadSettings& settings) {

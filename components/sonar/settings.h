@@ -30,15 +30,12 @@ class CommandedSettings {
   /// Takes a command for the next ping. Gives what was clamped or refused, and why: for the log.
   std::vector<std::string> command(const msg::SonarSettings& command);
 
-  /// Called at each transmission: the settings of this ping.
-  const HeadSettings& at_ping();
-
-  /// Settings of the last ping.
-  const HeadSettings& in_force() const { return in_force_; }
+  /// Settings of a ping that goes out now.
+  const HeadSettings& at_ping() const { return next_; }
 
  private:
   SettingLimits limits_;
-  HeadSettings in_force_, next_;
+  HeadSettings next_;
 };
 
 /// Writes the settings into the message of a ping. What they do not know (frequency, pulse, beamwidths) is left alone;

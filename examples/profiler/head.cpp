@@ -104,16 +104,10 @@ HeadReport<msg::Ping, msg::BottomTrack> Profiler::ping(const PingEvent& event, c
   const auto [image, trace] = echoes_.receive_echoes(emission, pulse_, poses_, inputs.seabed(), memory_);
   const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
 
-  msg::Ping ping;
-  ping.stamp_ns = event.transmit.count();
-  ping.ping = event.ping;
-  ping.kind = kComponent;
+  msg::Ping ping = ping_message(event, kComponent, config_.frequency_hz, settings, config_.sound_speed_mps);
   ping.beam_angle_rad = msg::Array<float>::of({0.0F});
-  fill(ping.applied, settings);
-  ping.applied.frequency_hz = config_.frequency_hz;
   ping.applied.pulse = "cw";
   ping.applied.transmit_beamwidth_rad = ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
-  ping.applied.sound_speed_mps = config_.sound_speed_mps;
   write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, ping);
 
   msg::BottomTrack bottom = strongest_echo(image, sampling, pulse_, config_.sound_speed_mps);

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/acoustics/echo/noise.h"
+#include "kernels/acoustics/echo/image.h"
 
 using namespace ensonify::echo;
 

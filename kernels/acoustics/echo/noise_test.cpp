@@ -1,10 +1,10 @@
-#include "kernels/acoustics/echo/noise.h"
-
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+
+#include "kernels/acoustics/echo/image.h"
 
 using namespace ensonify::echo;
 using ensonify::random::Stream;

@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <memory>
+#include <span>
 
 namespace ensonify::fft {
 
@@ -29,5 +30,9 @@ class Transform {
   struct Plan;
   std::shared_ptr<const Plan> plan_;
 };
+
+/// The two-dimensional transform of `rows` rows of `columns` numbers, in place, not scaled. `columns` must be even and
+/// the first number must lie on a multiple of 16 bytes.
+void transform_plane(std::span<std::complex<float>> numbers, int columns, int rows, Transform::Sign sign);
 
 }  // namespace ensonify::fft

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "kernels/base/fft/plane.h"
-
 using namespace ensonify::fft;
 
 TEST_CASE("a wave becomes one line, where its sign says") {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/base/fft/plane.h"
+#include "kernels/base/fft/transform.h"
 #include "kernels/seabed/statistics/line_fit.h"
 
 namespace ensonify::relief_statistics {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/base/fft/plane.h"
+#include "kernels/base/fft/transform.h"
 #include "kernels/base/random/gaussian.h"
 
 namespace ensonify::relief_statistics {
