@@ -3,7 +3,6 @@
 #include <memory>
 #include <numbers>
 
-#include "kernels/water/pressure.h"
 #include "tools/physics/verbs.h"
 
 namespace ensonify::physics {

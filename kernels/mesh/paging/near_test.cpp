@@ -1,4 +1,4 @@
-#include "kernels/mesh/paging/near.h"
+#include "kernels/mesh/paging/rules.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
