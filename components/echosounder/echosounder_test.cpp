@@ -11,7 +11,7 @@
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "scenarios/world/testing/default_yaml.h"

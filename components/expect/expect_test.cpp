@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "components/config/config_reader.h"
-#include "components/config/testing/parameter_files.h"
 #include "components/errors/exit_error.h"
 #include "components/expect/node.h"
 #include "components/record/writer.h"
@@ -263,10 +262,6 @@ TEST_CASE("mistakes in the list are reported with their places") {
   CHECK(problem("- same_as: {record: nowhere.mcap}\n").find("nowhere.mcap") != std::string::npos);
   CHECK(problem("- {count: {topic: a/b, min: 1}, no_gap: {topic: a/b}}\n").find("says several things") !=
         std::string::npos);
-}
-
-TEST_CASE("expect's default file and README table are what its list says") {
-  CHECK(parameter_files_fault("expect", parameters_of<ExpectParameters>()) == "");
 }
 
 TEST_CASE("an expectation is called what its user names it, or what it says") {

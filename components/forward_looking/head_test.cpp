@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "kernels/acoustics/array/line.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 
 using namespace ensonify;
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/config/testing/parameter_files.h"
 #include "components/navigation/testing/circle.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/terrain.h"
@@ -49,10 +48,6 @@ struct Moments {
 };
 
 }  // namespace
-
-TEST_CASE("navigation's default file and README table are what its list says") {
-  CHECK(parameter_files_fault("navigation", parameters_of<NavigationConfig>()) == "");
-}
 
 TEST_CASE("attitude comes at 100 Hz, position at 5 Hz, an estimate with each attitude") {
   NodeUnderTest<NavigationNode> navigation(config_of(1));

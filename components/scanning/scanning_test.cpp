@@ -6,7 +6,7 @@
 #include "components/scanning/node.h"
 #include "components/sonar/testing/config.h"
 #include "kernels/acoustics/array/line.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "scenarios/world/testing/default_yaml.h"

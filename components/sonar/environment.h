@@ -10,7 +10,6 @@
 #include "kernels/seabed/table.h"
 #include "kernels/water/column.h"
 #include "kernels/water/refraction/profile.h"
-#include "kernels/water/volume.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "components/terrain/source_of.h"
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 #include "scenarios/world/world.h"
 
 using namespace ensonify;

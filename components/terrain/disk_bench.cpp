@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain/tile_set_source.h"
 #include "components/terrain/tiles/file_bytes.h"
 #include "components/terrain/tiles/tile_set.h"

@@ -5,6 +5,7 @@
 
 #include "components/terrain/layered_seabed.h"
 #include "components/terrain/terrain_source.h"
+#include "kernels/base/frames/local_projection.h"
 #include "scenarios/world/seabed.h"
 
 namespace ensonify::source {

@@ -10,7 +10,7 @@
 
 #include "components/config/config_error.h"
 #include "components/config/config_reader.h"
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain/tile_set_source.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/seabed/statistics/patches.h"

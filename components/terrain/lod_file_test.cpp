@@ -1,8 +1,7 @@
-#include "components/terrain/lod_file.h"
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "components/terrain/prepared_mesh.h"
 #include "components/terrain/tiles/file_bytes.h"
 #include "components/terrain/tiles/lattice_png.h"
 #include "kernels/mesh/progressive/cut.h"

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernels/mesh/progressive/collapse.h"
+#include "kernels/mesh/progressive/hierarchy.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
 #include "messages/codec.h"
 

@@ -12,9 +12,8 @@
 #include <variant>
 
 #include "components/terrain/layered_seabed.h"
-#include "components/terrain/seabed_places.h"
+#include "kernels/seabed/law.h"
 #include "kernels/seabed/relief/intermittency.h"
-#include "kernels/seabed/resolved.h"
 #include "scenarios/world/facet_slope.h"
 
 namespace ensonify::source {

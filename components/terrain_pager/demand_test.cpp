@@ -1,6 +1,6 @@
-#include "components/terrain_pager/demand.h"
-
 #include <catch2/catch.hpp>
+
+#include "components/terrain_pager/paging.h"
 
 using ensonify::pager::demanded_m;
 

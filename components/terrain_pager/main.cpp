@@ -5,7 +5,7 @@
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
-#include "components/terrain_pager/mission_check.h"
+#include "components/terrain_pager/mission_track.h"
 #include "components/terrain_pager/node.h"
 #include "launch/file/launch_file.h"
 #include "launch/process/run.h"

@@ -6,8 +6,7 @@
 
 #include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
-#include "kernels/mesh/paging/near.h"
-#include "kernels/mesh/paging/residency.h"
+#include "kernels/mesh/paging/rules.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {

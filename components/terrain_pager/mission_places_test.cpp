@@ -1,10 +1,9 @@
-#include "components/terrain_pager/mission_places.h"
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "components/config/config_node.h"
+#include "components/terrain_pager/mission_track.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "components/config/config_error.h"
 #include "components/runtime/sim_time.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/corridor.h"
 #include "kernels/vehicle/vertical/tide.h"
@@ -28,5 +31,31 @@ MissionTrack track_of(const TerrainPagerConfig& config);
 /// The lowest water above chart datum while a run of this length lasts; of one without an end, in its first 30 days,
 /// which have two spring tides. Sampled every five minutes: within 3 mm for a semidiurnal tide of 10 m amplitude.
 double lowest_water_m(const vertical::Tide& tide, std::optional<SimTime> duration);
+
+/// Places in a scenario's file of what is run, for messages. What the launch file has changed stands nowhere there, and
+/// has the file alone.
+struct MissionPlaces {
+  ConfigPlace mission;
+  std::vector<ConfigPlace> steps;             // of each; lines laid out by a rule have that of the rule, once
+  std::map<std::string, ConfigPlace> starts;  // by vehicle
+
+  const ConfigPlace& step(std::size_t i) const;
+  const ConfigPlace& start(const std::string& vehicle) const;
+};
+
+/// Reads `scenario_file` again, if it is there and `scenario_text`, the scenario in force in its canonical form, is
+/// not empty.
+MissionPlaces mission_places(const std::string& scenario_file, const std::string& scenario_text);
+
+/// Part of a mission that may be beyond the terrain: nothing where tiles of it are needed, else all.
+enum class Beyond { kRefused, kAllowed };
+
+/// Holds the scenario's mission and its vehicles' starts against the seabed (corridor.h) and returns the least depth
+/// along the runlines. Throws ConfigError with the place of what cannot be run.
+double check_mission(const source::TerrainSource& terrain, const TerrainPagerConfig& config, Beyond beyond);
+
+/// The same, and against meshes, for a launch in which no pager runs: opens the seabed that the scenario names. What
+/// such a launch runs may be beyond it.
+void check_mission_alone(const TerrainPagerConfig& config);
 
 }  // namespace ensonify::pager

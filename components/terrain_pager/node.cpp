@@ -13,9 +13,8 @@
 #include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/terrain/source_of.h"
-#include "components/terrain_pager/budget.h"
-#include "components/terrain_pager/demand.h"
-#include "components/terrain_pager/mission_check.h"
+#include "components/terrain_pager/mission_track.h"
+#include "components/terrain_pager/paging.h"
 #include "components/terrain_pager/seabed_identity.h"
 #include "components/terrain_pager/tile_messages.h"
 

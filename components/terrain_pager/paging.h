@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
+#include <string>
 #include <vector>
 
-#include "kernels/mesh/paging/prediction.h"
-#include "kernels/mesh/paging/residency.h"
+#include "components/terrain_pager/config.h"
+#include "kernels/mesh/paging/rules.h"
 
 namespace ensonify::pager {
 
@@ -51,5 +53,23 @@ class Paging {
   paging::LastWanted in_memory_;
   std::set<TileKey> ever_fetched_, ever_at_heads_;
 };
+
+/// Distance from the vehicle to which heads need the seabed, m. Each head notes how far it can be set to receive,
+/// `bow/reach_m`, its place on the vehicle included; what an operator's command can ask for is within that, so tiles
+/// are there before a command takes effect. A head that follows the depth by itself (`bow/auto_range`) has no use for
+/// more than what lies within 71 degrees of nadir: three times the greatest depth + 20 m. Without any head it is this,
+/// too. Never less than the greatest depth + 20 m: Doppler logs and altimeters point down at no more than 45 degrees.
+double demanded_m(const std::map<std::string, std::string>& facts, double deepest_m);
+
+/// Bytes of a tile's heights and classes.
+std::size_t tile_bytes(const TileGrid& grid);
+
+/// Tiles that the pager's memory holds at most.
+std::size_t most_in_memory(const TerrainPagerConfig& config, const TileGrid& grid);
+
+/// Throws ConfigError when heads could come to hold more than head_budget_mb, or when what they need at once and what
+/// threads are making do not fit into budget_mb: said before anything is simulated, not by the kernel's OOM killer.
+void check_budgets(const TerrainPagerConfig& config, const paging::Margins& margins, const TileGrid& grid,
+                   const Box& terrain);
 
 }  // namespace ensonify::pager

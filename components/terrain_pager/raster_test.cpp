@@ -19,6 +19,7 @@
 using namespace ensonify;
 using namespace ensonify::pager;
 using namespace ensonify::source;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -100,7 +101,7 @@ TEST_CASE("a raster's heights stand at the right places of the world") {
     bool north = true;
     double x = 0, y = 0;
     GeographicLib::UTMUPS::Forward(geodetic.latitude_deg, geodetic.longitude_deg, zone, north, x, y);
-    CHECK(source.height_m(place) == Approx(raster.height(x, y)).margin(1e-4));
+    CHECK_THAT(source.height_m(place), WithinAbs(raster.height(x, y), 1e-4));
   }
 }
 
@@ -114,7 +115,7 @@ TEST_CASE("posts of a tile carry the plane they were sampled from") {
   for (int k = 0; k < 40; ++k) {
     const int column = 14 * k, row = 9 * k;
     const double direct = source.height_m({block.east_m(column), block.north_m(row)});
-    CHECK(heights[static_cast<std::size_t>(row * 600 + column)] == Approx(direct).margin(1e-4));
+    CHECK_THAT(heights[static_cast<std::size_t>(row * 600 + column)], WithinAbs(direct, 1e-4));
   }
 }
 
@@ -138,8 +139,8 @@ TEST_CASE("a south-up raster is read as well as a north-up one") {
   down.geotransform[3] = 4680000.0 - 120 * 2.5;
   down.geotransform[5] = 2.5;
   const RasterSource a(options_for(up), std::nullopt), b(options_for(down), std::nullopt);
-  CHECK(a.height_m({33, 44}) == Approx(b.height_m({33, 44})).margin(1e-6));
-  CHECK(a.extent().north_m == Approx(b.extent().north_m).margin(1e-3));
+  CHECK_THAT(a.height_m({33, 44}), WithinAbs(b.height_m({33, 44}), 1e-6));
+  CHECK_THAT(a.extent().north_m, WithinAbs(b.extent().north_m, 1e-3));
 }
 
 TEST_CASE("a raster turned and sheared against its map stands where its geotransform says") {
@@ -175,8 +176,8 @@ TEST_CASE("a raster across the antimeridian is one seabed, in either longitude c
     raster.height = [&](double x, double) { return -20.0 + 1000.0 * (x - west_deg); };  // 2 m over 200 cells
     const RasterSource source(options_for(raster), std::nullopt);
     CHECK(source.extent().east_m - source.extent().west_m == Approx(199 * 1e-5 * 107036).epsilon(1e-3));
-    CHECK(source.height_m({-100, 0}) == Approx(-19.0 - 1000.0 * 100.0 / 107036).margin(1e-3));
-    CHECK(source.height_m({100, 0}) == Approx(-19.0 + 1000.0 * 100.0 / 107036).margin(1e-3));
+    CHECK_THAT(source.height_m({-100, 0}), WithinAbs(-19.0 - 1000.0 * 100.0 / 107036, 1e-3));
+    CHECK_THAT(source.height_m({100, 0}), WithinAbs(-19.0 + 1000.0 * 100.0 / 107036, 1e-3));
   }
 }
 
@@ -191,7 +192,7 @@ TEST_CASE("holes stay holes, or are filled when asked") {
   options.fill_holes = true;
   options.fill_distance_cells = 50;
   const RasterSource filled(options, std::nullopt);
-  CHECK(filled.height_m({0, 0}) == Approx(-20.0).margin(0.3));
+  CHECK_THAT(filled.height_m({0, 0}), WithinAbs(-20.0, 0.3));
   CHECK(filled.height_m({100, 0}) == Approx(RasterSource(options_for(MadeRaster{}), std::nullopt).height_m({100, 0})));
 }
 
@@ -314,8 +315,8 @@ TEST_CASE("a chart has at most 256 posts a side, the origin and the range of dep
   CHECK(chart.height_m.rows() <= 256);
   CHECK(chart.height_m.cols() >= 255);
   CHECK(chart.height_m.cols() <= 256);
-  CHECK(chart.origin_latitude_deg == Approx(42.26).margin(0.02));
-  CHECK(chart.deepest_m == Approx(20 + 0.01 * 199 + 0.02 * 148.75).margin(1e-3));
+  CHECK_THAT(chart.origin_latitude_deg, WithinAbs(42.26, 0.02));
+  CHECK_THAT(chart.deepest_m, WithinAbs(20 + 0.01 * 199 + 0.02 * 148.75, 1e-3));
   CHECK(chart.height_m(100, 100) ==
         Approx(source.height_m({chart.west_m + 100 * chart.spacing_m, chart.south_m + 100 * chart.spacing_m}))
             .margin(1e-4));
@@ -329,9 +330,9 @@ TEST_CASE("real rasters of every container are read to the same seabed") {
     options.path = data + "/formats/" + name;
     const RasterSource source(options, std::nullopt);
     INFO(name);
-    CHECK(source.lowest_m() == Approx(-25.17).margin(1e-3));
-    CHECK(source.highest_m() == Approx(-11.88).margin(1e-3));
-    CHECK(source.native_spacing_m() == Approx(5.0).margin(0.02));
+    CHECK_THAT(source.lowest_m(), WithinAbs(-25.17, 1e-3));
+    CHECK_THAT(source.highest_m(), WithinAbs(-11.88, 1e-3));
+    CHECK_THAT(source.native_spacing_m(), WithinAbs(5.0, 0.02));
     CHECK(std::isfinite(source.height_m({100, 100})));
   }
   for (const std::string name : {"massbay_5m.tif", "bering_jd211_2m.bag", "bedford_depth_9m.tif",

@@ -10,7 +10,6 @@
 
 #include "components/config/config_reader.h"
 #include "components/terrain/tiles/tile_set.h"
-#include "components/terrain_pager/identity.h"
 
 using namespace ensonify;
 using pager::seabed_identity;

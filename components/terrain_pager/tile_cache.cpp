@@ -16,7 +16,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "components/terrain/tiles/crc32c.h"
 #include "components/terrain/tiles/file_bytes.h"
 #include "components/terrain/tiles/sha256.h"
 #include "messages/codec.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 
 namespace ensonify::pager {
 

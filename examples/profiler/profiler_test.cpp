@@ -5,7 +5,7 @@
 #include "components/sonar/testing/config.h"
 #include "components/sonar/testing/seabed.h"
 #include "examples/profiler/node.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "messages/motion.h"
 #include "scenarios/world/testing/default_yaml.h"
 

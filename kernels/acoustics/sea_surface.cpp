@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/seabed/facets.h"
+#include "kernels/seabed/backscatter.h"
 
 namespace ensonify::surface {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 
 using namespace ensonify;
 using namespace ensonify::sonar_equation;

@@ -8,6 +8,7 @@
 #include "kernels/base/random/stream.h"
 
 using namespace ensonify::terrain;
+using Catch::Matchers::WithinAbs;
 
 static Tile plane_tile() {  // z = -20 + 0.1 x - 0.2 y
   return sample_tile({.origin_enu_m = {-4, -4}, .spacing_m = 0.5, .cells = 16, .lsb_m = 1e-4}, {0, 0},
@@ -17,9 +18,9 @@ static Tile plane_tile() {  // z = -20 + 0.1 x - 0.2 y
 TEST_CASE("a plane is reproduced between its posts, with its normal") {
   const Tile tile = plane_tile();
   REQUIRE_FALSE(fault_of(tile));
-  CHECK(*height_m(tile, {1.13, -2.71}) == Approx(-20 + 0.113 + 0.542).margin(1e-4));
+  CHECK_THAT(*height_m(tile, {1.13, -2.71}), WithinAbs(-20 + 0.113 + 0.542, 1e-4));
   CHECK((*normal_enu(tile, {1.13, -2.71}) - Vec3(-0.1, 0.2, 1).normalized()).norm() < 1e-3);
-  CHECK(*height_m(tile, {4, 4}) == Approx(-20.4).margin(1e-4));  // the far corner belongs to the tile
+  CHECK_THAT(*height_m(tile, {4, 4}), WithinAbs(-20.4, 1e-4));  // the far corner belongs to the tile
   CHECK_FALSE(height_m(tile, {4.001, 0}));
   CHECK_FALSE(height_m(tile, {std::nan(""), 0}));
 }
@@ -46,7 +47,7 @@ TEST_CASE("neighbours share their edge posts to the bit, far from the origin too
 }
 
 TEST_CASE("heights are whole steps of the lattice, and a hole stays one") {
-  CHECK(on_lattice(-12.34567, 1e-3) == Approx(-12.346).margin(1e-6));
+  CHECK_THAT(on_lattice(-12.34567, 1e-3), WithinAbs(-12.346, 1e-6));
   CHECK(std::isnan(on_lattice(std::nan(""), 1e-3)));
 }
 
@@ -83,6 +84,6 @@ TEST_CASE("steps of height are a dither where posts differ by half a step or mor
       before = error;
     }
     CHECK(squares / kPosts == Approx(1.0 / 12.0).epsilon(0.01));
-    CHECK(products / squares == Approx(correlation).margin(0.01));
+    CHECK_THAT(products / squares, WithinAbs(correlation, 0.01));
   }
 }

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/seabed/reflection.h"
-
 namespace ensonify::seabed {
 namespace {
 
@@ -155,6 +153,33 @@ BackscatterParts SedimentBackscatter::parts(double grazing_rad) const {
   part.roughness = gentle * moderate + (1.0 - gentle) * part.large_roughness;
   part.total = part.roughness + part.volume;
   return part;
+}
+
+double facet_backscatter(double sin_grazing, double mean_square_slope) {
+  const double sin_squared = sin_grazing * sin_grazing;
+  if (!(sin_squared > 1e-30)) return 0.0;                        // the limit
+  const double tan_squared = (1.0 - sin_squared) / sin_squared;  // of incidence
+  return std::exp(-tan_squared / mean_square_slope) /
+         (4.0 * std::numbers::pi * mean_square_slope * sin_squared * sin_squared);
+}
+
+double lambert_backscatter(double mu_db, double sin_grazing) {
+  return std::pow(10.0, 0.1 * mu_db) * sin_grazing * sin_grazing;
+}
+
+double lambert_strength_db(double mu_db, double sin_grazing) { return mu_db + 20.0 * std::log10(sin_grazing); }
+
+std::complex<double> reflection_coefficient(const SedimentParameters& sediment, double grazing_rad) {
+  const double theta = std::clamp(grazing_rad, 0.0, std::numbers::pi / 2.0);
+  const double cosine = std::cos(theta);
+  const std::complex<double> kappa = std::complex<double>(1.0, sediment.loss) / sediment.sound_speed_ratio;
+  const std::complex<double> P = std::sqrt(kappa * kappa - cosine * cosine);  // principal root
+  const std::complex<double> y = sediment.density_ratio * std::sin(theta) / P;
+  return (y - 1.0) / (y + 1.0);
+}
+
+double forward_loss_db(const SedimentParameters& sediment, double grazing_rad) {
+  return -20.0 * std::log10(std::abs(reflection_coefficient(sediment, grazing_rad)));
 }
 
 }  // namespace ensonify::seabed

@@ -61,4 +61,29 @@ class SedimentBackscatter {
   double cos_theta_k_;          // where Kirchhoff and composite laws join
 };
 
+/// Backscattering cross section per unit area (a ratio, not dB) of mirror-like facets with Gaussian slopes, that
+/// reflect all: exp(-tan^2 g / s^2) / (4 pi s^2 cos^4 g), g the incidence angle from 0 to below pi/2, s^2 the
+/// mean-square slope, both directions together, > 0. The high-frequency limit of the Kirchhoff approximation
+/// [Ogilvy1991]. Seen from where the sound came it holds all energy: 4 Integral sigma cos g dOmega = 1.
+double facet_backscatter(double sin_grazing, double mean_square_slope);
+
+/// Backscattering cross section per unit area (a ratio, not dB) of a seabed that follows Lambert's law:
+/// sigma = mu sin^2(grazing), mu = 10^(mu_db/10) [Lurton2010, ch. 3].
+///
+/// Grazing angle from the local plane of the seabed, 0..pi/2, given by its sine in [0, 1]. mu_db is the strength at
+/// normal incidence, typically -35 (mud) to -10 (rock); a perfect diffuser that returns all energy has -4.97.
+double lambert_backscatter(double mu_db, double sin_grazing);
+
+/// The same in dB re 1 m^2 per m^2.
+double lambert_strength_db(double mu_db, double sin_grazing);
+
+/// Reflection coefficient of a smooth, lossy fluid seabed for pressure [APL1994, eqs 29-33]. Grazing angle 0..pi/2,
+/// clamped to it. Not a function of frequency. Roughness is left out: a rough bottom reflects less.
+std::complex<double> reflection_coefficient(const SedimentParameters& sediment, double grazing_rad);
+
+/// Loss of one bounce: -20 log10 |R|, in dB, >= 0.
+///
+/// The report's accuracy: about the loss itself on soft bottoms, 1-2 dB on hard sand, 20-30 kHz.
+double forward_loss_db(const SedimentParameters& sediment, double grazing_rad);
+
 }  // namespace ensonify::seabed

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "kernels/seabed/law.h"
-#include "kernels/seabed/reflection.h"
 
 using namespace ensonify::seabed;
 

@@ -1,8 +1,8 @@
-#include "kernels/seabed/lambert.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/seabed/backscatter.h"
 
 using namespace ensonify::seabed;
 

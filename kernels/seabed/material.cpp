@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/seabed/facets.h"
+#include "kernels/seabed/backscatter.h"
 
 namespace ensonify::seabed {
 namespace {

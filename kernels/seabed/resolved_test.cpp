@@ -1,5 +1,3 @@
-#include "kernels/seabed/resolved.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +7,7 @@
 
 #include "kernels/base/random/stream.h"
 #include "kernels/seabed/backscatter.h"
-#include "kernels/seabed/facets.h"
+#include "kernels/seabed/law.h"
 #include "kernels/seabed/table.h"
 
 using namespace ensonify::seabed;

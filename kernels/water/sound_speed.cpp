@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "kernels/water/pressure.h"
-
 namespace ensonify::water {
 namespace {
 
@@ -88,6 +86,15 @@ bool in_range(SoundSpeedLaw law, double temperature_degc, double salinity_psu, d
       return within(T, 0, 30) && within(S, 30, 40) && within(pressure_pa, 0, 1000 * kPaPerKgfPerCm2);
   }
   return within(T, 2, 30) && within(S, 25, 40) && within(depth_m, 0, 8000);
+}
+
+double sea_pressure_pa(double depth_m, double latitude_rad) {
+  // [Saunders1981]: z = (1 - c1) p - c2 p^2, p in dbar, solved for p.
+  const double sin_latitude = std::sin(latitude_rad);
+  const double c1 = 5.92e-3 + 5.25e-3 * sin_latitude * sin_latitude;
+  const double c2 = 2.21e-6;
+  const double p_dbar = ((1.0 - c1) - std::sqrt((1.0 - c1) * (1.0 - c1) - 4.0 * c2 * depth_m)) / (2.0 * c2);
+  return p_dbar * 1e4;
 }
 
 }  // namespace ensonify::water

@@ -1,8 +1,8 @@
-#include "kernels/water/volume.h"
-
 #include <catch2/catch.hpp>
 #include <limits>
 #include <vector>
+
+#include "kernels/water/column.h"
 
 using namespace ensonify::water;
 

@@ -5,8 +5,8 @@
 
 #include "components/config/parameters.h"
 #include "kernels/water/absorption.h"
+#include "kernels/water/column.h"
 #include "kernels/water/sound_speed.h"
-#include "kernels/water/volume.h"
 
 namespace ensonify {
 

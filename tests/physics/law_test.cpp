@@ -5,7 +5,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/base/random/stream.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/mills_cross.h"
 

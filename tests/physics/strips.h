@@ -5,7 +5,7 @@
 
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "messages/terrain.h"
 
 /// Bright strips of a dark level seabed, for whole heads to part.

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "kernels/seabed/reflection.h"
 #include "kernels/seabed/table.h"
 #include "tools/physics/verb.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kernels/acoustics/sonar_equation.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

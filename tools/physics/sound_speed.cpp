@@ -3,7 +3,6 @@
 #include <memory>
 #include <numbers>
 
-#include "kernels/water/pressure.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

@@ -7,11 +7,10 @@
 #include <stdexcept>
 
 #include "kernels/seabed/relief/guide.h"
-#include "kernels/seabed/relief/restoration.h"
 #include "kernels/seabed/relief/spectral_surface.h"
+#include "kernels/seabed/relief/spectrum.h"
 #include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
-#include "kernels/seabed/statistics/structure.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

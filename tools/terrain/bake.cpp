@@ -16,7 +16,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 #include "components/terrain/tile_set_source.h"
 #include "components/terrain/tiles/file_bytes.h"
 #include "components/terrain/tiles/overview.h"

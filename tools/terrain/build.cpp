@@ -6,10 +6,11 @@
 
 #include "components/config/config_node.h"
 #include "components/errors/exit_error.h"
+#include "components/terrain/layers_source.h"
 #include "components/terrain/source_of.h"
+#include "scenarios/world/facet_slope.h"
 #include "scenarios/world/world.h"
 #include "tools/terrain/bake.h"
-#include "tools/terrain/facets.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {
@@ -34,6 +35,27 @@ std::string source_text(const Options& options) {
              options.raster_band, options.raster_crs,
              options.raster_nodata ? fmt::format("{}", *options.raster_nodata) : "none") +
          "scenario:\n" + to_canonical_yaml(document.root);
+}
+
+/// Prints what laws of a layered seabed's sediments must know of its facets, and where one law cannot do for all of a
+/// class; nothing for other seabeds.
+void print_facets(const Seabed& seabed, const source::MeshedRelief& relief) {
+  if (seabed.kind != Seabed::Kind::kLayers) return;
+  for (const auto& [number, scatterer] : on_mesh(seabed.sediments, relief.mean_square_slope)) {
+    const auto* meshed = std::get_if<seabed::MeshedSediment>(&scatterer);
+    if (meshed == nullptr || meshed->mean_square_slope == 0.0) continue;
+    fmt::print("class {}: a scenario on tiles of this seabed says facet_slope_deg: {:.4f} of its sediment\n", number,
+               facet_slope_deg(*meshed));
+  }
+  for (const auto& uneven : relief.uneven) fmt::print("warning: {}\n", source::text_of(uneven));
+}
+
+int facets(const std::string& file) {
+  const World world = read_world(file);
+  if (world.seabed.kind != Seabed::Kind::kLayers)
+    throw UserError(file + ": is no seabed of layers; of others the scenario says facet_slope_deg itself");
+  print_facets(world.seabed, source::LayersSource(world.seabed, world.site.origin).meshed_relief());
+  return kExitOk;
 }
 
 int build(const Options& options) {
@@ -71,6 +93,15 @@ Verb add_build(CLI::App& parent) {
   app->add_option("--raster-band", options->raster_band, "band of a raster")->capture_default_str();
   app->add_option("--raster-nodata", options->raster_nodata, "mark for missing values of a raster that declares none");
   return {app, [options] { return build(*options); }};
+}
+
+Verb add_facets(CLI::App& parent) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* app = parent.add_subcommand(
+      "facets",
+      "Says what of its sediments' roughness the facets of a seabed of layers have, and which class is uneven.");
+  app->add_option("scenario", *file, "scenario file (YAML)")->required()->check(CLI::ExistingFile);
+  return {app, [file] { return facets(*file); }};
 }
 
 }  // namespace ensonify::terrain_tool

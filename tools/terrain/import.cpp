@@ -14,10 +14,10 @@
 #include "components/terrain/tiles/file_bytes.h"
 #include "components/terrain/tiles/sha256.h"
 #include "tools/terrain/bake.h"
-#include "tools/terrain/import/file_words.h"
-#include "tools/terrain/import/fill.h"
+#include "tools/terrain/import/mosaic.h"
 #include "tools/terrain/import/report.h"
 #include "tools/terrain/import/sediment.h"
+#include "tools/terrain/import/values.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {

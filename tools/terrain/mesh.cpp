@@ -12,7 +12,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/terrain/prepared_mesh.h"
-#include "components/terrain/tile_posts.h"
+#include "components/terrain/terrain_source.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/trace/views.h"
 #include "kernels/base/frames/attitude.h"

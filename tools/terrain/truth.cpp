@@ -13,7 +13,6 @@
 #include "components/errors/exit_error.h"
 #include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
-#include "kernels/seabed/statistics/structure.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"
 

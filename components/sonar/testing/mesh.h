@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "components/terrain/mesh_message.h"
-#include "kernels/mesh/progressive/collapse.h"
+#include "kernels/mesh/progressive/hierarchy.h"
 
 namespace ensonify {
 

@@ -1,8 +1,8 @@
-#include "components/terrain/tiles/crc32c.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <string>
+
+#include "components/terrain/tiles/file_bytes.h"
 
 using ensonify::tiles::crc32c;
 

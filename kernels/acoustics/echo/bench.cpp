@@ -17,7 +17,7 @@
 #include "kernels/acoustics/array/line_array.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/trace/testing/embree_alone.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "tests/support/fan.h"
 
 using namespace ensonify;

@@ -7,7 +7,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/line_receiver.h"
-#include "kernels/seabed/lambert.h"
+#include "kernels/seabed/backscatter.h"
 #include "tests/support/fan.h"
 
 // Mean levels against the closed forms of docs/physics/acoustics/echo.md, as sums of mean squares: no speckle, no

@@ -44,7 +44,7 @@ struct Background {
   const random::Stream* isotropic = nullptr;
   double electronic_upa2 = 0.0;  // of each element's own electronics, as sound; 160 dB below the isotropic: not drawn
   const random::Stream* electronic = nullptr;
-  /// Volume reverberation (volume.h): sample by cell of the receiver's sine grid; coloured in time by the pulse.
+  /// Volume reverberation: sample by cell of the receiver's sine grid; coloured in time by the pulse.
   std::span<const float> volume_upa2;
   const random::Stream* volume = nullptr;
 };

@@ -17,7 +17,7 @@
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/acoustics/trace/views.h"
 #include "kernels/base/random/stream.h"
-#include "kernels/mesh/progressive/collapse.h"
+#include "kernels/mesh/progressive/hierarchy.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 #include "tests/support/fan.h"

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "kernels/mesh/lod/block.h"
 #include "kernels/mesh/lod/frustum.h"
 #include "kernels/mesh/lod/hierarchy.h"
 

@@ -1,8 +1,8 @@
-#include "kernels/mesh/paging/near.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+
+#include "kernels/mesh/paging/rules.h"
 
 using namespace ensonify::paging;
 

@@ -1,10 +1,10 @@
-#include "kernels/mesh/paging/prediction.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
+
+#include "kernels/mesh/paging/rules.h"
 
 using namespace ensonify::paging;
 

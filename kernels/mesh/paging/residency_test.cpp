@@ -1,9 +1,9 @@
-#include "kernels/mesh/paging/residency.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+
+#include "kernels/mesh/paging/rules.h"
 
 using namespace ensonify::paging;
 

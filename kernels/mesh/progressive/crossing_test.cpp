@@ -1,8 +1,7 @@
-#include "kernels/mesh/progressive/crossing.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "kernels/mesh/progressive/mesh.h"
 #include "kernels/mesh/progressive/sheet_pile_wall.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,18 @@ std::string fault_of(const TriangleMesh& mesh);
 /// Around a box, from its middle to its corners; kSlack_m more than it needs, for what floats round and the chords of
 /// refracted rays leave out.
 lod::Sphere sphere_around(const Eigen::AlignedBox3f& box_m, const frames::Vec3& origin_enu_m);
+
+/// A straight way seen from above, and the height from which up nothing may stand in it.
+struct Way {
+  frames::Vec2 from_enu_m = frames::Vec2::Zero();
+  frames::Vec2 to_enu_m = frames::Vec2::Zero();
+  double above_z_m = 0.0;
+};
+
+/// Distance along a track (m) at which the surface first crosses it: cuts the upright plane over it at or above its
+/// height, at whatever height above. Empty when it does not. What comes within kSlack_m of the height does; a surface
+/// that only touches the way from the side, with an upright triangle along it, may or may not. Exact but for what
+/// floats round.
+std::optional<double> first_crossing_m(const TriangleMesh& mesh, const Way& way);
 
 }  // namespace ensonify::progressive

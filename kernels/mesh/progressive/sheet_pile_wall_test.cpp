@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/mesh/progressive/collapse.h"
 #include "kernels/mesh/progressive/hierarchy.h"
 
 using namespace ensonify;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "kernels/seabed/relief/bodies.h"
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/guide.h"
 #include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/marks.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "kernels/base/random/poisson.h"
-#include "kernels/seabed/relief/place.h"
+#include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {
 namespace {

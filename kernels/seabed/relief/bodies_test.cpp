@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/mask.h"
+#include "kernels/seabed/relief/seabed.h"
 
 using namespace ensonify::relief;
 using ensonify::frames::Vec2;

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "kernels/seabed/relief/place.h"
+#include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {
 namespace {

@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/exponential.h"
+#include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spline.h"
 #include "kernels/seabed/statistics/patches.h"
-#include "kernels/seabed/statistics/structure.h"
+#include "kernels/seabed/statistics/power_spectrum.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/seabed.h"
 
 using namespace ensonify::relief;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kernels/seabed/relief/intermittency.h"
-#include "kernels/seabed/relief/place.h"
+#include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/seabed/relief/combine.h"
+#include "kernels/seabed/relief/seabed.h"
 
 using namespace ensonify::relief;
 using ensonify::frames::Vec2;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/mask.h"
 #include "kernels/seabed/relief/ripples.h"
@@ -11,7 +10,6 @@
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
-#include "kernels/seabed/statistics/structure.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

@@ -1,14 +1,13 @@
-#include "kernels/seabed/relief/restoration.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "kernels/seabed/relief/combine.h"
 #include "kernels/seabed/relief/guide.h"
 #include "kernels/seabed/relief/ripples.h"
+#include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
+#include "kernels/seabed/relief/spectrum.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
 #include "kernels/seabed/statistics/testing/exact_fbm.h"
 

@@ -2,8 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernels/seabed/relief/combine.h"
-
 using namespace ensonify::relief;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/seabed/relief/place.h"
+#include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {
 namespace {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "kernels/seabed/statistics/power_spectrum.h"
-#include "kernels/seabed/statistics/structure.h"
 #include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+
+#include "kernels/base/frames/attitude.h"
 
 namespace ensonify::relief {
 
@@ -39,5 +42,23 @@ inline double node_spacing_m(double post_spacing_m, int level) {
 /// Pure: the value of a node is the same in every window of that level that holds it, on any thread. At level 0 it is
 /// the quantity itself; at level k a field with finer detail may leave out what level k cannot show (each field says).
 using Field = std::function<void(const Window& window, std::span<float> out)>;
+
+/// Position of a node, ENU m from the scenario's origin. Computed from the post's number, so it is the same for every
+/// window and level.
+inline frames::Vec2 place_enu_m(const Window& window, int column, int row, double post_spacing_m) {
+  const auto scale = static_cast<double>(std::int64_t{1} << window.level);
+  return {static_cast<double>(window.east + column) * scale * post_spacing_m,
+          static_cast<double>(window.north + row) * scale * post_spacing_m};
+}
+
+/// Share along a segment of its nearest point: 0 at a, 1 at b.
+inline double along_segment(const frames::Vec2& place, const frames::Vec2& a, const frames::Vec2& b) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0.0 ? std::clamp((place - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+inline double distance2_to_segment(const frames::Vec2& place, const frames::Vec2& a, const frames::Vec2& b) {
+  return (place - a - along_segment(place, a, b) * (b - a)).squaredNorm();
+}
 
 }  // namespace ensonify::relief

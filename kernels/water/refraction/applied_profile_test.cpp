@@ -6,6 +6,7 @@
 #include "kernels/water/refraction/thermocline.h"
 
 using namespace ensonify::refraction;
+using Catch::Matchers::WithinAbs;
 constexpr double kDeg = std::numbers::pi / 180;
 
 /// Time down to a flat seabed at `depth_m` below a face at depth 0, for a beam at an angle from the vertical, to either
@@ -45,7 +46,7 @@ TEST_CASE("a gradient that the instrument does not know bends a flat seabed as t
 TEST_CASE("the right profile flattens the seabed again") {
   const auto water = summer_thermocline();
   for (double degrees = 0; degrees <= 75; degrees += 5) {
-    CHECK(sounding(water, degrees * kDeg, one_way_s(water, degrees * kDeg, 80)).depth_m == Approx(80).margin(1e-8));
+    CHECK_THAT(sounding(water, degrees * kDeg, one_way_s(water, degrees * kDeg, 80)).depth_m, WithinAbs(80, 1e-8));
   }
 }
 
@@ -63,7 +64,7 @@ TEST_CASE("a wrong speed at the face of a level flat array leaves the soundings 
     for (double degrees = -72; degrees <= 72; degrees += 8) {
       const double commanded = degrees * kDeg, really = std::asin(std::sin(commanded) * 1522 / used);
       const PathEnd seen = sounding(with_face(water, used), commanded, one_way_s(water, really, 80));
-      CHECK(seen.depth_m == Approx(80).margin(5e-3));
+      CHECK_THAT(seen.depth_m, WithinAbs(80, 5e-3));
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "kernels/water/refraction/path_table.h"
 
 using namespace ensonify::refraction;
+using Catch::Matchers::WithinAbs;
 
 /// Lines of two numbers, depth and speed: the body of .asvp, .vel and .svp files. Sorted, equal depths averaged.
 static SoundSpeedProfile read_cast(const std::filesystem::path& file) {
@@ -55,12 +56,12 @@ TEST_CASE("through real casts time and distance are those computed elsewhere") {
     const double depression = (90 - nadir) * std::numbers::pi / 180;
     const auto end = path_to_depth(cast, source, depression, bottom);
     REQUIRE(end);
-    CHECK(end->travel_time_s == Approx(time).margin(6e-10));  // printed to 1 ns
-    CHECK(end->horizontal_m == Approx(across).margin(6e-5));  // and 0.1 mm
+    CHECK_THAT(end->travel_time_s, WithinAbs(time, 6e-10));  // printed to 1 ns
+    CHECK_THAT(end->horizontal_m, WithinAbs(across, 6e-5));  // and 0.1 mm
     PathTable paths;
     paths.build(cast, source, bottom - 3);
     CHECK(paths.at(depression, bottom)->travel_time_s == Approx(time).epsilon(1e-6));
-    CHECK(paths.at(depression, bottom)->horizontal_m == Approx(across).margin(1e-3));
+    CHECK_THAT(paths.at(depression, bottom)->horizontal_m, WithinAbs(across, 1e-3));
     ++answers;
   }
   CHECK(answers == 25);

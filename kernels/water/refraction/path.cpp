@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "kernels/water/refraction/arc.h"
-
 namespace ensonify::refraction {
 namespace {
 

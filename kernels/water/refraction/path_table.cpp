@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "kernels/water/refraction/arc.h"
+#include "kernels/water/refraction/path.h"
 
 namespace ensonify::refraction {
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "tools/terrain/import/options.h"
 
@@ -25,5 +27,30 @@ bool is_scattered(const std::string& path);
 /// A line is x y z, with blanks, commas or semicolons between, more columns allowed and ignored; a first line that
 /// starts with a letter is a header. Throws UserError with file and line for anything else.
 PointFacts grid_points(const FileOptions& file, const PointOptions& options, const std::string& raster_path);
+
+/// Makes cells of a mesh, OBJ or PLY, x to the east, y to the north: the highest of its surfaces over each cell's
+/// middle; cells without are holes. What lies under another surface is lost; `widest_spread_m` is the farthest that it
+/// lies below. All three axes are in the file's units (FileOptions::units, else metres). Writes a raster as
+/// grid_points does.
+PointFacts grid_mesh(const FileOptions& file, const PointOptions& options, const std::string& raster_path);
+
+/// Square cells over a rectangle of a map, row by row from the south; NaN at first.
+struct CellGrid {
+  double west = 0.0, south = 0.0;  // of the first cell's corner
+  double cell = 1.0;               // side
+  int columns = 0, rows = 0;
+  std::vector<float> cells;
+
+  /// Covers a rectangle. Throws UserError, beginning with `who`, when that takes more than kMostCells.
+  CellGrid(const std::string& who, double west, double south, double east, double north, double cell);
+
+  /// The cell that holds a place of the rectangle.
+  std::size_t cell_at(double x, double y) const;
+  /// As a GeoTIFF without a reference system, NaN for nodata. Throws UserError.
+  void write(const std::string& path) const;
+};
+
+/// Cells of one raster and posts of one tile set that are held in memory, some 20 bytes each.
+inline constexpr double kMostCells = 1e8;
 
 }  // namespace ensonify::terrain_import

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/terrain/import/fill.h"
 #include "tools/terrain/import/mosaic.h"
 #include "tools/terrain/import/sediment.h"
 

@@ -11,7 +11,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/terrain/raster_source.h"
-#include "tools/terrain/import/file_words.h"
+#include "tools/terrain/import/values.h"
 
 namespace ensonify::terrain_import {
 namespace {

@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "components/terrain/mesh_file.h"
-#include "tools/terrain/import/cell_grid.h"
-#include "tools/terrain/import/mesh_cells.h"
+#include "tools/terrain/import/points.h"
 
 namespace ensonify::terrain_import {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,5 +37,15 @@ void refuse_usual_marks(const source::RasterFile& file, double lowest, double hi
 
 /// Metres in a unit; throws UserError, beginning with `who`, for an unknown one.
 double metres_in(const std::string& unit, const std::string& who);
+
+/// The whole text as a number; nothing if it is none.
+std::optional<double> number_in(const std::string& text);
+
+/// Numbers with commas between; throws UserError, beginning with `option`, unless there are from `least` to `most`.
+std::vector<double> numbers_in(const std::string& text, const std::string& option, std::size_t least, std::size_t most);
+
+/// A file as it stands on the command line: "PATH" or "PATH?key=value&key=value", with what is said of all files for
+/// the rest. Keys: crs, positive, units, nodata (with commas), datum-shift, vertical, band. Throws UserError.
+FileOptions file_of(const std::string& words, FileOptions all);
 
 }  // namespace ensonify::terrain_import

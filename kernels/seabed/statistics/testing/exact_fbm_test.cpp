@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/seabed/statistics/structure.h"
+#include "kernels/seabed/statistics/power_spectrum.h"
 
 using namespace ensonify::relief_statistics;
 
