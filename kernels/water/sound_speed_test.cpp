@@ -20,8 +20,9 @@ TEST_CASE("sound speed matches the published check values to the printed digit")
 }
 
 TEST_CASE("the coefficients of 1995 give what those of 1983 gave") {
-  // [Fofonoff1983] p. 48, on the temperature scale of 1968; the coefficients of [WongZhu1995] give 8.7 mm/s
-  // more here, at the warm, deep end of their range.
+  // [Fofonoff1983] p. 48, on the temperature scale of 1968. Its coefficients give 1731.9954 here, those of
+  // [WongZhu1995], fitted anew for the scale of 1990 and printed with as many digits, 1732.0037: at the warm, deep,
+  // salty end of the range.
   CHECK_THAT(unesco_sound_speed_mps(t90(40), 40, 1000 * kBar), WithinAbs(1731.995, 9e-3));
 }
 
