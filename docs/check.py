@@ -37,8 +37,8 @@ ROT = (
     (r"\b20[12]\d-[01]\d-[0-3]\d\b(?!T)", "a date"),
     (r"\b(?:today|tomorrow|yesterday|last (?:week|month|year))\b", "a time that passes"),
 )
-FORBIDDEN = [(re.compile(rf"\b(?:{bad})\b", re.I), f'say "{good}"') for bad, good in WORDS]
-FORBIDDEN += [(re.compile(bad, re.I), f"{what} goes out of date") for bad, what in ROT]
+SPOKEN = [(re.compile(rf"\b(?:{bad})\b", re.I), f'say "{good}"') for bad, good in WORDS]  # in launch files, too
+FORBIDDEN = SPOKEN + [(re.compile(bad, re.I), f"{what} goes out of date") for bad, what in ROT]
 
 LIST_ITEM = re.compile(r"\s{0,3}(?:[-*+]|\d+\.) ")
 # A full stop that ends no sentence.
@@ -152,11 +152,12 @@ def problems_of_prose(text):
                 yield number, f'"{bad[0]}": {advice}'
 
 
-def pages(root):
+def pages(root, pattern="*.md"):
     listed = subprocess.run(["git", "-c", f"safe.directory={root}", "-C", root, "ls-files", "--cached", "--others",
-                             "--exclude-standard", "*.md"], capture_output=True, text=True)
+                             "--exclude-standard", pattern], capture_output=True, text=True)
     if listed.returncode != 0:  # not a checkout
-        return sorted(p for p in root.rglob("*.md") if not {"build", "out", "node_modules"} & set(p.relative_to(root).parts))
+        return sorted(p for p in root.rglob(pathlib.Path(pattern).name)
+                      if not {"build", "out", "node_modules"} & set(p.relative_to(root).parts))
     return sorted(p for p in map(root.joinpath, set(listed.stdout.splitlines())) if p.exists())
 
 
@@ -170,6 +171,10 @@ def problems(root):
         if name not in GENERATED:
             offences += problems_of_prose(text)
         found += [f"{name}:{number}: {problem}" for number, problem in sorted(offences)]
+    for file in pages(root, "launch/*.yaml"):
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+            found += [f"{file.relative_to(root).as_posix()}:{number}: \"{bad[0]}\": {advice}"
+                      for pattern, advice in SPOKEN for bad in pattern.finditer(line)]
     return found, count
 
 
@@ -198,11 +203,14 @@ def self_test():
         root = pathlib.Path(folder)
         (root / "other.md").write_text("# Here\n", encoding="utf-8")
         (root / "page.md").write_text("\n".join(line for line, _ in PLANTED) + "\n", encoding="utf-8")
+        (root / "launch").mkdir()
+        (root / "launch/x.yaml").write_text("a: 1  # the head hears it\n", encoding="utf-8")
         found = {}
         for text in problems(root)[0]:
             place, problem = text.split(": ", 1)
             found.setdefault(place, []).append(problem)
     expected = {f"page.md:{number}": part for number, (_, part) in enumerate(PLANTED, 1) if part}
+    expected["launch/x.yaml:1"] = "receives"
     wrong = [f"not found: {place} ({part})" for place, part in expected.items()
              if not any(part in problem for problem in found.get(place, []))]
     wrong += [f"found by mistake: {place}: {problem}" for place, all_found in found.items() for problem in all_found
