@@ -21,7 +21,7 @@ processes:
   bow: {{ run: multibeam, config: {{ beams: 96, ping_rate_hz: 1, amplitude_every: 1000 }} }}
   recorder: {{ run: recorder, config: {{ file: survey.mcap, topics: [bow/soundings, boat/pose, pilot/mission, pager/tile] }} }}
 expect:
-  - {{ name: both lines are flown, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 200 }} }}
+  - {{ name: both lines are surveyed, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 200 }} }}
 """
 CELL_M = 4
 SPIKE_M = 1  # what is further off is a spike, which an operator takes out: an outermost beam that detects the bottom below the keel

@@ -63,7 +63,7 @@ processes:
   pilot: {{ run: autopilot }}
   recorder: {{ run: recorder, config: {{ file: run.mcap, topics: [boat/pose, nav/estimate] }} }}
 expect:
-  - {{ name: all lines are flown, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 300 }} }}
+  - {{ name: all lines are surveyed, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 300 }} }}
 """
 
 
