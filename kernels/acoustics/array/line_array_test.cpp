@@ -55,15 +55,11 @@ TEST_CASE("a steered beam keeps its width in sine: its edges are those of the ex
   CHECK(half_power_edges(line, 1.0, std::sin(89.9 * kDeg)).upper_sine == 1.0);
 }
 
-TEST_CASE("equivalent widths are lambda / L one way and two thirds of it both ways") {
+TEST_CASE("equivalent widths are lambda / L") {
   const LineArray line = uniform(200, 0.5);
   // At half a wavelength -1..1 is one whole period of the pattern, so sum w^2 / (sum w)^2 lambda / spacing is exact.
   CHECK(equivalent_width(line, 1.0) == Approx(1.0 / 100.0).epsilon(1e-5));
   CHECK(equivalent_width(line, 1.0, 0.8) == Approx(1.0 / 100.0).epsilon(1e-5));
-  // Two thirds are the continuous line's; for N elements the sum of squares is (2 N^2 + 1) / (3 N^2) lambda / L.
-  CHECK(two_way_equivalent_width(line, line, 1.0) ==
-        Approx((2.0 * 200 * 200 + 1) / (3.0 * 200 * 200) / 100.0).epsilon(1e-5));
-  CHECK(two_way_equivalent_width(line, line, 1.0) == Approx(0.7525 * half_power_width_rad(line, 1.0)).epsilon(1e-4));
   for (const Window window : {Window::kHann, Window::kHamming, Window::kDolphChebyshev, Window::kTaylor}) {
     const LineArray shaded{.spacing_m = 0.5, .weights = shading_weights({.window = window}, 200)};
     const double exact = 2.0 * std::pow(10.0, -0.1 * white_noise_gain_db(shaded.weights));

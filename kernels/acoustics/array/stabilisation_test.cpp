@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "kernels/acoustics/array/line.h"
 #include "kernels/base/random/stream.h"
