@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kernels/vehicle/runlines/turn.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::launcher {
 namespace {

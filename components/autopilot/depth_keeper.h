@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "components/runtime/sim_time.h"
-#include "kernels/vehicle/guidance/height.h"
+#include "kernels/vehicle/guidance/laws.h"
 #include "scenarios/world/mission.h"
 
 namespace ensonify {

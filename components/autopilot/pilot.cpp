@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "components/errors/assert.h"
-#include "kernels/vehicle/guidance/drift.h"
+#include "kernels/vehicle/guidance/laws.h"
 
 namespace ensonify {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "kernels/vehicle/guidance/drift.h"
+#include "kernels/vehicle/guidance/laws.h"
 
 namespace ensonify {
 namespace {

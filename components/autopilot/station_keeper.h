@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "components/runtime/sim_time.h"
-#include "kernels/vehicle/guidance/station.h"
+#include "kernels/vehicle/guidance/laws.h"
 #include "kernels/vehicle/motion/kinematics.h"
-#include "kernels/vehicle/runlines/turn.h"
+#include "kernels/vehicle/runlines/runline.h"
 #include "scenarios/world/mission.h"
 
 namespace ensonify {

@@ -5,7 +5,7 @@
 #include "components/echosounder/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
-#include "components/sonar/trace_summary.h"
+#include "components/sonar/sea_acoustics.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

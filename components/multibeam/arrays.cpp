@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
-#include "kernels/acoustics/array/sectors.h"
 
 namespace ensonify {
 namespace {

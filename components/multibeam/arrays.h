@@ -5,8 +5,7 @@
 
 #include "components/multibeam/config.h"
 #include "components/multibeam/steering.h"
-#include "kernels/acoustics/array/line_array.h"
-#include "kernels/acoustics/array/pattern_table.h"
+#include "kernels/acoustics/array/line.h"
 
 namespace ensonify {
 

@@ -5,10 +5,72 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/sonar/head_motion.h"
 #include "components/sonar/ranged_pulse.h"
+#include "kernels/acoustics/array/stabilisation.h"
 
 namespace ensonify {
 namespace {
+
+constexpr double kReach = 8.0;  // sines in which rays are sent fore and aft, in lambda / L of a uniform line as wide
+constexpr double kBeyondSwath_beamwidths = 1.5;  // of the outermost beam: to its first null and a little more
+constexpr double kBeyondEdge = 0.8 * SectorPattern::kRollOff;  // sine
+constexpr double kWidestFan_rad = 1.5;
+constexpr std::size_t kFewestRays = 80'000;  // of all sectors, at normal quality: 20,000 at the default
+constexpr double kVolumeStep_beamwidths = 0.25;
+
+double range_resolution_m(const MultibeamConfig& c, double pulse_length_s) {
+  return 0.5 * c.sound_speed_mps * c.resolved_s(pulse_length_s);
+}
+
+/// Of names of streams: the first sector's are those of a head without sectors.
+std::string suffix_of(std::size_t sector) { return sector == 0 ? "" : "/" + std::to_string(sector); }
+
+/// The sector's part of the swath and what its outer beams receive beside it, when nothing is steered.
+trace::TransmitVolume volume_of(const MultibeamConfig& c, const ArrayDesign& design, std::size_t number,
+                                double swath_rad) {
+  const auto sectors = sectors_of(c, swath_rad);
+  const array::TransmitSector& sector = sectors[number];
+  const SectorDesign& lines = design.sectors[number];
+  const double half = 0.5 * swath_rad;
+  const double reach =
+      std::min(kWidestFan_rad, half + kBeyondSwath_beamwidths * c.receive_beamwidth_rad / std::cos(half));
+  auto volume = trace::mills_cross_volume(lines.transmit_in_waves, lines.receive_in_waves, reach, kReach);
+  const double null = std::min(volume.sine.high, lines.transmit_null);
+  volume.sine.main_low = -null, volume.sine.main_high = null;
+  const auto beyond = [&](double edge_rad, double sine) {
+    return std::asin(std::clamp(std::sin(edge_rad) + sine, -std::sin(reach), std::sin(reach)));
+  };
+  trace::Span& angle = volume.angle_rad;
+  if (number > 0) angle.low = angle.main_low = beyond(sector.lower_rad(), -kBeyondEdge);
+  if (number + 1 < sectors.size()) angle.high = angle.main_high = beyond(sector.upper_rad(), kBeyondEdge);
+  return volume;
+}
+
+/// The whole line, and its halves where sums have a phase.
+std::vector<std::vector<float>> weights_of(const ReceiveLine& line, bool halves) {
+  std::vector<std::vector<float>> weights{echo::beam_weights(line.whole.weights)};
+  if (!halves) return weights;
+  weights.push_back(echo::beam_weights(line.halves.positive, line.whole.weights));
+  weights.push_back(echo::beam_weights(line.halves.negative, line.whole.weights));
+  return weights;
+}
+
+ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector,
+                      const SectorPattern& pattern) {
+  const double true_mps = true_profile(config.world).speed_mps(config.world.mission.depth_m);
+  ReceiveArray array;
+  array.frequency_hz = design.sectors[sector].frequency_hz;
+  array.elements = echo::element_line(design.receive.whole, true_mps / array.frequency_hz);
+  array.weights = weights_of(design.receive, config.effects.speckle);
+  array.element = [&pattern](const Eigen::Vector3f& direction) { return pattern.element_amplitude(direction); };
+  array.noise_share = pattern.noise_share();
+  array.electronic_noise_db = config.electronic_noise_db;
+  array.seed = config.world.seed;
+  array.process = config.process;
+  array.suffix = suffix_of(sector);
+  return array;
+}
 
 /// Of starboard over port, in the layout of the amplitudes.
 std::shared_ptr<std::vector<float>> phase_rad(const MultibeamHead::Ping& ping) {
@@ -36,6 +98,100 @@ MultibeamHead::Received received_of(const SectorEchoes::Sent& sent, std::span<co
 }
 
 }  // namespace
+
+SectorEchoes::SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector)
+    : config_(config),
+      arrays_(design),
+      sector_(sector),
+      pattern_(config, design, sector),
+      echoes_(array_of(config, design, sector, pattern_),
+              Environment(config.world, design.sectors[sector].frequency_hz), config.effects) {}
+
+SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double swath_rad) const {
+  const double resolution_m = range_resolution_m(config_, pulse_length_s);
+  const trace::RaySettings rays{.quality = config_.quality,
+                                .range_resolution_m = resolution_m,
+                                .fewest_rays = kFewestRays / arrays_.sectors.size()};
+  // Steering moves the fan by a few degrees: the depths that it passes hardly change.
+  const SteeredSector unsteered = steer(config_, swath_rad, {}).sectors[sector_];
+  const double reach = kReach / arrays_.sectors[sector_].transmit_in_waves;
+  const auto transmitted = [&](const Eigen::Vector3f& direction) {
+    if (std::abs(static_cast<double>(direction.x())) > reach) return 0.0;
+    return static_cast<double>(pattern_.transmitted_power(direction, unsteered));
+  };
+  return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
+          ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
+                     echo::Scatterers(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                     trace::RayDistribution(volume_of(config_, arrays_, sector_, swath_rad), rays,
+                                            {config_.world.seed, config_.process + "/rays" + suffix_of(sector_)})),
+          echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};
+}
+
+SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design,
+                                      const Steering& steering, const frames::PoseHistory& truth, trace::Scene& seabed,
+                                      Memory& memory) const {
+  const double delay_s = arrays_.sectors[sector_].delay_s;
+  const echo::Sampling sampling{-delay_s, 1.0 / config_.sample_rate_hz,
+                                config_.samples(event.range_m, settings.pulse_length_s)};
+  const double reception_s = config_.reception_s(event.range_m, settings.pulse_length_s) - delay_s;
+  const SimTime sent = event.transmit + from_seconds(delay_s);
+  head_poses(truth, config_.mounting.actual, sent, from_seconds(reception_s), memory.poses);
+  aim(steering, memory.poses.front(), memory);
+  memory.power = [this, &memory](const Eigen::Vector3f& direction, float) {
+    return static_cast<double>(pattern_.transmitted_power(direction, memory.steered));
+  };
+  const Shot shot{memory.poses,
+                  seconds(sent),
+                  settings.source_level_db,
+                  memory.power,
+                  {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad}};
+  // The window is set by the head's sound speed; sound travels by the true one.
+  const double window_s =
+      sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);
+  const double reach_m = 0.5 * echoes_.sea().sound_speed_mps(shot.pose()) * window_s;
+  const Insonified insonified = echoes_.sea().insonify(shot, seabed, design.array.rays, reach_m, memory.shot);
+  return {shot, echoes_.sea().echoes(shot, insonified, design.array.scatterers, memory.shot), sampling, design};
+}
+
+void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all,
+                            Memory& memory) const {
+  const Sent& own = all[sector_];
+  const double delay_s = arrays_.sectors[sector_].delay_s;
+  memory.foreign.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == sector_) continue;
+    echo::InterferingTransmission sent;
+    sent.time_s = arrays_.sectors[i].delay_s - delay_s;
+    sent.frequency_hz = arrays_.sectors[i].frequency_hz;
+    sent.sweep_hz = config_.chirp ? config_.bandwidth_hz : 0.0;
+    sent.duration_s = settings.pulse_length_s;
+    sent.rejection_db = config_.sector_rejection_db;
+    echoes_.sea().add_echoes_of(own.shot, own.echoed, sent, all[i].echoed.arrivals, own.design.array.pulse,
+                                memory.foreign);
+  }
+  std::vector<echo::InterferingTransmission> interfering = event.interfering;
+  for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s;
+  echoes_.sea().add_interference(own.shot, own.echoed, interfering, own.design.array.pulse, memory.foreign);
+  echoes_.beamform(own.shot, own.echoed, own.design.array,
+                   {static_cast<std::uint64_t>(event.ping), own.sampling, memory.sin_beams,
+                    own.design.volume_directions, memory.foreign},
+                   memory.beams);
+}
+
+/// A flat array's delays are made for the sound speed that the head assumes; the true one turns its beams.
+void SectorEchoes::aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) const {
+  const double true_mps = echoes_.sea().sound_speed_mps(pose);
+  const auto true_sine = [&](double sine) { return array::true_sine(sine, steering.sound_speed_mps, true_mps); };
+  SteeredSector& sector = memory.steered = steering.sectors[sector_];
+  sector.sin_transmit = true_sine(sector.sin_transmit);
+  sector.lower_sine = true_sine(sector.lower_sine);
+  sector.upper_sine = true_sine(sector.upper_sine);
+  memory.sin_beams.clear();
+  for (int beam = sector.first_beam; beam < sector.first_beam + sector.beams; ++beam) {
+    const double sine = true_sine(static_cast<double>(steering.sin_beams[static_cast<std::size_t>(beam)]));
+    memory.sin_beams.push_back(static_cast<float>(std::clamp(sine, -1.0, 1.0)));
+  }
+}
 
 MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config), design_(config) {
   for (std::size_t i = 0; i < design_.sectors.size(); ++i) sectors_.emplace_back(config, design_, i);

@@ -1,8 +1,7 @@
-#include "components/multibeam/placing.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "components/multibeam/soundings.h"
 #include "kernels/water/refraction/eigenray.h"
 
 using namespace ensonify;

@@ -8,13 +8,33 @@
 #include "components/multibeam/relief_estimator.h"
 #include "components/multibeam/steering.h"
 #include "components/sonar/auto_range.h"
-#include "components/sonar/ping_event.h"
+#include "components/sonar/sea_acoustics.h"
 #include "kernels/acoustics/detect/bottom.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/water/refraction/profile.h"
 #include "messages/soundings.h"
 
 namespace ensonify {
+
+/// Instrument's data of one echo: its estimated poses at transmission and at reception, the sines that it
+/// steered its lines to (from the planes across the head's x axis at transmission, across y at reception), the speed of
+/// sound that it steered with, and the two-way time.
+struct MeasuredEcho {
+  frames::HeadPose at_transmit;
+  frames::HeadPose at_receive;
+  double sin_transmit = 0.0;
+  double sin_receive = 0.0;
+  double face_speed_mps = 1500.0;
+  double two_way_s = 0.0;
+};
+
+/// Origin of the echo in the water that the instrument assumes: along the direction in which both cones intersect
+/// (georeference::intersect_cones), bent by the applied profile (georeference::place_sounding).
+///
+/// The head moves between transmission and reception. The ray is traced from half way between, and turned and shortened
+/// by what a straight line to its end differs from there to the two places: exact in isovelocity water, else right to
+/// the product of the shift over the range and the bending.
+frames::Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedProfile& applied);
 
 /// One detection of a ping: an entry of soundings/1.
 struct Echo {

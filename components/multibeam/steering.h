@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/multibeam/config.h"
-#include "kernels/acoustics/array/sectors.h"
+#include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/base/frames/attitude.h"
 
 namespace ensonify {

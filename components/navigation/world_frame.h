@@ -6,7 +6,7 @@
 #include "kernels/base/frames/pose.h"
 #include "kernels/instruments/inertial/strapdown.h"
 #include "kernels/vehicle/motion/current.h"
-#include "kernels/vehicle/vertical/draught.h"
+#include "kernels/vehicle/vertical/floating.h"
 #include "kernels/vehicle/vertical/reduction.h"
 #include "kernels/vehicle/vertical/tide.h"
 #include "messages/motion.h"

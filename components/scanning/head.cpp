@@ -9,7 +9,6 @@
 #include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
-#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {

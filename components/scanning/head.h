@@ -5,7 +5,7 @@
 #include "components/scanning/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/line_design.h"
-#include "components/sonar/trace_summary.h"
+#include "components/sonar/sea_acoustics.h"
 
 namespace ensonify {
 

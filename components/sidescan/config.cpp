@@ -5,7 +5,7 @@
 
 #include "components/config/read_parameters.h"
 #include "components/sonar/ranged_pulse.h"
-#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/line.h"
 
 namespace ensonify {
 namespace {
@@ -77,8 +77,8 @@ HeadSettings SidescanConfig::start_of(const SidescanChannel& channel) const {
 SettingLimits SidescanConfig::limits_of(const SidescanChannel& channel) const {
   SettingLimits limits = limits_up_to(1.0, channel.range_m, channel.source_level_db);
   // Samples come as often as the shortest pulse needs; a chirp's length changes neither resolution nor samples.
-  limits["pulse_length_s"] = {{channel.chirp ? kLeastSweep / channel.bandwidth_hz : channel.pulse_length_s,
-                              SidescanChannel::kLongestPulse_s}};
+  limits["pulse_length_s"] = {
+      {channel.chirp ? kLeastSweep / channel.bandwidth_hz : channel.pulse_length_s, SidescanChannel::kLongestPulse_s}};
   return limits;
 }
 

@@ -10,7 +10,6 @@
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/near_field.h"
-#include "kernels/acoustics/array/pattern_table.h"
 
 namespace ensonify {
 namespace {

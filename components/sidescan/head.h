@@ -6,7 +6,7 @@
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
 #include "components/sonar/line_design.h"
-#include "components/sonar/trace_summary.h"
+#include "components/sonar/sea_acoustics.h"
 #include "messages/sonar.h"
 
 namespace ensonify {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "components/sonar/ping_event.h"
 #include "components/sonar/sea_acoustics.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"

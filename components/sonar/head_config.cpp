@@ -1,14 +1,60 @@
 #include "components/sonar/head_config.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "components/config/config_reader.h"
 #include "components/sonar/head_motion.h"
 
 namespace ensonify {
 namespace {
 
+constexpr double kLeastLatency_s = 1e-3;
+
+/// Names of the other heads on the vehicle that carries this one.
+std::vector<std::string> neighbours(const World& world, const std::string& process) {
+  std::vector<std::string> names;
+  for (const Vehicle& vehicle : world.vehicles) {
+    if (!vehicle.mountings.contains(process)) continue;
+    for (const auto& mounting : vehicle.mountings) {
+      if (mounting.first != process) names.push_back(mounting.first);
+    }
+  }
+  return names;
+}
+
 constexpr double kWeakest_db = 40.0;  // below the highest source level, that can be set
 
 }  // namespace
+
+void place_other_heads(const ConfigReader& from, const World& world, const std::string& process,
+                       double processing_latency_s, std::vector<OtherHead>& others) {
+  const auto allowed = neighbours(world, process);
+  for (OtherHead& other : others) {
+    if (std::find(allowed.begin(), allowed.end(), other.process) == allowed.end()) {
+      from.problem("interference." + other.process,
+                   fmt::format("the vehicle of {} carries no other head of this name; it carries: {}", process,
+                               allowed.empty() ? "none" : fmt::format("{}", fmt::join(allowed, ", "))));
+      continue;
+    }
+    other.from_us_body_m = world.mounting(other.process)->second.actual.position_body_m -
+                           world.mounting(process)->second.actual.position_body_m;
+  }
+  if (!others.empty() && processing_latency_s < kLeastLatency_s) {
+    from.problem("interference",
+                 fmt::format("with a processing_latency_s of {}, what others send has not arrived when a ping is "
+                             "computed; at least {} is needed",
+                             processing_latency_s, kLeastLatency_s));
+  }
+}
+
+void Trigger::check(const ConfigReader& from) const {
+  if (slot_s >= cycle_s) {
+    from.problem("slot_s", fmt::format("{} s does not lie in the cycle of {} s", slot_s, cycle_s));
+  }
+}
 
 void place_head(const ConfigReader& from, const World& world, const std::string& process, HeadConfig& config) {
   place_other_heads(from, world, process, config.processing_latency_s, config.interference);

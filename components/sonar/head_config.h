@@ -6,7 +6,6 @@
 #include "components/config/parameters.h"
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
-#include "components/sonar/ping_timing.h"
 #include "components/sonar/samples.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/pulse.h"
@@ -14,6 +13,67 @@
 #include "scenarios/world/world.h"
 
 namespace ensonify {
+
+/// Another head of the same vehicle, as this one receives it.
+struct OtherHead {
+  std::string process;
+  double isolation_db = 40.0;  // of its source level, what does not come straight to this head: by where it points, by
+                               // baffles and hull
+  double bottom_loss_db = 40.0;  // of its source level, what the seabed below does not mirror: by the seabed, by where
+                                 // it points
+  double rejection_db = 80.0;    // by our receiver, of what lies outside its band
+  frames::Vec3 from_us_body_m = frames::Vec3::Zero();  // where it truly is; from the scenario
+
+  static constexpr auto kNamedBy = &OtherHead::process;
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("isolation_db", "dB", in(0, 300), "of its source level, what does not come straight to this head",
+          self.isolation_db);
+    visit("bottom_loss_db", "dB", in(0, 300), "of its source level, what the seabed below does not mirror",
+          self.bottom_loss_db);
+    visit("rejection_db", "dB", in(0, 300), "by our receiver, of what lies outside its band", self.rejection_db);
+  }
+};
+
+/// Takes from the scenario where the heads are that are received. They are among those that it mounts on the vehicle
+/// that carries `process`. Without a latency from the last echo to the computation, none can be received.
+void place_other_heads(const ConfigReader& from, const World& world, const std::string& process,
+                       double processing_latency_s, std::vector<OtherHead>& others);
+
+/// Trigger of a head's transmissions.
+struct Trigger {
+  enum class Mode {
+    kFree,         // the beat of its own ping rate
+    kSlave,        // each transmission of another head, its master
+    kInterleaved,  // its slot of a cycle that several heads share
+  };
+  Mode mode = Mode::kFree;
+  double offset_s = 0.0;    // slave: from the master's transmission to its own
+  double patience_s = 2.0;  // slave: without a master for longer, health says so
+  double cycle_s = 0.2;     // interleaved
+  double slot_s = 0.0;      // interleaved: of this head, from the start of the cycle; the first starts with the run
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("mode", "", one_of({{"free", Mode::kFree}, {"slave", Mode::kSlave}, {"interleaved", Mode::kInterleaved}}),
+          "at the ping rate, after another head's transmissions, or in turns", self.mode);
+    visit("offset_s", "s", in(0, 10), "of a slave: after its master's transmission", self.offset_s);
+    visit("patience_s", "s", in(0.1, 1000), "of a slave: without its master for longer, health says so",
+          self.patience_s);
+    visit("cycle_s", "s", in(1e-3, 100), "of heads in turns", self.cycle_s);
+    visit("slot_s", "s", in(0, 100), "of this head in turns, from the start of the cycle", self.slot_s);
+  }
+  void check(const ConfigReader& from) const;
+};
+
+/// Ping rate and trigger of a head, and its latency from the last echo to the published ping.
+struct PingTiming {
+  Rate rate;             // at most
+  SimTime dead_time{0};  // between the end of reception and the next transmission, at least
+  SimTime processing_latency{0};
+  Trigger trigger = {};
+  std::vector<OtherHead> others = {};  // that ping beside it, and are received
+};
 
 /// Detail of the seabed that a head's rays see.
 template <>

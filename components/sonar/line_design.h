@@ -1,8 +1,7 @@
 #pragma once
 
 #include "components/config/parameters.h"
-#include "kernels/acoustics/array/line_array.h"
-#include "kernels/acoustics/array/pattern_table.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/shading.h"
 
 namespace ensonify {

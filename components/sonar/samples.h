@@ -5,7 +5,7 @@
 
 #include "components/config/parameters.h"
 #include "components/sonar/effects.h"
-#include "components/sonar/ping_event.h"
+#include "components/sonar/sea_acoustics.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/gain.h"
 #include "kernels/acoustics/echo/image.h"

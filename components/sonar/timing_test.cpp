@@ -2,7 +2,7 @@
 
 #include "components/config/read_parameters.h"
 #include "components/sonar/auto_range.h"
-#include "components/sonar/ping_clock.h"
+#include "components/sonar/ping_cycle.h"
 
 using namespace ensonify;
 

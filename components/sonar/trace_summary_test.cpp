@@ -1,6 +1,6 @@
-#include "components/sonar/trace_summary.h"
-
 #include <catch2/catch.hpp>
+
+#include "components/sonar/sea_acoustics.h"
 
 using namespace ensonify;
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/mesh/progressive/hierarchy.h"
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
+#include "kernels/mesh/progressive/objects.h"
 #include "messages/codec.h"
 
 using namespace ensonify;

@@ -9,7 +9,7 @@
 #include "components/terrain/mesh_message.h"
 #include "components/terrain/prepared_mesh.h"
 #include "components/terrain_pager/mission_track.h"
-#include "kernels/mesh/progressive/mesh.h"
+#include "kernels/mesh/progressive/hierarchy.h"
 #include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {

@@ -7,7 +7,7 @@
 #include "components/vehicle/kinematic/kinematic.h"
 #include "components/vehicle/model.h"
 #include "components/vehicle/testing/integrated.h"
-#include "kernels/vehicle/motion/disturbance_presets.h"
+#include "kernels/vehicle/motion/disturbance.h"
 
 using namespace ensonify;
 using frames::Vec3;

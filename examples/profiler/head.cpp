@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "components/sonar/head_motion.h"
-#include "components/sonar/trace_summary.h"
+#include "components/sonar/sea_acoustics.h"
 #include "kernels/acoustics/array/line.h"
 
 namespace ensonify {

@@ -23,8 +23,6 @@ double target_level_db(double source_level_db, const Path& path, double target_s
   return source_level_db - two_way_loss_db(path) + target_strength_db;
 }
 
-double sphere_strength_db(double radius_m) { return 2.0 * db(radius_m / 2.0); }
-
 double seabed_level_db(double source_level_db, const Path& path, double backscatter_db, double area_m2) {
   return target_level_db(source_level_db, path, backscatter_db + db(area_m2));
 }

@@ -22,9 +22,6 @@ double two_way_loss_db(const Path& path);
 /// Echo of a point target on the axes of both patterns: SL - loss + TS, with TS in dB re 1 m^2.
 double target_level_db(double source_level_db, const Path& path, double target_strength_db);
 
-/// Target strength of a rigid sphere much larger than the wavelength: 20 log10(radius / 2).
-double sphere_strength_db(double radius_m);
-
 /// Echo of a patch of seabed: SL - loss + Sb + 10 log10(area). backscatter_db is the strength per m^2 at the patch's
 /// grazing angle.
 double seabed_level_db(double source_level_db, const Path& path, double backscatter_db, double area_m2);

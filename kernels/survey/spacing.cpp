@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "kernels/vehicle/runlines/turn.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::survey {
 

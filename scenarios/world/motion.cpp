@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "components/config/read_parameters.h"
-#include "kernels/vehicle/motion/disturbance_presets.h"
+#include "kernels/vehicle/motion/disturbance.h"
 #include "kernels/vehicle/vertical/tide.h"
 #include "scenarios/world/sections.h"
 

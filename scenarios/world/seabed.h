@@ -9,9 +9,7 @@
 
 #include "components/config/config_error.h"
 #include "components/config/parameters.h"
-#include "kernels/mesh/progressive/bars.h"
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
-#include "kernels/mesh/progressive/strewn.h"
+#include "kernels/mesh/progressive/objects.h"
 #include "kernels/seabed/law.h"
 #include "scenarios/world/layers.h"
 #include "scenarios/world/mission.h"

@@ -15,7 +15,7 @@
 #include "kernels/vehicle/motion/current.h"
 #include "kernels/vehicle/motion/disturbance.h"
 #include "kernels/vehicle/motion/kinematics.h"
-#include "kernels/vehicle/vertical/draught.h"
+#include "kernels/vehicle/vertical/floating.h"
 #include "scenarios/scenario_file.h"
 #include "scenarios/world/mission.h"
 #include "scenarios/world/seabed.h"

@@ -7,7 +7,7 @@
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/node.h"
 #include "components/sonar/testing/seabed.h"
-#include "kernels/acoustics/array/pattern_table.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/water/absorption.h"
 #include "tests/physics/area_integral.h"
 #include "tests/physics/heads.h"

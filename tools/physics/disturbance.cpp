@@ -3,7 +3,6 @@
 #include <memory>
 #include <numbers>
 
-#include "kernels/vehicle/motion/disturbance_presets.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

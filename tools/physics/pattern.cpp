@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/near_field.h"
-#include "kernels/acoustics/array/sectors.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

@@ -16,7 +16,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/trace/views.h"
 #include "kernels/base/frames/attitude.h"
-#include "kernels/mesh/lod/patch.h"
+#include "kernels/mesh/lod/cover.h"
 #include "kernels/mesh/progressive/cut.h"
 #include "tools/terrain/open.h"
 #include "tools/terrain/verbs.h"

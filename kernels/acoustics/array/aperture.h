@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/base/frames/attitude.h"
 
 /// Patterns of plane apertures: rectangles as products of two lines, circular pistons, and what the face adds.

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "kernels/acoustics/array/pattern_table.h"
+#include "kernels/acoustics/array/line.h"
 
 using namespace ensonify::array;
 

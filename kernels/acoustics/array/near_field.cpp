@@ -73,14 +73,6 @@ std::complex<double> near_field_line_amplitude(double length_m, double wavelengt
   return signed_bend > 0.0 ? amplitude : std::conj(amplitude);  // the line is symmetrical in t
 }
 
-BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,
-                                      double focus_m) {
-  const auto pattern = [&](double u) {
-    return std::norm(near_field_amplitude(array, wavelength_m, u, sin_steer, range_m, focus_m));
-  };
-  return half_power_edges(pattern, sin_steer, std::min(0.01, wavelength_m / (64.0 * array.length_m())));
-}
-
 double near_field_range_m(const LineArray& array, double wavelength_m) {
   return array.length_m() * array.length_m() / wavelength_m;
 }

@@ -3,7 +3,7 @@
 #include <complex>
 #include <limits>
 
-#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/line.h"
 
 /// Line arrays near their source: wave fronts are curved across the array, and a beam is focused at one range.
 ///
@@ -30,11 +30,6 @@ std::complex<double> near_field_amplitude(const LineArray& array, double wavelen
 /// Fresnel's integrals.
 std::complex<double> near_field_line_amplitude(double length_m, double wavelength_m, double sine, double range_m,
                                                double focus_m = kFarAway_m);
-
-/// Half-power edges there. Below about L^2 / (7 lambda) an unfocused beam may be weaker on its axis than beside it; the
-/// edges are then where the part around the axis falls to half of the axis.
-BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,
-                                      double focus_m = kFarAway_m);
 
 /// L^2 / lambda, m: where a wave front from the axis is bent by lambda / 8 at the array's ends. There an unfocused
 /// uniform line loses 0.24 dB on its axis against the far field; at half of it 0.97 dB, at a quarter 4.0 dB. Focused at

@@ -18,6 +18,15 @@ LineArray long_line() {
 
 double db(double power) { return 10.0 * std::log10(power); }
 
+/// Of the part around the axis.
+BeamEdges near_field_half_power_edges(const LineArray& array, double wavelength_m, double sin_steer, double range_m,
+                                      double focus_m = kFarAway_m) {
+  const auto pattern = [&](double u) {
+    return std::norm(near_field_amplitude(array, wavelength_m, u, sin_steer, range_m, focus_m));
+  };
+  return half_power_edges(pattern, sin_steer, std::min(0.01, wavelength_m / (64.0 * array.length_m())));
+}
+
 /// With the exact distances instead of Fresnel's.
 double exact_power(const LineArray& line, double sine, double sin_steer, double range_m, double focus_m) {
   const auto path = [](double x, double u, double r) {

@@ -1,9 +1,8 @@
-#include "kernels/acoustics/array/pattern_table.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/acoustics/array/aperture.h"
+#include "kernels/acoustics/array/line.h"
 
 using namespace ensonify::array;
 using Window = Shading::Window;

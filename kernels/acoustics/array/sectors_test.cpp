@@ -1,9 +1,9 @@
-#include "kernels/acoustics/array/sectors.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/acoustics/array/beam_layout.h"
 
 using namespace ensonify::array;
 constexpr double kDeg = std::numbers::pi / 180.0;

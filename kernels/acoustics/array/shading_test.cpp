@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/line.h"
 
 using namespace ensonify::array;
 using Window = Shading::Window;

@@ -51,12 +51,4 @@ std::optional<Vec3> cone_intersection(const Vec3& axis_transmit, double sin_tran
 
 double true_sine(double sin_commanded, double used_mps, double true_mps) { return sin_commanded * true_mps / used_mps; }
 
-std::vector<std::size_t> unreachable(std::span<const double> sines) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < sines.size(); ++i) {
-    if (std::abs(sines[i]) > 1.0) found.push_back(i);
-  }
-  return found;
-}
-
 }  // namespace ensonify::array

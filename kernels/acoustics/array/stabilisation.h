@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "kernels/base/frames/attitude.h"
 
@@ -56,8 +54,5 @@ std::optional<frames::Vec3> cone_intersection(const frames::Vec3& axis_transmit,
 /// Sine at which a beam really points that was steered to `sin_commanded` for the sound speed `used_mps` at the face
 /// where it is `true_mps`: sin_commanded true / used. Beyond -1..1 there is no such beam.
 double true_sine(double sin_commanded, double used_mps, double true_mps);
-
-/// Indices of sines beyond -1..1: beams that the array cannot form.
-std::vector<std::size_t> unreachable(std::span<const double> sines);
 
 }  // namespace ensonify::array

@@ -3,9 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "kernels/acoustics/array/line_array.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/base/random/stream.h"
 
 using namespace ensonify;
@@ -177,12 +176,4 @@ TEST_CASE("a wrong sound speed at the face turns beams as Snell says") {
     sum += std::polar(1.0 / 128.0, 2.0 * kPi * frequency_hz * x * (at / 1515.0 - commanded / 1500.0));
   }
   CHECK(received(at) == Approx(std::norm(sum)).epsilon(1e-9));
-}
-
-TEST_CASE("beams that cannot be formed are named") {
-  std::vector<double> sines;
-  for (const double angle_deg : {-89.0, -60.0, 0.0, 60.0, 85.0})
-    sines.push_back(true_sine(std::sin(angle_deg * kDeg), 1480.0, 1500.0));
-  CHECK(unreachable(sines) == std::vector<std::size_t>{0, 4});
-  CHECK(unreachable(std::vector<double>{1.0, -1.0}).empty());
 }

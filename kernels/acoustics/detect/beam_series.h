@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <span>
+#include <vector>
 
-/// Internal to this folder: what one beam received, and the seabed it expects.
+#include "kernels/acoustics/detect/bottom.h"
+
+/// Internal to this folder: what one beam received, the seabed it expects, its phase detection, and which beams took
+/// the echo by way of the surface for the bottom (bottom.h, SecondEcho).
 namespace ensonify::detect {
 
 /// One beam against time. The halves are empty where there is amplitude alone.
@@ -80,5 +85,30 @@ struct Estimate {
   double two_way_s = 0.0;
   double sd_s = 0.0;
 };
+
+struct PhaseRamp {
+  Estimate crossing;          // sd_s: as an error of the time at the beam's axis
+  double angle_sd_rad = 0.0;  // the same error as one of the direction
+  double coherence =
+      0.0;             // magnitude of the sum of the interferogram turned back by the fit, over the sum of magnitudes
+  double slope = 1.0;  // fitted over expected
+};
+
+/// Phase detection (bottom.h) of the echo about `near_s`: where the phase between the halves crosses zero. Not found
+/// where the beam points within its own width of the seabed's normal, where its footprint echoes for less than two
+/// thirds of a pulse, or where it receives nothing.
+PhaseRamp fit_phase_ramp(const BeamSeries& series, const ExpectedSeabed& seabed, double near_s,
+                         double phase_centres_in_waves);
+
+/// A beam that received the second echo, and the slant range short of which it is to seek the bottom.
+struct DetectedSecondEcho {
+  std::size_t beam = 0;
+  double farthest_m = 0.0;
+};
+
+/// In order of beams. detections: max_detections of each beam, as detect_bottom leaves them. Allocates for what it
+/// finds only.
+std::vector<DetectedSecondEcho> second_echoes(const Settings& settings, std::span<const float> sin_beams,
+                                              std::span<const Detection> detections);
 
 }  // namespace ensonify::detect

@@ -11,8 +11,6 @@
 
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/detect/beam_series.h"
-#include "kernels/acoustics/detect/phase_ramp.h"
-#include "kernels/acoustics/detect/second_echo.h"
 
 namespace ensonify::detect {
 namespace {

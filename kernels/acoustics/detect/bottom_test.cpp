@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "kernels/acoustics/detect/testing/plane_echo.h"
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/base/testing/allocations.h"
 
 using namespace ensonify;

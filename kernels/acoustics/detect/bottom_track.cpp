@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace ensonify::detect {
 namespace {
@@ -66,35 +64,6 @@ BottomTrack follow(const FirstBottomSettings& settings, const BottomTrack& befor
            : first_bottom(settings, line);
   if (pick.found) return {true, pick.altitude_m, 0};
   return {near, before.altitude_m, before.missed + 1};
-}
-
-double ground_range_m(double slant_range_m, double altitude_m) {
-  return std::sqrt(std::max(slant_range_m * slant_range_m - altitude_m * altitude_m, 0.0));
-}
-
-double slant_range_m(double ground_range_m, double altitude_m) { return std::hypot(ground_range_m, altitude_m); }
-
-void ground_range_line(const WaterfallLine& line, double altitude_m, double ground_step_m, std::span<float> ground) {
-  if (!(altitude_m >= 0.0) || !(ground_step_m > 0.0) || !(line.range_step_m > 0.0)) {
-    throw std::invalid_argument("ground_range_line: altitude " + std::to_string(altitude_m) +
-                                " m must not be below 0, steps " + std::to_string(ground_step_m) + " and " +
-                                std::to_string(line.range_step_m) + " m must be above 0");
-  }
-  const std::size_t samples = line.amplitude.size();
-  for (std::size_t j = 0; j < ground.size(); ++j) {
-    const double left_m = static_cast<double>(j) * ground_step_m;
-    const std::size_t first = index_from(line, slant_range_m(left_m, altitude_m));
-    const std::size_t end = index_from(line, slant_range_m(left_m + ground_step_m, altitude_m));
-    if (first < end) {
-      double sum = 0.0;
-      for (std::size_t k = first; k < end; ++k) sum += static_cast<double>(line.amplitude[k]) * line.amplitude[k];
-      ground[j] = static_cast<float>(std::sqrt(sum / static_cast<double>(end - first)));
-    } else {
-      const double middle_m = slant_range_m(left_m + 0.5 * ground_step_m, altitude_m);
-      const double k = std::round((middle_m - line.first_range_m) / line.range_step_m);
-      ground[j] = k >= 0.0 && k < static_cast<double>(samples) ? line.amplitude[static_cast<std::size_t>(k)] : 0.0F;
-    }
-  }
 }
 
 }  // namespace ensonify::detect

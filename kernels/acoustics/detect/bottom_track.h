@@ -53,15 +53,4 @@ struct BottomTrack {
 /// The track after one more line: near the last pick while tracked, and kept there for `patience` lines without one.
 BottomTrack follow(const FirstBottomSettings& settings, const BottomTrack& before, const WaterfallLine& line);
 
-/// Ground range of a slant range over a flat bottom, sqrt(R^2 - H^2); 0 in the water column.
-double ground_range_m(double slant_range_m, double altitude_m);
-
-/// Its inverse, sqrt(X^2 + H^2).
-double slant_range_m(double ground_range_m, double altitude_m);
-
-/// A waterfall line over ground range: cell j is centred at (j + 1/2) ground_step_m and gets the root mean square of
-/// the samples that fall in it, or the sample nearest its centre where none does. Cells beyond the line's last sample
-/// are 0. Throws std::invalid_argument unless altitude_m >= 0 and both steps are above 0.
-void ground_range_line(const WaterfallLine& line, double altitude_m, double ground_step_m, std::span<float> ground);
-
 }  // namespace ensonify::detect

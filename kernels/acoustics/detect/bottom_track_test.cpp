@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 
 using namespace ensonify;
 using namespace ensonify::detect;
@@ -103,30 +103,4 @@ TEST_CASE("the track follows a slope, bridges gaps, and starts again after a ste
   CHECK(track.altitude_m == Approx(14.0).margin(0.15));
   feed(40.0);
   CHECK(track.altitude_m == Approx(40.0).margin(0.15));
-}
-
-TEST_CASE("ground range is Pythagoras, and nothing lies in the water column") {
-  CHECK(ground_range_m(50.0, 30.0) == Approx(40.0));
-  CHECK(ground_range_m(20.0, 30.0) == 0.0);
-  CHECK(slant_range_m(40.0, 30.0) == Approx(50.0));
-}
-
-TEST_CASE("a target comes to its ground range, and a wrong altitude moves it as theory says") {
-  std::vector<float> amplitude(2000, 1.0F), ground(800);
-  amplitude[static_cast<std::size_t>(50.0 / kStep)] = 100.0F;
-  const auto place = [&](double altitude_m) {
-    ground_range_line({amplitude, 0.0, kStep}, altitude_m, 0.1, ground);
-    return 0.1 * (0.5 + static_cast<double>(std::max_element(ground.begin(), ground.end()) - ground.begin()));
-  };
-  CHECK(place(30.0) == Approx(40.0).margin(0.1));
-  CHECK(place(31.0) == Approx(std::sqrt(2500 - 961)).margin(0.1));  // dX = -H dH / X
-  // Every cell of a line of ones is one, at nadir too where samples are sparse; beyond the line there is nothing.
-  std::fill(amplitude.begin(), amplitude.end(), 1.0F);
-  ground.resize(1200);
-  ground_range_line({amplitude, 0.0, kStep}, 30.0, 0.1, ground);
-  CHECK(ground[0] == 1.0F);
-  CHECK(ground[900] == 1.0F);
-  CHECK(ground[960] == 0.0F);  // 96 m of ground are 100.6 m of slant range
-  CHECK_THROWS_WITH(ground_range_line({amplitude, 0.0, kStep}, -1.0, 0.1, ground),
-                    Catch::Contains("altitude -1.000000 m must not be below 0"));
 }

@@ -1,6 +1,6 @@
-#include "kernels/acoustics/detect/phase_ramp.h"
-
 #include <numbers>
+
+#include "kernels/acoustics/detect/beam_series.h"
 
 namespace ensonify::detect {
 namespace {

@@ -1,10 +1,9 @@
-#include "kernels/acoustics/detect/second_echo.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/detect/beam_series.h"
 
 namespace ensonify::detect {
 namespace {

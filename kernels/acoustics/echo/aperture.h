@@ -5,7 +5,6 @@
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/time_index.h"
 
 namespace ensonify::echo {
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "kernels/acoustics/array/line.h"
-#include "kernels/acoustics/array/line_array.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/seabed/backscatter.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kernels/acoustics/trace/batch.h"
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
 

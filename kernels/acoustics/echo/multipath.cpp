@@ -154,21 +154,4 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
   }
 }
 
-void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                       double bottom_level_enu_m, const frames::HeadPose& pose, const Receivers& receivers,
-                       Arrivals& arrivals) {
-  const Vec3& place = pose.position_enu_m;
-  if (place.z() >= surface.level_enu_m || place.z() <= bottom_level_enu_m) return;
-  const Paths paths{carrier, head, surface, pose, receivers};
-  const double V = surface_reflection(surface, carrier.frequency_hz, 1.0);
-  const double B = paths.bottom_mirror;
-  const auto bottom = [&](const Vec3& point) { return mirrored(point, bottom_level_enu_m); };
-  const auto top = [&](const Vec3& point) { return mirrored(point, surface.level_enu_m); };
-  const Vec3 down_up = top(bottom(place)), up_down = bottom(top(place)), twice = bottom(down_up);
-  arrivals.push_back(paths.mirror_echo(bottom(place), bottom(place), B));
-  arrivals.push_back(paths.mirror_echo(down_up, up_down, B * V));  // leaves downwards, comes from above
-  arrivals.push_back(paths.mirror_echo(up_down, down_up, B * V));
-  arrivals.push_back(paths.mirror_echo(twice, twice, B * V * B));
-}
-
 }  // namespace ensonify::echo

@@ -61,11 +61,4 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
                    const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
                    const Receivers& receivers, Arrivals& arrivals);
 
-/// Echoes of a flat mirror of a seabed: 2 H, bottom - surface and surface - bottom (2 D each, coherent), and bottom -
-/// surface - bottom 2 (H + D), for altitude H and depth D below the surface. For seabeds that reflect rather than
-/// scatter; scatterers bring the rest. EL = SL - 20 log L - alpha L - losses [Lurton2010, ch. 3].
-void add_mirror_echoes(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                       double bottom_level_enu_m, const frames::HeadPose& pose, const Receivers& receivers,
-                       Arrivals& arrivals);
-
 }  // namespace ensonify::echo

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
 namespace {

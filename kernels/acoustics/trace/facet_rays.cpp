@@ -1,10 +1,9 @@
-#include "kernels/acoustics/trace/facet_rays.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/water/refraction/eigenray.h"
 
 namespace ensonify::trace {

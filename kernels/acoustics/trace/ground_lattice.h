@@ -6,7 +6,7 @@
 #include <span>
 
 #include "kernels/base/frames/attitude.h"
-#include "kernels/base/random/row.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::trace {
 

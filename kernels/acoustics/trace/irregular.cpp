@@ -1,10 +1,10 @@
-#include "kernels/acoustics/trace/irregular.h"
-
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
 namespace {

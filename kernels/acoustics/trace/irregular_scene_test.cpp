@@ -9,7 +9,7 @@
 #include "kernels/acoustics/trace/testing/adapted.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/hierarchy.h"
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
+#include "kernels/mesh/progressive/objects.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;

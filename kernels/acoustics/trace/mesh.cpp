@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernels/mesh/lod/patch.h"
+#include "kernels/mesh/lod/cover.h"
 
 namespace ensonify::trace {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -8,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "kernels/acoustics/trace/contributor.h"
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/mesh/lod/cover.h"
@@ -17,6 +17,59 @@
 #include "kernels/water/refraction/path_table.h"
 
 namespace ensonify::trace {
+
+/// Way of an echo between the head and what sends it.
+enum class EchoPath : std::uint8_t {
+  kDirect,
+  kViaSurface,  // out or back by way of the surface
+  kViaBottom    // by way of the surface and the seabed
+};
+inline constexpr std::uint32_t kPaths = 3;
+
+/// Source of sound in a ping.
+struct Contributor {
+  enum class Kind : std::uint8_t { kNoise, kSediment };
+
+  Kind kind = Kind::kNoise;
+  std::uint32_t instance = 0;     // among its kind
+  std::uint32_t label_class = 0;  // of a label
+  std::uint8_t sediment = 0;      // class
+  EchoPath path = EchoPath::kDirect;
+
+  bool operator==(const Contributor&) const = default;
+};
+
+/// Index of noise, and of what nothing in the table sends: other heads, the surface overhead.
+inline constexpr std::uint32_t kNoise = 0;
+
+/// Index of the direct echo of a sediment.
+constexpr std::uint32_t sediment_contributor(std::uint8_t sediment) { return 1 + kPaths * sediment; }
+
+/// Index of the same source by a path; noise stays noise.
+constexpr std::uint32_t by_path(std::uint32_t contributor, EchoPath path) {
+  return contributor == kNoise ? kNoise : contributor - (contributor - 1) % kPaths + static_cast<std::uint32_t>(path);
+}
+
+/// Contributors of a ping: hits and echoes carry an index. Entry 0 is noise; then each source has as many entries as
+/// there are paths.
+class Contributors {
+ public:
+  /// All sediment classes.
+  Contributors() : all_(1) {
+    for (unsigned sediment = 0; sediment < 256; ++sediment) {
+      for (std::uint32_t path = 0; path < kPaths; ++path) {
+        all_.push_back({Contributor::Kind::kSediment, sediment, 0, static_cast<std::uint8_t>(sediment),
+                        static_cast<EchoPath>(path)});
+      }
+    }
+  }
+
+  std::size_t size() const { return all_.size(); }
+  const Contributor& operator[](std::uint32_t index) const { return all_[index]; }
+
+ private:
+  std::vector<Contributor> all_;
+};
 
 /// Hit of a ray on the seabed, and the history of its bundle of sound. Times and lengths are one
 /// way.

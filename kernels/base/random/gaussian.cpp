@@ -1,9 +1,9 @@
-#include "kernels/base/random/gaussian.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::random {
 namespace {

@@ -1,9 +1,9 @@
-#include "kernels/base/random/gaussian.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "kernels/base/random/stream.h"
 
 using namespace ensonify::random;
 

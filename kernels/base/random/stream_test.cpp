@@ -5,8 +5,6 @@
 #include <set>
 #include <vector>
 
-#include "kernels/base/random/row.h"
-
 using ensonify::random::philox_block;
 using ensonify::random::Row;
 using ensonify::random::Stream;

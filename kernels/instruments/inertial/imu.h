@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "kernels/base/frames/attitude.h"
-#include "kernels/base/random/gauss_markov.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/instruments/inertial/strapdown.h"
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "kernels/base/frames/attitude.h"
-#include "kernels/base/random/gauss_markov.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::sensors {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "kernels/base/random/gauss_markov.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::sensors {

@@ -18,7 +18,7 @@
 #include "kernels/acoustics/trace/views.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/hierarchy.h"
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
+#include "kernels/mesh/progressive/objects.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 #include "tests/support/fan.h"
 

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <set>
 
-#include "kernels/mesh/lod/patch.h"
-
 using namespace ensonify;
 using namespace ensonify::lod;
 

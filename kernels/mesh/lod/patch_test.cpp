@@ -1,5 +1,3 @@
-#include "kernels/mesh/lod/patch.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "kernels/base/random/stream.h"
+#include "kernels/mesh/lod/cover.h"
 
 using namespace ensonify;
 using namespace ensonify::lod;

@@ -1,10 +1,9 @@
-#include "kernels/mesh/progressive/bars.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "kernels/mesh/progressive/hierarchy.h"
+#include "kernels/mesh/progressive/objects.h"
 
 using namespace ensonify::progressive;
 using ensonify::frames::Vec3;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/mesh/progressive/mesh.h"
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
+#include "kernels/mesh/progressive/hierarchy.h"
+#include "kernels/mesh/progressive/objects.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;

@@ -1,9 +1,8 @@
-#include "kernels/mesh/progressive/sheet_pile_wall.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/mesh/progressive/hierarchy.h"
+#include "kernels/mesh/progressive/objects.h"
 
 using namespace ensonify;
 using namespace ensonify::progressive;

@@ -1,10 +1,9 @@
-#include "kernels/mesh/progressive/strewn.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "kernels/mesh/progressive/objects.h"
 #include "kernels/mesh/progressive/testing/meshes.h"
 
 using namespace ensonify;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernels/base/random/poisson.h"
+#include "kernels/base/random/stream.h"
 #include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {

@@ -1,8 +1,8 @@
-#include "kernels/vehicle/guidance/circle.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/vehicle/guidance/laws.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;

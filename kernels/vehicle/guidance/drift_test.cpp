@@ -1,8 +1,8 @@
-#include "kernels/vehicle/guidance/drift.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/vehicle/guidance/laws.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;
@@ -38,7 +38,6 @@ TEST_CASE("the heading for a course points upstream so that the way made good is
     const double heading = heading_for_course_rad(course, 1.5, drift);
     const Vec2 ground = 1.5 * Vec2(std::sin(heading), std::cos(heading)) + drift;
     CHECK(std::abs(frames::wrap_pi(std::atan2(ground.x(), ground.y()) - course)) < 1e-12);
-    CHECK(ground.norm() == Approx(speed_made_good_mps(course, 1.5, drift)));
   }
 }
 

@@ -1,8 +1,7 @@
-#include "kernels/vehicle/guidance/height.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "kernels/vehicle/guidance/laws.h"
 #include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify;

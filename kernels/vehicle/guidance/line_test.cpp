@@ -1,7 +1,7 @@
-#include "kernels/vehicle/guidance/line.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/vehicle/guidance/laws.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/vehicle/guidance/drift.h"
-#include "kernels/vehicle/guidance/line.h"
+#include "kernels/vehicle/guidance/laws.h"
 #include "kernels/vehicle/motion/disturbance.h"
-#include "kernels/vehicle/motion/disturbance_presets.h"
 #include "kernels/vehicle/motion/kinematics.h"
-#include "kernels/vehicle/runlines/turn.h"
+#include "kernels/vehicle/runlines/runline.h"
 
 using namespace ensonify;
 using namespace ensonify::guidance;

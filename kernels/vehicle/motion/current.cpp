@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/vehicle/motion/cubic.h"
+#include "kernels/vehicle/motion/excursion.h"
 
 namespace ensonify::motion {
 namespace {

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "kernels/vehicle/motion/disturbance_presets.h"
-
 using namespace ensonify::motion;
 using ensonify::frames::MovingPose;
 using ensonify::frames::Quaternion;

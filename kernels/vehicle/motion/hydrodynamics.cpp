@@ -249,22 +249,6 @@ frames::MovingPose Body::moving(const BodyState& state, const Surroundings& arou
   return moving;
 }
 
-double Body::energy_j(const BodyState& state, const Surroundings& around) const {
-  const HydrodynamicParameters& p = parameters_;
-  const auto height_m = [&](const Vec3& point) { return frames::enu_from_body(state.pose, point).z(); };
-  double energy = 0.5 * state.velocity.dot(mass_ * state.velocity) +
-                  p.mass_kg * p.gravity_mps2 * height_m(p.gravity_centre_body_m) -
-                  p.buoyancy_n * height_m(p.buoyancy_centre_body_m);
-  if (p.waterplane) {
-    const double out_m = state.pose.position_enu_m.z() - around.water_level_m;
-    const frames::Attitude attitude = frames::attitude_of(state.pose.enu_from_body);
-    energy +=
-        0.5 * (p.waterplane->heave_npm * out_m * out_m + p.waterplane->roll_nm * attitude.roll_rad * attitude.roll_rad +
-               p.waterplane->pitch_nm * attitude.pitch_rad * attitude.pitch_rad);
-  }
-  return energy;
-}
-
 double thrust_n(const Propeller& propeller, double rps, double water_speed_mps) {
   if (rps <= 0.0) return -propeller.astern_ns2 * rps * rps;
   return propeller.ahead_ns2 * rps * rps - propeller.advance_loss_ns2pm * rps * water_speed_mps;

@@ -126,10 +126,6 @@ class Body {
   /// Pose, velocity, acceleration and turn rates in the world.
   frames::MovingPose moving(const BodyState& state, const Surroundings& around) const;
 
-  /// Kinetic energy of body and carried water, plus potential energy of weight, buoyancy and waterplane, in still
-  /// water.
-  double energy_j(const BodyState& state, const Surroundings& around) const;
-
  private:
   struct Slope;
   Slope slope(const BodyState& state, const Eigen::VectorXd& orders, const Surroundings& around) const;

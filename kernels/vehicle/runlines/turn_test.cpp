@@ -1,8 +1,8 @@
-#include "kernels/vehicle/runlines/turn.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "kernels/vehicle/runlines/runline.h"
 
 using namespace ensonify::runlines;
 constexpr double kPi = std::numbers::pi;

@@ -5,9 +5,24 @@
 namespace ensonify::vertical {
 namespace {
 
+double settlement_m(const std::vector<Sinkage>& table, double speed_mps) {
+  if (table.empty()) return 0.0;
+  if (speed_mps <= table.front().speed_mps) return table.front().lower_m;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    if (speed_mps > table[i].speed_mps) continue;
+    const double slope = (table[i].lower_m - table[i - 1].lower_m) / (table[i].speed_mps - table[i - 1].speed_mps);
+    return table[i - 1].lower_m + slope * (speed_mps - table[i - 1].speed_mps);
+  }
+  return table.back().lower_m;
+}
+
 constexpr double kW = 1.0;  // 1/s
 
 }  // namespace
+
+double sinkage_m(const Loading& loading, double speed_mps, double t_s) {
+  return settlement_m(loading.settlement, speed_mps) + loading.change_m + loading.rate_mps * t_s;
+}
 
 void Settling::advance(double target_m, double dt_s) {
   if (dt_s <= 0.0) return;

@@ -1,11 +1,28 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "kernels/vehicle/vertical/draught.h"
 #include "kernels/vehicle/vertical/tide.h"
 
+/// Draught of a vessel, and the height at which she floats.
 namespace ensonify::vertical {
+
+/// A vessel's settlement and squat at one speed: how much deeper her reference point runs than at rest.
+struct Sinkage {
+  double speed_mps = 0.0;
+  double lower_m = 0.0;  // positive down
+};
+
+struct Loading {
+  /// Settlement and squat as measured, speeds rising from 0; straight lines between, the last beyond. Empty: none.
+  std::vector<Sinkage> settlement;
+  double change_m = 0.0;  // deeper by this than the reference point's own waterline, at sim time 0
+  double rate_mps = 0.0;  // deeper with time; burnt fuel makes it negative
+};
+
+/// Increase of depth over rest and first load, positive down, at a speed through the water and sim time t.
+double sinkage_m(const Loading& loading, double speed_mps, double t_s);
 
 /// Approach of a hull to the settlement of its speed: like a critically damped mass on a spring, z'' = w^2 (u - z) - 2
 /// w z' with w = 1/s (assumed; nine tenths of a sudden change after 4 s). So neither its velocity nor its acceleration

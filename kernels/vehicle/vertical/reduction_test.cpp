@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernels/vehicle/vertical/draught.h"
+#include "kernels/vehicle/vertical/floating.h"
 
 using namespace ensonify::vertical;
 using ensonify::frames::Vec2;
@@ -24,8 +24,4 @@ TEST_CASE("settlement is the table's, flat beyond it, and grows with its slope")
   CHECK(sinkage_m(loading, 3.5, 0.0) == Approx(0.065));
   CHECK(sinkage_m(loading, 9.0, 0.0) == Approx(0.11));
   CHECK(sinkage_m({{}, 0.05, -1e-6}, 3.0, 10000.0) == Approx(0.04));
-}
-
-TEST_CASE("Barrass: a block coefficient of 0.7 at 8 knots squats 0.45 m") {
-  CHECK(barrass_squat_m(0.7, 8.0 * 1852.0 / 3600.0) == Approx(0.448));
 }

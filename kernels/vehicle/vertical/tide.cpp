@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "kernels/vehicle/motion/cubic.h"
+#include "kernels/vehicle/motion/excursion.h"
 
 namespace ensonify::vertical {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "kernels/acoustics/array/line.h"
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::detect {
 namespace {

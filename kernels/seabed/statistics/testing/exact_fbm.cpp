@@ -8,7 +8,7 @@
 #include <string>
 
 #include "kernels/base/fft/transform.h"
-#include "kernels/base/random/gaussian.h"
+#include "kernels/base/random/stream.h"
 
 namespace ensonify::relief_statistics {
 namespace {
