@@ -14,7 +14,6 @@
 #include "components/runtime/protocol.h"
 #include "launch/child.h"
 #include "launch/process/launch_wiring.h"
-#include "launch/signals.h"
 
 namespace ensonify::launcher {
 namespace {

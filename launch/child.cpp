@@ -1,9 +1,13 @@
+extern char** environ;
 #include "launch/child.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sched.h>
+#include <sys/inotify.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,12 +20,21 @@
 #include <fstream>
 
 #include "components/errors/exit_error.h"
-#include "launch/signals.h"
-
-extern char** environ;
 
 namespace ensonify::launcher {
+
 namespace {
+
+sigset_t watched() {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) {
+    ::sigaddset(&set, signal);
+  }
+  return set;
+}
+
+[[noreturn]] void fail(const std::string& what) { throw ExitError(kExitDied, what + ": " + std::strerror(errno)); }
 
 std::vector<std::string> environment(const std::map<std::string, std::string>& added) {
   std::vector<std::string> all;
@@ -105,6 +118,103 @@ int wait_for_exec(int read_fd) {
 }
 
 }  // namespace
+
+Signals::Signals() {
+  const sigset_t set = watched();
+  ::signal(SIGPIPE, SIG_IGN);
+  if (::sigprocmask(SIG_BLOCK, &set, nullptr) != 0 || (fd_ = ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK)) < 0) {
+    fail("signals cannot be watched");
+  }
+}
+
+Signals::~Signals() {
+  take();
+  const sigset_t set = watched();
+  ::close(fd_);
+  ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+Signals::Arrived Signals::take() {
+  Arrived arrived;
+  signalfd_siginfo info{};
+  while (::read(fd_, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
+    if (info.ssi_signo == SIGCHLD) {
+      arrived.child = true;
+    } else {
+      ++arrived.interrupts;
+    }
+  }
+  return arrived;
+}
+
+bool Signals::wait(std::chrono::milliseconds patience) const {
+  pollfd item{fd_, POLLIN, 0};
+  return ::poll(&item, 1, static_cast<int>(patience.count())) > 0;
+}
+
+FileWatch::FileWatch(const std::string& folder) {
+  fd_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
+  if (fd_ < 0 || ::inotify_add_watch(fd_, folder.c_str(), IN_MOVED_TO | IN_CLOSE_WRITE) < 0) {
+    fail(folder + ": cannot be watched");
+  }
+}
+
+FileWatch::~FileWatch() { ::close(fd_); }
+
+void FileWatch::wait(const Signals& signals, std::chrono::milliseconds patience) {
+  pollfd items[] = {{fd_, POLLIN, 0}, {signals.fd(), POLLIN, 0}};
+  ::poll(items, 2, static_cast<int>(patience.count()));
+  char events[4096];
+  while (::read(fd_, events, sizeof events) > 0) {
+  }
+}
+
+void Verdict::fault(Fault fault) {
+  if (!first_) {
+    first_ = std::move(fault);
+  }
+}
+
+void Verdict::assertion_failed(const std::string& message) {
+  if (!failed_) {
+    failed_ = Fault{kExitAssertionFailed, "expect", message};
+  }
+}
+
+void Verdict::interrupted() { fault({kExitInterrupted, "", "interrupted"}); }
+
+std::optional<Fault> Verdict::cause() const { return first_ ? first_ : failed_; }
+
+int Verdict::code() const { return cause() ? cause()->code : kExitOk; }
+
+std::string text_of(const Ending& ending) {
+  return ending.signal != 0 ? "signal " + std::to_string(ending.signal) + " (" + ::strsignal(ending.signal) + ")"
+                            : "exit code " + std::to_string(ending.exit_code);
+}
+
+std::optional<Fault> fault_of(const std::string& process, bool native, const Ending& ending) {
+  if (ending.signal != 0) {
+    return Fault{kExitDied, process, "was killed by " + text_of(ending)};
+  }
+  const int code = ending.exit_code;
+  if (code == kExitOk) {
+    return std::nullopt;
+  }
+  const bool reported = native ? (code >= kExitUserError && code <= kExitDiffer) || (code == 1 && process == "expect")
+                               : code == kExitUserError || code == kExitDataLost;
+  static const char* const kMeanings[] = {"",        "assertions failed", "refused its files or arguments", "died",
+                                          "stalled", "lost data",         "found runs that differ"};
+  const std::string meaning = reported ? kMeanings[code] : "died";
+  return Fault{reported ? code : int{kExitDied}, process, meaning + " (" + text_of(ending) + ")"};
+}
+
+Fault most_significant(const std::vector<Fault>& faults) {
+  const auto weight = [](const Fault& fault) {
+    return fault.message.starts_with("was killed by signal") ? 0 : fault.culprit == "clock" ? 1 : 2;
+  };
+  return *std::min_element(faults.begin(), faults.end(),
+                           [&](const Fault& a, const Fault& b) { return weight(a) < weight(b); });
+}
 
 std::string find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) {

@@ -12,12 +12,8 @@
 
 #include "launch/child.h"
 #include "launch/commands.h"
-#include "launch/guard.h"
-#include "launch/progress.h"
 #include "launch/report.h"
 #include "launch/run_dir.h"
-#include "launch/signals.h"
-#include "launch/verdict.h"
 
 namespace ensonify::launcher {
 namespace {

@@ -5,6 +5,13 @@
 
 namespace ensonify {
 
+void Headway::observe(SimTime now, double to_go_m) {
+  constexpr double kStep_m = 1.0;
+  if (nearest_m_ && to_go_m > *nearest_m_ - kStep_m) return;
+  nearest_m_ = to_go_m;
+  nearest_at_ = now;
+}
+
 void AbortMonitor::observe(SimTime now, bool too_low) {
   if (!too_low) {
     too_low_since_.reset();

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "components/config/parameters.h"
-#include "scenarios/world/auto_plan.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,5 +71,22 @@ std::string to_json(const ConfigNode& node);
 /// YAML in one fixed layout without places, for records: equal trees give equal bytes. A scalar that is an absolute
 /// path is reduced to its last part, so no record knows on which machine it was made.
 std::string to_canonical_yaml(const ConfigNode& node);
+
+/// Values to set before reading: ("water.salinity_psu", value). Their places appear in messages.
+using Overrides = std::vector<std::pair<std::string, ConfigNode>>;
+
+/// Applies overrides to a tree; a path that leads nowhere is a problem.
+std::vector<ConfigProblem> apply(const Overrides& overrides, ConfigNode& root);
+
+/// The whole of `text` as a decimal number; infinities and NaN (".inf", ".nan", "inf", "nan") come back as such.
+std::optional<double> parse_number(const std::string& text);
+
+/// The whole of `text` as a whole number, decimal or 0x hexadecimal.
+std::optional<std::int64_t> parse_integer(const std::string& text);
+std::optional<std::uint64_t> parse_natural(const std::string& text);
+
+/// "100000", "1e+06": as %g writes it when that is exact, else with as many digits as distinguish it from its
+/// neighbours.
+std::string shortest_number(double value);
 
 }  // namespace ensonify

@@ -1,13 +1,15 @@
+/// How a ConfigReader reads one value: numbers, lists of them, words, paths.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "components/config/config_node.h"
 #include "components/config/data_paths.h"
+#include "components/config/read_parameters.h"
 #include "components/config/reader_state.h"
-#include "components/config/scalars.h"
 
-/// How a ConfigReader reads one value: numbers, lists of them, words, paths.
 namespace ensonify {
+
 namespace {
 
 constexpr std::size_t kLongestQuotedText = 60;
@@ -267,6 +269,10 @@ void ConfigReader::read_path(std::string_view key, std::string& path, bool must)
     return;
   }
   path = found;
+}
+
+void refuse_empty(const ConfigReader& from, const char* key, const std::string& text) {
+  if (text.empty() && from.has(key)) from.problem(key, "is empty; allowed: a text");
 }
 
 }  // namespace ensonify

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -14,33 +15,6 @@ struct NamedUnit {
 };
 
 constexpr NamedUnit kUnits[] = {
-    {"", 1.0},
-    {"m", 1.0},
-    {"s", 1.0},
-    {"Hz", 1.0},
-    {"dB", 1.0},
-    {"m/s", 1.0},
-    {"m/s^2", 1.0},
-    {"rad", 1.0},
-    {"rad/s", 1.0},
-    {"uPa", 1.0},
-    {"psu", 1.0},
-    {"degC", 1.0},
-    {"kg", 1.0},
-    {"N", 1.0},
-    {"N m", 1.0},
-    {"kg/m^3", 1.0},
-    {"kg m^2", 1.0},
-    {"m^2", 1.0},
-    {"m^3", 1.0},
-    {"MB", 1.0},
-    {"1/s", 1.0},
-    {"m/sqrt(s)", 1.0},
-    {"N/m", 1.0},
-    {"dB/m", 1.0},
-    {"1/m", 1.0},
-    {"1/km^2", 1.0},  // as the seabed's features are counted
-    // Not SI.
     {"deg", kDegrees.si},
     {"deg/s", kDegrees.si},
     {"deg/s^2", kDegrees.si},
@@ -53,17 +27,18 @@ constexpr NamedUnit kUnits[] = {
     {"ppm", 1e-6},
     {"ug", 9.80665e-6},
     {"ug/sqrt(Hz)", 9.80665e-6},
-    // SI, of single instruments.
-    {"rad/s/sqrt(s)", 1.0},
-    {"m/s^2/sqrt(s)", 1.0},
-    {"m/s/sqrt(s)", 1.0},
-    {"m/s/sqrt(m)", 1.0},
 };
+// SI, but features of the seabed are counted per square kilometre.
+constexpr std::string_view kSiUnits[] = {
+    "",    "m",         "s",   "Hz",   "dB",  "m/s",    "m/s^2",         "rad",           "rad/s",       "uPa",
+    "psu", "degC",      "kg",  "N",    "N m", "kg/m^3", "kg m^2",        "m^2",           "m^3",         "MB",
+    "1/s", "m/sqrt(s)", "N/m", "dB/m", "1/m", "1/km^2", "rad/s/sqrt(s)", "m/s^2/sqrt(s)", "m/s/sqrt(s)", "m/s/sqrt(m)"};
 
 }  // namespace
 
 double file_unit(const char* unit) {
   if (std::string_view(unit).starts_with("dB re ")) return 1.0;
+  if (std::ranges::find(kSiUnits, unit) != std::end(kSiUnits)) return 1.0;
   for (const NamedUnit& known : kUnits) {
     if (known.name == unit) return known.si;
   }

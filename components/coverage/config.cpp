@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/own_vehicle.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

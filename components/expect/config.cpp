@@ -4,9 +4,9 @@
 
 #include <map>
 
+#include "components/config/config_node.h"
 #include "components/config/parameter_info.h"
 #include "components/config/read_parameters.h"
-#include "components/config/scalars.h"
 
 namespace ensonify {
 namespace expect {

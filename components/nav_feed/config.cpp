@@ -1,7 +1,7 @@
 #include "components/nav_feed/config.h"
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/own_vehicle.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 

@@ -9,7 +9,7 @@
 #include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
 #include "components/sonar/environment.h"
-#include "scenarios/world/own_vehicle.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

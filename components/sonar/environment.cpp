@@ -7,7 +7,7 @@
 
 #include "kernels/acoustics/sea_surface.h"
 #include "kernels/water/noise.h"
-#include "scenarios/world/facet_slope.h"
+#include "scenarios/world/seabed.h"
 
 namespace ensonify {
 namespace {

@@ -14,7 +14,7 @@
 #include "components/terrain/layered_seabed.h"
 #include "kernels/seabed/law.h"
 #include "kernels/seabed/relief/intermittency.h"
-#include "scenarios/world/facet_slope.h"
+#include "scenarios/world/seabed.h"
 
 namespace ensonify::source {
 namespace {

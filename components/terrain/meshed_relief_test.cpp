@@ -10,7 +10,7 @@
 
 #include "components/config/config_reader.h"
 #include "components/terrain/layers_source.h"
-#include "scenarios/world/facet_slope.h"
+#include "scenarios/world/seabed.h"
 #include "scenarios/world/sections.h"
 
 using namespace ensonify;

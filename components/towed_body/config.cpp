@@ -1,7 +1,7 @@
 #include "components/towed_body/config.h"
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/own_vehicle.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 TowedBodyConfig TowedBodyConfig::read(ConfigReader& from, const World& world, const std::string& process) {

@@ -8,8 +8,6 @@
 #include "components/config/read_parameters.h"
 #include "components/errors/nearest_name.h"
 #include "launch/file/exits.h"
-#include "launch/file/overrides.h"
-#include "launch/file/text.h"
 #include "launch/file/tree.h"
 
 namespace ensonify {

@@ -15,7 +15,6 @@
 namespace CLI {
 class App;
 }
-
 namespace ensonify {
 
 inline constexpr const char* kLaunchFormat = "launch/1";
@@ -130,5 +129,12 @@ using ReadScenario = std::function<void(ConfigReader&, const std::string& file)>
 /// Reads a launch file and the header of its scenario. Throws ConfigError with every problem, those that
 /// `read_scenario` adds among them. The processes' own parameters are parsed here but checked by each process.
 Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenario = {});
+
+/// Launch::launch_text of a launch whose `$(out)` has not been put in yet.
+std::string canonical_text(const Launch& launch);
+
+/// JSON Schema of launch files, for editors. `components` has the JSON Schema of each component's parameters by its
+/// name; others' `config` may hold anything. Every value may be an argument, $(name).
+std::string launch_schema(const std::map<std::string, std::string>& components);
 
 }  // namespace ensonify

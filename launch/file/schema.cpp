@@ -1,4 +1,3 @@
-#include "launch/file/schema.h"
 
 #include <nlohmann/json.hpp>
 #include <utility>

@@ -1,10 +1,47 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
 #include "components/config/parameter_info.h"
 #include "components/errors/exit_error.h"
-#include "launch/process/factory.h"
+#include "components/runtime/node.h"
+#include "launch/file/launch_file.h"
 
 namespace ensonify {
+
+/// Reads a process's parameters and constructs its node, which declares its ports. Throws ConfigError.
+using NodeFactory = std::function<std::unique_ptr<AnyNode>(const Launch&, const ProcessSpec&, Ports&)>;
+
+/// What a Config's read() takes decides what is read for it: its own parameters alone, with the scenario's header, or
+/// with the whole World. A component that takes less links less.
+template <class Config>
+Config read_config(Config (*read)(ConfigReader&), ConfigReader& from, const Launch&, const ProcessSpec&) {
+  return read(from);
+}
+template <class Config>
+Config read_config(Config (*read)(ConfigReader&, const ScenarioHeader&), ConfigReader& from, const Launch& launch,
+                   const ProcessSpec&) {
+  return read(from, launch.scenario.header);
+}
+template <class Config, class World>
+Config read_config(Config (*read)(ConfigReader&, const World&, const std::string& name), ConfigReader& from,
+                   const Launch& launch, const ProcessSpec& process) {
+  return read(from, World::read(launch.scenario), process.name);
+}
+
+/// The factory of a node class.
+template <class Node>
+NodeFactory factory_of() {
+  return [](const Launch& launch, const ProcessSpec& process, Ports& ports) -> std::unique_ptr<AnyNode> {
+    ConfigReader from = process.reader();
+    const typename Node::Config config = read_config(&Node::Config::read, from, launch, process);
+    from.finish();
+    return std::make_unique<NodeHolder<Node>>(config, ports);
+  };
+}
 
 /// The list of what a Config reads: its own, or that of the struct that it names as its Parameters.
 template <class Config>
@@ -28,5 +65,14 @@ template <class Node>
 int run(int argc, char** argv) {
   return run_component(Node::kComponent, factory_of<Node>(), list_of<typename Node::Config>, argc, argv);
 }
+
+/// Runs a whole launch in this process on the `local:` bus, one node after another, as fast as it goes: the same bytes
+/// as separate processes, without sockets or threads of the runtime's. For tests, debuggers and ThreadSanitizer.
+/// Foreign programs and external processes cannot take part: UserError names them. Returns the first exit code that is
+/// not 0.
+int run_local(const Launch& launch, const std::map<std::string, NodeFactory>& components);
+
+/// main() of `ensonify-local`.
+int local_main(int argc, char** argv, const std::map<std::string, NodeFactory>& components);
 
 }  // namespace ensonify

@@ -1,11 +1,11 @@
-#include "scenarios/world/auto_plan.h"
-
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "scenarios/world/world.h"
 
 using namespace ensonify;
 

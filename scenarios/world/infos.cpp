@@ -1,7 +1,7 @@
-#include "scenarios/world/infos.h"
-
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "scenarios/world/sections.h"
 
 namespace ensonify {
 namespace {

@@ -2,15 +2,16 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
-#include "components/config/scalars.h"
-#include "scenarios/world/facet_slope.h"
 #include "scenarios/world/sections.h"
 
 namespace ensonify {
+
 namespace {
 
 double ratio_of(double db) { return std::pow(10.0, 0.1 * db); }
@@ -186,6 +187,8 @@ ParameterList sediment_list() {
   return list;
 }
 
+constexpr double kDegree = std::numbers::pi / 180.0;
+
 }  // namespace
 
 ParameterList seabed_list() {
@@ -221,6 +224,30 @@ Seabed read_seabed(ConfigReader from) {
     case Seabed::Kind::kTiles: from.section("tiles").required_path("folder", seabed.tiles_folder); break;
   }
   return seabed;
+}
+
+seabed::MeshedSediment on_facets(const std::variant<seabed::SedimentParameters, seabed::CappedSediment>& whole,
+                                 double facet_slope_deg) {
+  const double slope = std::tan(facet_slope_deg * kDegree);
+  return {whole, slope * slope};
+}
+
+std::map<std::uint8_t, seabed::Scatterer> on_mesh(std::map<std::uint8_t, seabed::Scatterer> sediments,
+                                                  std::span<const double> mean_square_slope) {
+  for (auto& [number, scatterer] : sediments) {
+    if (number >= mean_square_slope.size() || mean_square_slope[number] == 0.0) continue;
+    const double slope = mean_square_slope[number];
+    if (const auto* plain = std::get_if<seabed::SedimentParameters>(&scatterer)) {
+      scatterer = seabed::MeshedSediment{*plain, slope};
+    } else if (const auto* capped = std::get_if<seabed::CappedSediment>(&scatterer)) {
+      scatterer = seabed::MeshedSediment{*capped, slope};
+    }
+  }
+  return sediments;
+}
+
+double facet_slope_deg(const seabed::MeshedSediment& meshed) {
+  return std::atan(std::sqrt(meshed.mean_square_slope)) / kDegree;
 }
 
 }  // namespace ensonify

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "components/config/config_error.h"
@@ -87,5 +89,18 @@ struct Seabed {
     visit("lsb_m", "m", in(1e-6, 1), "heights are whole multiples of this; a tile set has its own", self.lsb_m);
   }
 };
+
+/// Sediment as facets of that rms slope (0 to 35 degrees) change it.
+seabed::MeshedSediment on_facets(const std::variant<seabed::SedimentParameters, seabed::CappedSediment>& whole,
+                                 double facet_slope_deg);
+
+/// A scenario's sediments as they scatter on a mesh whose facets have these mean square slopes, by class: those by
+/// TR 9407 become those of facets, where the scenario does not say itself how steep these are. 0, or a class beyond the
+/// end: as it was.
+std::map<std::uint8_t, seabed::Scatterer> on_mesh(std::map<std::uint8_t, seabed::Scatterer> sediments,
+                                                  std::span<const double> mean_square_slope);
+
+/// The same slope of a meshed sediment.
+double facet_slope_deg(const seabed::MeshedSediment& meshed);
 
 }  // namespace ensonify

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "scenarios/world/cast_file.h"
+#include "scenarios/world/water.h"
 
 namespace ensonify {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/own_vehicle.h"
 #include "scenarios/world/sections.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

@@ -1,5 +1,3 @@
-#include "scenarios/world/vertical.h"
-
 #include <fmt/format.h>
 
 #include <cctype>
@@ -10,9 +8,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
-#include "components/config/scalars.h"
 #include "scenarios/world/sections.h"
+#include "scenarios/world/world.h"
 
 namespace ensonify {
 namespace {

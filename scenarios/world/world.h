@@ -9,22 +9,41 @@
 #include <vector>
 
 #include "components/config/config_node.h"
-#include "components/config/overrides.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/vehicle/motion/current.h"
 #include "kernels/vehicle/motion/disturbance.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/vertical/floating.h"
+#include "kernels/vehicle/vertical/reduction.h"
+#include "kernels/vehicle/vertical/tide.h"
+#include "messages/terrain.h"
 #include "scenarios/scenario_file.h"
 #include "scenarios/world/mission.h"
 #include "scenarios/world/seabed.h"
-#include "scenarios/world/vertical.h"
 #include "scenarios/world/water.h"
 
 namespace ensonify {
 
 class ConfigReader;
+
+/// Relation of heights: the water level above chart datum, and chart datum between geoid and ellipsoid.
+struct Vertical {
+  vertical::Tide tide;
+  vertical::Datums datums;
+};
+
+/// `vertical:` of a scenario.
+Vertical read_vertical(ConfigReader from, double start_unix_s);
+
+/// The tide of a gauge: lines "2025-06-01T12:00:00Z,1.35", time in UTC and metres above chart datum, times rising;
+/// lines that start with # and a first line of column names are skipped. Throws ConfigError with places in that file.
+vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s);
+
+/// A grid of separations, an Esri ASCII file (ncols, nrows, xllcorner, yllcorner, cellsize, NODATA_value if there is
+/// one, then rows from north to south, cell centres) in the world's own metres; cells without a value are refused.
+/// Throws ConfigError with the place of what is wrong.
+vertical::Separation read_separation(const std::string& path);
 
 /// Place of the world. ENU x = y = 0 is at the origin, z = 0 is chart datum.
 struct Site {
@@ -87,5 +106,29 @@ World read_world(const std::string& path, const Overrides& overrides = {});
 
 /// Reads an already parsed scenario; problems stay in the reader for its finish().
 World read_world(ConfigReader& from, const std::string& file);
+
+/// The vehicle that a process belongs to: the one that its configuration names under `vehicle` (`wanted`), else the one
+/// that has the process's name, else the scenario's only one. Anything else is a problem of `from`, and the result a
+/// default.
+Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::string& process,
+                    const std::string& wanted);
+
+/// Part of the scenario that determines the survey lines.
+struct MissionPlan {
+  std::string scenario_file;
+  Mission mission;
+  motion::Limits limits;  // of the vehicle that runs them
+
+  static MissionPlan of(const World& world, const Vehicle& vehicle);
+  /// The lines are known only when the chart is.
+  bool needs_chart() const { return mission.auto_plan.has_value(); }
+};
+
+/// The survey lines in order: the scenario's own, or for `auto` laid over the chart. Whoever asks with the same
+/// scenario and chart gets the same lines. Throws ConfigError naming mission.auto when the chart has no room for them.
+std::vector<runlines::Runline> planned_lines(const MissionPlan& plan, const msg::Chart& chart);
+
+/// Start of a vehicle without a place: at the start of the first line's run-in, on its way at mission speed.
+motion::State start_of(const MissionPlan& plan, const std::vector<runlines::Runline>& lines);
 
 }  // namespace ensonify

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "components/errors/exit_error.h"
-#include "tools/plan/readers.h"
+#include "tools/plan/line_files.h"
 
 namespace ensonify::plan {
 namespace {

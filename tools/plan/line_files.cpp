@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "components/errors/exit_error.h"
-#include "tools/plan/readers.h"
 
 namespace ensonify::plan {
 namespace {

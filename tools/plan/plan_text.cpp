@@ -4,10 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/plan/csv.h"
-
 namespace ensonify::plan {
 namespace {
+
+/// A text as one cell of a CSV file.
+std::string csv_cell(const std::string& text) {
+  const bool blank_at_an_end = !text.empty() && (text.front() == ' ' || text.back() == ' ');
+  if (!blank_at_an_end && text.find_first_of(",\"\r\n\t") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + "\"";
+}
 
 std::string place_text(const std::array<double, 2>& place, bool geodetic, const char* between) {
   return geodetic ? fmt::format("{:.8f}{}{:.8f}", place[0], between, place[1])

@@ -31,7 +31,4 @@ std::string plan_text(const LineSet& set, const Numbers& numbers, std::optional<
 /// Numbers alone: "name: value" lines, a JSON object, or CSV of two rows.
 std::string numbers_text(const Numbers& numbers, Format format);
 
-/// Flags `--json` and `--csv`.
-inline Format format_of(bool json, bool csv) { return json ? Format::kJson : csv ? Format::kCsv : Format::kYaml; }
-
 }  // namespace ensonify::plan

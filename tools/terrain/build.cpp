@@ -8,7 +8,7 @@
 #include "components/errors/exit_error.h"
 #include "components/terrain/layers_source.h"
 #include "components/terrain/source_of.h"
-#include "scenarios/world/facet_slope.h"
+#include "scenarios/world/seabed.h"
 #include "scenarios/world/world.h"
 #include "tools/terrain/bake.h"
 #include "tools/terrain/verbs.h"
