@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "components/runtime/node.h"
+#include "components/runtime/stepper.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {

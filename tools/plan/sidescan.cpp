@@ -1,5 +1,3 @@
-#include "kernels/survey/sidescan.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "components/errors/exit_error.h"
+#include "kernels/survey/spacing.h"
 #include "tools/plan/plan_text.h"
 #include "tools/plan/verbs.h"
 
