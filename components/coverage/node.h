@@ -7,8 +7,6 @@
 #include "components/coverage/config.h"
 #include "components/runtime/ports.h"
 #include "kernels/survey/coverage.h"
-#include "kernels/survey/cubes.h"
-#include "kernels/survey/order.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"

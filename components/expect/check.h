@@ -59,7 +59,4 @@ class Check {
 /// Throws UserError when a record cannot be read (same_as).
 std::unique_ptr<Check> make_check(const Expectation& expectation);
 
-/// The check of `same_as`, in a file of its own because it reads a record.
-std::unique_ptr<Check> make_same_as(const Expectation& expectation);
-
 }  // namespace ensonify::expect

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "kernels/survey/uncertainty/relief.h"
+#include "kernels/survey/uncertainty/sounding.h"
 
 namespace ensonify {
 

@@ -6,11 +6,20 @@
 #include <string>
 
 #include "components/navigation/instrument_config.h"
-#include "components/navigation/true_water.h"
 #include "components/navigation/world_frame.h"
+#include "kernels/water/column.h"
+#include "kernels/water/refraction/profile.h"
+#include "kernels/water/sound_speed.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
+
+/// The water as it is, by depth below chart datum.
+struct TrueWater {
+  refraction::SoundSpeedProfile sound_speed = refraction::SoundSpeedProfile::uniform(1500.0);
+  water::Column column{{water::SeaWater{}}};  // temperature and salinity
+  water::SoundSpeedLaw law = water::SoundSpeedLaw::kMackenzie;
+};
 
 /// The simplest instruments, in place of those that are not listed: truth and white noise. Standard deviations, each
 /// sample and axis on its own.

@@ -11,11 +11,9 @@
 #include "kernels/instruments/navigation_filter/error_state.h"
 #include "kernels/instruments/sensors/doppler_log.h"
 #include "kernels/instruments/sensors/gnss.h"
-#include "kernels/instruments/sensors/heading.h"
 #include "kernels/instruments/sensors/heave.h"
 #include "kernels/instruments/sensors/instrument_clock.h"
 #include "kernels/instruments/sensors/scalar_sensor.h"
-#include "kernels/instruments/sensors/usbl.h"
 
 namespace ensonify {
 

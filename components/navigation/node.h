@@ -7,7 +7,6 @@
 #include "components/navigation/estimator.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
-#include "components/navigation/usbl_tracker.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {

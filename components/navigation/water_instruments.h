@@ -3,13 +3,31 @@
 #include <functional>
 #include <optional>
 
+#include "components/navigation/config.h"
 #include "components/navigation/mounted_instrument.h"
-#include "components/navigation/seabed_below.h"
-#include "components/navigation/true_water.h"
 #include "components/navigation/world_frame.h"
+#include "components/runtime/ports.h"
+#include "components/sonar/tile_set.h"
+#include "kernels/base/frames/pose.h"
 #include "messages/navigation.h"
 
 namespace ensonify {
+
+/// The true seabed, as instruments with narrow beams sample it.
+class SeabedBelow {
+ public:
+  /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed. `mesh` and
+  /// `mesh_release` always may.
+  void connect(Ports& ports, bool optional);
+
+  /// From `from` along a direction of its frame; empty where nothing is as near as `longest_m`. A function of these and
+  /// of the tiles.
+  std::optional<double> distance_m(const frames::HeadPose& from, const frames::Vec3& direction, double longest_m);
+
+ private:
+  TileSet tiles_{
+      trace::LevelOfDetail{.enabled = true, .adaptations_per_ping = 8}};  // fine along the beams of a measurement alone
+};
 
 /// The instruments that measure the water: sound speed probe, CTD, current profiler.
 class WaterInstruments {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "components/record/bytes.h"
-#include "components/runtime/topic_pattern.h"
+#include "components/runtime/ports.h"
 #include "messages/codec.h"
 
 namespace ensonify::record {

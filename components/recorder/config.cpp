@@ -2,11 +2,10 @@
 
 #include "components/config/parameter_info.h"
 #include "components/config/read_parameters.h"
-#include "components/runtime/topic_pattern.h"
+#include "components/runtime/ports.h"
 #include "scenarios/scenario_file.h"
 
 namespace ensonify {
-
 namespace {
 
 constexpr std::int64_t kMostSkipped = 1'000'000;

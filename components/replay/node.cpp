@@ -6,10 +6,9 @@
 #include "components/config/config_error.h"
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
-#include "components/runtime/topic_pattern.h"
+#include "components/runtime/ports.h"
 
 namespace ensonify {
-
 namespace {
 
 constexpr const char* kHealthPort = "health";  // every process has its own

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <string>
 
 #include "components/runtime/ports.h"
@@ -10,7 +11,11 @@ namespace ensonify::log {
 
 /// One event, one line, with sim time: `t=12.340 bow late_ping ping=57 by_s=0.0031`. To standard error, which the
 /// launcher keeps as `<out>/log/<process>.log`. `event` is one word; the rest are key=value pairs.
-void line(const std::string& process, SimTime now, const std::string& event, const std::string& pairs);
+inline void line(const std::string& process, SimTime now, const std::string& event, const std::string& pairs) {
+  const std::string text =
+      fmt::format("t={:.3f} {} {}{}{}\n", seconds(now), process, event, pairs.empty() ? "" : " ", pairs);
+  std::fwrite(text.data(), 1, text.size(), stderr);  // one write per line, so lines of threads do not mix
+}
 
 /// log::event(ports, "late_ping", "ping={} by_s={:.4f}", ping, late_s);
 template <class... Args>

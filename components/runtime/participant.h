@@ -3,7 +3,7 @@
 #include <string>
 
 #include "components/runtime/bus/link.h"
-#include "components/runtime/node.h"
+#include "components/runtime/stepper.h"
 #include "components/runtime/wiring.h"
 
 namespace ensonify {

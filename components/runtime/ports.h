@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "components/runtime/sim_time.h"
@@ -183,5 +184,13 @@ class Ports {
   SimTime health_due_{0};
   std::size_t health_port_ = 0;
 };
+
+/// "*" and whatever ends in it ("bow/*") are patterns; anything else is a name.
+inline bool is_pattern(std::string_view topic) { return topic.ends_with('*'); }
+
+/// Whether a name or pattern, as recorders, replays and assertions are given them, means this topic.
+inline bool topic_matches(std::string_view wanted, std::string_view topic) {
+  return is_pattern(wanted) ? topic.starts_with(wanted.substr(0, wanted.size() - 1)) : wanted == topic;
+}
 
 }  // namespace ensonify

@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "components/errors/nearest_name.h"
-#include "components/runtime/topic_pattern.h"
+#include "components/runtime/ports.h"
 
 namespace ensonify {
-
 namespace {
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {

@@ -1,7 +1,7 @@
-#include "kernels/survey/cubes.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/survey/coverage.h"
 
 using namespace ensonify::survey;
 

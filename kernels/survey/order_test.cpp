@@ -1,6 +1,6 @@
-#include "kernels/survey/order.h"
-
 #include <catch2/catch.hpp>
+
+#include "kernels/survey/coverage.h"
 
 using namespace ensonify::survey;
 

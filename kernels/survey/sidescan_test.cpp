@@ -1,7 +1,7 @@
-#include "kernels/survey/sidescan.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/survey/spacing.h"
 
 using namespace ensonify::survey;
 

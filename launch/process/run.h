@@ -7,7 +7,7 @@
 
 #include "components/config/parameter_info.h"
 #include "components/errors/exit_error.h"
-#include "components/runtime/node.h"
+#include "components/runtime/stepper.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {

@@ -1,17 +1,25 @@
 // ensonify graph: who talks to whom, in a launch file or in a live run.
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
 
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
 #include "launch/check_ports.h"
+#include "launch/child.h"
 #include "launch/file/launch_file.h"
 #include "launch/process/launch_wiring.h"
 #include "tools/graph/picture.h"
-#include "tools/graph/render.h"
+
+extern char** environ;
 
 namespace {
 
@@ -42,6 +50,33 @@ Picture picture_of_launch(const LaunchOptions& options, std::vector<std::string>
     if (!known) picture.processes.push_back({process.name, process.component, false});
   }
   return picture;
+}
+
+/// Has Graphviz draw `dot` into `file`; `format` is "svg" or "png".
+void render(const std::string& dot, const std::string& format, const std::string& file) {
+  std::string program = launcher::find_program("dot");
+  if (program.empty()) {
+    throw UserError("Graphviz is not installed (apt install graphviz); --dot prints what it would draw");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> input(std::tmpfile(), std::fclose);
+  if (!input || std::fputs(dot.c_str(), input.get()) < 0 || std::fflush(input.get()) != 0) {
+    throw UserError("the folder for temporary files cannot be written");
+  }
+  std::rewind(input.get());
+  std::string type = "-T" + format;
+  std::string out = "-o" + file;
+  char* argv[] = {program.data(), type.data(), out.data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, ::fileno(input.get()), STDIN_FILENO);
+  pid_t pid = 0;
+  const int error = ::posix_spawn(&pid, program.c_str(), &actions, nullptr, argv, environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw UserError(program + ": cannot be started");
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status != 0) throw UserError(file + ": Graphviz could not draw it; see its words above");
 }
 
 void show(const Picture& picture, const Options& options) {

@@ -89,7 +89,7 @@ class Verb {
   std::function<Row()> compute_;
 };
 
-/// The verbs of the program; each file of a verb adds its own.
+/// The verbs of the program.
 using Verbs = std::deque<Verb>;
 
 /// The values of an input as the user wrote it: a number, or `from:to:step`. A sweep begins at `from`, goes up or down
@@ -104,7 +104,6 @@ constexpr double kMostRows = 1e6;
 /// 10 log10 of a ratio of intensities; -inf of 0.
 inline double db(double ratio) { return 10.0 * std::log10(ratio); }
 
-// One file per verb, named like it.
 void add_absorption(CLI::App& app, Verbs& verbs);
 void add_backscatter(CLI::App& app, Verbs& verbs);
 void add_disturbance(CLI::App& app, Verbs& verbs);

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "components/errors/exit_error.h"
-#include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/link.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/bus/sockets.h"

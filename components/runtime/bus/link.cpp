@@ -10,11 +10,9 @@
 #include <zmq.hpp>
 
 #include "components/errors/exit_error.h"
-#include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
 
 namespace ensonify::bus {
-
 namespace {
 constexpr int kPollMs = 500;                       // how soon a lost clock is noticed
 constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better under way while its publisher works on

@@ -5,7 +5,6 @@
 #include <zmq.hpp>
 
 #include "components/errors/exit_error.h"
-#include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
 
 namespace ensonify::bus {

@@ -5,11 +5,9 @@
 
 #include <zmq.hpp>
 
-#include "components/runtime/bus/frames.h"
 #include "components/runtime/bus/sockets.h"
 
 namespace ensonify::bus {
-
 namespace {
 
 // A plain blocking receive costs half of what polling a socket and a timer does; the timer is for the last stretch.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include <zmq.hpp>
 
 #include "components/runtime/bus/link.h"
+#include "messages/codec.h"
 
 namespace ensonify::bus {
 
@@ -35,5 +37,17 @@ class Subscribers {
 
 /// Options and connect of a DEALER to the clock.
 void connect_control(zmq::socket_t& dealer, const std::string& endpoint);
+
+/// A packet as ZeroMQ frames. Large buffers are not copied: the frame keeps their owner alive.
+std::vector<zmq::message_t> to_frames(const msg::Packet& packet);
+
+/// Receives one multipart message; false if the socket had none (only with dontwait).
+bool receive_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames, bool wait = true);
+
+/// Frames as a packet whose buffers are the frames. Throws msg::DecodeError if they are not one.
+msg::Packet to_packet(std::vector<zmq::message_t>&& frames);
+
+/// Sends all frames as one message, sharing their content so that they can be sent again.
+void send_frames(zmq::socket_t& socket, std::vector<zmq::message_t>& frames);
 
 }  // namespace ensonify::bus

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "components/runtime/lockstep/conductor.h"
-#include "components/runtime/node.h"
 #include "components/runtime/stepper.h"
 #include "components/runtime/wiring.h"
 

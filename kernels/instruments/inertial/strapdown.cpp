@@ -46,10 +46,6 @@ Packed derivative(const Packed& x, const Inertial& sensed, const Earth& earth, V
 
 }  // namespace
 
-Earth Earth::resting_sphere(double radius_m, double gravity_mps2) {
-  return {radius_m, 0.0, 0.0, gravity_mps2 * squared(radius_m), gravity_mps2, 0.0};
-}
-
 double meridian_radius_m(const Earth& earth, double latitude_rad) {
   const double e2 = eccentricity_squared(earth);
   return earth.equatorial_radius_m * (1.0 - e2) / std::pow(1.0 - e2 * squared(std::sin(latitude_rad)), 1.5);

@@ -13,9 +13,6 @@ struct Earth {
   double gravitational_constant_m3ps2 = 3.986004418e14;  // GM
   double equatorial_gravity_mps2 = 9.7803253359;
   double gravity_k = 0.00193185265241;  // Somigliana's constant, b gamma_p / (a gamma_e) - 1
-
-  /// A sphere that does not turn: where the closed forms of drift.h hold.
-  static Earth resting_sphere(double radius_m, double gravity_mps2);
 };
 
 /// Radius of curvature north-south, M.

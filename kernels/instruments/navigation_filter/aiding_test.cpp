@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "kernels/instruments/inertial/testing/drift.h"
 #include "kernels/instruments/navigation_filter/testing/vehicle.h"
 
 using namespace ensonify;
@@ -11,7 +12,7 @@ using namespace ensonify::navigation_filter::test_run;
 
 namespace {
 
-const Earth kResting = Earth::resting_sphere(6371e3, 9.8);
+const Earth kResting = inertial::resting_sphere(6371e3, 9.8);
 const Inertial kLevelAtRest{Vec3::Zero(), {0, 0, -9.8}};
 
 double sigma(const NavigationFilter& filter, int i) { return std::sqrt(filter.covariance()(i, i)); }

@@ -121,8 +121,6 @@ class NavigationFilter {
 
   const NavigationState& state() const { return state_; }
   const Covariance& covariance() const { return covariance_; }
-  Vec3 gyro_bias_radps() const { return gyro_bias_; }
-  Vec3 force_bias_mps2() const { return force_bias_; }
   /// Turn rate of the body against the turning Earth, along its axes, now: readings are means of intervals, so it is
   /// the last one, corrected, and half of what it grew by since the one before.
   Vec3 turn_rate_radps() const;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 const inertial::SchulerSphere kSphere;
-const Earth kResting = Earth::resting_sphere(kSphere.radius_m, kSphere.gravity_mps2);
+const Earth kResting = inertial::resting_sphere(kSphere.radius_m, kSphere.gravity_mps2);
 const StartErrors kNone{0, 0, 0, 0, 0};
 const Inertial kLevelAtRest{Vec3::Zero(), {0, 0, -kSphere.gravity_mps2}};
 
@@ -85,7 +85,7 @@ TEST_CASE("crosstalk of accelerometers pulls with what the vehicle senses, not a
   biased.imu.accelerometer.turn_on_bias = kCrosstalk * kSphere.gravity_mps2;
   CHECK(sigma_east_m(kNone, model, 60.0) == Approx(sigma_east_m(kNone, biased, 60.0)).epsilon(1e-6));
 
-  const Earth weightless = Earth::resting_sphere(kSphere.radius_m, 1e-12);
+  const Earth weightless = inertial::resting_sphere(kSphere.radius_m, 1e-12);
   NavigationFilter filter({}, kNone, model, weightless);
   for (const double force_mps2 : {0.5, -0.5}) {
     for (int i = 0; i < 100; ++i) filter.propagate({Vec3::Zero(), {force_mps2, 0, 0}}, 0.1);

@@ -1,7 +1,7 @@
-#include "kernels/instruments/sensors/heading.h"
-
 #include <catch2/catch.hpp>
 #include <numbers>
+
+#include "kernels/instruments/sensors/scalar_sensor.h"
 
 using namespace ensonify;
 using namespace ensonify::sensors;

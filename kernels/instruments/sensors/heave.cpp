@@ -1,7 +1,6 @@
 #include "kernels/instruments/sensors/heave.h"
 
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -9,13 +8,6 @@
 namespace ensonify::sensors {
 
 constexpr double kPi = std::numbers::pi;
-
-HeaveResponse heave_response(const HeaveSettings& settings, double period_s) {
-  const double w = 2.0 * kPi / settings.cutoff_s;
-  const std::complex<double> s(0.0, 2.0 * kPi / period_s);
-  const std::complex<double> h = s * s / (s * s + 2.0 * settings.damping * w * s + w * w);
-  return {std::abs(h), std::arg(h)};
-}
 
 double HeaveFilter::measure(double height_m, double acceleration_error_mps2, double dt_s) {
   if (!started_) {

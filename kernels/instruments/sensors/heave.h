@@ -12,13 +12,6 @@ struct HeaveSettings {
   double damping = 0.7071;  // > 0; 0.707: no resonance
 };
 
-/// Gain and phase lead at a period of motion, of H(s) = s^2 / (s^2 + 2 z w s + w^2) [Godhavn1998].
-struct HeaveResponse {
-  double gain;
-  double phase_rad;  // positive: heave comes early
-};
-HeaveResponse heave_response(const HeaveSettings& settings, double period_s);
-
 /// The filter in time, sample by sample: H(s) of height, and of a wrong vertical acceleration what two integrations and
 /// the filter leave of it, 1 / (s^2 + 2 z w s + w^2): a constant one leaves a constant error a / w^2, one that comes
 /// and goes with a turn leaves a transient of the filter's period. Bilinear in time: right while samples come at

@@ -13,6 +13,19 @@ namespace {
 
 constexpr double kStep_s = 0.05;
 
+/// Gain and phase lead at a period of motion, of H(s) = s^2 / (s^2 + 2 z w s + w^2) [Godhavn1998].
+struct HeaveResponse {
+  double gain;
+  double phase_rad;  // positive: heave comes early
+};
+
+HeaveResponse heave_response(const HeaveSettings& settings, double period_s) {
+  const double w = 2.0 * kPi / settings.cutoff_s;
+  const std::complex<double> s(0.0, 2.0 * kPi / period_s);
+  const std::complex<double> h = s * s / (s * s + 2.0 * settings.damping * w * s + w * w);
+  return {std::abs(h), std::arg(h)};
+}
+
 /// Amplitude and phase of the filter's answer to a sine of 1 m, by correlation over whole periods after it has settled.
 HeaveResponse answer(const HeaveSettings& settings, double period_s) {
   HeaveFilter filter(settings);

@@ -1,7 +1,7 @@
-#include "kernels/instruments/sensors/usbl.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/instruments/sensors/gnss.h"
 
 using namespace ensonify;
 using namespace ensonify::sensors;

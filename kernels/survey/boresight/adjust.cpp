@@ -297,6 +297,19 @@ void check(const std::vector<Line>& lines, const AdjustSettings& settings) {
   }
 }
 
+double student_95(double freedom) {
+  constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+  const double f = std::max(freedom, 3.0);
+  return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f) +
+         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * f * f * f);
+}
+
+Quaternion turned_by(const Vec3& angle_rad) {
+  const double angle = angle_rad.norm();
+  if (angle == 0.0) return Quaternion::Identity();
+  return Quaternion(Eigen::AngleAxisd(angle, angle_rad / angle));
+}
+
 }  // namespace
 
 Offsets offsets_of(const Unknowns& u) { return {u[0], u[1], u[2], u[3], u[4]}; }
@@ -336,17 +349,6 @@ Adjusted adjust(const std::vector<Line>& lines, const AdjustSettings& settings) 
   return result;
 }
 
-namespace {
-
-double student_95(double freedom) {
-  constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  const double f = std::max(freedom, 3.0);
-  return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * f * f * f);
-}
-
-}  // namespace
-
 Found mean_of(const std::vector<Found>& layings) {
   const auto m = static_cast<double>(layings.size());
   if (layings.size() == 1) return layings[0];
@@ -367,6 +369,27 @@ Found mean_of(const std::vector<Found>& layings) {
 
 Unknowns half_95(const Spread& spread) {
   return spread.variance.cwiseSqrt().cwiseProduct(spread.freedom.unaryExpr(&student_95));
+}
+
+Placed place(const Sounding& sounding, const Offsets& offsets) {
+  const Quaternion yaw(Eigen::AngleAxisd(offsets.yaw_rad, Vec3::UnitZ()));
+  const Quaternion yaw_pitch = yaw * Quaternion(Eigen::AngleAxisd(offsets.pitch_rad, Vec3::UnitY()));
+  const Quaternion mounting = yaw_pitch * Quaternion(Eigen::AngleAxisd(offsets.roll_rad, Vec3::UnitX()));
+  const Quaternion since = turned_by(sounding.rate_enu_radps * offsets.attitude_latency_s);
+  const Quaternion enu_from_body = since * sounding.enu_from_body;
+
+  const Vec3 measured_body = sounding.enu_from_body.conjugate() * (sounding.place_enu_m - sounding.head_enu_m);
+  const Vec3 away_body = mounting * measured_body;
+  const Vec3 away_enu = enu_from_body * away_body;
+  const Vec3 heave(0.0, 0.0, sounding.velocity_enu_mps.z()), course = sounding.velocity_enu_mps - heave;
+
+  Placed placed;
+  placed.place_enu_m =
+      sounding.head_enu_m + course * offsets.position_latency_s + heave * offsets.attitude_latency_s + away_enu;
+  placed.rates << course, heave + sounding.rate_enu_radps.cross(away_enu),
+      enu_from_body * (yaw_pitch * Vec3::UnitX()).cross(away_body),
+      enu_from_body * (yaw * Vec3::UnitY()).cross(away_body), enu_from_body * Vec3::UnitZ().cross(away_body);
+  return placed;
 }
 
 }  // namespace ensonify::boresight

@@ -1,8 +1,8 @@
-#include "kernels/survey/boresight/offsets.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "kernels/survey/boresight/adjust.h"
 
 using namespace ensonify::boresight;
 using ensonify::frames::Attitude;

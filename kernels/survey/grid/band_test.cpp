@@ -1,5 +1,3 @@
-#include "kernels/survey/grid/band.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "kernels/base/random/stream.h"
 #include "kernels/seabed/statistics/testing/exact_fbm.h"
+#include "kernels/survey/grid/defects.h"
 
 using namespace ensonify;
 using namespace ensonify::survey_grid;

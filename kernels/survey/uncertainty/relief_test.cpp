@@ -1,9 +1,8 @@
-#include "kernels/survey/uncertainty/relief.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/base/random/stream.h"
+#include "kernels/survey/uncertainty/sounding.h"
 
 using namespace ensonify;
 using namespace ensonify::uncertainty;

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "kernels/survey/grid/band.h"
 #include "kernels/survey/grid/defects.h"
 #include "kernels/survey/grid/stripes.h"
 #include "tools/terrain/import/options.h"

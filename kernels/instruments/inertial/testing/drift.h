@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kernels/instruments/inertial/strapdown.h"
+
 /// Growth of the errors of an unaided inertial system, in closed form: on a resting sphere, level, at rest or on a
 /// straight course, height held, each error alone [Titterton2004, ch. 12; Groves2013, ch. 5.7].
 namespace ensonify::inertial {
@@ -15,6 +17,11 @@ struct SchulerSphere {
   double rate_radps() const { return std::sqrt(gravity_mps2 / radius_m); }  // 1.2400e-3
   double period_s() const { return 2.0 * std::acos(-1.0) / rate_radps(); }  // 84.45 min
 };
+
+/// A sphere that does not turn: where the closed forms hold.
+inline Earth resting_sphere(double radius_m, double gravity_mps2) {
+  return {radius_m, 0.0, 0.0, gravity_mps2 * (radius_m * radius_m), gravity_mps2, 0.0};
+}
 
 /// Drift by a level accelerometer's constant bias, along its axis: b t^2 / 2 at first.
 double accelerometer_bias_drift_m(const SchulerSphere& sphere, double bias_mps2, double time_s);

@@ -9,7 +9,7 @@ using namespace ensonify::inertial;
 namespace {
 
 const SchulerSphere kSphere;
-const Earth kEarth = Earth::resting_sphere(kSphere.radius_m, kSphere.gravity_mps2);
+const Earth kEarth = resting_sphere(kSphere.radius_m, kSphere.gravity_mps2);
 constexpr double kUg = 9.80665e-6;                          // m/s^2
 constexpr double kDegph = 3.14159265358979 / 180.0 / 3600;  // rad/s
 

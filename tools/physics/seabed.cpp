@@ -1,5 +1,4 @@
-#include "kernels/seabed/backscatter.h"
-
+// Verbs of echoes from the seabed and from objects.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "kernels/seabed/backscatter.h"
+#include "kernels/seabed/material.h"
 #include "kernels/seabed/table.h"
 #include "tools/physics/verb.h"
 
@@ -91,6 +92,12 @@ void add_inputs(Verb& verb, Inputs& in) {
   verb.number("facet_slope_deg", in.facet_slope_deg, 0, 35, "rms slope of a mesh's facets, for facets_db");
 }
 
+std::vector<std::pair<std::string, int>> materials() {
+  std::vector<std::pair<std::string, int>> all;
+  for (const auto& row : seabed::named_materials()) all.emplace_back(row.name, static_cast<int>(all.size()));
+  return all;
+}
+
 }  // namespace
 
 void add_backscatter(CLI::App& app, Verbs& verbs) {
@@ -132,6 +139,32 @@ void add_backscatter(CLI::App& app, Verbs& verbs) {
                                   db(static_cast<double>(of_facets.at_angle(grazing))),
                                   seabed::forward_loss_db(use, grazing_rad)};
                });
+}
+
+void add_material(CLI::App& app, Verbs& verbs) {
+  struct Inputs {
+    int row = 0;
+    double grazing_deg = 90.0;
+    double sphere_radius_m = 0.5;
+  };
+
+  Verb& verb = verbs.emplace_back(app, "material",
+                                  "backscatter strength of objects' materials, dB re 1 m2 per m2, and the target\n"
+                                  "strength of a rigid sphere, dB re 1 m2");
+  const auto in = std::make_shared<Inputs>();
+  verb.choice("material", in->row, materials(), "what the object is made of");
+  verb.number("sphere_radius_m", in->sphere_radius_m, 1e-3, 1e3, "of the rigid sphere");
+  verb.number("grazing_deg", in->grazing_deg, 0, 90, "grazing angle from the object's facet");
+  verb.results(
+      {"impedance_mrayl", "rms_slope", "diffuse", "reflection", "total_db", "sphere_target_strength_db"}, [in] {
+        const auto& material = seabed::named_materials()[static_cast<std::size_t>(in->row)].material;
+        return Verb::Row{material.impedance_mrayl,
+                         material.rms_slope,
+                         material.diffuse,
+                         seabed::normal_reflection(material),
+                         db(seabed::material_backscatter(material, in->grazing_deg * std::numbers::pi / 180.0)),
+                         seabed::sphere_target_strength_db(in->sphere_radius_m)};
+      });
 }
 
 }  // namespace ensonify::physics
