@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "kernels/seabed/relief/bodies.h"
-#include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/marks.h"
 #include "kernels/seabed/relief/ripples.h"
 #include "kernels/seabed/relief/seabed.h"

@@ -9,8 +9,8 @@
 #include "kernels/seabed/relief/guide.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spectrum.h"
-#include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/surface.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {
