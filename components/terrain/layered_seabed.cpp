@@ -12,7 +12,6 @@
 
 #include "components/config/config_error.h"
 #include "kernels/seabed/relief/guide.h"
-#include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spectrum.h"

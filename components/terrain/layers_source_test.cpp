@@ -13,7 +13,7 @@
 #include "components/terrain/terrain_source.h"
 #include "components/terrain/tile_set_source.h"
 #include "kernels/base/random/stream.h"
-#include "kernels/seabed/statistics/patches.h"
+#include "kernels/seabed/statistics/surface.h"
 #include "scenarios/world/sections.h"
 
 using namespace ensonify;

@@ -3,7 +3,6 @@
 
 #include "components/terrain/prepared_mesh.h"
 #include "components/terrain/tiles/file_bytes.h"
-#include "components/terrain/tiles/lattice_png.h"
 #include "kernels/mesh/progressive/cut.h"
 
 using namespace ensonify;

@@ -13,7 +13,7 @@
 
 #include "components/terrain/layered_seabed.h"
 #include "kernels/seabed/law.h"
-#include "kernels/seabed/relief/intermittency.h"
+#include "kernels/seabed/relief/spectral_surface.h"
 #include "scenarios/world/seabed.h"
 
 namespace ensonify::source {

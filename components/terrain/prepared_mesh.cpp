@@ -16,8 +16,6 @@
 #include "components/config/config_error.h"
 #include "components/terrain/mesh_file.h"
 #include "components/terrain/tiles/file_bytes.h"
-#include "components/terrain/tiles/lattice_png.h"
-#include "components/terrain/tiles/sha256.h"
 #include "kernels/mesh/progressive/hierarchy.h"
 
 namespace ensonify::source {

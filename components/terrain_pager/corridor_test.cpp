@@ -1,11 +1,10 @@
-#include "components/terrain_pager/corridor.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "components/config/config_error.h"
+#include "components/terrain_pager/mission_track.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,7 +17,6 @@
 #include "components/terrain_pager/mission_track.h"
 #include "components/terrain_pager/paging.h"
 #include "components/terrain_pager/seabed_identity.h"
-#include "components/terrain_pager/tile_messages.h"
 
 namespace ensonify {
 namespace {
@@ -28,11 +28,44 @@ constexpr std::size_t kTileBytes = 1025 * 1025 * 5 + 256 * sizeof(double) + 4096
 constexpr std::size_t kChartBytes = 256 * 256 * 4 + 4096;
 constexpr double kTurnSmoothing_s = 5.0;  // waves turn a vehicle to and fro in less
 
-pager::Box box_of(const pager::Extent& extent) {
+pager::Box box_of(const source::Extent& extent) {
   return {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}};
 }
 
 }  // namespace
+
+msg::Tile pager::make_tile(const source::TerrainSource& terrain, const terrain::TileGrid& grid,
+                           const terrain::TileKey& key) {
+  const auto side = static_cast<std::size_t>(grid.cells) + 1;
+  const Vec2 origin = grid.origin_of(key);
+  msg::Tile tile;
+  tile.col = key.east;
+  tile.row = key.north;
+  tile.origin_east_m = origin.x();
+  tile.origin_north_m = origin.y();
+  tile.spacing_m = grid.spacing_m;
+  tile.height_m = msg::Array<float>({side, side});
+  tile.sediment = msg::Array<std::uint8_t>({side, side});
+  source::fill_tile(terrain, grid, key, tile.height_m.flat(), tile.sediment.flat());
+  return tile;
+}
+
+msg::Chart pager::make_chart(const source::TerrainSource& terrain, const source::Overview& overview) {
+  const source::PostBlock& block = overview.posts;
+  msg::Chart chart;
+  chart.origin_latitude_deg = terrain.origin().latitude_deg;
+  chart.origin_longitude_deg = terrain.origin().longitude_deg;
+  chart.west_m = block.east_m(0);
+  chart.south_m = block.north_m(0);
+  chart.east_m = block.east_m(block.columns - 1);
+  chart.north_m = block.north_m(block.rows - 1);
+  chart.shallowest_m = -terrain.highest_m();
+  chart.deepest_m = -terrain.lowest_m();
+  chart.spacing_m = block.spacing_m;
+  chart.height_m = msg::Array<float>({static_cast<std::size_t>(block.rows), static_cast<std::size_t>(block.columns)});
+  std::ranges::copy(overview.height_m, chart.height_m.flat().begin());
+  return chart;
+}
 
 TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     : config_(config),

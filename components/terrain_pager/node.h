@@ -15,6 +15,16 @@
 
 namespace ensonify {
 
+namespace pager {
+
+/// A tile of the set, its heights on the lattice.
+msg::Tile make_tile(const source::TerrainSource& terrain, const terrain::TileGrid& grid, const terrain::TileKey& key);
+
+/// The terrain at a glance: its overview, at most 256 x 256 posts.
+msg::Chart make_chart(const source::TerrainSource& terrain, const source::Overview& overview);
+
+}  // namespace pager
+
 /// Gives heads the seabed around the vehicle, tile by tile, and planners a chart of the whole.
 class TerrainPagerNode {
  public:

@@ -12,9 +12,8 @@
 #include "components/runtime/testing/node_under_test.h"
 #include "components/terrain/raster_source.h"
 #include "components/terrain/source_of.h"
-#include "components/terrain_pager/corridor.h"
+#include "components/terrain_pager/mission_track.h"
 #include "components/terrain_pager/node.h"
-#include "components/terrain_pager/tile_messages.h"
 
 using namespace ensonify;
 using namespace ensonify::pager;

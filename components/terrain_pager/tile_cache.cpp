@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "components/terrain/tiles/file_bytes.h"
-#include "components/terrain/tiles/sha256.h"
 #include "messages/codec.h"
 
 namespace ensonify::pager {

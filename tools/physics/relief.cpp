@@ -13,14 +13,13 @@
 
 #include "kernels/seabed/relief/bodies.h"
 #include "kernels/seabed/relief/guide.h"
-#include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/marks.h"
 #include "kernels/seabed/relief/ripples.h"
 #include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spectrum.h"
-#include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/surface.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {

@@ -14,7 +14,6 @@
 #include "components/terrain/source_of.h"
 #include "kernels/survey/lines.h"
 #include "kernels/survey/spacing.h"
-#include "kernels/survey/spacing.h"
 #include "scenarios/world/world.h"
 #include "tools/plan/line_files.h"
 

@@ -12,12 +12,9 @@
 
 #include "components/errors/exit_error.h"
 #include "components/terrain/tiles/file_bytes.h"
-#include "components/terrain/tiles/sha256.h"
 #include "tools/terrain/bake.h"
 #include "tools/terrain/import/mosaic.h"
-#include "tools/terrain/import/report.h"
-#include "tools/terrain/import/sediment.h"
-#include "tools/terrain/import/values.h"
+#include "tools/terrain/import/survey_file.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {

@@ -11,9 +11,8 @@
 #include <sstream>
 
 #include "components/errors/exit_error.h"
-#include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
-#include "tools/terrain/open.h"
+#include "kernels/seabed/statistics/surface.h"
 #include "tools/terrain/verbs.h"
 
 namespace ensonify::terrain_tool {

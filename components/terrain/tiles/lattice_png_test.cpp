@@ -1,6 +1,6 @@
-#include "components/terrain/tiles/lattice_png.h"
-
 #include <catch2/catch.hpp>
+
+#include "components/terrain/tiles/file_bytes.h"
 
 using namespace ensonify::tiles;
 using Catch::Matchers::Contains;

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "components/config/config_error.h"
-#include "components/terrain/tiles/overview.h"
 
 using namespace ensonify;
 using namespace ensonify::tiles;

@@ -9,7 +9,6 @@
 
 #include "kernels/seabed/relief/bodies.h"
 #include "kernels/seabed/relief/guide.h"
-#include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/marks.h"
 #include "kernels/seabed/relief/mask.h"
 #include "kernels/seabed/relief/ripples.h"

@@ -127,45 +127,4 @@ Field smooth_surface(const Raster& raster, double post_spacing_m) {
   };
 }
 
-Field class_share(const Raster& classes, int of_class, double post_spacing_m) {
-  check(classes);
-  Raster share = classes;
-  for (float& x : share.value) x = x == static_cast<float>(of_class) ? 1.0F : 0.0F;
-  return [share = std::move(share), post_spacing_m](const Window& window, std::span<float> out) {
-    const CellPlaces places = cells_of(share, window, post_spacing_m);
-    const auto at = [&](int i, int j) {
-      return static_cast<double>(share.value[static_cast<std::size_t>(j) * static_cast<std::size_t>(share.columns) +
-                                             static_cast<std::size_t>(i)]);
-    };
-    for (int j = 0; j < window.rows; ++j) {
-      const double y = std::clamp(places.rows[static_cast<std::size_t>(j)], 0.0, share.rows - 1.0);
-      const int south = std::min(static_cast<int>(y), share.rows - 2);
-      for (int i = 0; i < window.columns; ++i) {
-        const double x = std::clamp(places.columns[static_cast<std::size_t>(i)], 0.0, share.columns - 1.0);
-        const int west = std::min(static_cast<int>(x), share.columns - 2);
-        out[window.node(i, j)] =
-            static_cast<float>(std::lerp(std::lerp(at(west, south), at(west + 1, south), x - west),
-                                         std::lerp(at(west, south + 1), at(west + 1, south + 1), x - west), y - south));
-      }
-    }
-  };
-}
-
-Field nearest_value(const Raster& classes, double post_spacing_m) {
-  check(classes);
-  return [classes, post_spacing_m](const Window& window, std::span<float> out) {
-    const CellPlaces places = cells_of(classes, window, post_spacing_m);
-    const auto nearest = [](double place, int count) {
-      return static_cast<std::size_t>(std::clamp(std::floor(place + 0.5), 0.0, count - 1.0));
-    };
-    for (int j = 0; j < window.rows; ++j) {
-      const std::size_t line =
-          nearest(places.rows[static_cast<std::size_t>(j)], classes.rows) * static_cast<std::size_t>(classes.columns);
-      for (int i = 0; i < window.columns; ++i)
-        out[window.node(i, j)] =
-            classes.value[line + nearest(places.columns[static_cast<std::size_t>(i)], classes.columns)];
-    }
-  };
-}
-
 }  // namespace ensonify::relief

@@ -22,11 +22,4 @@ struct Raster {
 /// or a value is not finite (holes are filled, or cut, by whoever imports).
 Field smooth_surface(const Raster& raster, double post_spacing_m);
 
-/// Share of the raster's class (its values are whole numbers), bilinear between the values: 0 to 1, a half on the
-/// border.
-Field class_share(const Raster& classes, int of_class, double post_spacing_m);
-
-/// Class of the nearest value.
-Field nearest_value(const Raster& classes, double post_spacing_m);
-
 }  // namespace ensonify::relief

@@ -70,16 +70,6 @@ TEST_CASE("a node has the same bits in every window and level") {
   CHECK(at(surface, 3, 50) == out[0]);
 }
 
-TEST_CASE("classes are shared linearly between cells, and taken from the nearest") {
-  const Raster classes = raster_of([](double x, double) { return x < 20.0 ? 2.0 : 5.0; });  // border between 18 and 22
-  const Field share = class_share(classes, 5, 0.5), nearest = nearest_value(classes, 0.5);
-  CHECK(at(share, 36, 40) == 0.0F);
-  CHECK(at(share, 40, 40) == 0.5F);
-  CHECK(at(share, 44, 40) == 1.0F);
-  CHECK(at(nearest, 39, 40) == 2.0F);
-  CHECK(at(nearest, 41, 40) == 5.0F);
-}
-
 TEST_CASE("holes and wrong sizes are refused") {
   Raster raster = raster_of([](double, double) { return 0.0; });
   raster.value[7] = std::nanf("");

@@ -1,13 +1,13 @@
-#include "kernels/seabed/relief/intermittency.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/seabed/relief/exponential.h"
 #include "kernels/seabed/relief/seabed.h"
+#include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spline.h"
-#include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/surface.h"
+#include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernels/seabed/relief/intermittency.h"
+#include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/window.h"
 
 namespace ensonify::relief {

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/seabed/relief/intermittency.h"
 #include "kernels/seabed/relief/mask.h"
 #include "kernels/seabed/relief/ripples.h"
 #include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
-#include "kernels/seabed/statistics/patches.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
+#include "kernels/seabed/statistics/surface.h"
 
 using namespace ensonify::relief;
 using namespace ensonify::relief_statistics;

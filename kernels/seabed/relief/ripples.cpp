@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernels/seabed/relief/exponential.h"
-#include "kernels/seabed/relief/intermittency.h"
+#include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spline.h"
 
 namespace ensonify::relief {

@@ -1,9 +1,8 @@
-#include "kernels/seabed/statistics/patches.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/base/random/stream.h"
+#include "kernels/seabed/statistics/surface.h"
 #include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief_statistics;

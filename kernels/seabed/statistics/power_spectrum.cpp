@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -41,15 +40,19 @@ std::vector<double> mean_periodogram(const Surface& surface, int size, const std
   return power;
 }
 
-/// Mean of |difference|^q for q = 1, 2, 3 or a power of the caller's.
-template <class Power>
-auto mean_over_pairs(const Surface& surface, int lag, const Power& power) {
-  decltype(power(0.0)) sum{};
+/// Means of differences, their squares and their cubes.
+struct Powers {
+  double first = 0.0, second = 0.0, third = 0.0;
+};
+
+/// Over all pairs of posts `lag` apart along a row or a column; holes are left out. NaN if there is no pair.
+Powers mean_over_pairs(const Surface& surface, int lag) {
+  Powers sum;
   double pairs = 0.0;
   const auto add = [&](float a, float b) {
-    const double difference = std::abs(static_cast<double>(a) - static_cast<double>(b));
-    if (std::isnan(difference)) return;
-    sum += power(difference);
+    const double d = std::abs(static_cast<double>(a) - static_cast<double>(b));
+    if (std::isnan(d)) return;
+    sum.first += d, sum.second += d * d, sum.third += d * d * d;
     pairs += 1.0;
   };
   for (int j = 0; j < surface.rows; ++j) {
@@ -57,20 +60,9 @@ auto mean_over_pairs(const Surface& surface, int lag, const Power& power) {
     if (j + lag >= surface.rows) continue;
     for (int i = 0; i < surface.columns; ++i) add(surface.at(i, j), surface.at(i, j + lag));
   }
-  return pairs > 0.0 ? sum * (1.0 / pairs) : sum * std::numeric_limits<double>::quiet_NaN();
+  const double by = 1.0 / pairs;
+  return {sum.first * by, sum.second * by, sum.third * by};
 }
-
-/// Three sums side by side.
-struct Powers {
-  double first = 0.0, second = 0.0, third = 0.0;
-  Powers& operator+=(const Powers& other) {
-    first += other.first;
-    second += other.second;
-    third += other.third;
-    return *this;
-  }
-  Powers operator*(double by) const { return {first * by, second * by, third * by}; }
-};
 
 }  // namespace
 
@@ -139,11 +131,6 @@ double difference_db(const RadialSpectrum& a, const RadialSpectrum& b, double lo
   return sum / bins;
 }
 
-double structure_function(const Surface& surface, int lag_cells, double order) {
-  check(surface);
-  return mean_over_pairs(surface, lag_cells, [&](double x) { return std::pow(x, order); });
-}
-
 ScalingExponents scaling_exponents(const Surface& surface) {
   check(surface);
   constexpr std::array<int, 6> kLags{1, 2, 4, 8, 16, 32};
@@ -153,7 +140,7 @@ ScalingExponents scaling_exponents(const Surface& surface) {
   }
   std::array<double, kLags.size()> x, first, second, third;
   for (std::size_t i = 0; i < kLags.size(); ++i) {
-    const Powers mean = mean_over_pairs(surface, kLags[i], [](double d) { return Powers{d, d * d, d * d * d}; });
+    const Powers mean = mean_over_pairs(surface, kLags[i]);
     if (!(mean.first > 0.0)) throw std::invalid_argument("scaling exponents: the surface is level, or all holes");
     x[i] = std::log(kLags[i]);
     first[i] = std::log(mean.first);

@@ -32,10 +32,6 @@ struct PowerLaw {
 /// std::invalid_argument if fewer than three bins lie there.
 PowerLaw fit_power_law(const RadialSpectrum& spectrum, double low_radpm, double high_radpm);
 
-/// Mean of |z(a) - z(b)|^order over all pairs of posts `lag_cells` apart along a row or a column; holes are left out.
-/// NaN if there is no pair. For an isotropic surface and order 2 this is the structure function D(r).
-double structure_function(const Surface& surface, int lag_cells, double order);
-
 /// Exponents of S_q(r) ~ r^zeta(q), q = 1, 2, 3: least squares of ln S over ln r at lags 1, 2, 4 ... 32 cells.
 struct ScalingExponents {
   double zeta_1 = 0.0;

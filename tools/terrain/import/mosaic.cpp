@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "components/errors/exit_error.h"
-#include "components/terrain/fill_holes.h"
 #include "components/terrain/raster_source.h"
 #include "kernels/base/frames/local_projection.h"
-#include "tools/terrain/import/points.h"
+#include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {
 namespace {

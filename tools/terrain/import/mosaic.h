@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -70,5 +72,30 @@ struct HoleFacts {
 
 /// Finds the holes of the mosaic and fills those that reach no farther than asked for. Throws UserError.
 HoleFacts fill(Mosaic& mosaic, const FillOptions& options);
+
+/// Number of posts of each class; holes count for none.
+using ClassPosts = std::array<std::int64_t, 256>;
+
+/// Gives each post of the mosaic its sediment class: from the class raster (nearest cell), else from the backscatter
+/// raster (interpolated, by thresholds), else from the first rule that holds, else the class of all others. Depths and
+/// slopes are those of the posts, the slope that over one post to either side. Throws UserError.
+ClassPosts classify(Mosaic& mosaic, const SedimentOptions& options);
+
+inline constexpr const char* kReport = "import.json";
+
+/// Effect of whole steps on the heights.
+struct StepFacts {
+  double lsb_m = 0.0;
+  double largest_m = 0.0, rms_m = 0.0;  // errors
+};
+StepFacts step_facts(const Mosaic& mosaic, double lsb_m);
+
+/// Everything that an import did and lost: sources, reference systems, resampling, areas, holes, artefacts, steps.
+nlohmann::ordered_json report_json(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
+                                   const ClassPosts& classes, const StepFacts& steps);
+
+/// The same for people, some lines.
+std::string report_text(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
+                        const ClassPosts& classes, const StepFacts& steps);
 
 }  // namespace ensonify::terrain_import

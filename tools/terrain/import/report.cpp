@@ -1,11 +1,11 @@
-#include "tools/terrain/import/report.h"
-
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "tools/terrain/import/mosaic.h"
 
 namespace ensonify::terrain_import {
 namespace {

@@ -1,5 +1,3 @@
-#include "tools/terrain/import/sediment.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 
 #include "components/errors/exit_error.h"
 #include "components/terrain/raster_source.h"
-#include "tools/terrain/import/values.h"
+#include "tools/terrain/import/mosaic.h"
+#include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {
 namespace {

@@ -1,5 +1,3 @@
-#include "tools/terrain/import/values.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "components/errors/exit_error.h"
+#include "tools/terrain/import/survey_file.h"
 
 namespace ensonify::terrain_import {
 namespace {

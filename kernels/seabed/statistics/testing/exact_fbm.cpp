@@ -77,4 +77,21 @@ Surface exact_fbm(double hurst, int posts, const random::Stream& stream, std::ui
   return surface;
 }
 
+double structure_function(const Surface& surface, int lag_cells, double order) {
+  check(surface);
+  double sum = 0.0, pairs = 0.0;
+  const auto add = [&](float a, float b) {
+    const double difference = std::abs(static_cast<double>(a) - static_cast<double>(b));
+    if (std::isnan(difference)) return;
+    sum += std::pow(difference, order);
+    pairs += 1.0;
+  };
+  for (int j = 0; j < surface.rows; ++j) {
+    for (int i = 0; i + lag_cells < surface.columns; ++i) add(surface.at(i, j), surface.at(i + lag_cells, j));
+    if (j + lag_cells >= surface.rows) continue;
+    for (int i = 0; i < surface.columns; ++i) add(surface.at(i, j), surface.at(i, j + lag_cells));
+  }
+  return sum / pairs;
+}
+
 }  // namespace ensonify::relief_statistics

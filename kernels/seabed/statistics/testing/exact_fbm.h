@@ -16,4 +16,8 @@ namespace ensonify::relief_statistics {
 /// std::invalid_argument for H outside (0, 0.95] or posts outside [2, 2048].
 Surface exact_fbm(double hurst, int posts, const random::Stream& stream, std::uint64_t number);
 
+/// Mean of |z(a) - z(b)|^order over all pairs of posts `lag_cells` apart along a row or a column; holes are left out.
+/// NaN if there is no pair. For an isotropic surface and order 2 this is the structure function D(r).
+double structure_function(const Surface& surface, int lag_cells, double order);
+
 }  // namespace ensonify::relief_statistics

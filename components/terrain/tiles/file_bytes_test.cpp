@@ -1,12 +1,11 @@
-#include "components/terrain/tiles/sha256.h"
 
+#include "components/terrain/tiles/file_bytes.h"
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-
-#include "components/terrain/tiles/file_bytes.h"
-#include "components/terrain/tiles/lattice_png.h"
 
 using namespace ensonify::tiles;
 
@@ -30,4 +29,17 @@ TEST_CASE("a file has the checksum of its bytes, a missing one is named") {
   write_file(path, std::string_view("abc"));
   CHECK(sha256_of_file(path) == kAbc);
   CHECK_THROWS_AS(sha256_of_file(folder / "missing"), TileError);
+}
+
+TEST_CASE("CRC-32C is that of the standard's examples, whole or in pieces") {
+  std::array<std::byte, 32> bytes{};
+  CHECK(crc32c(bytes) == 0x8a9136aa);  // [RFC3720, appendix B.4]
+  bytes.fill(std::byte{0xff});
+  CHECK(crc32c(bytes) == 0x62a8ab43);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i);
+  CHECK(crc32c(bytes) == 0x46dd794e);
+  const std::string digits = "123456789";
+  CHECK(crc32c(std::as_bytes(std::span(digits))) == 0xe3069283);
+  for (std::size_t first = 0; first <= bytes.size(); ++first)
+    CHECK(crc32c(std::span(bytes).subspan(first), crc32c(std::span(bytes).first(first))) == 0x46dd794e);
 }
