@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/detect/testing/plane_echo.h"
 

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/trace/testing/embree_alone.h"
