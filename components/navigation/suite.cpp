@@ -297,7 +297,6 @@ std::optional<frames::Vec3> UsblTracker::answered_enu_m(const Moment& moment, co
 }
 
 std::string UsblTracker::why_silent(const frames::Vec3& place_array_m) const {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const sensors::UsblErrors& errors = array_.config.errors;
   if (place_array_m.norm() > errors.longest_m) {
     return fmt::format("usbl: the transponder is {:.0f} m away, received within {:.0f}", place_array_m.norm(),

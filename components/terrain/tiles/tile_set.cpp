@@ -373,13 +373,14 @@ std::vector<std::string> faults_of(const TileSet& set) {
       compare_text(set.path_of(key, ".yaml"), sidecar_text(set, key, facts), faults);
       compare_text(set.path_of(key, ".pgw"), world_file(set, key), faults);
       const auto last = tile.columns - 1;
+      const std::string path = set.path_of(key, ".png");
       const auto compare = [&](std::map<terrain::TileKey, Edge>& edges, const terrain::TileKey& neighbour,
                                const Edge& own) {
         const auto found = edges.find(neighbour);
         if (found == edges.end()) return;
         if (const int count = differences(found->second, own); count > 0) {
-          faults.push_back(fmt::format("{}: {} of the posts that it shares with tile ({}, {}) differ",
-                                       set.path_of(key, ".png"), count, neighbour.east, neighbour.north));
+          faults.push_back(fmt::format("{}: {} of the posts that it shares with tile ({}, {}) differ", path, count,
+                                       neighbour.east, neighbour.north));
         }
         edges.erase(found);
       };

@@ -98,7 +98,8 @@ struct Hits : Batch<Hits, Hit> {
 
   template <class Self>
   static auto columns(Self& self) {
-    auto &place = self.position_enu_m, &normal = self.normal_enu, &arrival = self.arrival_enu;
+    auto& place = self.position_enu_m;
+    auto &normal = self.normal_enu, &arrival = self.arrival_enu;
     return std::tie(self.range_m, self.travel_time_s, self.path_length_m, self.tube_m2, self.sin_grazing, self.facet_m,
                     self.tile, self.contributor, place.x, place.y, place.z, normal.x, normal.y, normal.z, arrival.x,
                     arrival.y, arrival.z);

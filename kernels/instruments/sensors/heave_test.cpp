@@ -114,7 +114,8 @@ TEST_CASE("delayed heave keeps swell far above the corner, without phase error, 
   const auto window = delayed_heave_window(25.0, 75.0, 0.2);
   const auto heave_of = [&](double period, double phase) {
     std::vector<double> heights(window.size());
-    const double middle = static_cast<double>(window.size() / 2);
+    const std::size_t middle_index = window.size() / 2;
+    const auto middle = static_cast<double>(middle_index);
     for (std::size_t i = 0; i < heights.size(); ++i) {
       heights[i] = 3.0 + std::sin(2 * kPi * (static_cast<double>(i) - middle) * 0.2 / period + phase);
     }

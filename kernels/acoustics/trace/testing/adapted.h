@@ -62,8 +62,7 @@ struct PingDifferences {
 };
 
 inline PingDifferences ping_differences(const Scene& full, Scene& scene, const frames::HeadPose& head, float range_m,
-                                        const Rays& main_lobe, const Rays& all_round,
-                                        const Depths& depths) {
+                                        const Rays& main_lobe, const Rays& all_round, const Depths& depths) {
   PingDifferences found;
   Hits all, some;
   scene.adapt(views_at(head, range_m));
