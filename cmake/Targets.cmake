@@ -76,7 +76,8 @@ endif()
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
 # Labels: unit, physics, system, determinism, golden, wire, bench; `sanitize` for what also runs under the address
 # sanitizer, and `threads` for what starts threads of our own and runs under the thread sanitizer (presets asan and tsan
-# build those only). It cannot follow the threads of TBB or ZeroMQ into their libraries.
+# build those only). It cannot follow the threads of TBB or ZeroMQ into their libraries. Cases tagged [long] repeat for
+# their numbers what their neighbours do once: sanitizers leave them out.
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -86,7 +87,11 @@ function(ensonify_test name)
   target_link_libraries(${name} PRIVATE test_pch ${ARG_DEPS})
   target_precompile_headers(${name} REUSE_FROM test_pch)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name} --use-colour no)
+  set(cases "")
+  if(ENSONIFY_SANITIZE)
+    set(cases ~[long])
+  endif()
+  add_test(NAME ${name} COMMAND ${name} --use-colour no ${cases})
   ensonify_test_properties(${name} "${ARG_LABELS}" "${ARG_TIMEOUT}")
   if(("sanitize" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES address) OR
      ("threads" IN_LIST ARG_LABELS AND ENSONIFY_SANITIZE MATCHES thread))

@@ -61,7 +61,7 @@ int check(const LaunchOptions& options, bool as_json) {
       fmt::print(stderr, "warning: {}\n", warning);
     }
     if (checked.problems.empty()) {
-      fmt::print("{}: {} processes, sound\n", options.file, processes);
+      fmt::print("{}: {} processes, valid\n", options.file, processes);
     }
   }
   return checked.problems.empty() ? kExitOk : kExitUserError;

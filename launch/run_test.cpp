@@ -267,7 +267,7 @@ TEST_CASE("check asks every program for its ports and checks the wiring") {
     return std::to_string(code) + " " + program.stated();
   };
   place.two_stubs();
-  CHECK(check() == "0 " + place.file("x.yaml") + ": 2 processes, sound");
+  CHECK(check() == "0 " + place.file("x.yaml") + ": 2 processes, valid");
   place.two_stubs("wiring: {b.x: a/y}\n");
   CHECK(check().find("2 " + place.file("x.yaml") + ":5:15: wiring.b.x: no process publishes a/y") == 0);
   place.two_stubs("", ", rate: 1");
@@ -287,7 +287,7 @@ TEST_CASE("shipped launches are valid; coarse posts, uneven classes and a head's
     return std::to_string(code) + " " + program.stated();
   };
   const std::string demo = source + "/launch/demo.yaml";
-  CHECK(check({demo}) == "0 " + demo + ": 7 processes, sound");
+  CHECK(check({demo}) == "0 " + demo + ": 7 processes, valid");
   CHECK(check({demo, "--set", "seabed.post_spacing_m=1"})
             .find("warning: pager: posts are 1 m apart, but bow resolves 0.2") != std::string::npos);
   const std::string sand = "seabed.sediments={0: medium sand}";
@@ -303,7 +303,7 @@ TEST_CASE("shipped launches are valid; coarse posts, uneven classes and a head's
                   "bow.source_level_db=" + highest_db});
   };
   const std::string at = "2 " + place.file("mission.yaml") + ":3:39: steps[0].source_level_db: ";
-  CHECK(with_level("245", "250") == "0 " + demo + ": 7 processes, sound");
+  CHECK(with_level("245", "250") == "0 " + demo + ": 7 processes, valid");
   CHECK(with_level("260", "250").find(at + "260 is outside [210, 250], the limits of bow") == 0);
   CHECK(with_level("245", "230").find(at + "245 is outside [190, 230], the limits of bow") == 0);
 
@@ -314,7 +314,7 @@ TEST_CASE("shipped launches are valid; coarse posts, uneven classes and a head's
     WARN("skipped: no " << raster);
     return;
   }
-  CHECK(check({survey, "--arg", "raster=" + raster}).find("processes, sound") != std::string::npos);
+  CHECK(check({survey, "--arg", "raster=" + raster}).find("processes, valid") != std::string::npos);
 }
 
 }  // namespace ensonify::launcher

@@ -127,13 +127,12 @@ struct Ping {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of transmission, sim time", self.stamp_ns);
     visit("ping", "1", "ping number of this head, from 0", self.ping);
-    visit("kind", "", "of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not given",
-          self.kind);
+    visit("kind", "", "component that made it, such as multibeam or sidescan; empty: not given", self.kind);
     visit("sample_period_s", "s", "time between samples", self.sample_period_s);
     visit("first_sample_s", "s", "time of the first sample after transmission", self.first_sample_s);
     visit("beam_angle_rad", "rad",
-          "receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of the kinds "
-          "forward_looking and scanning from its forward axis",
+          "receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of heads "
+          "that look forward (forward_looking, scanning) from its forward axis",
           self.beam_angle_rad);
     visit("amplitude_upa", "uPa",
           "rms pressure amplitude at the receiver (beam x sample), linear, the gain taken out again",

@@ -237,7 +237,7 @@ const std::vector<Misfit> kMisfits{
 
 }  // namespace
 
-TEST_CASE("an instrument mounted otherwise than measured errs by its closed form") {
+TEST_CASE("an instrument mounted otherwise than measured errs by its closed form", "[long]") {
   for (const Misfit& misfit : kMisfits) {
     INFO(misfit.what);
     const std::vector<Reading> right = misfit.readings(misfit.right), wrong = misfit.readings(misfit.wrong);

@@ -158,7 +158,7 @@ TEST_CASE("every layer shows, and each can be left out without moving another") 
   CHECK_FALSE(same(all.height_m, other.height_m));
 }
 
-TEST_CASE("wide spacings give a coarser level of the seabed, within the same rectangle") {
+TEST_CASE("wide spacings give a coarser level of the seabed, within the same rectangle", "[long]") {
   const LayersSource source(seabed_from(kMixed), kOrigin);
   const PostBlock block{-16, -16, 32, 32, 11.1};
   const Posts coarse = sampled(source, block);

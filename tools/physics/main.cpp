@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   physics::add_disturbance(app, verbs);
   physics::add_level(app, verbs);
   physics::add_material(app, verbs);
+  physics::add_multipath(app, verbs);
   physics::add_noise(app, verbs);
   physics::add_pattern(app, verbs);
   physics::add_ray(app, verbs);

@@ -73,6 +73,16 @@ near(value("received_db", "noise", "--wind-speed-mps", "0", "--bandwidth-hz", "1
 code, out, _ = physics("noise", "--wind-speed-mps", "0", "--json")
 assert json.loads(out)[0]["wind_db"] is None, out
 
+# Image sources: R1 = 20 m straight down, R2 = 68 m by way of bottom and surface; the two orders add as pressures.
+below = ["multipath", "--ground-range-m", "0", "--head-depth-m", "4", "--altitude-m", "20", "--source-level-db", "200",
+         "--bottom-loss-db", "12"]
+near(value("direct_db", *below), 200 - 40 - 40 * math.log10(20) - 0.05 * 40, 1e-3)
+near(value("second_bottom_s", *below), 88 / 1500, 1e-7)
+near(value("second_bottom_db", *below), 200 - 40 - 20 * math.log10(20 * 68) - 0.05 * 88 - 12 + 6.0206, 0.01)
+near(value("surface_s", *below), 8 / 1500, 1e-9)
+code, out, _ = physics(*below, "--surface-rms-m", "1", "--json")   # waves leave nothing
+assert json.loads(out)[0]["second_bottom_db"] is None and json.loads(out)[0]["second_bottom_s"] is None, out
+
 sidescan = [float(row["level_db"]) for row in rows(
     "level", "sidescan", "--range-m", "50:100:50", "--altitude-m", "10", "--absorption-db-per-km", "100")]
 near(sidescan[0], 77.06, 0.01)

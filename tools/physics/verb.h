@@ -109,6 +109,7 @@ void add_backscatter(CLI::App& app, Verbs& verbs);
 void add_disturbance(CLI::App& app, Verbs& verbs);
 void add_level(CLI::App& app, Verbs& verbs);
 void add_material(CLI::App& app, Verbs& verbs);
+void add_multipath(CLI::App& app, Verbs& verbs);
 void add_noise(CLI::App& app, Verbs& verbs);
 void add_pattern(CLI::App& app, Verbs& verbs);
 void add_receiver(CLI::App& app, Verbs& verbs);  // pulse, gain, flattening

@@ -583,10 +583,10 @@ class Ping(Message):
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
-    kind: of head: multibeam, sidescan, forward_looking, scanning or echosounder; empty: not given
+    kind: component that made it, such as multibeam or sidescan; empty: not given
     sample_period_s [s]: time between samples
     first_sample_s [s]: time of the first sample after transmission
-    beam_angle_rad [rad]: receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of the kinds forward_looking and scanning from its forward axis
+    beam_angle_rad [rad]: receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of heads that look forward (forward_looking, scanning) from its forward axis
     amplitude_upa [uPa]: rms pressure amplitude at the receiver (beam x sample), linear, the gain taken out again
     beam_sector [1]: index of each beam's transmit sector; empty: 0
     amplitude_count [1]: instead of amplitude_upa: digitised amplitude (beam x sample), linear, the gain still in it

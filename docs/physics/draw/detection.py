@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/acoustics/detection.md and seabed-image.md from the detector's test, beside theory.
+"""Draws the pictures of docs/physics/acoustics/detection.md and seabed-image.md from detections of a plane, beside theory.
 
-    docs/physics/draw/detection.py build/dev/tests/detect_test build/dev/bin/ensonify-physics
+    docs/physics/draw/detection.py build/dev/tests/experiments build/dev/bin/ensonify-physics
 """
 import sys
 
@@ -15,7 +15,7 @@ DEPTH_M, SPEED_MPS, PULSE_S = 20.0, 1500.0, 100e-6
 
 
 def draw_accuracy():
-    data = table(sys.argv[1], "accuracy-csv")
+    data = table(sys.argv[1], "accuracy")
     print("predicted over measured:", np.round(data["predicted_sd"] / data["sd"], 2))
     figure, axes = plt.subplots(3, 1, figsize=(9, 11), constrained_layout=True, sharex=True)
     for axis, snr_db in zip(axes, (20, 10)):
@@ -40,7 +40,7 @@ def draw_accuracy():
 
 
 def draw_ramps():
-    data = table(sys.argv[1], "ramp-csv")
+    data = table(sys.argv[1], "phase-ramps")
     angles = np.unique(np.round(data["angle_deg"]))
     figure, axes = plt.subplots(len(angles), 1, figsize=(9, 11), constrained_layout=True)
     for axis, angle_deg in zip(axes, angles):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/physics/acoustics/echo.md, multipath.md and gain.md from the echo kernel's tests and `ensonify physics`, beside theory.
+"""Draws the pictures of docs/physics/acoustics/echo.md, multipath.md and gain.md from experiments with the echo kernel and `ensonify physics`, beside theory.
 
-    docs/physics/draw/echo.py build/dev/tests/echo_test build/dev/bin/ensonify-physics
+    docs/physics/draw/echo.py build/dev/tests/experiments build/dev/bin/ensonify-physics
 """
 import sys
 
@@ -45,7 +45,7 @@ def sidescan_db(range_m, depth_m=10.0, alpha=0.1):
 
 
 def draw_levels():
-    data = table(sys.argv[1], "echo-levels-csv")
+    data = table(sys.argv[1], "levels")
     figure, axes = plt.subplots(2, 2, figsize=(10, 7), constrained_layout=True, height_ratios=[3, 1], sharex="col")
     for column, (head, name, reference) in enumerate(((0, "beam angle, degrees", multibeam_peak_db),
                                                       (1, "slant range, m", sidescan_db))):
@@ -62,7 +62,7 @@ def draw_levels():
 
 
 def draw_speckle():
-    data = table(sys.argv[1], "echo-speckle-csv")
+    data = table(sys.argv[1], "speckle")
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     moved, coherence = data["x"][data["kind"] == 0], data["y"][data["kind"] == 0]
     axes[0].plot(moved, np.clip(1 - 2 * moved, 0, None), "C2", label="1 - 2d/L")
@@ -113,17 +113,18 @@ def draw_pulses():
 
 
 def draw_multipath():
-    data = table(sys.argv[1], "echo-multipath-csv")
+    data = physics("multipath", "--ground-range-m=0:80:4", "--head-depth-m=4", "--altitude-m=20", "--frequency-hz=100e3",
+                   "--source-level-db=200", "--bottom-loss-db=12")
     x, H, D, d, alpha = np.linspace(0, 80, 400), 20.0, 24.0, 4.0, 0.05
     R1, bounce, second = np.hypot(x, H), np.hypot(x, D + d), np.hypot(x, H + 2 * D)
     figure, axes = plt.subplots(2, 1, figsize=(9, 8), constrained_layout=True, sharex=True)
-    for name, label, path, loss in (("direct", "direct", R1, 0), ("bounce", "seabed - surface, both orders", bounce, -6.02),
-                                    ("second", "seabed - surface - seabed, both orders", second, 12 - 6.02)):
+    for name, label, path, loss in (("direct", "direct", R1, 0), ("one_bounce", "seabed - surface, both orders", bounce, -6.02),
+                                    ("second_bottom", "seabed - surface - seabed, both orders", second, 12 - 6.02)):
         line, = axes[0].plot(x, 1e3 * (R1 + path) / SPEED_MPS, lw=1, label=f"{label}: image source")
-        axes[0].plot(data["ground_m"], 1e3 * data[f"{name}_s"], "o", ms=4, color=line.get_color())
+        axes[0].plot(data["ground_range_m"], 1e3 * data[f"{name}_s"], "o", ms=4, color=line.get_color())
         level = 200 - 40 - 20 * np.log10(R1 * path) - alpha * (R1 + path) - loss
         axes[1].plot(x, level, lw=1, color=line.get_color(), label=f"{label}: image source")
-        axes[1].plot(data["ground_m"], data[f"{name}_db"], "o", ms=4, color=line.get_color())
+        axes[1].plot(data["ground_range_m"], data[f"{name}_db"], "o", ms=4, color=line.get_color())
     axes[0].set(ylabel="arrival, ms", title="a scatterer of 1 cm² 20 m below a head at 4 m; dots: simulated")
     axes[1].set(xlabel="ground range, m", ylabel="dB re 1 µPa²")
     finish(figure, "multipath")

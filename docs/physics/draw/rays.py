@@ -1,21 +1,19 @@
 #!/usr/bin/python3
-"""Draws the picture of docs/physics/acoustics/rays.md from what the test of the ray distribution prints.
+"""Draws the picture of docs/physics/acoustics/rays.md from one ping over boulders.
 
-    docs/physics/draw/rays.py build/dev/tests/trace_test
+    docs/physics/draw/rays.py build/dev/tests/experiments
 """
-import subprocess
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from values import columns, save
+from values import save, table
 
 NULL, TENTH, HEAD_M, RESOLUTION_M = 1 / 50, 0.738 / 50, (0.1, 0.2), 0.075
 
 if __name__ == "__main__":
-    done = subprocess.run([sys.argv[1], "[.rays-csv]"], capture_output=True, text=True, check=True)
-    rays = columns("\n".join(line for line in done.stdout.splitlines() if "," in line))
+    rays = table(sys.argv[1], "rays")
     main = np.abs(rays["sine"]) < NULL
     figure, axes = plt.subplots(4, 1, figsize=(9, 13), constrained_layout=True)
 
@@ -50,8 +48,11 @@ if __name__ == "__main__":
     top = rays["east_m"][aside][np.argmax(rays["up_m"][aside] - smooth)]
     near = main & (np.abs(rays["east_m"] - top) < 5)
     axis.scatter(rays["east_m"][near], rays["up_m"][near], s=2, linewidths=0)
-    axis.plot([HEAD_M[0] + (top - HEAD_M[0]) * f for f in (0, 2)],
-              [rays["up_m"][aside].max() * f for f in (0, 2)], "C1:", lw=1, label="line of sight over the top")
+    order = np.argsort(rays["east_m"][near])
+    east, up = rays["east_m"][near][order], rays["up_m"][near][order]
+    last = np.argmax(np.diff(east))  # the last hit before the shadow
+    axis.plot([HEAD_M[0] + (east[last] - HEAD_M[0]) * f for f in (0, 2)], [up[last] * f for f in (0, 2)], "C1:", lw=1,
+              label="line of sight past its edge")
     axis.set(xlabel="across-track, m", ylabel="up, m", xlim=(top - 5, top + 5),
              ylim=(rays["up_m"][near].min() - 0.3, rays["up_m"][near].max() + 0.3), aspect="equal",
              title="a boulder and its shadow: hits in the main lobe, seen from aft")

@@ -1,19 +1,16 @@
 #!/usr/bin/python3
-"""Draws how soon pings decorrelate (docs/physics/acoustics/echo.md) from what the test of heads prints, beside theory.
+"""Draws how soon pings decorrelate (docs/physics/acoustics/echo.md) from two pings of a head, beside theory.
 
-    docs/physics/draw/speckle.py build/dev/tests/acoustics_speckle_test
+    docs/physics/draw/speckle.py build/dev/tests/experiments
 """
-import subprocess
 import sys
 
 import matplotlib.pyplot as plt
 
-from values import columns, save
+from values import save, table
 
 if __name__ == "__main__":
-    done = subprocess.run([sys.argv[1], "[.speckle-csv]"], capture_output=True, text=True, check=True)
-    lines = [line for line in done.stdout.splitlines() if line.count(",") == 3]
-    data = columns("\n".join(sorted(lines, key=lambda line: line[0].isdigit())))
+    data = table(sys.argv[1], "decorrelation")
     figure, axes = plt.subplots(1, 3, figsize=(11, 4), constrained_layout=True, sharey=True)
     for axis, kind, title, moved in ((axes[0], 0, "sidescan, 0.5°, 15-100 m", "moved along the track / length of the line"),
                                      (axes[1], 2, "multibeam, 1°, 43-60°", "moved along the track / length of the line"),

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 using namespace ensonify;
@@ -12,23 +11,11 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-/// 20 m, 1 degree, 100 us. The gate is an operator's: a quarter of the depth either way, so that 8 dB suffice at 10 dB.
-std::vector<Accuracy> accuracy_at(double snr_db, std::vector<double> angles_deg, double tilt_rad, int pings) {
-  PlaneSurvey survey;
-  survey.snr_db = snr_db;
-  survey.tilt_rad = tilt_rad;
-  for (const double deg : angles_deg) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
-  Settings settings = settings_for(survey);
-  settings.seabed_tilt_rad = tilt_rad;
-  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 8.0 : 13.0};
-  return accuracy(survey, settings, pings);
-}
-
 const std::vector<double> kAngles{0, 3, 5, 7, 10, 12, 15, 20, 25, 30, -30, 45, 60, -60, 65, 70};
 
 }  // namespace
 
-TEST_CASE("a plane is detected without bias, at the theoretical sd, which is predicted") {
+TEST_CASE("a plane is detected without bias, at the theoretical sd, which is predicted", "[long]") {
   for (const double snr_db : {20.0, 10.0}) {
     for (const Accuracy& a : accuracy_at(snr_db, kAngles, 0.0, 100)) {
       const double angle_deg = std::abs(a.angle_rad) / kDeg;
@@ -100,38 +87,5 @@ TEST_CASE("a tilted plane is unbiased where the detector is given the tilt") {
     CHECK(std::abs(a.bias) < 3e-4);
     CHECK(a.predicted_sd / a.sd > 0.7);
     CHECK(a.predicted_sd / a.sd < 1.6);
-  }
-}
-
-// What docs/physics/draw/detection.py draws.
-TEST_CASE("print accuracy by angle", "[.accuracy-csv]") {
-  std::puts("snr_db,angle_deg,bias,sd,predicted_sd,amplitude_sd,phase_weight,found,expected_sd");
-  std::vector<double> angles;
-  for (int deg = 0; deg <= 70; deg += deg < 20 ? 2 : 5) angles.push_back(deg);
-  for (const double snr_db : {20.0, 10.0}) {
-    for (const Accuracy& a : accuracy_at(snr_db, angles, 0.0, 300)) {
-      std::printf("%g,%g,%g,%g,%g,%g,%g,%g,%g\n", snr_db, a.angle_rad / kDeg, a.bias, a.sd, a.predicted_sd,
-                  a.amplitude_sd, a.phase_weight, a.found, theoretical_sd(a.angle_rad, snr_db));
-    }
-  }
-}
-TEST_CASE("print phase ramps", "[.ramp-csv]") {
-  PlaneSurvey survey;
-  for (const double deg : {15, 30, 45, 60}) survey.sin_beams.push_back(static_cast<float>(std::sin(deg * kDeg)));
-  PlaneEcho echo;
-  echo.ping(survey, {11, "plane"}, 0);
-  std::vector<Detection> found;
-  detect_bottom(settings_for(survey), survey.sin_beams, echo.amplitudes(survey), echo.halves(), found);
-  std::puts("angle_deg,time_s,amplitude_upa,phase_rad,detected_s,true_s");
-  const int samples = echo.amplitudes(survey).samples;
-  for (std::size_t beam = 0; beam < found.size(); ++beam) {
-    const Detection& d = found[beam];
-    for (int k = d.snippet_first; k < d.snippet_first + d.snippet_count; ++k) {
-      const std::size_t i = beam * static_cast<std::size_t>(samples) + static_cast<std::size_t>(k);
-      std::printf("%g,%.9g,%g,%g,%.9g,%.9g\n", std::asin(survey.sin_beams[beam]) / kDeg,
-                  k * survey.period_s - 0.5 * survey.pulse_length_s, echo.amplitude_upa[i],
-                  std::arg(echo.positive_upa[i] * std::conj(echo.negative_upa[i])), d.two_way_s,
-                  two_way_s(survey, survey.sin_beams[beam]));
-    }
   }
 }

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 using namespace ensonify;
@@ -138,20 +137,4 @@ TEST_CASE("where waves leave nothing, nothing is added") {
 TEST_CASE("nothing is added for a head in the air") {
   const Geometry above(-0.5, 20.0);
   CHECK(above.multipath(10.0, {}).empty());
-}
-
-TEST_CASE("ghosts for the picture", "[.echo-multipath-csv]") {
-  const Geometry geometry(4.0, 20.0);
-  std::puts("ground_m,direct_s,direct_db,bounce_s,bounce_db,second_s,second_db");
-  for (double x = 0; x <= 80; x += 4) {
-    Arrivals direct;
-    const Scatterer one = geometry.at(x);
-    add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
-    const auto more = geometry.multipath(x, {true, true, false});
-    const auto pair_db = [&](int i) {
-      return 20 * std::log10(std::abs(more[i].pressure_upa + more[i + 1].pressure_upa));
-    };
-    std::printf("%g,%.8f,%.4f,%.8f,%.4f,%.8f,%.4f\n", x, direct[0].time_s, level_db(direct[0]), more[0].time_s,
-                pair_db(0), more[2].time_s, pair_db(2));
-  }
 }

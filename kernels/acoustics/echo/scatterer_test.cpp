@@ -6,99 +6,15 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
-#include "kernels/acoustics/array/line.h"
-#include "kernels/acoustics/echo/aperture.h"
+#include "kernels/acoustics/echo/testing/strip.h"
 #include "kernels/base/testing/allocations.h"
 
 using namespace ensonify;
 using namespace ensonify::echo;
 using frames::Vec3;
-
-constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kDepth = 20.0, kSpeed = 1500.0, kFrequency = 300e3, kWave = kSpeed / kFrequency;
-constexpr double kLines = 50.76;  // length of the transmit line in waves: 1 deg
-
-/// Rays of a strip about 45 deg to starboard, the same for every ping, and the flat seabed that they hit.
-struct Strip {
-  trace::Rays rays;
-  std::vector<float> source, backscatter;
-
-  Strip() {
-    const random::Stream jitter{4, "rays"};
-    constexpr int kAlong = 200, kAcross = 180;
-    const double reach = 3.0 / kLines, from = 44 * kDeg, to = 46 * kDeg;
-    for (int j = 0; j < kAcross; ++j) {
-      for (int i = 0; i < kAlong; ++i) {
-        const double u = reach * (2 * (i + jitter.uniform(i, j, 0)) / kAlong - 1);
-        const double phi = from + (to - from) * (j + jitter.uniform(i, j, 1)) / kAcross;
-        const double beside = std::sqrt(1 - u * u);
-        rays.push_back({Vec3(u, beside * std::sin(phi), beside * std::cos(phi)).cast<float>(),
-                        float(2 * reach / kAlong * (to - from) / kAcross)});
-        source.push_back(float(1e20 * array::line_power(kLines, u)));
-        backscatter.push_back(0.01F);
-      }
-    }
-  }
-
-  trace::Hits hits(const frames::HeadPose& pose) const {
-    trace::Hits found;
-    for (const trace::Ray& ray : rays) {
-      const Vec3 direction = pose.enu_from_head * ray.direction_head.cast<double>();
-      trace::Hit hit;
-      const double range = (kDepth + pose.position_enu_m.z()) / -direction.z();
-      hit.position_enu_m = pose.position_enu_m + range * direction;
-      hit.arrival_enu = direction.cast<float>();
-      hit.range_m = hit.path_length_m = float(range);
-      hit.travel_time_s = float(range / kSpeed);
-      hit.tube_m2 = float(range * range);
-      hit.sin_grazing = float(-direction.z());
-      found.push_back(hit);
-    }
-    return found;
-  }
-
-  /// What an omnidirectional receiver beside the transmitter receives.
-  std::vector<std::complex<float>> echo(const Vec3& position_enu_m, std::uint64_t seed, double cell_m = 0.03) const {
-    const frames::HeadPose pose{position_enu_m, frames::enu_from_ned()};
-    const auto surface_hits = hits(pose);
-    Scatterers scatterers(cell_m, {seed, "seabed"});
-    Receivers receivers;
-    receivers.set({0, 1, std::span(&pose, 1)});
-    Arrivals arrivals;
-    Scatterers::Memory memory;
-    add_direct_echoes({kFrequency, 0.07}, position_enu_m,
-                      scatterers.find({pose, rays, surface_hits, source, backscatter}, memory), receivers, arrivals);
-    TimeIndex index;
-    Image image;
-    const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);
-    form_apertures(std::array{EchoSet{arrivals}}, 1, pulse, {37.3e-3, 50e-6, 18}, index, image);  // 44.2 to 45.5 deg
-    return image.envelope_upa;
-  }
-};
-
-static const Strip& strip() {
-  static const Strip value;
-  return value;
-}
-
-/// Magnitude of the correlation of echoes at two places, over all samples and some seabeds.
-static double coherence(const Vec3& a, const Vec3& b, int seabeds) {
-  std::complex<double> cross;
-  double first = 0, second = 0;
-  for (int seed = 0; seed < seabeds; ++seed) {
-    const auto p = strip().echo(a, seed), q = strip().echo(b, seed);
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      cross += std::complex<double>(p[k]) * std::conj(std::complex<double>(q[k]));
-      first += std::norm(p[k]);
-      second += std::norm(q[k]);
-    }
-  }
-  return std::abs(cross) / std::sqrt(first * second);
-}
 
 TEST_CASE("a repeated ping repeats bit by bit") {
   CHECK(strip().echo({0.1, 0.2, 0}, 1) == strip().echo({0.1, 0.2, 0}, 1));
@@ -123,7 +39,7 @@ TEST_CASE("along the range, echoes decorrelate over half a pulse's length of wat
   CHECK(coherence(start, start + 0.09 * towards, 12) < 0.25);
 }
 
-TEST_CASE("speckle is Rayleigh") {
+TEST_CASE("speckle is Rayleigh", "[long]") {
   // Samples one pulse apart are independent. Kolmogorov and Smirnov's test at 5 %, on N = 9 x 16 amplitudes of known
   // mean square (the mean over all): 40 of them, of which 2 are expected to fail; 6 or fewer do in 99.7 % of cases.
   std::vector<std::vector<double>> sets;
@@ -255,24 +171,4 @@ TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
   scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory);
   CHECK(allocations() - before == 0);
   CHECK_THROWS_AS(Scatterers(0.0, {1, "seabed"}), std::invalid_argument);
-}
-
-TEST_CASE("coherence and speckle for the picture", "[.echo-speckle-csv]") {
-  const double L = kLines * kWave;
-  const Vec3 start(0.3, -0.2, 0.0);
-  std::puts("kind,x,y");
-  for (int i = 0; i <= 14; ++i) {
-    std::printf("0,%.4f,%.5f\n", i * 0.05, coherence(start, start + Vec3(0, 0.05 * i * L, 0), 40));
-  }
-  std::vector<double> powers;
-  double sum = 0.0;
-  for (int seed = 0; seed < 300; ++seed) {
-    const auto echo = strip().echo({0, 0, 0}, 5000 + seed);
-    for (std::size_t k = 0; k < echo.size(); k += 2) powers.push_back(std::norm(echo[k])), sum += powers.back();
-  }
-  std::sort(powers.begin(), powers.end());
-  const double n = double(powers.size());
-  for (std::size_t i = 0; i < powers.size(); i += 9) {
-    std::printf("1,%.5f,%.5f\n", std::sqrt(powers[i] / (sum / n)), (double(i) + 0.5) / n);
-  }
 }

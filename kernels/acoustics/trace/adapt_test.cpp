@@ -48,7 +48,7 @@ HeadPose pose(int ping) {
 
 }  // namespace
 
-TEST_CASE("main lobe rays hit bit-equal what they hit at full detail") {
+TEST_CASE("main lobe rays hit bit-equal what they hit at full detail", "[long]") {
   Scene scene = scene_of({.enabled = true});
   std::size_t different = 0, side_lobes_differ = 0, missed = 0;
   for (int ping = 0; ping < 12; ++ping) {

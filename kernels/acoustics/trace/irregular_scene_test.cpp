@@ -82,7 +82,7 @@ std::size_t on(std::uint8_t sediment, const Hits& hits) {
 
 }  // namespace
 
-TEST_CASE("main lobe rays hit wall and reef bit-equal to the whole meshes") {
+TEST_CASE("main lobe rays hit wall and reef bit-equal to the whole meshes", "[long]") {
   Scene scene = scene_of({.enabled = true});
   std::size_t different = 0, wall_hits = 0, reef_hits = 0, beyond_differ = 0;
   for (int ping = 0; ping < 6; ++ping) {
@@ -179,7 +179,7 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
   }
 }
 
-TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB") {
+TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB", "[long]") {
   Scene scene = scene_of({.enabled = true});
   std::map<std::uint8_t, double> all_sum, some_sum;
   Hits hits;
@@ -204,7 +204,7 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
   }
 }
 
-TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it alone") {
+TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it alone", "[long]") {
   // A ball of 0.4 m on the ground, ahead of an imaging head 2 m above it at preview's quality: no facet has rays of its
   // own. Over 40 draws of the rays its power deviates by 0.4 % at 10 m and by 3.9 % at 60 m; four times that, and 0.5 %
   // of the rays at it alone, are 0.1 dB and 0.7 dB.

@@ -129,7 +129,7 @@ Scene seabed() {
 
 }  // namespace
 
-TEST_CASE("small spheres and boxes are hit wherever they are, and so are all their facets") {
+TEST_CASE("small spheres and boxes are hit wherever they are, and so are all their facets", "[long]") {
   // 0.1 to 1 m wide, 2 to 100 m away, above the seabed to 50 m: 18 bodies, seen from outside. What 16 draws find at
   // least 4 times, one draw finds, but for 1 in 1000. Over five draws it is 1 in 1600: slivers of facets that another
   // hides, or the volume's edge cuts.
@@ -212,7 +212,7 @@ ensonify::refraction::PathTable summer(const Scene& scene, const HeadPose& head)
 
 }  // namespace
 
-TEST_CASE("a body answers with the level that evenly spread rays give, and covers as much") {
+TEST_CASE("a body answers with the level that evenly spread rays give, and covers as much", "[long]") {
   // In front of a near seabed that gets rays enough: 12,000 on the body and more, so 0.05 dB of chance; allowed 0.2 dB.
   const View view = forward_looking();
   for (const bool sphere : {true, false}) {

@@ -1,42 +1,15 @@
 // What the rays of a distribution reach: facets, resolution cells, the same places again, shadows.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <set>
 
-#include "kernels/acoustics/trace/testing/sounding.h"
-#include "kernels/seabed/relief/bodies.h"
-#include "kernels/seabed/relief/spectral_surface.h"
+#include "kernels/acoustics/trace/testing/boulders.h"
 
 using namespace ensonify::trace;
 using namespace ensonify::trace::sounding;
 using namespace ensonify::terrain;
 using ensonify::frames::HeadPose;
-
-/// Below which relief is smooth: four posts, or less than one.
-static constexpr double kFourPosts_m = 1.0, kRough_m = 0.1;
-
-/// Relief of 0.3 m rms and some 200 boulders per hectare.
-static Scene strewn_with_boulders(std::uint64_t seed, double spacing_m, int cells,
-                                  double smooth_below_m = kFourPosts_m) {
-  const ensonify::relief::Bodies boulders(
-      {.per_km2 = 20000, .smallest_radius_m = 0.5, .largest_radius_m = 2.0, .size_exponent = 1.0}, spacing_m, seed,
-      "boulders");
-  const ensonify::relief::SpectralSurface relief({.rms_m = 0.3, .outer_scale_m = 40.0, .inner_scale_m = smooth_below_m},
-                                                 spacing_m, seed, "relief");
-  const ensonify::relief::Window posts{0, -cells / 2, -cells / 2, cells + 1, cells + 1};
-  std::vector<float> body_m(posts.size()), relief_m(posts.size());
-  boulders.fill(posts, body_m);
-  relief.fill(posts, relief_m);
-  return scene_of(
-      [&](double x, double y) {
-        const auto k = posts.node(static_cast<int>(std::lround(x / spacing_m) - posts.east),
-                                  static_cast<int>(std::lround(y / spacing_m) - posts.north));
-        return -kDepth_m + static_cast<double>(body_m[k]) + static_cast<double>(relief_m[k]);
-      },
-      spacing_m, cells);
-}
 
 /// Facets that 16 draws hit at least 4 times in the main lobe, and those of them that one draw misses, of four seabeds.
 struct Facets {
@@ -71,7 +44,7 @@ static Facets facets(double smooth_below_m, double quality) {
   return facets;
 }
 
-TEST_CASE("of the main lobe facets that 16 times the rays hit, at most 0.1 % are unhit") {
+TEST_CASE("of the main lobe facets that 16 times the rays hit, at most 0.1 % are unhit", "[long]") {
   // Shadows, silhouettes and facets seen edge-on. Four seabeds have 15,000 facets in the main lobe, so the limit is 15
   // of them. At normal quality where relief is smooth below four posts; where it is rough down to its posts, with three
   // times the rays, for what is seen nearly edge-on is missed by chance, as exp(-rays).
@@ -85,17 +58,6 @@ TEST_CASE("of the main lobe facets that 16 times the rays hit, at most 0.1 % are
   check(kRough_m, 3.0);
   check(kFourPosts_m, RaySettings::kPreview, 0.04);  // a preview leaves 3.0 and 3.6 %
   check(kRough_m, RaySettings::kPreview, 0.04);
-}
-
-TEST_CASE("rays for the picture", "[.rays-csv]") {
-  const Sounding s = trace_ping(strewn_with_boulders(1, 0.25, 400), {RaySettings::kNormal, 0.075});
-  std::puts("sine,across_deg,range_m,east_m,north_m,up_m");
-  for (std::size_t k = 0; k < s.hits.size(); ++k) {
-    const auto& at = s.hits[k].position_enu_m;
-    if (!s.hits[k].hit()) continue;
-    std::printf("%.5f,%.3f,%.3f,%.3f,%.3f,%.3f\n", static_cast<double>(s.rays[k].direction_head.x()),
-                across_rad(s.rays[k]) / kDegree, static_cast<double>(s.hits[k].range_m), at.x(), at.y(), at.z());
-  }
 }
 
 /// Rays in each resolution cell (range x beam of 1 degree) of a head over a plane: fewest, and mean.

@@ -54,4 +54,17 @@ std::vector<Accuracy> accuracy(const PlaneSurvey& survey, const Settings& settin
   return sums;
 }
 
+std::vector<Accuracy> accuracy_at(double snr_db, const std::vector<double>& angles_deg, double tilt_rad, int pings) {
+  PlaneSurvey survey;
+  survey.snr_db = snr_db;
+  survey.tilt_rad = tilt_rad;
+  for (const double deg : angles_deg) {
+    survey.sin_beams.push_back(static_cast<float>(std::sin(deg * std::numbers::pi / 180.0)));
+  }
+  Settings settings = settings_for(survey);
+  settings.seabed_tilt_rad = tilt_rad;
+  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 8.0 : 13.0};
+  return accuracy(survey, settings, pings);
+}
+
 }  // namespace ensonify::detect

@@ -80,7 +80,7 @@ TEST_CASE("unaided strapdown navigation drifts as the closed forms say, within 0
   }
 }
 
-TEST_CASE("random walks spread the place as the closed forms say, within 0.1 %") {
+TEST_CASE("random walks spread the place as the closed forms say, within 0.1 %", "[long]") {
   // Noise in one sample moves the end by a response that depends on the time left; the responses' squares summed up
   // are the variance, without drawing anything. 600 samples: the sum stands for the integral to 1 part in 1e3 and
   // better (rectangles about their middles).

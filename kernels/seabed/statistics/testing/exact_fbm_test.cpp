@@ -7,7 +7,7 @@
 
 using namespace ensonify::relief_statistics;
 
-TEST_CASE("exact fractional Brownian relief has D(r) = r^2H at every lag") {
+TEST_CASE("exact fractional Brownian relief has D(r) = r^2H at every lag", "[long]") {
   const ensonify::random::Stream stream{11, "fbm"};
   const int surfaces = 40, posts = 96;
   for (const double hurst : {0.3, 0.625, 0.9}) {
