@@ -124,7 +124,7 @@ function(ensonify_python_test name file)
     PYTHONPATH=${CMAKE_SOURCE_DIR}/clients/python:${CMAKE_SOURCE_DIR}/tests/support:${paths})
 endfunction()
 
-# Labels, time limit and environment of a test. Whole systems and measurements run alone, the others side by side.
+# Labels, time limit and environment of a test, and what may run beside it.
 function(ensonify_test_properties name labels timeout)
   if(NOT labels)
     set(labels unit)
@@ -137,7 +137,13 @@ function(ensonify_test_properties name labels timeout)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
     ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_FOLDER=${CMAKE_CURRENT_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0")
-  foreach(alone system determinism bench soak)
+  # One launch at a time, from the start on, and other programs beside it; measurements run alone.
+  foreach(launches system determinism)
+    if(launches IN_LIST labels)
+      set_tests_properties(${name} PROPERTIES RESOURCE_LOCK launch COST 100)
+    endif()
+  endforeach()
+  foreach(alone bench soak)
     if(alone IN_LIST labels)
       set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)
     endif()
