@@ -74,10 +74,10 @@ if(ENSONIFY_TESTS)
 endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
-# Labels: unit, physics, system, determinism, golden, wire, bench; `sanitize` for what also runs under the address
-# sanitizer, and `threads` for what starts threads of our own and runs under the thread sanitizer (presets asan and tsan
-# build those only). It cannot follow the threads of TBB or ZeroMQ into their libraries. Cases tagged [long] repeat for
-# their numbers what their neighbours do once: sanitizers leave them out.
+# Labels: unit, physics, system, determinism, golden, wire, bench. `sanitize`: also runs under the address sanitizer, for
+# it handles memory, files or the bytes of others, and does not only compute. `threads`: starts threads of our own and
+# runs under the thread sanitizer, which cannot follow those of TBB or ZeroMQ into their libraries (presets asan and tsan
+# build those only). Cases tagged [long] repeat for their numbers what their neighbours do once: sanitizers leave them out.
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
