@@ -53,12 +53,26 @@ add_library(ensonify_kernels INTERFACE)  # all kernels at once
 ensonify_export(ensonify_settings)
 ensonify_export(ensonify_kernels)
 
+# Command lines are read once and their headers are large: programs that have one share another precompiled header, and
+# in builds for developers they are not optimized.
+file(WRITE ${CMAKE_BINARY_DIR}/generated/tool_pch.cpp "")
+add_library(tool_pch STATIC EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/generated/tool_pch.cpp)
+target_link_libraries(tool_pch PUBLIC ensonify_settings PRIVATE Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
+target_compile_options(tool_pch PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
+target_precompile_headers(tool_pch PRIVATE ${precompiled} <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>)
+
 # ensonify_program(ensonify-topic SOURCES main.cpp DEPS ...): an installed program in <build>/bin.
 function(ensonify_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_precompile_headers(${name} REUSE_FROM ensonify_pch)
   target_link_libraries(${name} PRIVATE ensonify_settings ${ARG_DEPS})
+  if(CLI11::CLI11 IN_LIST ARG_DEPS)
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
+    target_precompile_headers(${name} REUSE_FROM tool_pch)
+  else()
+    target_precompile_headers(${name} REUSE_FROM ensonify_pch)
+  endif()
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
