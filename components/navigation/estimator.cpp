@@ -30,10 +30,13 @@ navigation_filter::FilterModel model_of(const Instruments& carried) {
   }
   if (const auto& heading = carried.heading) {
     const sensors::ScalarErrors& errors = heading->angle;
-    const auto& [a_rad, b_rad, c_rad, d_rad, e_rad] = heading->errors.deviation.abcde_rad;
     model.compass_wander_rad = errors.wander;
     model.compass_wander_s = errors.wander_s;
-    model.compass_deviation_rad = {std::hypot(errors.bias_sigma, a_rad), b_rad, c_rad, d_rad, e_rad};
+    for (std::size_t i = 0; i < model.compass_deviation_rad.size(); ++i) {
+      model.compass_deviation_rad[i] =
+          std::hypot(heading->errors.deviation.abcde_rad[i], heading->errors.deviation_sigma.abcde_rad[i]);
+    }
+    model.compass_deviation_rad[0] = std::hypot(model.compass_deviation_rad[0], errors.bias_sigma);
   }
   if (const auto& log = carried.velocity_log) {
     model.log_scale = log->errors.scale;

@@ -34,7 +34,7 @@ void check_same(const HeadingConfig& file, const kernel::Compass& tested) {
   CHECK(file.angle.white == Approx(tested.white_rad));
   CHECK(file.angle.wander == Approx(tested.wander_rad));
   CHECK(file.angle.wander_s == Approx(tested.wander_s));
-  std::array deviation = file.errors.deviation.abcde_rad;
+  std::array deviation = file.errors.deviation_sigma.abcde_rad;
   deviation[0] = std::hypot(file.angle.bias_sigma, deviation[0]);
   for (std::size_t i = 0; i < deviation.size(); ++i) CHECK(deviation[i] == Approx(tested.deviation_rad[i]));
 }

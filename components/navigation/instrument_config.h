@@ -245,8 +245,11 @@ struct HeadingConfig : InstrumentConfig<HeadingConfig> {
     visit("speed_corrected", "", any(), "gyro: the steaming error is taken off", errors.speed_corrected);
     visit("variation_error_deg", "deg", in(-180, 180), "magnetic: declination entered less true",
           errors.variation_error_rad);
-    visit("deviation_deg", "deg", in(-90, 90), "magnetic: coefficients A to E of what swinging leaves",
+    visit("deviation_deg", "deg", in(-90, 90), "magnetic: coefficients A to E of what swinging leaves, as they are",
           errors.deviation.abcde_rad);
+    visit("deviation_sigma_deg", "deg", in(0, 90),
+          "magnetic: standard deviations of further coefficients A to E that are drawn once",
+          errors.deviation_sigma.abcde_rad);
   }
 };
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "components/config/config_reader.h"
@@ -24,16 +23,6 @@ inline NavigationConfig config_of(const std::string& yaml, std::uint64_t seed = 
   config.seed = seed;
   config.origin = frames::Geodetic{44.0, -63.0};
   return config;
-}
-
-/// What is left of a magnetic compass's deviation, as the grade says how much: the filter is given that, not which.
-inline std::string deviation(std::uint64_t seed) {
-  const random::Stream drawn(seed, "deviation");
-  std::string text = "deviation_deg: [";
-  for (const auto& [i, sigma_deg] : {std::pair{0, 0.1}, {1, 0.4}, {2, 0.3}, {3, 0.2}, {4, 0.1}}) {
-    text += (i > 0 ? ", " : "") + std::to_string(sigma_deg * drawn.normal(static_cast<std::uint64_t>(i)));
-  }
-  return text + "]";
 }
 
 /// A circle of 100 m at 2 m/s, rolling 5 degrees in 6 s, at `height(t)`.

@@ -22,6 +22,27 @@ TEST_CASE("deviation is semicircular and quadrantal by its coefficients") {
   CHECK(compass.measure(0.0, 0, 0, 0) == Approx(0.095));
 }
 
+TEST_CASE("each seed has a deviation curve of its own, as large as is stated") {
+  const HeadingErrors errors{.kind = HeadingKind::kMagnetic, .deviation_sigma = {{0.01, 0.02, 0.03, 0.04, 0.05}}};
+  constexpr int kSeeds = 2000, kHeadings = 8;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double h = i * 0.1 * std::numbers::pi, s = std::sin(h), c = std::cos(h);
+    double mean = 0.0, square = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      HeadingSensor compass(errors, {}, {seed, "heading"});
+      const double error_rad = frames::wrap_pi(compass.measure(h, 0, 0, 0) - h);
+      CHECK(frames::wrap_pi(compass.measure(h, 0, 0, 1) - h) == Approx(error_rad));  // drawn once
+      mean += error_rad / kSeeds;
+      square += error_rad * error_rad / kSeeds;
+    }
+    const double variance =
+        1e-4 * (1 + 4 * s * s + 9 * c * c + 16 * std::pow(2 * s * c, 2) + 25 * std::pow(c * c - s * s, 2));
+    // A mean square of 2000 Gaussians strays by sqrt(2 / 2000) = 3.2 %, a mean by 2.2 % of sigma: four times each.
+    CHECK(square == Approx(variance).epsilon(0.126));
+    CHECK(std::abs(mean) < 0.09 * std::sqrt(variance));
+  }
+}
+
 TEST_CASE("a gyrocompass going north at 20 knots in 60 degrees points 2.5 degrees west") {
   // The rule of thumb v cos c / (5 pi cos latitude) degrees, v in knots: 20 / (5 pi / 2) = 2.55.
   CHECK(steaming_error_rad(20 * 1852 / 3600.0, 60 * kDegree) / kDegree == Approx(-2.55).epsilon(0.02));

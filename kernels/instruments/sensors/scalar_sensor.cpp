@@ -56,6 +56,14 @@ double steaming_error_rad(double speed_north_mps, double latitude_rad) {
   return -std::atan2(speed_north_mps, kEarthSpeed_mps * std::cos(latitude_rad));
 }
 
+HeadingSensor::HeadingSensor(const HeadingErrors& errors, const ScalarErrors& angle, const random::Stream& stream)
+    : errors_(errors), sensor_(angle, stream) {
+  constexpr std::uint64_t kDeviation = 16;  // lanes of their own; ScalarSensor has the first ones
+  for (std::uint64_t i = 0; i < errors_.deviation.abcde_rad.size(); ++i) {
+    errors_.deviation.abcde_rad[i] += errors.deviation_sigma.abcde_rad[i] * stream.normal(0, kDeviation + i);
+  }
+}
+
 double HeadingSensor::measure(double heading_rad, double speed_north_mps, double latitude_rad, double dt_s) {
   unwrapped_rad_ += frames::wrap_pi(heading_rad - unwrapped_rad_);
   double reading = sensor_.measure(unwrapped_rad_, dt_s);

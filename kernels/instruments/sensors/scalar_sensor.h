@@ -77,15 +77,15 @@ enum class HeadingKind { kGyro, kMagnetic };
 struct HeadingErrors {
   HeadingKind kind = HeadingKind::kGyro;
   bool speed_corrected = true;       // gyro: steaming error is taken off
-  Deviation deviation;               // magnetic: what is left after swinging the compass
+  Deviation deviation;               // magnetic: what is left after swinging the compass, as it is
+  Deviation deviation_sigma;         // magnetic: standard deviations of further coefficients that are drawn once
   double variation_error_rad = 0.0;  // magnetic: declination entered less true
 };
 
 class HeadingSensor {
  public:
   /// Of the angle's errors (rad) scale is not used.
-  HeadingSensor(const HeadingErrors& errors, const ScalarErrors& angle, const random::Stream& stream)
-      : errors_(errors), sensor_(angle, stream) {}
+  HeadingSensor(const HeadingErrors& errors, const ScalarErrors& angle, const random::Stream& stream);
 
   /// Measured true heading, [0, 2 pi), dt after the sample before.
   double measure(double heading_rad, double speed_north_mps, double latitude_rad, double dt_s);
