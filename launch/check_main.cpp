@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/config/data_paths.h"
+#include "components/errors/printable.h"
 #include "components/runtime/version.h"
 #include "components/terrain/layers_source.h"
 #include "launch/check_ports.h"
@@ -38,6 +39,11 @@ int check(const LaunchOptions& options, bool as_json) {
     processes = launch.processes.size();
     const RunPlaces places{program_folder(), "", options.out};
     checked = check_ports(launch, places);
+    try {
+      check_after(launch, places);
+    } catch (const ConfigError& error) {
+      for (const auto& problem : error.problems()) checked.problems.push_back(problem.text());
+    }
     for (const auto& found : {wiring_problems(launch, checked), unpaged_mission_problems(launch, places),
                               setting_problems(world.mission, checked)})
       checked.problems.insert(checked.problems.end(), found.begin(), found.end());
@@ -55,10 +61,10 @@ int check(const LaunchOptions& options, bool as_json) {
     fmt::print("{}\n", nlohmann::json{{"problems", checked.problems}, {"warnings", warnings}}.dump(2));
   } else {
     for (const auto& problem : checked.problems) {
-      fmt::print(stderr, "{}\n", problem);
+      fmt::print(stderr, "{}\n", printable(problem));
     }
     for (const auto& warning : warnings) {
-      fmt::print(stderr, "warning: {}\n", warning);
+      fmt::print(stderr, "warning: {}\n", printable(warning));
     }
     if (checked.problems.empty()) {
       fmt::print("{}: {} processes, valid\n", options.file, processes);
@@ -85,7 +91,7 @@ int main(int argc, char** argv) {
   try {
     return check(options, as_json);
   } catch (const ExitError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return error.code;
   } catch (const std::exception& error) {
     fmt::print(stderr, "ensonify check: {}\n", error.what());

@@ -1,4 +1,3 @@
-extern char** environ;
 #include "launch/child.h"
 
 #include <fcntl.h>
@@ -175,9 +174,9 @@ void Verdict::fault(Fault fault) {
   }
 }
 
-void Verdict::assertion_failed(const std::string& message) {
+void Verdict::assertion_failed(const std::string& process, const std::string& message) {
   if (!failed_) {
-    failed_ = Fault{kExitAssertionFailed, "expect", message};
+    failed_ = Fault{kExitAssertionFailed, process, message};
   }
 }
 
@@ -200,10 +199,14 @@ std::optional<Fault> fault_of(const std::string& process, bool native, const End
   if (code == kExitOk) {
     return std::nullopt;
   }
-  const bool reported = native ? (code >= kExitUserError && code <= kExitDiffer) || (code == 1 && process == "expect")
-                               : code == kExitUserError || code == kExitDataLost;
-  static const char* const kMeanings[] = {"",        "assertions failed", "refused its files or arguments", "died",
-                                          "stalled", "lost data",         "found runs that differ"};
+  const bool reported = native ? code <= kExitDiffer : code == kExitUserError || code == kExitDataLost;
+  const char* const kMeanings[] = {"",
+                                   process == "expect" ? "assertions failed" : "did not reach its goal",
+                                   "refused its files or arguments",
+                                   "died",
+                                   "stalled",
+                                   "lost data",
+                                   "found runs that differ"};
   const std::string meaning = reported ? kMeanings[code] : "died";
   return Fault{reported ? code : int{kExitDied}, process, meaning + " (" + text_of(ending) + ")"};
 }

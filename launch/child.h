@@ -62,7 +62,7 @@ struct Fault {
 class Verdict {
  public:
   void fault(Fault fault);
-  void assertion_failed(const std::string& message);
+  void assertion_failed(const std::string& process, const std::string& message);
   void interrupted();
 
   int code() const;
@@ -85,7 +85,8 @@ struct Ending {
 std::string text_of(const Ending& ending);
 
 /// Meaning of an ending. Native programs speak our exit codes; of a foreign one 2 and 5 are taken at their word, every
-/// other failure (an uncaught exception exits with 1) is a death. `expect` alone may say 1, `assertions failed`.
+/// other failure (an uncaught exception exits with 1) is a death. A native 1 is what the run was to show and did not:
+/// an assertion of `expect`, a mission that was given up.
 std::optional<Fault> fault_of(const std::string& process, bool native, const Ending& ending);
 
 /// The fault that the others followed from, when several were noticed at once: a death by signal, then the clock's

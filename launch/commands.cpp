@@ -101,16 +101,34 @@ Command process_command(const Launch& launch, const ProcessSpec& process, const 
   return command;
 }
 
-Command after_command(const std::vector<std::string>& words, const RunPlaces& places) {
+Command after_command(const AfterStep& step, const RunPlaces& places) {
   Command command;
-  command.argv = words;
-  const bool ours = words[0] == "ensonify" || words[0].starts_with("ensonify-");
-  command.argv[0] = find_program(ours ? places.program_folder + "/" + words[0] : words[0]);
+  command.argv = step.words;
+  const std::string& program = step.words[0];
+  const bool ours = program == "ensonify" || program.starts_with("ensonify-");
+  command.argv[0] = find_program(ours ? places.program_folder + "/" + program : program);
   if (command.argv[0].empty()) {
-    throw UserError("after: there is no program " + words[0]);
+    throw ConfigError({{step.place, "after", "there is no program " + program}});
   }
   command.env = {{"ENSONIFY_OUT", places.out}, {"PYTHONPATH", python_path()}};
   return command;
+}
+
+void check_after(const Launch& launch, const RunPlaces& places) {
+  std::vector<ConfigProblem> problems;
+  for (const auto& step : launch.after) {
+    if (step.words[0].starts_with(places.out + "/")) {
+      continue;
+    }
+    try {
+      after_command(step, places);
+    } catch (const ConfigError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) {
+    throw ConfigError(std::move(problems));
+  }
 }
 
 int run_to_end(const Command& command) {
@@ -142,7 +160,7 @@ int run_after(const Launch& launch, const RunPlaces& places, bool output_to_erro
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (const int code = run_to_end(commands[i]); code != kExitOk) {
       std::string words;
-      for (const auto& word : launch.after[i]) {
+      for (const auto& word : launch.after[i].words) {
         words += (words.empty() ? "" : " ") + word;
       }
       fmt::print(stderr, "ensonify run: after: `{}` ended with exit code {}\n", words, code);

@@ -23,15 +23,19 @@ Command clock_command(const Launch& launch, const RunPlaces& places);
 Command process_command(const Launch& launch, const ProcessSpec& process, const RunPlaces& places,
                         const std::string& clock_endpoint);
 
-/// A step of `after:`; `ensonify` is our own dispatcher. Throws UserError when there is no such program.
-Command after_command(const std::vector<std::string>& words, const RunPlaces& places);
+/// A step of `after:`; `ensonify` is our own dispatcher. Throws ConfigError when there is no such program.
+Command after_command(const AfterStep& step, const RunPlaces& places);
+
+/// Throws ConfigError with the steps of `after:` whose program is missing, so that nobody learns of it after hours of
+/// running. One in the output folder may be made by the run.
+void check_after(const Launch& launch, const RunPlaces& places);
 
 /// Runs one command to its end with our standard output; Ctrl-C is handed on, a second one kills. Returns its exit code
 /// if that is one of ours, else 3; 130 when interrupted.
 int run_to_end(const Command& command);
 
 /// Runs the steps of `after:` one after another. Stops at the first that fails and returns its exit code. What they
-/// print goes to our standard output, or all of it to standard error. Throws UserError when there is no such program.
+/// print goes to our standard output, or all of it to standard error. Throws ConfigError when there is no such program.
 int run_after(const Launch& launch, const RunPlaces& places, bool output_to_error);
 
 }  // namespace ensonify::launcher

@@ -34,6 +34,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"graph", "draw who talks to whom"},
     {"clock", "status, pause, resume, step and rate of a live run"},
     {"replay", "feed a record back"},
+    {"record", "repair a record whose writer was killed"},
     {"compare", "say where two records differ"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},

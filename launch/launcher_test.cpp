@@ -89,6 +89,18 @@ TEST_CASE("the next start clears the directories of dead runs and no others") {
   CHECK(remove_dead_runs(runtime.file("ensonify")) == 0);
 }
 
+TEST_CASE("a second run cannot have an output folder that is in use") {
+  const RuntimeFolder runtime;
+  const std::string out = runtime.file("deep/out");
+  {
+    const OutFolder held(out);
+    CHECK_THROWS_WITH(OutFolder(out), out + ": another run puts its results there; choose another folder with --out");
+    const OutFolder other(out + "_2");
+  }
+  const OutFolder again(out);
+  CHECK(fs::is_directory(out));
+}
+
 TEST_CASE("a runtime folder whose path is too long for sockets is not used") {
   const RuntimeFolder runtime;
   const std::string deep = runtime.file(std::string(80, 'x'));
@@ -100,7 +112,7 @@ TEST_CASE("a runtime folder whose path is too long for sockets is not used") {
 TEST_CASE("the first fault wins, and a failed assertion counts only when there was none") {
   Verdict verdict;
   CHECK(verdict.code() == 0);
-  verdict.assertion_failed("no ping");
+  verdict.assertion_failed("expect", "no ping");
   CHECK(verdict.code() == 1);
   verdict.fault({kExitStall, "bow", "stalled"});
   verdict.fault({kExitDied, "auv", "died"});
@@ -120,7 +132,7 @@ TEST_CASE("how a process ended decides what it means") {
   CHECK(fault_of("bow", true, {0, SIGKILL})->message == "was killed by signal 9 (Killed)");
   CHECK(fault_of("bow", true, {2, 0})->code == 2);
   CHECK(fault_of("bow", true, {5, 0})->code == 5);
-  CHECK(fault_of("bow", true, {1, 0})->code == 3);
+  CHECK(fault_of("pilot", true, {1, 0})->code == 1);  // it gave its mission up
   CHECK(fault_of("bow", true, {127, 0})->code == 3);
   CHECK(fault_of("expect", true, {1, 0})->code == 1);
   CHECK(fault_of("agent", false, {1, 0})->code == 3);  // an uncaught exception in Python

@@ -163,6 +163,25 @@ RunDir::~RunDir() {
   ::close(lock_fd_);
 }
 
+OutFolder::OutFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw UserError(path + ": cannot be made: " + error.message() + "; choose another folder with --out");
+  }
+  fd_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(fd_);
+    throw UserError(path + ": another run puts its results there; choose another folder with --out");
+  }
+}
+
+OutFolder::~OutFolder() {
+  if (fd_ >= 0) {
+    ::close(fd_);
+  }
+}
+
 Guard::Guard(const std::string& run_dir) {
   int pipe_fds[2];
   if (::pipe2(pipe_fds, O_CLOEXEC) != 0) {

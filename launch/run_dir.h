@@ -30,6 +30,20 @@ class RunDir {
   int lock_fd_ = -1;
 };
 
+/// The folder of a run's results, made when it is missing and held while this lives: two runs that name one would mix
+/// their records and logs. Processes that we fork and that do not become another program hold it too.
+class OutFolder {
+ public:
+  /// Throws UserError when it cannot be made, or when another run holds it.
+  explicit OutFolder(const std::string& path);
+  ~OutFolder();
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  int fd_ = -1;
+};
+
 /// The folder that holds all runs of this user, made when it is missing. Throws UserError.
 std::string runs_folder();
 

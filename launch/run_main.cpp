@@ -9,10 +9,12 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
+#include "components/errors/printable.h"
 #include "components/runtime/version.h"
 #include "launch/check_ports.h"
 #include "launch/commands.h"
 #include "launch/file/launch_file.h"
+#include "launch/run_dir.h"
 #include "launch/supervisor.h"
 #include "scenarios/world/world.h"
 
@@ -52,13 +54,12 @@ RunReport run_in_process(const Launch& launch) {
   const auto arguments = to_arguments(launch.options);
   command.argv.insert(command.argv.end(), arguments.begin(), arguments.end());
   RunReport report;
-  make_folder(launch.options.out);
   remove_reports(launch.options.out);
   const auto began = std::chrono::steady_clock::now();
   report.code = run_to_end(command);
   report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (report.code == kExitAssertionFailed) {
-    report.cause = Fault{report.code, "expect", "assertions failed"};
+    report.cause = Fault{report.code, "", "assertions failed, or a mission was given up"};
   } else if (report.code != kExitOk) {
     report.cause = Fault{report.code, "", "the run in one process failed"};
   }
@@ -78,7 +79,7 @@ void explain(const RunReport& report, const std::string& out) {
     for (const auto& process : report.processes) {
       const std::string text = tail(out + "/log/" + process.name + ".log", 50);
       if (process.fault && process.fault->code == kExitUserError && !text.empty() && shown.insert(text).second) {
-        fmt::print(stderr, "{}\n", text);
+        fmt::print(stderr, "{}\n", printable(text));
       }
     }
   } else if (cause.code == kExitAssertionFailed) {
@@ -90,12 +91,12 @@ void explain(const RunReport& report, const std::string& out) {
   } else if (!cause.culprit.empty()) {
     const std::string log = out + "/log/" + cause.culprit + ".log";
     if (const std::string text = tail(log, 10); !text.empty() && !cause.message.ends_with(text)) {
-      fmt::print(stderr, "{}, last lines:\n{}\n", log, text);
+      fmt::print(stderr, "{}, last lines:\n{}\n", log, printable(text));
     }
   }
   const bool named = cause.culprit.empty() || cause.message.starts_with(cause.culprit);
-  fmt::print(stderr, "ensonify run: {}{}; t={:.3f} s; exit code {}\n", named ? "" : cause.culprit + " ", cause.message,
-             report.sim_s, report.code);
+  fmt::print(stderr, "ensonify run: {}{}; t={:.3f} s; exit code {}\n", named ? "" : cause.culprit + " ",
+             printable(cause.message), report.sim_s, report.code);
 }
 
 void summarize(const RunReport& report, const std::string& out) {
@@ -121,6 +122,8 @@ int run(Options& options) {
   if (const auto problems = unpaged_mission_problems(launch, {program_folder(), "", out}); !problems.empty()) {
     throw UserError(problems.front());
   }
+  check_after(launch, {program_folder(), "", out});
+  const OutFolder held(out);
   RunReport report;
   if (options.in_process) {
     if (!launch.exits.empty()) {
@@ -164,7 +167,7 @@ int main(int argc, char** argv) {
   try {
     return run(options);
   } catch (const ExitError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return error.code;
   } catch (const std::exception& error) {
     fmt::print(stderr, "ensonify run: {}\n", error.what());

@@ -20,7 +20,8 @@ constexpr milliseconds kAnswerPatience{50};
 constexpr milliseconds kSettle{100};            // deaths noticed together are judged together
 constexpr milliseconds kSettleUserErrors{300};  // so that the mistakes in several configurations are shown at once
 constexpr milliseconds kGraceAfterStop{5000};   // an orderly end after Ctrl-C
-constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death
+constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death, but for
+constexpr milliseconds kGraceToComplete{5000};  // our own processes that have files to complete
 constexpr milliseconds kGraceToLeave{10000};    // after the clock's end, e.g. a recorder that writes its index
 constexpr milliseconds kLeftTooEarly{2000};
 constexpr milliseconds kRespawnAfter{1000};
@@ -156,18 +157,23 @@ void Supervisor::on_ended(const Reaped& reaped) {
   }
   const bool native = member.spec->argv.empty();
   auto fault = fault_of(member.name, native, *member.child->ending());
-  const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
-  member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
+  member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (!fault) {
     member.left_at = now;
   } else if (fault->code == kExitAssertionFailed) {
-    member.fault = fault;
-    verdict_.assertion_failed(fault->message);
+    if (!ended_as_expected(member.name)) {
+      member.fault = fault;
+      if (member.name != "expect") {  // which says it in expect.json
+        const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
+        member.fault->message += last_words.empty() ? "" : ": " + last_words;
+      }
+      verdict_.assertion_failed(member.name, member.fault->message);
+    }
   } else if (member.spec->observer) {
     if (member.spec->respawn && ending_ == Ending::kNo && clock().child->running()) {
       member.respawn_at = now + kRespawnAfter;
     }
-  } else if (!by_us) {
+  } else if (!by_us()) {
     if (member.child->ending()->signal == 0 && fault->code != kExitUserError) {
       const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
       fault->message += last_words.empty() ? "" : ": " + last_words;
@@ -182,8 +188,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
 void Supervisor::on_clock_ended(Member& member) {
   auto fault = fault_of("clock", true, *member.child->ending());
   const auto now = steady_clock::now();
-  const bool by_us = ending_ == Ending::kTerminated || ending_ == Ending::kKilled;
-  member.state = !fault ? "DONE" : by_us ? "STOPPED" : "FAILED";
+  member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (const auto reported = read_clock_report(places_.out)) {
     sim_s_ = reported->sim_s;
     if (fault && reported->exit_code == fault->code) {
@@ -191,7 +196,7 @@ void Supervisor::on_clock_ended(Member& member) {
       fault->message = reported->message.empty() ? fault->message : reported->message;
     }
   }
-  if (fault && !by_us && fault->code != kExitInterrupted) {
+  if (fault && !by_us() && fault->code != kExitInterrupted) {
     member.fault = fault;
     noticed_.push_back(*fault);
     judge_at_ = now + kSettle;
@@ -251,7 +256,7 @@ void Supervisor::judge_exits() {
         {"other expectations", false, sim_s_, "were not judged: the run was cut short by an expected end"});
   }
   if (std::any_of(exits_.begin(), exits_.end(), [](const Expectation& e) { return !e.ok; })) {
-    verdict_.assertion_failed("assertions failed");
+    verdict_.assertion_failed("expect", "assertions failed");
   }
 }
 
@@ -264,6 +269,13 @@ void Supervisor::begin(Ending ending, WallTime now, milliseconds grace) {
   if (ending == Ending::kTerminated) {
     send_all(SIGTERM);
     send_all(SIGCONT);
+  } else if (ending == Ending::kForeignKilled) {
+    for (const auto& member : members_) {
+      const bool ours = member.spec != nullptr && member.spec->argv.empty();
+      if (member.child && !ours) {
+        member.child->send(SIGKILL);
+      }
+    }
   } else if (ending == Ending::kKilled) {
     send_all(SIGKILL);
   }
@@ -285,6 +297,8 @@ void Supervisor::on_time(WallTime now) {
         judge();
       }
       begin(Ending::kTerminated, now, kGraceAfterFault);
+    } else if (ending_ == Ending::kTerminated) {
+      begin(Ending::kForeignKilled, now, kGraceToComplete);
     } else {
       begin(Ending::kKilled, now, kGraceAfterFault);
     }
@@ -336,8 +350,9 @@ void Supervisor::read_status(const std::string& text) {
 
 void Supervisor::check_leavers(WallTime now) {
   for (auto& member : members_) {
-    const bool early = member.left_at && now - *member.left_at > kLeftTooEarly && !member.spec->observer;
-    if (early && !member.fault && clock_state_ != "DONE") {
+    // By what the clock said after that: one that is itself on its way out, on a machine that swaps, says nothing.
+    const bool early = member.left_at && last_answer_ > *member.left_at + kLeftTooEarly && !member.spec->observer;
+    if (early && !member.fault && clock_state_ != "DONE" && clock_state_ != "FAILED") {
       member.state = "FAILED";
       member.fault = Fault{kExitDied, member.name, "left before the end of the run"};
       noticed_.push_back(*member.fault);

@@ -39,7 +39,7 @@ class Supervisor {
   };
 
   /// Ending of the run; each step has a deadline after which the next begins.
-  enum class Ending { kNo, kAsked, kTerminated, kKilled };
+  enum class Ending { kNo, kAsked, kTerminated, kForeignKilled, kKilled };
 
   void start_clock();
   void start_members();
@@ -60,6 +60,7 @@ class Supervisor {
   void respawn(WallTime now);
   void begin(Ending ending, WallTime now, std::chrono::milliseconds grace);
   void send_all(int signal);
+  bool by_us() const { return ending_ >= Ending::kTerminated; }
   bool anything_runs() const;
   RunReport report() const;
 

@@ -17,6 +17,7 @@ struct AutopilotParameters {
   double turn_speed_fraction = 1.0;
   double drift_settle_s = 10.0;
   double patience_s = 600.0;
+  bool giving_up_fails = true;
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -35,6 +36,9 @@ struct AutopilotParameters {
     visit("patience_s", "s", in(0, 1e6),
           "a mission whose vehicle comes no metre nearer to its goal for so long is given up; 0: never",
           self.patience_s);
+    visit("given_up", "", one_of({{"fail", true}, {"end", false}}),
+          "fail: a run whose mission is given up ends with exit code 1; end: with 0, as if the mission were done",
+          self.giving_up_fails);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {
@@ -64,6 +65,11 @@ SimTime AutopilotNode::step(SimTime now) {
     }
   }
   return commands_due_.next();
+}
+
+int AutopilotNode::exit_code() const {
+  const bool failed = config_.giving_up_fails && pilot_ && !pilot_->given_up().empty();
+  return failed ? kExitAssertionFailed : kExitOk;
 }
 
 void AutopilotNode::report_health(SimTime now) {

@@ -18,6 +18,8 @@ class AutopilotNode {
   AutopilotNode(const Config& config, Ports& ports);
 
   SimTime step(SimTime now);
+  /// 1 for a mission that was given up, unless the user takes that for an end.
+  int exit_code() const;
 
  private:
   void check_settings();

@@ -1,5 +1,8 @@
 #include "components/config/config_reader.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <functional>
@@ -199,6 +202,10 @@ TEST_CASE("what is no map of keys is refused with a place") {
 TEST_CASE("missing files, folders and huge files are ConfigErrors") {
   CHECK_THROWS_WITH(ConfigReader::from_file("no/such.yaml"), "no/such.yaml: no such file");
   CHECK_THROWS_WITH(ConfigReader::from_file("/tmp"), "/tmp: is a folder; a YAML file is expected");
+  const std::string pipe = "/tmp/ensonify_config_pipe_" + std::to_string(::getpid());
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);  // opening it would wait for a writer, for ever
+  CHECK_THROWS_WITH(ConfigReader::from_file(pipe), pipe + ": is a named pipe; a YAML file is expected");
+  std::remove(pipe.c_str());
 }
 
 TEST_CASE("deep nesting and alias bombs end in an error, not in a crash") {

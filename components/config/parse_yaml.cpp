@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <unordered_map>
 
 #include "components/config/config_node.h"
 
@@ -71,6 +72,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool have_key = false;
     std::string key = {};
     ConfigPlace key_place = {};
+    std::unordered_map<std::string, int> lines = {};  // of the keys so far: a search of the entries would be quadratic
   };
 
   ConfigPlace place(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
@@ -164,9 +166,9 @@ class TreeBuilder : public YAML::EventHandler {
       parent.have_key = true;
     } else {
       parent.have_key = false;
-      if (const ConfigNode* first = parent.node.find(parent.key)) {
-        problems.push_back({parent.key_place, path_of(parent.key),
-                            "is given twice, first on line " + std::to_string(first->place.line)});
+      if (const auto [first, is_new] = parent.lines.emplace(parent.key, node.place.line); !is_new) {
+        problems.push_back(
+            {parent.key_place, path_of(parent.key), "is given twice, first on line " + std::to_string(first->second)});
         return;
       }
       check_levels(node);
@@ -226,6 +228,9 @@ ConfigDocument parse_config_file(const std::string& path) {
   }
   if (std::filesystem::is_directory(path, error)) {
     fail({path}, "is a folder; a YAML file is expected");
+  }
+  if (std::filesystem::symlink_status(path, error).type() == std::filesystem::file_type::fifo) {
+    fail({path}, "is a named pipe; a YAML file is expected");  // which would wait for its writer for ever
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {

@@ -109,6 +109,7 @@ TEST_CASE("the checksum gives the published check value, however it is cut") {
   CHECK(crc32(bytes) == 0xCBF43926U);
   for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
     CHECK(crc32(bytes.subspan(cut), crc32(bytes.first(cut))) == 0xCBF43926U);
+    CHECK(crc32({}, crc32(bytes)) == 0xCBF43926U);
   }
 }
 
@@ -316,7 +317,8 @@ TEST_CASE("a full disk is data lost, and what is there can be read") {
   std::signal(SIGXFSZ, handler);
 
   CHECK_THAT(error, Catch::StartsWith((folder / "full.mcap").string() + ": cannot be written further: File too large"));
+  CHECK_THAT(error, Catch::EndsWith("to the last whole chunk, with its index"));
   const Outcome outcome = read_all(folder / "full.mcap");
   CHECK(outcome.messages == 40);
-  CHECK_FALSE(outcome.truncated.empty());
+  CHECK(outcome.truncated.empty());
 }

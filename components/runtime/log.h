@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "components/errors/printable.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify::log {
@@ -13,7 +14,7 @@ namespace ensonify::log {
 /// launcher keeps as `<out>/log/<process>.log`. `event` is one word; the rest are key=value pairs.
 inline void line(const std::string& process, SimTime now, const std::string& event, const std::string& pairs) {
   const std::string text =
-      fmt::format("t={:.3f} {} {}{}{}\n", seconds(now), process, event, pairs.empty() ? "" : " ", pairs);
+      printable(fmt::format("t={:.3f} {} {}{}{}\n", seconds(now), process, event, pairs.empty() ? "" : " ", pairs));
   std::fwrite(text.data(), 1, text.size(), stderr);  // one write per line, so lines of threads do not mix
 }
 

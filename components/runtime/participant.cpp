@@ -3,11 +3,12 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <set>
+#include <optional>
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
 #include "components/runtime/protocol.h"
+#include "components/runtime/termination.h"
 
 namespace ensonify {
 
@@ -41,6 +42,9 @@ class Participant {
       }
     }
   }
+
+  /// From another thread: run() throws.
+  void interrupt() { link_.interrupt(); }
 
   void report_failed(int code, const std::string& message) {
     link_.send_control(protocol::encode_failed(code, message));
@@ -118,13 +122,14 @@ class Participant {
 
 int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting) {
   Participant participant(component, ports, node, meeting);
+  std::optional<Termination> termination;
+  if (node.completes_files()) termination.emplace([&] { participant.interrupt(); });
   try {
     return participant.run();
-  } catch (const ExitError& e) {
-    participant.report_failed(e.code, e.what());
-    throw;
   } catch (const std::exception& e) {
-    participant.report_failed(kExitDied, e.what());
+    if (termination && termination->asked()) return kExitInterrupted;  // files are completed as the node goes
+    const auto* known = dynamic_cast<const ExitError*>(&e);
+    participant.report_failed(known ? known->code : kExitDied, e.what());
     throw;
   }
 }

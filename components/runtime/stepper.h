@@ -76,6 +76,8 @@ class AnyNode {
   virtual void finish_run() = 0;
   /// Exit code of the process after an orderly end.
   virtual int exit_code() const = 0;
+  /// It has files to complete at whatever end.
+  virtual bool completes_files() const { return false; }
 };
 
 template <class Node>
@@ -85,6 +87,9 @@ class NodeHolder : public AnyNode {
   SimTime step(SimTime now) override { return node_.step(now); }
   void finish_run() override {
     if constexpr (requires { node_.finish_run(); }) node_.finish_run();
+  }
+  bool completes_files() const override {
+    return requires(Node & node) { node.finish_run(); };
   }
   int exit_code() const override {
     if constexpr (requires { node_.exit_code(); }) return node_.exit_code();

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "components/errors/exit_error.h"
+#include "components/errors/printable.h"
 #include "components/runtime/version.h"
 
 namespace ensonify {
@@ -33,7 +34,7 @@ int flushed(int code) {
 /// A signal may be what made a call fail.
 int failed(const CLI::App& app, int code, const char* why) {
   if (interrupted()) return kExitInterrupted;
-  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), why);
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), printable(why).c_str());
   return code;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "components/errors/nearest_name.h"
 #include "components/runtime/ports.h"
@@ -72,15 +73,14 @@ class Wirer {
     for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
       for (std::size_t in = 0; in < processes_[rank].ins.size(); ++in) inputs.push_back(input_name(rank, in));
     }
-    for (std::size_t i = 0; i < rules_.size(); ++i) {
-      const WireRule& rule = rules_[i];
+    std::set<std::string> wired;
+    for (const WireRule& rule : rules_) {
       if (std::find(inputs.begin(), inputs.end(), rule.input) == inputs.end()) {
         problem(rule.place + ": wiring." + rule.input + ": no process has this input" +
                 did_you_mean(rule.input, inputs));
       }
-      for (std::size_t j = 0; j < i; ++j) {
-        if (rules_[j].input == rule.input)
-          problem(rule.place + ": wiring." + rule.input + ": wired twice, two publishers");
+      if (!wired.insert(rule.input).second) {
+        problem(rule.place + ": wiring." + rule.input + ": wired twice, two publishers");
       }
     }
   }

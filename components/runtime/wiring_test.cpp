@@ -114,6 +114,15 @@ TEST_CASE("a pattern takes all topics but its owner's; an unpublished name is re
         "x.yaml:7:3: recorder.all: no process publishes auv/poze (did you mean auv/pose?)");
 }
 
+TEST_CASE("a hundred thousand wrong keys are each named once") {  // time that grows with their square would not end
+  const std::vector<Declaration> one = {process("auv", {out("pose", "pose/1")}, {})};
+  std::vector<WireRule> rules;
+  for (int i = 0; i < 100'000; ++i) {
+    rules.push_back({"auv.in" + std::to_string(i), "auv/pose", SimTime{-1}, "x.yaml:" + std::to_string(i)});
+  }
+  CHECK(wire(one, rules).problems.size() == rules.size());
+}
+
 TEST_CASE("an input of one type takes it from every publisher that it lists") {
   std::vector<Declaration> heads = {process("bow", {out("transmit", "transmit/1"), out("ping", "ping/1")}, {}),
                                     process("side", {out("transmit", "transmit/1")}, {}),

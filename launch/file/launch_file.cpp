@@ -173,13 +173,13 @@ void read_after(ConfigReader& from, Launch& launch) {
   }
   bool good = after->is_list();
   for (const auto& step : after->items) {
-    std::vector<std::string> argv;
+    AfterStep command{{}, step.place};
     good &= step.is_list() && !step.items.empty();
     for (const auto& word : step.items) {
       good &= word.is_scalar();
-      argv.push_back(word.scalar);
+      command.words.push_back(word.scalar);
     }
-    launch.after.push_back(argv);
+    launch.after.push_back(std::move(command));
   }
   if (!good) {
     from.problem("after", "is not a list of commands, each a list of words");
@@ -251,7 +251,7 @@ void put_out_folder(Launch& launch) {
     }
   }
   for (auto& step : launch.after) {
-    in_words(step);
+    in_words(step.words);
   }
 }
 

@@ -104,6 +104,12 @@ struct ExitExpectation {
   int signal = 0;  // number
 };
 
+/// A command of `after:`.
+struct AfterStep {
+  std::vector<std::string> words;
+  ConfigPlace place;
+};
+
 /// A launch file with its includes, arguments and overrides resolved.
 struct Launch {
   std::string file;
@@ -113,8 +119,8 @@ struct Launch {
   std::vector<Connection> wiring;
   ClockSettings clock;
   std::vector<ExitExpectation> exits;
-  std::vector<std::vector<std::string>> after;  // commands to run when all went well
-  std::optional<SimTime> duration;              // hard end, sim time
+  std::vector<AfterStep> after;     // commands to run when all went well
+  std::optional<SimTime> duration;  // hard end, sim time
   /// Facts of the run as YAML without places, absolute paths, output folder or anything that does not change results
   /// (pacing, CPUs, environment): equal runs have equal texts.
   std::string launch_text;

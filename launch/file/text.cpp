@@ -35,7 +35,7 @@ std::string canonical_text(const Launch& launch) {
     if (connection.delay) {
       edge.set("delay_ns", ConfigNode::text(std::to_string(connection.delay->count())));
     }
-    wiring.set(connection.process + "." + connection.port, std::move(edge));
+    wiring.entries.push_back({connection.process + "." + connection.port, {}, std::move(edge)});
   }
   root.set("wiring", std::move(wiring));
   if (launch.duration) {

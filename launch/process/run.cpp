@@ -13,6 +13,7 @@
 #include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/participant.h"
 #include "components/runtime/protocol.h"
+#include "components/runtime/termination.h"
 #include "components/runtime/tool.h"
 #include "launch/process/launch_wiring.h"
 
@@ -122,13 +123,15 @@ int run_component(const char* component, const NodeFactory& factory, ParameterLi
 int run_local(const Launch& launch, const std::map<std::string, NodeFactory>& components) {
   LocalBus bus = bus_of(launch, components);
   Conductor conductor = make_conductor(bus.graph(), bus.declarations(), launch);
+  const Termination termination([] {});
   try {
-    while (!conductor.finished()) bus.advance(conductor);
+    while (!conductor.finished() && !termination.asked()) bus.advance(conductor);
   } catch (...) {
     report(conductor, launch);
     throw;
   }
   report(conductor, launch);
+  if (termination.asked()) return kExitInterrupted;
   return bus.finish();
 }
 

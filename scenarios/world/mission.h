@@ -223,8 +223,4 @@ std::vector<MissionStep> steps_of(const std::vector<runlines::Runline>& lines);
 /// The first line of an adaptive survey.
 runlines::Runline first_line(const AdaptivePlan& plan);
 
-/// Steps of a mission beyond a vehicle's limits, as problems of `from`: speeds, orbits.
-void check_mission(const ConfigReader& from, const Mission& mission, const std::string& vehicle, double fastest_mps,
-                   const motion::Limits& limits, bool floats);
-
 }  // namespace ensonify

@@ -168,7 +168,8 @@ void check_whole(ConfigReader& from, const World& world) {
         from.problem("vehicles", "two vehicles carry a head named " + head);
       }
     }
-    check_mission(from, world.mission, vehicle.name, vehicle.fastest_mps, vehicle.limits, vehicle.floats.has_value());
+    check_mission(from, world.mission, vehicle, world.current);
+    check_heads(from, world.mission, vehicle);
   }
   const bool nobody_dives = std::ranges::all_of(world.vehicles, [](const Vehicle& v) { return v.floats.has_value(); });
   if (world.mission.depth_m > 0.0 && nobody_dives && !world.vehicles.empty()) {

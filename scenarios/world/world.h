@@ -97,6 +97,13 @@ struct World : ScenarioHeader {
   std::optional<std::pair<std::string, HeadMounting>> mounting(const std::string& head) const;
 };
 
+/// Steps of a mission beyond a vehicle's limits or against the current, as problems of `from`: speeds, orbits, bends,
+/// headway.
+void check_mission(const ConfigReader& from, const Mission& mission, const Vehicle& vehicle,
+                   const motion::Current& current);
+/// Heads of a vehicle that never come below the water.
+void check_heads(const ConfigReader& from, const Mission& mission, const Vehicle& vehicle);
+
 /// Keys of a scenario file, and of a mission's: for schemas and tables.
 ParameterList scenario_list();
 ParameterList mission_file_list();

@@ -123,8 +123,69 @@ class Records(SystemTest):
             self.assertIn("full.mcap", result.stderr)
             with ensonify.Record(small / "full.mcap") as record:
                 self.assertGreater(sum(1 for _ in record.messages("head/ping")), 10)
+            counted, read = self.read_officially(small / "full.mcap")
+            self.assertEqual(counted, read)
         finally:
             subprocess.run(["umount", "-l", str(small)], check=True)
+
+    def read_officially(self, file):
+        """Messages by the summary and by following it, as the official reader finds them."""
+        from mcap.reader import SeekingReader
+        with open(file, "rb") as stream:
+            reader = SeekingReader(stream, validate_crcs=True)
+            return reader.get_summary().statistics.message_count, sum(1 for _ in reader.iter_messages())
+
+    def test_a_run_that_dies_leaves_a_record_with_its_index(self):
+        for out, faults in (("dies", {"head": "die_s: 20"}), ("spins", {"navigation": "spin_s: 20"})):
+            result = self.run_launch(survey(seconds=60, more=self.RECORDER.format(file="run.mcap"), **faults), out=out)
+            self.assertNotEqual(result.code, 0)
+            counted, read = self.read_officially(self.folder / out / "run.mcap")
+            self.assertEqual(counted, read)
+            self.assertGreater(counted, 1000)
+
+    def test_a_killed_launcher_leaves_a_record_with_its_index(self):
+        run = self.start_launch(survey(seconds=100000, more=self.RECORDER.format(file="run.mcap")))
+        self.wait_for_go()
+        record = self.folder / "out" / "run.mcap"
+        while not record.exists() or record.stat().st_size < 100_000:
+            time.sleep(0.01)
+        os.kill(run.pid, signal.SIGKILL)
+        run.communicate(timeout=10)
+        while self.processes():
+            time.sleep(0.01)
+        counted, read = self.read_officially(record)
+        self.assertEqual(counted, read)
+        self.assertGreater(counted, 100)
+        self.assertEqual(self.run_launch(survey(seconds=1), out="next").code, 0)  # clears what a dead launch left
+
+    def test_a_killed_recorders_record_is_mended_by_repair(self):
+        run = self.start_launch(survey(seconds=100000, more=self.RECORDER.format(file="run.mcap")))
+        self.wait_for_go()
+        record = self.folder / "out" / "run.mcap"
+        while not record.exists() or record.stat().st_size < 100_000:
+            time.sleep(0.01)
+        busy = self.tool("record", "repair", record)
+        self.assertEqual((busy.returncode, "another process is writing it" in busy.stderr), (2, True), busy.stderr)
+        os.kill(self.wait_for_process("ensonify-recorder"), signal.SIGKILL)
+        _, errors = run.communicate(timeout=30)
+        self.assertEqual(run.returncode, 3, errors)
+        self.assertIn("ensonify run: recorder was killed by signal 9", errors)
+        self.assertEqual(self.tool("record", "repair", record).returncode, 0)
+        counted, read = self.read_officially(record)
+        self.assertEqual(counted, read)
+        self.assertGreater(counted, 100)
+
+    def test_a_second_run_with_the_same_output_folder_is_refused_and_spoils_nothing(self):
+        run = self.start_launch(survey(seconds=100000, more=self.RECORDER.format(file="run.mcap")))
+        self.wait_for_go()
+        second = self.run_launch(survey(seconds=1, more=self.RECORDER.format(file="run.mcap")))
+        self.assertEqual(second.code, 2, second.stderr)
+        self.assertIn("another run puts its results there; choose another folder with --out", second.stderr)
+        run.send_signal(signal.SIGINT)
+        _, errors = run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 130, errors)
+        counted, read = self.read_officially(self.folder / "out" / "run.mcap")
+        self.assertEqual(counted, read)
 
     def test_a_slow_consumer_costs_lateness_not_data(self):
         result = self.run_launch(survey(seconds=2, consumer="jitter_ms: 300"), "--rate", "1")
@@ -157,6 +218,28 @@ class Records(SystemTest):
         # From 0 to 4 s, and one second of margin behind what the pilot asks for.
         self.assertEqual((seen["vehicle/pose"], seen["head/ping"]), (501, 101))
         self.assertNotIn("clock/health", seen)  # wall-clock facts, for viewers only
+
+
+class Files(SystemTest):
+    def test_a_missing_program_of_after_is_refused_before_anything_runs(self):
+        launch = self.write("after.yaml", survey(seconds=1, more="after:\n  - [no_such_program]\n  - [$(out)/made, by, it]"))
+        for done in (self.tool("check", launch), self.run_launch(launch)):
+            code = done.returncode if hasattr(done, "returncode") else done.code
+            self.assertEqual((code, done.stderr.strip().splitlines()[-1].split("after.yaml:")[1]),
+                             (2, "11:5: after: there is no program no_such_program"), done.stderr)
+
+    def test_no_control_character_of_a_file_reaches_the_terminal(self):
+        launch = self.write("red.yaml", 'ensonify: launch/1\nprocesses: { a: { run: "\\e[31mred" } }\n')
+        done = self.tool("check", launch)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("\\x1b[31mred", done.stderr)
+        self.assertNotIn("\x1b", done.stderr)
+
+    def test_a_named_pipe_is_no_launch_file(self):
+        os.mkfifo(self.folder / "pipe.yaml")
+        done = self.tool("check", self.folder / "pipe.yaml", timeout=10)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is a named pipe; a YAML file is expected", done.stderr)
 
 
 class Exits(SystemTest):

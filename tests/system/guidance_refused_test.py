@@ -71,6 +71,9 @@ MISSIONS = [
     ("a speed below nothing", f"speed_mps: -1, {LINE}", r"speed_mps: -1 is outside \[0.01, 30\]"),
     ("an orbit tighter than the vehicle turns", "steps: [{ line: [[0, 0], [0, 50]] }, { orbit: [50, 0], radius_m: 4 }]",
      "step 2: radius_m 4 is less than boat can turn .* allowed: 10 m or more"),
+    ("a line whose bend is tighter than the vehicle turns", "steps: [{ line: [[0, 0], [0, 50], [1, 49], [50, 50]] }]",
+     "step 1: line: the 1 m from place 2 to 3 are too short for the bends of boat, which turns on a radius of 10 m at 2 m/s; allowed"),
+    ("a line that turns back on itself", "steps: [{ line: [[0, 0], [0, 50], [0, 1]] }]", "step 1: line: the 50 m from place 1 to 2 are too short"),
     ("latitude and longitude swapped", "positions: geodetic, steps: [{ line: [[-9, 53], [-9, 53.001]] }]",
      "allowed: 100 km; are latitude and longitude swapped?"),
     ("another zone", "positions: geodetic, steps: [{ line: [[53, -3], [53.001, -3]] }]", "is 401 km from the site's origin; allowed: 100 km"),
@@ -94,11 +97,16 @@ VEHICLES = [
     ("a head in the seabed", "mountings: { sounder: { actual: { position_m: [0, 0, 50] } } }", "mission runline 1: .* reach 50.0 m deep and the seabed is 10.0 m below"),
     ("a start on land", "start: { position_m: [-200, 0, 0] }", "vehicles.boat.start: .* is land"),
     ("a start outside the terrain", "start: { position_m: [0, 4000, 0] }", "vehicles.boat.start: .* is outside the terrain"),
+    ("a head above the water", "mountings: { sounder: { actual: { position_m: [0, 0, -30] } } }",
+     "boat.mountings.sounder: the head is 25 m above the water where boat is deepest; allowed: a position_m farther down"),
     ("no mounting", "mountings: { sounder: { actual: { position_m: [0, 0, .nan] } } }", "position_m"),
     ("an altitude for what floats", "floats: {}", "altitude_m .*need a vehicle that dives; boat floats"),
 ]
 WORLDS = [
     ("no current", "speed_mps: 0.2, heading", "speed_mps: .nan, heading", "speed_mps: .nan"),
+    ("a current that sets the boat off its line", "speed_mps: 0.2, heading", "speed_mps: 2.1, heading",
+     "step 1: line: boat makes no way from place 1 to 2 at 2 m/s through the water: the current there is 2.1 m/s; allowed"),
+    ("a current against the boat", "speed_mps: 0.2, heading_deg: 90", "speed_mps: 2, heading_deg: 180", "boat makes no way from place 1 to 2"),
     ("no tide", "constant_m: 0", "constant_m: .nan", "constant_m: .nan"),
     ("a tide that ends before the survey", "constant_m: 0", "gauge: tide.csv", "the tide's last reading is 10 s after the start.*allowed: a file that covers"),
     ("a tide of one reading a month", "constant_m: 0", "gauge: month.csv", r"month.csv:2:1: is 1200.0 h after the reading before; allowed .*: 6 h"),
@@ -220,7 +228,8 @@ class Refused(unittest.TestCase):
     def test_vehicles(self):
         for what, vehicle, cause in VEHICLES:
             with self.subTest(what):
-                self.expect(self.write(vehicle=vehicle, mission=f"altitude_m: 4, {LINE}"), "world.yaml", cause)
+                mission = f"depth_m: 5, {LINE}" if "head above" in what else f"altitude_m: 4, {LINE}"
+                self.expect(self.write(vehicle=vehicle, mission=mission), "world.yaml", cause)
 
     def test_a_step_at_a_speed_at_which_the_vehicle_hardly_turns(self):
         steps = "speed_mps: 0.5, steps: [{ speed_mps: 8 }, { line: [[0, -50], [0, 50]] }, { line: [[20, 50], [20, -50]] }]"
@@ -260,6 +269,16 @@ class Refused(unittest.TestCase):
         self.assertRegex(done.stderr, cause)
         log = self.folder / "out/log/clock.log"
         self.assertNotIn(" go ", log.read_text() if log.exists() else "")
+
+    def test_a_mission_that_is_given_up_fails_the_run_unless_that_is_asked_for(self):
+        mission = f"abort: {{ after_s: 3 }}, {LINE}"
+        for config, code in (("", 1), ("given_up: end", 0)):
+            launch = self.write(mission=mission, launch=LAUNCH.replace("{ run: autopilot }", f"{{ run: autopilot, config: {{ {config} }} }}"))
+            done = subprocess.run([BIN / "ensonify", "run", launch, "--free", "--out", self.folder / "out"], capture_output=True,
+                                  text=True, timeout=60, env=dict(os.environ, XDG_RUNTIME_DIR=str(self.folder)))
+            self.assertEqual(done.returncode, code, done.stderr)
+            if code:
+                self.assertRegex(done.stderr, 'ensonify run: pilot did not reach its goal .*gave_up why="it took longer than abort.after_s"')
 
     def test_a_run_is_refused_before_time_starts(self):
         self.run_refused(self.write(mission=MISSIONS[0][1]), MISSIONS[0][2])

@@ -68,8 +68,8 @@ struct Link::Receiver {
     try {
       std::vector<zmq::message_t> frames;
       while (receive_frames(socket, frames)) accept(to_packet(std::move(frames)));
-    } catch (const zmq::error_t& e) {
-      if (e.num() != ETERM) fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
+    } catch (const zmq::error_t& e) {  // also ETERM, after interrupt()
+      fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
     } catch (const std::exception& e) {
       fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
     }
@@ -133,6 +133,8 @@ Link::~Link() {
 
 const std::string& Link::sync_endpoint() const { return sockets_->sync_endpoint; }
 const std::string& Link::live_endpoint() const { return sockets_->live_endpoint; }
+
+void Link::interrupt() { sockets_->context.shutdown(); }
 
 void Link::send_control(std::string_view text) { sockets_->clock.send(zmq::buffer(text)); }
 

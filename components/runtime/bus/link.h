@@ -50,6 +50,9 @@ class Link {
   };
   Event wait();
 
+  /// From any thread: whatever waits in this Link, or will, throws. Nothing can be sent any more.
+  void interrupt();
+
   /// The clock's next message; nothing after a while without one. Half the price of wait(), which then states why.
   std::optional<std::string> wait_control();
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ensonify {
+
+/// A text of somebody else's (a file, a process's last words, a message) as it may go to a terminal: control
+/// characters, which could move the cursor or set colours, become \x1b and the like. Line ends and tabs stay, UTF-8
+/// too.
+std::string printable(std::string_view text);
+
+}  // namespace ensonify
