@@ -174,6 +174,39 @@ TEST_CASE("bottom echo energy equals the area integral, of both faces and tapere
   }
 }
 
+TEST_CASE("without speckle the ghost by the surface has the energy of pressures, 6 dB over one path") {
+  // Alike in all directions. In the ghost, from 22 m on, a ring of seabed answers by two ways of one length, H and H +
+  // 2 d high: 4 SL tau sigma dA / (R1 R2)^2. Rays leave 0.2 dB in 4 m of it.
+  EchosounderConfig config = over_lambert();
+  config.beamwidth_rad = 40.0 * EchosounderConfig::kDegree;  // whose rays go everywhere below
+  config.effects.directivity = config.effects.speckle = config.effects.noise = false;
+  const Survey both(config, flat());
+  config.effects.multipath = false;
+  const Survey direct(config, flat());
+  for (const double from_m : {23.0, 29.0}) {
+    const double to_m = from_m + 4.0;
+    double energy = 0.0;
+    for (auto k = static_cast<std::size_t>(from_m / 750.0 / config.sample_period_s());
+         k < static_cast<std::size_t>(to_m / 750.0 / config.sample_period_s()); ++k) {
+      const double with = double(both.pings.at(0).amplitude_upa[k]),
+                   without = double(direct.pings.at(0).amplitude_upa[k]);
+      energy += (with * with - without * without) * config.sample_period_s();
+    }
+    double expected = 0.0;
+    constexpr double kStep_m = 0.001;
+    const double half_pulse_m = 0.5 * 750.0 * config.pulse_length_s;
+    for (double x = 0.5 * kStep_m; x < 60.0; x += kStep_m) {
+      const double R1 = std::hypot(x, 20.0), R2 = std::hypot(x, 24.0), middle_m = 0.5 * (R1 + R2) + half_pulse_m;
+      if (middle_m < from_m || middle_m >= to_m) continue;
+      expected += 2.0 * std::numbers::pi * x * kStep_m * seabed::lambert_backscatter(-25.0, 20.0 / R1) /
+                  std::pow(R1 * R2, 2) * std::pow(10.0, -0.1 * 0.05 * (R1 + R2));
+    }
+    expected *= 4.0 * std::pow(10.0, 21.5) * config.pulse_length_s;
+    INFO("from " << from_m << " m");
+    CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+  }
+}
+
 TEST_CASE("the surface overhead is received through the back of the piston only") {
   // EL = SL - 20 log L - alpha L - losses [Lurton2010]: up 2 m from a calm surface and down again, 40 dB less each way.
   EchosounderConfig config = over_lambert();

@@ -73,8 +73,8 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
   const Echoed echoed = sea_.echoes(shot, insonified, scatterers_, memory.shot);
   memory.foreign.clear();
   sea_.add_interference(shot, echoed, event.interfering, pulse, memory.foreign);
-  const std::array sets{weighed(echoed.arrivals, shot.pose(), memory.gain),
-                        weighed(memory.foreign, shot.pose(), memory.foreign_gain)};
+  const std::array sets{weighed(echoed.arrivals, echoed.paired, shot.pose(), memory.gain),
+                        weighed(memory.foreign, {}, shot.pose(), memory.foreign_gain)};
   beamform(sets, sampled, sampling, memory);
   if (sea_.water_scatters()) {
     sea_.reverberation_upa2(shot, echoed, volume_directions_, pulse, sampling, memory.volume_upa2);
@@ -85,8 +85,8 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
   return {memory.image, echoed.summary(shot, event.range_m, seabed)};
 }
 
-echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose,
-                                      std::vector<float>& gain) const {
+echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+                                      const frames::HeadPose& pose, std::vector<float>& gain) const {
   const double half_speed_mps = 0.5 * sea_.sound_speed_mps(pose);
   const auto& patterns = apertures_.patterns.receive;
   gain.resize(patterns.size() * arrivals.size());
@@ -94,7 +94,8 @@ echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const fram
     const auto one = [&](const echo::Arrival& arrival) {
       return patterns[row](arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
     };
-    sea_.gains(one, arrivals, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
+    const auto whole = [](const Eigen::Vector3f&, const Eigen::Vector3f&) { return 1.0F; };
+    sea_.gains(one, arrivals, paired, whole, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
   }
   return {arrivals, gain};
 }
@@ -104,7 +105,7 @@ void ApertureEchoes::beamform(std::span<const echo::EchoSet> echoes, const echo:
   const int rows = static_cast<int>(apertures_.patterns.receive.size());
   echo::form_apertures(echoes, rows, effects_.speckle ? pulse : pulse.squared(), sampling, memory.index, memory.image);
   if (effects_.speckle) return;
-  for (auto& value : memory.image.envelope_upa) value = std::sqrt(value.real());
+  for (auto& value : memory.image.envelope_upa) value = std::sqrt(std::max(0.0F, value.real()));
 }
 
 void ApertureEchoes::add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const {

@@ -76,7 +76,8 @@ class ApertureEchoes {
                           trace::Scene& seabed, Memory& memory) const;
 
  private:
-  echo::EchoSet weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose, std::vector<float>& gain) const;
+  echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+                        const frames::HeadPose& pose, std::vector<float>& gain) const;
   void beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse, const echo::Sampling& sampling,
                 Memory& memory) const;
   void add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const;

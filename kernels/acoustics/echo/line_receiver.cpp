@@ -102,6 +102,22 @@ ElementLine power_line(const ElementLine& line) {
   return {2 * line.elements - 1, line.spacing_in_waves, line.axis_head};
 }
 
+array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights) {
+  const double middle = 0.5 * static_cast<double>(weights.size() - 1);
+  std::vector<double> squares;
+  for (const float weight : weights) squares.push_back(static_cast<double>(weight) * static_cast<double>(weight));
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+  const auto pattern = [&](double sine) {
+    std::complex<double> sum;
+    for (std::size_t m = 0; m < squares.size(); ++m) {
+      const double turns = line.spacing_in_waves * (static_cast<double>(m) - middle) * sine;
+      sum += squares[m] / all * std::polar(1.0, 2.0 * std::numbers::pi * turns);
+    }
+    return sum;
+  };
+  return {pattern, std::max(line.spacing_in_waves * middle, 0.5)};
+}
+
 LineReceiver::LineReceiver(const ElementLine& line)
     : line_(line),
       cells_(fft::Transform::fast_size(std::max(2 * line.elements, 2 * kWidth))),

@@ -64,6 +64,11 @@ std::vector<float> beam_weights(std::span<const double> weights, std::span<const
 std::vector<float> power_weights(std::span<const float> weights);
 ElementLine power_line(const ElementLine& line);
 
+/// Mean over beams, at all sines, of the product of their amplitudes in two directions over that of a square, by the
+/// difference of the directions' sines: the pattern of the squared weights. It is the part that beams share of the
+/// cross term of two coherent waves (power_gains), exact for the sum of all beams.
+array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights);
+
 /// Sound that is there without any arrival, as mean squares per sample. Each of the three draws from its own stream, by
 /// (ping, sample, place) only; a level of zero or an empty span leaves it out without a change to the others.
 struct Background {
