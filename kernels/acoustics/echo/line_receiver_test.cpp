@@ -257,7 +257,8 @@ TEST_CASE("one set of arrivals or several of any size give the same bits") {
   for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1024}}) {
     std::vector<Arrivals> batches((arrivals.size() + size - 1) / size);
     for (std::size_t i = 0; i < arrivals.size(); ++i) batches[i / size].push_back(arrivals[i]);
-    const std::vector<EchoSet> sets(batches.begin(), batches.end());
+    std::vector<EchoSet> sets;
+    for (const Arrivals& batch : batches) sets.push_back({batch});
     CHECK(form({60, 0.5}, {sets, kPulse, kSampling, {}}, beams, uniform(60)).envelope_upa == whole.envelope_upa);
   }
 }
