@@ -106,8 +106,9 @@ TEST_CASE("a mesh above the seabed is the bottom while the head holds it") {
     const auto strongest = std::max_element(samples.begin(), samples.end()) - samples.begin();
     return 750.0 * config.sample_period_s() * static_cast<double>(strongest);
   };
-  // Within 4 degrees the bottom is 0.05 m farther than straight below; the pulse is 0.075 m long.
-  const double margin_m = 0.05 + 750.0 * config.pulse_length_s;
+  // Within 4 degrees the bottom is 0.05 m farther than straight below; the pulse is 0.075 m long, its samples half of
+  // it.
+  const double margin_m = 0.05 + 750.0 * (config.pulse_length_s + config.sample_period_s());
   CHECK(strongest_m(450_ms) == Approx(20.0).margin(margin_m));
   sounder.give_at("mesh", 460_ms, table_of(60.0, -12.0));
   CHECK(strongest_m(950_ms) == Approx(10.0).margin(margin_m));
@@ -171,6 +172,77 @@ TEST_CASE("bottom echo energy equals the area integral, of both faces and tapere
     expected *= std::pow(10.0, 21.5) * config.pulse_length_s * (1.0 - 5.0 / 8.0 * taper);
     INFO("taper " << taper);
     CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+  }
+}
+
+TEST_CASE("without speckle the ghost by the surface has the energy of pressures, 6 dB over one path") {
+  // Alike in all directions. In the ghost, from 22 m on, a ring of seabed answers by two ways of one length, H and H +
+  // 2 d high: 4 SL tau sigma dA / (R1 R2)^2. Rays leave 0.2 dB in 4 m of it.
+  EchosounderConfig config = over_lambert();
+  config.beamwidth_rad = 40.0 * EchosounderConfig::kDegree;  // whose rays go everywhere below
+  config.effects.directivity = config.effects.speckle = config.effects.noise = false;
+  const Survey both(config, flat());
+  config.effects.multipath = false;
+  const Survey direct(config, flat());
+  for (const double from_m : {23.0, 29.0}) {
+    const double to_m = from_m + 4.0;
+    double energy = 0.0;
+    for (auto k = static_cast<std::size_t>(from_m / 750.0 / config.sample_period_s());
+         k < static_cast<std::size_t>(to_m / 750.0 / config.sample_period_s()); ++k) {
+      const double with = double(both.pings.at(0).amplitude_upa[k]),
+                   without = double(direct.pings.at(0).amplitude_upa[k]);
+      energy += (with * with - without * without) * config.sample_period_s();
+    }
+    double expected = 0.0;
+    constexpr double kStep_m = 0.001;
+    const double half_pulse_m = 0.5 * 750.0 * config.pulse_length_s;
+    for (double x = 0.5 * kStep_m; x < 60.0; x += kStep_m) {
+      const double R1 = std::hypot(x, 20.0), R2 = std::hypot(x, 24.0), middle_m = 0.5 * (R1 + R2) + half_pulse_m;
+      if (middle_m < from_m || middle_m >= to_m) continue;
+      expected += 2.0 * std::numbers::pi * x * kStep_m * seabed::lambert_backscatter(-25.0, 20.0 / R1) /
+                  std::pow(R1 * R2, 2) * std::pow(10.0, -0.1 * 0.05 * (R1 + R2));
+    }
+    expected *= 4.0 * std::pow(10.0, 21.5) * config.pulse_length_s;
+    INFO("from " << from_m << " m");
+    CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+  }
+}
+
+TEST_CASE("a ping has the second echo: energy by images, and a tail that falls to the range's end") {
+  // Seabed, surface, seabed: one leg direct, H high, the other H + 2 D high by the images of surface and seabed, 15 dB
+  // lost in the mirror's bounce. Both orders by one pattern: 4 SL tau sigma b1 b2 dA / (R1 R2)^2. Rays leave 0.2 dB.
+  EchosounderConfig config = over_lambert();
+  config.range_m = 60.0;
+  config.effects.speckle = config.effects.noise = false;
+  const Survey both(config, flat());
+  config.effects.multipath = false;
+  const Survey direct(config, flat());
+  const auto energy = [&](const Survey& survey, double from_m, double to_m) {
+    double sum = 0.0;
+    for (auto k = static_cast<std::size_t>(from_m / 750.0 / config.sample_period_s());
+         k < static_cast<std::size_t>(to_m / 750.0 / config.sample_period_s()); ++k) {
+      sum += std::pow(double(survey.pings.at(0).amplitude_upa[k]), 2) * config.sample_period_s();
+    }
+    return sum;
+  };
+  double expected = 0.0;
+  constexpr double kStep_m = 0.001;
+  const double diameter = array::length_in_waves_for(config.beamwidth_rad) * 58.96 / 50.76;
+  for (double x = 0.5 * kStep_m; x < 40.0; x += kStep_m) {
+    const double R1 = std::hypot(x, 20.0), R2 = std::hypot(x, 64.0);
+    if (0.5 * (R1 + R2) > 59.5) break;
+    const double b1 = std::pow(array::piston_amplitude(diameter, x / R1), 2),
+                 b2 = std::pow(array::piston_amplitude(diameter, x / R2), 2);
+    expected += 2.0 * std::numbers::pi * x * kStep_m * seabed::lambert_backscatter(-25.0, 20.0 / R1) * b1 * b2 /
+                std::pow(R1 * R2, 2) * std::pow(10.0, -0.1 * 0.05 * (R1 + R2));
+  }
+  expected *= 4.0 * std::pow(10.0, 21.5 - 1.5) * config.pulse_length_s;
+  CHECK(10.0 * std::log10((energy(both, 41.5, 59.5) - energy(direct, 41.5, 59.5)) / expected) ==
+        Approx(0.0).margin(0.3));
+  // Beyond the main lobe, side lobes fall by a few dB from 2 m to the next; where rays end, echoes would.
+  for (double from_m = 46.0; from_m < 58.0; from_m += 2.0) {
+    INFO("from " << from_m << " m");
+    CHECK(10.0 * std::log10(energy(both, from_m, from_m + 2.0) / energy(both, from_m - 2.0, from_m)) > -15.0);
   }
 }
 

@@ -13,8 +13,7 @@ namespace ensonify {
 namespace {
 
 constexpr double kBackLoss_db = 40.0;  // one-way, behind the face
-constexpr double kReach = 3.0;         // sines in which rays are sent, in lambda / D: three side lobes
-constexpr double kWidest_rad = 1.5;
+constexpr double kWidest_rad = 1.5;    // that rays are sent to: echoes end with the range, not with an angle
 
 bool circular(const EchosounderConfig& c) { return c.face == EchosounderConfig::Face::kCircular; }
 
@@ -60,11 +59,10 @@ Apertures apertures_of(const EchosounderConfig& config) {
 
 trace::RayDistribution rays_of(const EchosounderConfig& c) {
   const double first_null = std::min(1.0, (circular(c) ? 1.2197 : 1.0) / size_in_waves(c));
-  const double reach = std::min(1.0, kReach / size_in_waves(c)), reach_rad = std::min(kWidest_rad, std::asin(reach));
-  const double null_rad = std::min(reach_rad, std::asin(first_null));
+  const double null_rad = std::min(kWidest_rad, std::asin(first_null));
   const trace::TransmitVolume volume{trace::TransmitVolume::Axis::kForward,
-                                     {-reach, reach, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
-                                     {-reach_rad, reach_rad, -null_rad, null_rad, c.beamwidth_rad}};
+                                     {-1.0, 1.0, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
+                                     {-kWidest_rad, kWidest_rad, -null_rad, null_rad, c.beamwidth_rad}};
   return {volume, {c.quality, range_resolution_m(c)}, {c.world.seed, c.process + "/rays"}};
 }
 

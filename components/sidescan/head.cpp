@@ -123,9 +123,11 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
       trace::TransmitVolume::Axis::kForward,
       {-reach, reach, -null, null, channel.horizontal_beamwidth_rad},
       {-kFarthest_rad, kFarthest_rad, -kFarthest_rad, kFarthest_rad, channel.vertical_beamwidth_rad}};
-  return {volume,
-          {config.quality, channel.resolution_m(config.sound_speed_mps)},
-          {config.world.seed, config.process + "/" + channel.name + "/rays"}};
+  // Below the head a cell of directions holds few ranges, and what few rays leave of their level would be a stripe
+  // along the track. Those to places of the world leave it at other ranges in each ping.
+  trace::RaySettings rays{config.quality, channel.resolution_m(config.sound_speed_mps)};
+  rays.fewest_in_main_cell = trace::RaySettings::kToPlaces;
+  return {volume, rays, {config.world.seed, config.process + "/" + channel.name + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {

@@ -73,20 +73,20 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
   const Echoed echoed = sea_.echoes(shot, insonified, scatterers_, memory.shot);
   memory.foreign.clear();
   sea_.add_interference(shot, echoed, event.interfering, pulse, memory.foreign);
-  const std::array sets{weighed(echoed.arrivals, shot.pose(), memory.gain),
-                        weighed(memory.foreign, shot.pose(), memory.foreign_gain)};
+  const std::array sets{weighed(echoed.arrivals, echoed.paired, shot.pose(), memory.gain),
+                        weighed(memory.foreign, {}, shot.pose(), memory.foreign_gain)};
   beamform(sets, sampled, sampling, memory);
+  const auto ping = static_cast<std::uint64_t>(event.ping);
   if (sea_.water_scatters()) {
     sea_.reverberation_upa2(shot, echoed, volume_directions_, pulse, sampling, memory.volume_upa2);
-    memory.reverberation.add(memory.volume_upa2, sampled, static_cast<std::uint64_t>(event.ping), volume_,
-                             memory.image);
+    memory.background.add_reverberation(memory.volume_upa2, sampled, ping, volume_, memory.image);
   }
-  if (effects_.noise) add_noise(emission, pulse, memory.image);
+  if (effects_.noise) memory.background.add_noise(noise_db(pulse), sampled, ping, noise_, memory.image);
   return {memory.image, echoed.summary(shot, event.range_m, seabed)};
 }
 
-echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose,
-                                      std::vector<float>& gain) const {
+echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+                                      const frames::HeadPose& pose, std::vector<float>& gain) const {
   const double half_speed_mps = 0.5 * sea_.sound_speed_mps(pose);
   const auto& patterns = apertures_.patterns.receive;
   gain.resize(patterns.size() * arrivals.size());
@@ -94,7 +94,8 @@ echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const fram
     const auto one = [&](const echo::Arrival& arrival) {
       return patterns[row](arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
     };
-    sea_.gains(one, arrivals, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
+    const auto whole = [](const Eigen::Vector3f&, const Eigen::Vector3f&) { return 1.0F; };
+    sea_.gains(one, arrivals, paired, whole, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
   }
   return {arrivals, gain};
 }
@@ -104,15 +105,15 @@ void ApertureEchoes::beamform(std::span<const echo::EchoSet> echoes, const echo:
   const int rows = static_cast<int>(apertures_.patterns.receive.size());
   echo::form_apertures(echoes, rows, effects_.speckle ? pulse : pulse.squared(), sampling, memory.index, memory.image);
   if (effects_.speckle) return;
-  for (auto& value : memory.image.envelope_upa) value = std::sqrt(value.real());
+  for (auto& value : memory.image.envelope_upa) value = std::sqrt(std::max(0.0F, value.real()));
 }
 
-void ApertureEchoes::add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const {
+/// Of one aperture, in its band.
+double ApertureEchoes::noise_db(const echo::Pulse& pulse) const {
   const double density_db =
       10.0 * std::log10(power_of(sea_.environment().noise_level_db() - apertures_.directivity_index_db) +
                         power_of(apertures_.electronic_noise_db));
-  echo::add_noise(water::in_band_level_db(density_db, pulse.noise_bandwidth_hz, 0.0),
-                  static_cast<std::uint64_t>(emission.event.ping), noise_, image);
+  return water::in_band_level_db(density_db, pulse.noise_bandwidth_hz, 0.0);
 }
 
 }  // namespace ensonify

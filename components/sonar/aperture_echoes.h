@@ -63,7 +63,7 @@ class ApertureEchoes {
     echo::Arrivals foreign;
     std::vector<float> gain, foreign_gain, volume_upa2;
     echo::TimeIndex index;
-    echo::RowReverberation reverberation;
+    echo::RowBackground background;
   };
   struct Received {
     echo::Image& image;  // complex envelopes, aperture by sample, uPa rms
@@ -76,10 +76,11 @@ class ApertureEchoes {
                           trace::Scene& seabed, Memory& memory) const;
 
  private:
-  echo::EchoSet weighed(const echo::Arrivals& arrivals, const frames::HeadPose& pose, std::vector<float>& gain) const;
+  echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+                        const frames::HeadPose& pose, std::vector<float>& gain) const;
   void beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse, const echo::Sampling& sampling,
                 Memory& memory) const;
-  void add_noise(const Emission& emission, const echo::Pulse& pulse, echo::Image& image) const;
+  double noise_db(const echo::Pulse& pulse) const;
 
   Apertures apertures_;
   Effects effects_;

@@ -22,7 +22,9 @@ ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environme
       volume_(stream_of(array, "volume")),
       receiver_(array.elements),
       power_weights_{echo::power_weights(array.weights.front())} {
-  if (!effects.speckle) power_receiver_.emplace(echo::power_line(array.elements));
+  if (effects.speckle) return;
+  power_receiver_.emplace(echo::power_line(array.elements));
+  shared_.emplace(echo::shared_by_beams(array.elements, array.weights.front()));
 }
 
 std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
@@ -38,12 +40,17 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse,
                            const ArrayReception& reception, Memory& memory) const {
-  const auto gains = [&](const echo::Arrivals& arrivals, std::vector<float>& gain) {
+  const auto shared = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    return shared_->amplitude(static_cast<double>((a - b).dot(array_.elements.axis_head))).real();
+  };
+  const auto gains = [&](const echo::Arrivals& arrivals, const echo::PairedArrivals& paired, std::vector<float>& gain) {
     gain.resize(arrivals.size());
-    sea_.gains([&](const echo::Arrival& arrival) { return array_.element(arrival.direction_head); }, arrivals, gain);
+    sea_.gains([&](const echo::Arrival& arrival) { return array_.element(arrival.direction_head); }, arrivals, paired,
+               shared, gain);
     return echo::EchoSet{arrivals, gain};
   };
-  const std::array sets{gains(echoed.arrivals, memory.gain), gains(reception.foreign, memory.foreign_gain)};
+  const std::array sets{gains(echoed.arrivals, echoed.paired, memory.gain),
+                        gains(reception.foreign, {}, memory.foreign_gain)};
   const echo::Background noise = background(shot, echoed, pulse.pulse, reception, memory.volume_upa2);
   const auto [sampling, beams] = std::pair(reception.sampling, reception.sin_beams);
   memory.images.resize(array_.weights.size());

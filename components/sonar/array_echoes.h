@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
+#include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
@@ -100,6 +101,7 @@ class ArrayEchoes {
   echo::LineReceiver receiver_;
   std::optional<echo::LineReceiver> power_receiver_;  // without speckle
   std::vector<std::vector<float>> power_weights_;     // of the whole line
+  std::optional<array::PatternTable> shared_;         // without speckle: of echo::power_gains
 };
 
 }  // namespace ensonify

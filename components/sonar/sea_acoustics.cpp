@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "components/sonar/head_motion.h"
-#include "kernels/acoustics/echo/multipath.h"
 
 namespace ensonify {
 namespace {
@@ -93,7 +92,7 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
     surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
     surface.sound_speed_mps = sound_speed_mps(pose);
     surface.rms_height_m = environment_.rms_wave_height_m();
-    echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
+    echoed.paired = echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
   }
   return echoed;
 }

@@ -15,6 +15,7 @@
 #include "components/sonar/environment.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/interference.h"
+#include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/echo/volume.h"
@@ -122,6 +123,7 @@ struct Echoed {
   const echo::Arrivals& arrivals;
   const trace::Contributors& contributors;  // whose indices hits and arrivals carry
   const echo::Receivers& receivers;         // where the head receives
+  echo::PairedArrivals paired;              // which of the arrivals add as pressures even without speckle
   double absorption_dbpm = 0.0;
   double seabed_depth_m = 0.0;  // mean over the hits
   int rays_that_hit = 0, rays_in_lobe = 0;
@@ -178,19 +180,19 @@ class SeaAcoustics {
                           std::span<const echo::VolumeDirections> receive_directions, const echo::Pulse& pulse,
                           const echo::Sampling& sampling, std::vector<float>& mean_square_upa2) const;
 
-  /// Gain of a receive pattern for each arrival: the pattern's amplitude, or with speckle switched off its square.
-  template <class Pattern>
-  void gains(const Pattern& pattern, const echo::Arrivals& arrivals, std::span<float> gains) const {
+  /// Gain of a receive pattern for each arrival: the pattern's amplitude, or with speckle switched off that of powers
+  /// (echo::power_gains).
+  template <class Pattern, class Shared>
+  void gains(const Pattern& pattern, const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+             const Shared& shared, std::span<float> gains) const {
     constexpr std::size_t kPerTask = 4096;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),
         [&](const auto& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const float amplitude = pattern(arrivals[i]);
-            gains[i] = effects_.speckle ? amplitude : amplitude * amplitude;
-          }
+          for (std::size_t i = range.begin(); i < range.end(); ++i) gains[i] = pattern(arrivals[i]);
         },
         tbb::simple_partitioner());
+    if (!effects_.speckle) echo::power_gains(arrivals, paired, shared, gains);
   }
 
  private:

@@ -74,6 +74,40 @@ TEST_CASE("sidescan: level seabed gives the area integral, 20-100 m, 100-900 kHz
   }
 }
 
+TEST_CASE("sidescan: no range has a stripe along the track, not even in a preview") {
+  // Level of each sample over the integral, of level sand 10 m below, in 16 pings 2 m apart, which share no seabed
+  // within their main lobes: what their mean has over what 16 independent ones would leave.
+  constexpr int kPings = 16;
+  trace::Scene seabed = level_seabed(-22.0);
+  const LevelSeabed sand = medium_sand(400e3, 10.0);
+  for (const double quality : {0.25, 1.0}) {
+    SidescanConfig config = sidescan_of(400e3);
+    config.quality = quality;
+    config.effects.speckle = false;
+    const Tone tone = transmission_of(config.channels[0]);
+    std::vector<msg::Ping> pings;
+    for (int i = 0; i < kPings; ++i) pings.push_back(sidescan_ping(config, seabed, {0.0, 2.0 * i, -12.0}));
+    for (const auto& [from_m, to_m] : {std::pair{10.5, 15.0}, {15.0, 25.0}, {25.0, 50.0}, {50.0, 100.0}}) {
+      const Samples about = samples_about(pings[0], 0.5 * (from_m + to_m), 0.5 * (to_m - from_m));
+      double of_means = 0.0, of_pings = 0.0, n = 0.0;
+      for (std::size_t k = about.first; k < about.end; ++k) {
+        const double expected = mean_square_upa2(sand, tone, sample_time_s(pings[0], k));
+        double sum = 0.0, squares = 0.0;
+        for (const msg::Ping& ping : pings) {
+          const double off = power_sum(ping, 1, {k, k + 1}) / expected - 1.0;
+          sum += off, squares += off * off;
+        }
+        of_means += std::pow(sum / kPings, 2), n += 1.0;
+        of_pings += (squares - sum * sum / kPings) / (kPings - 1);
+      }
+      const double stripes = std::sqrt(std::max(0.0, (of_means - of_pings / kPings) / n));
+      INFO("quality " << quality << ", " << from_m << " to " << to_m << " m: stripes " << db(1.0 + stripes)
+                      << " dB, one ping " << db(1.0 + std::sqrt(of_pings / n)) << " dB, n " << n);
+      CHECK(db(1.0 + stripes) < 0.3);
+    }
+  }
+}
+
 TEST_CASE("multibeam: level seabed gives the area integral, 0-70 degrees, 100-900 kHz") {
   // Mean over the echo between the first nulls of the beam, and at its axis (three pulses). Rays of reference quality,
   // 48 to a resolution cell: at the axis 0.3 / sqrt(3 x 48) = 2.5 %, 0.1 dB.

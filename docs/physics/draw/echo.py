@@ -103,8 +103,8 @@ def draw_pulses():
     x = np.pi * 50e3 * data["time_s"] + 1e-12
     theory = np.abs(np.sin(x * (1 - np.abs(data["time_s"]) / 2e-3)) / x)
     axes[1].plot(time_us, 20 * np.log10(theory + 1e-9), "C2", lw=3, alpha=0.5, label="theory, no window")
-    axes[1].plot(time_us, 20 * np.log10(data["chirp"] + 1e-9), "k", lw=0.8, label="chirp 50 kHz, 2 ms")
-    axes[1].plot(time_us, 20 * np.log10(data["hann"] + 1e-9), "C1", lw=0.8, label="the same, Hann")
+    axes[1].plot(time_us, 20 * np.log10(np.abs(data["chirp"]) + 1e-9), "k", lw=0.8, label="chirp 50 kHz, 2 ms")
+    axes[1].plot(time_us, 20 * np.log10(np.abs(data["hann"]) + 1e-9), "C1", lw=0.8, label="the same, Hann")
     axes[1].axhline(-13.26, color="k", ls=":", lw=0.8)
     axes[1].set(ylabel="dB", ylim=(-65, 2))
     for axis in axes:

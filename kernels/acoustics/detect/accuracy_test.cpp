@@ -1,5 +1,6 @@
 #include "kernels/acoustics/detect/testing/accuracy.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -22,18 +23,21 @@ TEST_CASE("a plane is detected without bias, at the theoretical sd, which is pre
       INFO(snr_db << " dB, " << a.angle_rad / kDeg << " deg: found " << a.found << ", bias " << 100 * a.bias
                   << " %, sd " << 100 * a.sd << " %, predicted " << 100 * a.predicted_sd << " %, allowed "
                   << 150 * theoretical_sd(a.angle_rad, snr_db) << " %");
-      // A beam near nadir receives one pulse, whose power is exponential: at 10 dB it is below 8 dB in 1 - exp(-0.63) =
-      // 47 % of the pings.
-      CHECK(a.found > (angle_deg > 25 ? 0.9 : 0.4));
-      // The mean of 40 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
+      // A beam near nadir receives one pulse, whose power is exponential: at 10 dB it is below the gate of 11 dB in
+      // 1 - exp(-1.26) = 72 % of the pings, 4.5 % uncertain. The strongest of several pulses, beyond 25 degrees, is
+      // less often.
+      const double least = snr_db > 15.0 ? (angle_deg > 25 ? 0.9 : 0.6) : (angle_deg > 25 ? 0.6 : 0.15);
+      CHECK(a.found > least);
+      // The mean of 20 or more detections of sd up to 0.1 % is uncertain by 0.016 %.
       CHECK(std::abs(a.bias) < (angle_deg > 60.5 ? 1.5e-3 : 5e-4));
-      CHECK(a.sd < 1.5 * theoretical_sd(a.angle_rad, snr_db));
-      // 95 % of the errors within 5 cm of 20 m.
-      if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < 0.05);
-      // The sd of 40 to 100 errors is uncertain by 7 to 11 %; up to 15 degrees there are one to four pulses to judge
+      // Near nadir theory has no noise in it, and a quarter of the pings at 10 dB leave an sd uncertain by 14 %.
+      CHECK(a.sd < (snr_db < 15.0 && angle_deg < 15.5 ? 1.75 : 1.5) * theoretical_sd(a.angle_rad, snr_db));
+      // 95 % of the errors within 5 cm of 20 m, or at 10 dB 7 cm: by theory 5.6 cm at 65 degrees.
+      if (angle_deg < 65.5) CHECK(1.96 * std::hypot(a.bias, a.sd) * 20.0 < (snr_db > 15.0 ? 0.05 : 0.07));
+      // The sd of 20 to 100 errors is uncertain by 7 to 16 %; up to 15 degrees there are one to four pulses to judge
       // by.
       // At 10 dB a faded echo now and then errs by more than its own scatter gives.
-      CHECK(a.predicted_sd / a.sd > (snr_db > 15.0 ? 0.7 : 0.6));
+      CHECK(a.predicted_sd / a.sd > (snr_db > 15.0 ? 0.7 : 0.5));
       CHECK(a.predicted_sd / a.sd < (angle_deg < 15.5 ? 2.0 : 1.4));
     }
   }
@@ -60,7 +64,41 @@ TEST_CASE("near nadir two samples a pulse suffice, and the detector knows how ex
     INFO(angles_deg[k] << " deg: " << 1e3 * error_m << " mm, predicted " << 1e3 * stated_m);
     CHECK(error_m < 0.0145);  // 50 us over sqrt(12) are 10.8 mm
     CHECK(stated_m / error_m > 0.8);
-    CHECK(stated_m / error_m < 1.6);
+    CHECK(stated_m / error_m < 1.8);  // where the ramp begins, it counts for more than it says
+  }
+}
+
+TEST_CASE("depths scatter alike at a signal to noise ratio, however densely a pulse is sampled") {
+  // 25 beams of 100 pings, of one seabed. The median of 2,500 magnitudes is uncertain by 2 %, and does not hear of the
+  // few that took noise for the bottom.
+  for (const double deg : {40.0, 50.0, 60.0}) {
+    std::vector<double> scatter_m;
+    for (const int per_pulse : {2, 4, 8}) {
+      PlaneSurvey survey;
+      survey.snr_db = 10.0;
+      survey.period_s = survey.pulse_length_s / per_pulse;
+      survey.longest_s = 0.06;
+      for (int i = 0; i < 25; ++i) survey.sin_beams.push_back(float(std::sin((deg + 0.02 * i) * kDeg)));
+      Settings settings = settings_for(survey);
+      settings.gates.snr_db = 10.0;
+      PlaneEcho echo;
+      std::vector<Detection> found;
+      std::vector<double> errors_m;
+      for (std::uint64_t ping = 0; ping < 100; ++ping) {
+        echo.ping(survey, {11, "plane"}, ping);
+        detect_bottom(settings, survey.sin_beams, echo.amplitudes(survey), echo.halves(), found);
+        for (std::size_t beam = 0; beam < found.size(); ++beam) {
+          const double axis_s = two_way_s(survey, double(survey.sin_beams[beam]));
+          if (found[beam].valid) errors_m.push_back(20.0 * std::abs(found[beam].two_way_s / axis_s - 1.0));
+        }
+      }
+      const auto middle = errors_m.begin() + std::ptrdiff_t(errors_m.size() / 2);
+      std::nth_element(errors_m.begin(), middle, errors_m.end());
+      scatter_m.push_back(*middle / 0.6745);
+    }
+    INFO(deg << " deg: " << 1e3 * scatter_m[0] << ", " << 1e3 * scatter_m[1] << ", " << 1e3 * scatter_m[2] << " mm");
+    CHECK(scatter_m[0] / scatter_m[1] == Approx(1.0).margin(0.1));
+    CHECK(scatter_m[2] / scatter_m[1] == Approx(1.0).margin(0.1));
   }
 }
 

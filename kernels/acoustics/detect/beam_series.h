@@ -27,6 +27,9 @@ struct BeamSeries {
     return static_cast<int>(std::clamp(std::ceil((t_s - start_s) / period_s), 0.0, static_cast<double>(samples())));
   }
   int samples_per_pulse() const { return std::max(1, static_cast<int>(std::lround(pulse_length_s / period_s))); }
+  /// How many samples are as good as one: a tone's filter correlates pressures as 1 - lag / pulse, and powers as its
+  /// square, whose integral is 2/3 of the pulse.
+  int correlated_samples() const { return std::max(1, static_cast<int>(std::lround(2.0 / 3.0 * samples_per_pulse()))); }
   double power(int k) const {
     const double a = amplitude_upa[static_cast<std::size_t>(k)];
     return a * a;

@@ -25,19 +25,29 @@ struct Centre {
 Centre centre_in(const BeamSeries& series, double middle_s, double half_window_s, double noise, double loss_np_ps) {
   const int end = series.index_from(middle_s + half_window_s);
   double weight = 0.0, inverse_square = 0.0, first_moment = 0.0, second_moment = 0.0, noise_moment = 0.0;
-  for (int k = series.index_from(middle_s - half_window_s); k < end; ++k) {
-    const double t = series.echo_s(k);
-    if (t <= 0.0) continue;
+  const int first = series.index_from(std::max(middle_s - half_window_s, 0.5 * series.pulse_length_s));
+  const auto gain_at = [&](double t) {
     const double ratio = t / middle_s;
-    const double gain = ratio * ratio * std::exp(loss_np_ps * (t - middle_s));
-    const double w = (series.power(k) - noise) * gain;
+    return ratio * ratio * std::exp(loss_np_ps * (t - middle_s));
+  };
+  // How much a sample's noise moves the moment: the variance of |s + n|^2 given |s|^2 is 2 |s|^2 <n^2> + <n^2>^2 for
+  // complex Gaussian noise n.
+  const auto moved_by = [&](int k) {
+    const double t = series.echo_s(k);
+    return gain_at(t) * (t - middle_s) * std::sqrt(noise * (2.0 * std::max(series.power(k) - noise, 0.0) + noise));
+  };
+  const int alike = series.correlated_samples();
+  double moved = 0.0;  // by that many samples together
+  for (int k = first; k < end; ++k) {
+    const double t = series.echo_s(k);
+    if (!(t > 0.0)) continue;
+    const double ratio = t / middle_s, w = (series.power(k) - noise) * gain_at(t);
     weight += w;
     inverse_square += w / (ratio * ratio);
     first_moment += w * (t - middle_s);
     second_moment += w * (t - middle_s) * (t - middle_s);
-    // The variance of |s + n|^2 given |s|^2 is 2 |s|^2 <n^2> + <n^2>^2 for complex Gaussian noise n.
-    noise_moment +=
-        gain * gain * noise * (2.0 * std::max(series.power(k) - noise, 0.0) + noise) * (t - middle_s) * (t - middle_s);
+    moved += moved_by(k) - (k - first >= alike ? moved_by(k - alike) : 0.0);
+    noise_moment += moved * moved / alike;
   }
   if (!(weight > 0.0) || !(inverse_square > 0.0)) return {};
   const double mean = first_moment / weight;

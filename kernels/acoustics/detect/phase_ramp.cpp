@@ -15,6 +15,9 @@ constexpr double kConverged = 1e-6;                 // relative; a hundredth of 
 constexpr double kSlopePriorSd = 0.5;               // of the slope over the expected one
 constexpr double kFlattest = 0.2, kSteepest = 5.0;  // slopes over the expected one
 constexpr double kLeastModelCoherence = 0.3;        // below it there is no phase to speak of
+// Variance of a long sum over that of its pulse-long runs each on its own. Behind a tone's filter samples are
+// correlated as 1 - lag / pulse: a run has 2/3 of its pulse squared, and shares 1/6 with each neighbour.
+constexpr double kOfNeighbours = 1.5;
 
 /// The phase is expected to be radians_per_sine * slope * (sine - sine of the beam).
 struct Model {
@@ -116,7 +119,7 @@ double offset_variance_rad2(const BeamSeries& series, const ExpectedSeabed& seab
     if (++count == per_pulse) close();
   });
   if (count > 0) close();
-  const double measured = squares * runs / std::max(runs - 1.0, 1.0);
+  const double measured = kOfNeighbours * squares * runs / std::max(runs - 1.0, 1.0);
   const double expected = expected_variance_rad2(series, seabed, radians_per_sine, model.axis_s);
   return (runs * measured + expected) / (runs + 1.0);
 }

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace ensonify::echo {
@@ -31,6 +33,40 @@ void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPuls
       }
     });
   });
+}
+
+template <class MeanSquare>
+void RowBackground::add(const MeanSquare& mean_square_upa2, const SampledPulse& pulse, std::uint64_t ping,
+                        const random::Stream& stream, Image& image) {
+  const auto response = pulse.response();
+  const auto rows = static_cast<std::size_t>(image.beams);
+  if (draws_.size() < rows) draws_.resize(rows);
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+    auto& draws = draws_[row];
+    draws.assign(static_cast<std::size_t>(image.samples) + response.size(), {});
+    random::add_gaussian(stream, ping, std::uint64_t{row} << 32, std::sqrt(0.5F), draws);
+    auto out = image.row(static_cast<int>(row));
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      std::complex<float> sum;
+      for (std::size_t i = 0; i < response.size(); ++i) sum += response[i] * draws[k + response.size() - i];
+      out[k] += std::sqrt(mean_square_upa2(k, row)) * sum;
+    }
+  });
+}
+
+void RowBackground::add_noise(double level_db, const SampledPulse& pulse, std::uint64_t ping,
+                              const random::Stream& stream, Image& image) {
+  const auto mean_square = static_cast<float>(power_ratio(level_db));
+  if (mean_square > 0.0F) add([=](std::size_t, std::size_t) { return mean_square; }, pulse, ping, stream, image);
+}
+
+void RowBackground::add_reverberation(std::span<const float> mean_square_upa2, const SampledPulse& pulse,
+                                      std::uint64_t ping, const random::Stream& stream, Image& image) {
+  const auto rows = static_cast<std::size_t>(image.beams);
+  if (mean_square_upa2.size() != rows * static_cast<std::size_t>(image.samples)) {
+    throw std::invalid_argument("reverberation needs one mean square per sample and row");
+  }
+  add([=](std::size_t k, std::size_t row) { return mean_square_upa2[k * rows + row]; }, pulse, ping, stream, image);
 }
 
 }  // namespace ensonify::echo

@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "kernels/acoustics/echo/image.h"
+#include "kernels/base/random/stream.h"
 
 using namespace ensonify::echo;
 
 static std::vector<float> noise_upa(int rows, int samples, double level_db) {
   Image image;
   image.resize(rows, samples);
-  add_noise(level_db, 1, {1, "noise"}, image);
+  const auto sd = static_cast<float>(std::sqrt(0.5 * std::pow(10.0, 0.1 * level_db)));
+  ensonify::random::add_gaussian({1, "noise"}, 1, 0, sd, image.envelope_upa);
   std::vector<float> amplitude;
   amplitude_upa(image, amplitude);
   return amplitude;

@@ -102,6 +102,22 @@ ElementLine power_line(const ElementLine& line) {
   return {2 * line.elements - 1, line.spacing_in_waves, line.axis_head};
 }
 
+array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights) {
+  const double middle = 0.5 * static_cast<double>(weights.size() - 1);
+  std::vector<double> squares;
+  for (const float weight : weights) squares.push_back(static_cast<double>(weight) * static_cast<double>(weight));
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+  const auto pattern = [&](double sine) {
+    std::complex<double> sum;
+    for (std::size_t m = 0; m < squares.size(); ++m) {
+      const double turns = line.spacing_in_waves * (static_cast<double>(m) - middle) * sine;
+      sum += squares[m] / all * std::polar(1.0, 2.0 * std::numbers::pi * turns);
+    }
+    return sum;
+  };
+  return {pattern, std::max(line.spacing_in_waves * middle, 0.5)};
+}
+
 LineReceiver::LineReceiver(const ElementLine& line)
     : line_(line),
       cells_(fft::Transform::fast_size(std::max(2 * line.elements, 2 * kWidth))),
@@ -134,6 +150,10 @@ double LineReceiver::share_of_sphere(int cell) const {
     covered += std::max(0.0, std::min(1.0, middle + 0.5 * width) - std::max(-1.0, middle - 0.5 * width));
   }
   return 0.5 * covered;
+}
+
+bool LineReceiver::hears_electronic(const Background& background) {
+  return background.electronic_upa2 > kNegligible * background.isotropic_upa2;
 }
 
 double LineReceiver::cell_sine(int cell) const {
@@ -190,9 +210,12 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
     own.elements.resize(kBlock * static_cast<std::size_t>(line_.elements));
     own.spectrum.resize(row);
     own.field.resize(row);
-    if (input.background.volume_upa2.empty()) return;
     own.sum.resize(row);
-    own.draws.resize((kBlock + static_cast<std::size_t>(input.pulse.support())) * row);
+    const auto drawn = static_cast<std::size_t>(kBlock + input.pulse.support() - 1);
+    const auto size = [&](bool heard, int each) { return heard ? drawn * static_cast<std::size_t>(each) : 0; };
+    own.volume.resize(size(!input.background.volume_upa2.empty(), cells_));
+    own.isotropic.resize(size(hears_field(input.background), cells_));
+    own.noise.resize(size(hears_elements(input.background), line_.elements));
   });
   const bool halved = is_sum(weights);
   tbb::parallel_for(0, memory.index.blocks(),
@@ -220,45 +243,57 @@ void LineReceiver::spread(const Input& input, int block, const TimeIndex& index,
   });
 }
 
-/// Volume reverberation's draws for every sample that a block's pulses reach back to, mean square 1.
-void LineReceiver::draw_volume(const Input& input, int block, Thread& memory) const {
+/// Draws for every sample that a block's filter reaches back to: of the cells with mean square 1, of the elements with
+/// that of their noise.
+void LineReceiver::draw(const Input& input, int block, Thread& memory) const {
   const Background& background = input.background;
   const int rows = kBlock + input.pulse.support() - 1;
   const int first = block * kBlock - input.pulse.support() + 1;
-  std::fill(memory.draws.begin(), memory.draws.end(), std::complex<float>{});
-  for (int r = 0; r < rows; ++r) {
-    const auto first_draw = static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
-    const auto row = std::span(memory.draws).subspan(first_draw, static_cast<std::size_t>(cells_));
-    random::add_gaussian(*background.volume, background.ping, counter_of(first + r), component_sd(1.0), row);
+  const auto add = [&](const random::Stream& stream, double mean_square, int row_size, auto& draws) {
+    const auto size = static_cast<std::size_t>(row_size);
+    for (int r = 0; r < rows; ++r) {
+      random::add_gaussian(stream, background.ping, counter_of(first + r), component_sd(mean_square),
+                           std::span(draws).subspan(static_cast<std::size_t>(r) * size, size));
+    }
+  };
+  for (auto* draws : {&memory.volume, &memory.isotropic, &memory.noise}) {
+    std::fill(draws->begin(), draws->end(), std::complex<float>{});
+  }
+  if (!background.volume_upa2.empty()) add(*background.volume, 1.0, cells_, memory.volume);
+  if (hears_field(background)) add(*background.isotropic, 1.0, cells_, memory.isotropic);
+  if (background.isotropic_upa2 > 0.0 && white_)
+    add(*background.isotropic, background.isotropic_upa2, line_.elements, memory.noise);
+  if (hears_electronic(background))
+    add(*background.electronic, background.electronic_upa2, line_.elements, memory.noise);
+}
+
+/// What the filter makes of draws in row r of a block: what came k samples ago is in its k-th sample.
+void LineReceiver::filter(const Input& input, int r, std::span<const std::complex<float>> draws,
+                          std::span<std::complex<float>> sum) {
+  const auto response = input.pulse.response();
+  std::fill(sum.begin(), sum.end(), std::complex<float>{});
+  for (std::size_t k = 0; k < response.size(); ++k) {
+    const std::size_t row = static_cast<std::size_t>(r) + response.size() - 1 - k;
+    const std::complex<float>* drawn = draws.data() + row * sum.size();
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += response[k] * drawn[i];
   }
 }
 
 /// Sound from all directions at once in one sample, on the sine grid (without spreading).
-void LineReceiver::draw_field(const Input& input, int block, int sample, Thread& memory) const {
+void LineReceiver::make_field(const Input& input, int block, int sample, Thread& memory) const {
   const Background& background = input.background;
   const auto cells = static_cast<std::size_t>(cells_);
-  std::complex<float>* field = memory.field.data();
-  std::fill_n(field, cells, std::complex<float>{});
-  if (background.isotropic_upa2 > 0.0 && !white_) {
-    random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
-                         component_sd(background.isotropic_upa2), std::span(field, cells));
-    for (std::size_t c = 0; c < cells; ++c) field[c] *= isotropic_share_[c];
+  const auto field = std::span(memory.field).first(cells), sum = std::span(memory.sum).first(cells);
+  std::fill(field.begin(), field.end(), std::complex<float>{});
+  if (hears_field(background)) {
+    filter(input, sample - block * kBlock, memory.isotropic, sum);
+    const auto amplitude = static_cast<float>(std::sqrt(background.isotropic_upa2));
+    for (std::size_t c = 0; c < cells; ++c) field[c] += amplitude * isotropic_share_[c] * sum[c];
   }
   if (!background.volume_upa2.empty()) {
+    filter(input, sample - block * kBlock, memory.volume, sum);
     const float* mean_square = background.volume_upa2.data() + static_cast<std::size_t>(sample) * cells;
-    const auto envelope = input.pulse.row(SampledPulse::kPhases / 2);
-    float energy = 0.0F;
-    for (const float e : envelope) energy += e * e;
-    std::complex<float>* sum = memory.sum.data();
-    std::fill_n(sum, cells, std::complex<float>{});
-    for (int k = 0; k < input.pulse.support(); ++k) {  // what arrived k samples ago is in the pulse's k-th sample
-      const int row = sample - block * kBlock + input.pulse.support() - 1 - k;
-      const std::complex<float>* draws =
-          memory.draws.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_);
-      const float e = envelope[static_cast<std::size_t>(k)];
-      for (std::size_t c = 0; c < cells; ++c) sum[c] += e * draws[c];
-    }
-    for (std::size_t c = 0; c < cells; ++c) field[c] += std::sqrt(mean_square[c] / energy) * sum[c];
+    for (std::size_t c = 0; c < cells; ++c) field[c] += std::sqrt(mean_square[c]) * sum[c];
   }
 }
 
@@ -276,18 +311,15 @@ void LineReceiver::to_elements(const Input& input, int block, int sample, Thread
   std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
   for (int m = 0; m < M; ++m) elements[m] = spectrum[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
   const Background& background = input.background;
-  if ((background.isotropic_upa2 > 0.0 && !white_) || !background.volume_upa2.empty()) {
-    draw_field(input, block, sample, memory);
+  if (hears_field(background) || !background.volume_upa2.empty()) {
+    make_field(input, block, sample, memory);
     to_elements_(memory.field.data(), spectrum);
     for (int m = 0; m < M; ++m) elements[m] += spectrum[harmonic(m)];
   }
-  if (background.isotropic_upa2 > 0.0 && white_) {
-    random::add_gaussian(*background.isotropic, background.ping, counter_of(sample),
-                         component_sd(background.isotropic_upa2), std::span(elements, static_cast<std::size_t>(M)));
-  }
-  if (background.electronic_upa2 > kNegligible * background.isotropic_upa2) {
-    random::add_gaussian(*background.electronic, background.ping, counter_of(sample),
-                         component_sd(background.electronic_upa2), std::span(elements, static_cast<std::size_t>(M)));
+  if (hears_elements(background)) {
+    const auto sum = std::span(memory.sum).first(static_cast<std::size_t>(M));
+    filter(input, r, memory.noise, sum);
+    for (int m = 0; m < M; ++m) elements[m] += sum[static_cast<std::size_t>(m)];
   }
 }
 
@@ -327,8 +359,8 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
                               Memory& memory, std::span<Image> images) const {
   const Background& background = input.background;
   const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
-  const bool silent = background.isotropic_upa2 <= 0.0 && background.electronic_upa2 <= 0.0 &&
-                      background.volume_upa2.empty() && !memory.index.any(block);
+  const bool silent = !hears_field(background) && !hears_elements(background) && background.volume_upa2.empty() &&
+                      !memory.index.any(block);
   if (silent) {
     for (Image& image : images) {
       for (int beam = 0; beam < image.beams; ++beam)
@@ -338,7 +370,7 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
   }
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
   spread(input, block, memory.index, own);
-  if (!background.volume_upa2.empty()) draw_volume(input, block, own);
+  draw(input, block, own);
   for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, own);
   for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
     to_beam_grid(samples, weights[i], own);

@@ -64,15 +64,21 @@ std::vector<float> beam_weights(std::span<const double> weights, std::span<const
 std::vector<float> power_weights(std::span<const float> weights);
 ElementLine power_line(const ElementLine& line);
 
-/// Sound that is there without any arrival, as mean squares per sample. Each of the three draws from its own stream, by
-/// (ping, sample, place) only; a level of zero or an empty span leaves it out without a change to the others.
+/// Mean over beams, at all sines, of the product of their amplitudes in two directions over that of a square, by the
+/// difference of the directions' sines: the pattern of the squared weights. It is the part that beams share of the
+/// cross term of two coherent waves (power_gains), exact for the sum of all beams.
+array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights);
+
+/// Sound that is there without any arrival, as mean squares per sample. It is white before the receiver's filter
+/// (SampledPulse::response), so coloured in time as echoes are. Each of the three draws from its own stream, by (ping,
+/// sample, place) only; a level of zero or an empty span leaves it out without a change to the others.
 struct Background {
   std::uint64_t ping = 0;
   double isotropic_upa2 = 0.0;  // ambient noise at one element, in the receiver's band, equal from all directions
   const random::Stream* isotropic = nullptr;
   double electronic_upa2 = 0.0;  // of each element's own electronics, as sound; 160 dB below the isotropic: not drawn
   const random::Stream* electronic = nullptr;
-  /// Volume reverberation: sample by cell of the receiver's sine grid; coloured in time by the pulse.
+  /// Volume reverberation: sample by cell of the receiver's sine grid.
   std::span<const float> volume_upa2;
   const random::Stream* volume = nullptr;
 };
@@ -119,7 +125,9 @@ class LineReceiver {
       Spreading::Taps taps;
     };
     struct Thread {
-      std::vector<std::complex<float>> grid, elements, spectrum, field, sum, draws;
+      std::vector<std::complex<float>> grid, elements, spectrum, field, sum;
+      // Draws of a block and of what its filter reaches back to: by sample and cell, or sample and element.
+      std::vector<std::complex<float>> volume, isotropic, noise;
     };
     TimeIndex index;
     std::vector<Steer> steer;
@@ -139,13 +147,22 @@ class LineReceiver {
   void check(const Input& input, std::span<const std::vector<float>> weights, std::size_t images) const;
   double share_of_sphere(int cell) const;
   float grid_place(float sine) const;
+  /// Isotropic noise as a field, where it is not independent from element to element ...
+  bool hears_field(const Background& background) const { return background.isotropic_upa2 > 0.0 && !white_; }
+  /// ... and what each element has of its own.
+  static bool hears_electronic(const Background& background);
+  bool hears_elements(const Background& background) const {
+    return (background.isotropic_upa2 > 0.0 && white_) || hears_electronic(background);
+  }
   /// Index of element m in a transform.
   int harmonic(int m) const {
     return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
   }
   void spread(const Input& input, int block, const TimeIndex& index, Thread& memory) const;
-  void draw_volume(const Input& input, int block, Thread& memory) const;
-  void draw_field(const Input& input, int block, int sample, Thread& memory) const;
+  void draw(const Input& input, int block, Thread& memory) const;
+  static void filter(const Input& input, int r, std::span<const std::complex<float>> draws,
+                     std::span<std::complex<float>> sum);
+  void make_field(const Input& input, int block, int sample, Thread& memory) const;
   void to_elements(const Input& input, int block, int sample, Thread& memory) const;
   void to_beam_grid(int samples, std::span<const float> weights, Thread& memory) const;
   void read_beams(int block, int samples, std::span<const Steer> steers, const Thread& memory, Image& image) const;

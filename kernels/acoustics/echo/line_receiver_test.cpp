@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/acoustics/echo/multipath.h"
 #include "kernels/base/testing/allocations.h"
 
 using namespace ensonify;
@@ -196,6 +197,36 @@ TEST_CASE("switching one background off leaves the others' draws as they are") {
   CHECK(product(electronic, 3, 3).real() == Approx(5.0 / 33).epsilon(0.4));  // 100 samples: sd 10 %
 }
 
+TEST_CASE("without speckle all beams together receive a pair's pressures, near or far apart") {
+  const ElementLine line{37, 0.5};
+  const auto weights = uniform(line.elements);
+  std::vector<float> beams;  // over the whole period of sines
+  for (int i = 0; i < 200; ++i) beams.push_back(float(-1.0 + 0.01 * i));
+  const auto energy = [&](const Image& image, const auto& of) {
+    double sum = 0.0;
+    for (int b = 0; b < image.beams; ++b) sum += of(image.row(b)[41]);
+    return sum / image.beams;
+  };
+  for (const double apart : {0.0, 0.02, 0.05, 0.08, 0.3}) {
+    const Arrivals pressures{from_sine(0.2, 11e-3, 3.0), from_sine(0.2 + apart, 11e-3, 1.0)};
+    const double want = energy(form(line, {std::array{EchoSet{pressures}}, kPulse, kSampling, {}}, beams, weights),
+                               [](std::complex<float> p) { return double(std::norm(p)); });
+    const Arrivals powers{from_sine(0.2, 11e-3, 9.0), from_sine(0.2 + apart, 11e-3, 1.0)};
+    const array::PatternTable shared = shared_by_beams(line, weights);
+    std::vector<float> gain{1.0F, 1.0F};
+    power_gains(
+        powers, {0, 1},
+        [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+          return shared.amplitude(double(a.y() - b.y())).real();
+        },
+        gain);
+    const Image image = form(power_line(line), {std::array{EchoSet{powers, gain}}, kPulse.squared(), kSampling, {}},
+                             beams, power_weights(weights));
+    CHECK(energy(image, [](std::complex<float> p) { return double(p.real()); }) == Approx(want).epsilon(2e-3));
+    if (apart == 0.0) CHECK(double(image.row(120)[41].real()) == Approx(16.0).epsilon(1e-3));  // (3 + 1)^2 on the axis
+  }
+}
+
 TEST_CASE("threads change no bit, and a ping after the first allocates nothing") {
   const auto arrivals = many(20000);
   const auto beams = sines(256);
@@ -226,7 +257,8 @@ TEST_CASE("one set of arrivals or several of any size give the same bits") {
   for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1024}}) {
     std::vector<Arrivals> batches((arrivals.size() + size - 1) / size);
     for (std::size_t i = 0; i < arrivals.size(); ++i) batches[i / size].push_back(arrivals[i]);
-    const std::vector<EchoSet> sets(batches.begin(), batches.end());
+    std::vector<EchoSet> sets;
+    for (const Arrivals& batch : batches) sets.push_back({batch});
     CHECK(form({60, 0.5}, {sets, kPulse, kSampling, {}}, beams, uniform(60)).envelope_upa == whole.envelope_upa);
   }
 }

@@ -117,11 +117,31 @@ double surface_reflection(const SurfaceMirror& surface, double frequency_hz, dou
          std::pow(10.0, -0.05 * surface.bounce_loss_db);
 }
 
-void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                   const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
-                   const Receivers& receivers, Arrivals& arrivals) {
+void power_gains(const Arrivals& arrivals, const PairedArrivals& paired,
+                 const std::function<float(const Eigen::Vector3f&, const Eigen::Vector3f&)>& shared,
+                 std::span<float> gains) {
+  const std::vector<float>& mean_square = arrivals.pressure_re_upa;
+  const auto pair = [&](std::size_t i) {
+    const std::size_t j = i + 1;
+    const float g = gains[i], h = gains[j], p = mean_square[i], q = mean_square[j];
+    gains[i] = g * g, gains[j] = h * h;
+    if (!(p > 0.0F && q > 0.0F) || g == 0.0F || h == 0.0F) return;
+    const float both = shared(arrivals.direction_head[i], arrivals.direction_head[j]) * g * h;
+    gains[i] += both * std::sqrt(q / p);
+    gains[j] += both * std::sqrt(p / q);
+  };
+  const std::size_t end = paired.first + 2 * paired.pairs;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (i < paired.first || i >= end) gains[i] *= gains[i];
+  }
+  tbb::parallel_for(std::size_t{0}, paired.pairs, [&](std::size_t i) { pair(paired.first + 2 * i); });
+}
+
+PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                             const MultipathParts& parts, const frames::HeadPose& pose,
+                             std::span<const Scatterer> scatterers, const Receivers& receivers, Arrivals& arrivals) {
   const double level_m = surface.level_enu_m;
-  if (pose.position_enu_m.z() >= level_m) return;
+  if (pose.position_enu_m.z() >= level_m) return {};
   const Paths paths{carrier, head, surface, pose, receivers};
   const bool mirrors = strongest_reflection(paths, scatterers) >= kLeastReflection;
   const std::size_t each = mirrors ? (parts.one_bounce ? 2U : 0U) + (parts.second_bottom ? 2U : 0U) : 0U;
@@ -152,6 +172,7 @@ void add_multipath(const Carrier& carrier, const MultipathHead& head, const Surf
     const Vec3 above = mirrored(pose.position_enu_m, level_m);
     arrivals.push_back(paths.mirror_echo(above, above, V));
   }
+  return {before, each * scatterers.size() / 2};
 }
 
 }  // namespace ensonify::echo

@@ -41,6 +41,19 @@ double surface_reflection(const SurfaceMirror& surface, double frequency_hz, dou
 /// Number of arrivals of add_multipath, for each scatterer, at most.
 inline constexpr std::size_t kMostMultipathEach = 4;
 
+/// Arrivals that are one scatterer's by one way in both orders, next to each other: first + 2 i and first + 2 i + 1.
+struct PairedArrivals {
+  std::size_t first = 0, pairs = 0;
+};
+
+/// Makes power gains, for Sum::kMeanSquare, of the amplitude gains of as many arrivals: squares, and for pairs also
+/// what they have more because they add as pressures. With mean squares p and q and gains g and h that is
+/// 2 s g h sqrt(p q), half of it with each. `shared`, s, is the part of it that one receiver has, of two directions:
+/// 1 for an aperture, whose mean square becomes (g sqrt(p) + h sqrt(q))^2.
+void power_gains(const Arrivals& arrivals, const PairedArrivals& paired,
+                 const std::function<float(const Eigen::Vector3f&, const Eigen::Vector3f&)>& shared,
+                 std::span<float> gains);
+
 /// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.
 ///
 /// With z mirrored at the surface (the head's depth d, a scatterer's depth D), for each scatterer:
@@ -55,10 +68,10 @@ inline constexpr std::size_t kMostMultipathEach = 4;
 /// Level: source level and transmit pattern in the direction of departure, scattering cross section (that of
 /// backscattering at the hit), one over the squares of both straight legs, absorption along them, the surface's and the
 /// bottom's reflections. Nothing is added for a head or a scatterer above the surface, nor for scatterers where waves
-/// leave less than 1e-5 of the amplitude on every way to them (-100 dB: then it costs nothing). With Sum::kMeanSquare
-/// the two of a pair add as powers, 3.01 dB below what they are.
-void add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                   const MultipathParts& parts, const frames::HeadPose& pose, std::span<const Scatterer> scatterers,
-                   const Receivers& receivers, Arrivals& arrivals);
+/// leave less than 1e-5 of the amplitude on every way to them (-100 dB: then it costs nothing). Returns which arrivals
+/// are pairs: with Sum::kMeanSquare their gains need power_gains.
+PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                             const MultipathParts& parts, const frames::HeadPose& pose,
+                             std::span<const Scatterer> scatterers, const Receivers& receivers, Arrivals& arrivals);
 
 }  // namespace ensonify::echo

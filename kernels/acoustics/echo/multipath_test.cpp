@@ -87,6 +87,40 @@ TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as
   CHECK(std::abs(std::arg(-ratio / turn)) < 1e-3);
 }
 
+TEST_CASE("without speckle an aperture's pair is (sqrt(bT1 bR2) + sqrt(bT2 bR1))^2 of one path") {
+  // Below the head bT1 and bR1, above it bT2 and bR2. One aperture both ways: 6.02 dB more than one path.
+  Carrier carrier = kCarrier;
+  carrier.sum = Sum::kMeanSquare;
+  constexpr double kBelow = 0.81, kAbove = 0.09;
+  for (const auto& [received_below, received_above] : {std::pair{kBelow, kAbove}, {1.0, 1.0}, {0.25, 0.0}}) {
+    Geometry geometry(4.0, 20.0);
+    geometry.head.transmit = [](const Eigen::Vector3f& direction) { return direction.z() > 0 ? kBelow : kAbove; };
+    Scatterer one = geometry.at(30.0);
+    one.scattered_upa2m2 *= float(kBelow);  // what the rays carried
+    Arrivals arrivals;
+    add_direct_echoes(carrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, arrivals);
+    const PairedArrivals paired = add_multipath(carrier, geometry.head, geometry.surface, {true, false, false},
+                                                geometry.pose, std::span(&one, 1), geometry.receivers, arrivals);
+    REQUIRE(arrivals.size() == 3);
+    CHECK(paired.first == 1);
+    CHECK(paired.pairs == 1);
+    std::vector<float> gain;
+    for (const Arrival& arrival : arrivals)
+      gain.push_back(float(std::sqrt(arrival.direction_head.z() > 0 ? received_below : received_above)));
+    power_gains(
+        arrivals, paired, [](const auto&, const auto&) { return 1.0F; }, gain);
+    const double R1 = std::hypot(30.0, 20.0), R2 = std::hypot(30.0, 28.0);
+    const double one_path = std::pow(10.0, 20.0 - 4.0 - 0.1 * kAlpha * (R1 + R2)) / std::pow(R1 * R2, 2);
+    const double pair = double(arrivals.pressure_re_upa[1] * gain[1]) + double(arrivals.pressure_re_upa[2] * gain[2]);
+    const double amplitudes = std::sqrt(kBelow * received_above) + std::sqrt(kAbove * received_below);
+    CHECK(pair / one_path == Approx(amplitudes * amplitudes).epsilon(1e-4));  // float
+    CHECK(double(gain[0]) == Approx(received_below));                         // the direct echo has no part in it
+    if (received_below == kBelow) {
+      CHECK(10 * std::log10(pair / (one_path * kBelow * kAbove)) == Approx(6.0206).margin(0.001));
+    }
+  }
+}
+
 TEST_CASE("the second bottom echo comes after both heights of water") {
   const Geometry geometry(4.0, 20.0);
   const auto second = geometry.multipath(0.0, {false, true, false});

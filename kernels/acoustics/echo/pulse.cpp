@@ -38,8 +38,9 @@ double window_at(Window window, double x) {
   return 1.0;
 }
 
-/// |Integral of w(t') e^(i pi (B / T) ((t' + lag)^2 - t'^2)) dt'| over the overlap of sweep and reference, both from
-/// -T/2 to T/2: the matched filter's output at `lag`, not yet scaled.
+/// Integral of w(t') e^(i pi (B / T) ((t' + lag)^2 - t'^2)) dt' over the overlap of sweep and reference, both from
+/// -T/2 to T/2: the matched filter's output at `lag`, not yet scaled. Its magnitude, with the sign of its real part:
+/// the rest of its phase comes of the window alone, and is small but for sweeps of few turns.
 double correlation(double length_s, double bandwidth_hz, Window window, double lag_s) {
   const double rate = bandwidth_hz / length_s;
   const double from = std::max(-0.5 * length_s, -0.5 * length_s - lag_s);
@@ -53,7 +54,7 @@ double correlation(double length_s, double bandwidth_hz, Window window, double l
     const double t = from + (i + 0.5) * step;
     sum += window_at(window, t / length_s + 0.5) * std::polar(1.0, 2.0 * kPi * rate * lag_s * (t + 0.5 * lag_s));
   }
-  return std::abs(sum) * step;
+  return std::copysign(std::abs(sum), sum.real()) * step;
 }
 
 }  // namespace
@@ -123,7 +124,7 @@ Pulse compressed_chirp(double length_s, double bandwidth_hz, Window window, doub
   std::size_t kept = 1;
   for (int i = 0; i <= reach; ++i) {
     half.push_back(correlation(length_s, bandwidth_hz, window, i * step) / peak);
-    if (half.back() > least) kept = half.size();
+    if (std::abs(half.back()) > least) kept = half.size();
   }
   half.resize(kept);
   half.push_back(0.0);
@@ -152,6 +153,12 @@ SampledPulse::SampledPulse(const Pulse& pulse, double period_s) : start_in_perio
       table_.push_back(static_cast<float>(pulse.at(pulse.start_s + after_start)));
     }
   }
+  // The mean over where an echo may begin: a last sample that a pulse reaches now and then counts as often.
+  response_.assign(static_cast<std::size_t>(support_), 0.0F);
+  for (std::size_t i = 0; i < table_.size(); ++i) response_[i % response_.size()] += table_[i] / kPhases;
+  float energy = 0.0F;
+  for (const float r : response_) energy += r * r;
+  for (float& r : response_) r /= std::sqrt(energy);
 }
 
 SampledPulse SampledPulse::squared() const {

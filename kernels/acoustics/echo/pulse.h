@@ -9,7 +9,7 @@ namespace ensonify::echo {
 /// Echo of one point behind the receiver's filter: its envelope against the time since the echo's start
 /// arrived. The peak is 1, so an echo keeps its level (rms during the pulse) whatever the pulse.
 ///
-/// For a compressed chirp the filter's delay is taken out: the peak stands at time 0.
+/// For a compressed chirp the filter's delay is taken out: the peak stands at time 0. Its side lobes have their signs.
 struct Pulse {
   double duration_s = 0.0;          // of the transmission
   double start_s = 0.0;             // of the first entry
@@ -64,6 +64,10 @@ class SampledPulse {
   };
   Place place(double periods) const;
 
+  /// The receiver's filter as white sound passes it, noise and reverberation: the echo of one point, of energy 1. So
+  /// what is white before it, of mean square 1 a sample, keeps that and has the spectrum of echoes.
+  std::span<const float> response() const { return response_; }
+
   int support() const { return support_; }
   std::span<const float> row(int phase) const {
     return std::span(table_).subspan(static_cast<std::size_t>(phase) * static_cast<std::size_t>(support_),
@@ -73,7 +77,7 @@ class SampledPulse {
  private:
   int support_;
   double start_in_periods_;
-  std::vector<float> table_;
+  std::vector<float> table_, response_;
 };
 
 }  // namespace ensonify::echo

@@ -9,8 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernels/base/random/stream.h"
-
 namespace ensonify::echo {
 namespace {
 
@@ -123,29 +121,6 @@ void reverberation_upa2(double source_level_db, double absorption_dbpm, double s
         sum += static_cast<double>(table.at(depth_m)) * part.solid_angle_sr;
       }
       out[c] = static_cast<float>(per_scatter * sum);
-    }
-  });
-}
-
-void RowReverberation::add(std::span<const float> mean_square_upa2, const SampledPulse& pulse, std::uint64_t ping,
-                           const random::Stream& stream, Image& image) {
-  const auto rows = static_cast<std::size_t>(image.beams);
-  if (mean_square_upa2.size() != rows * static_cast<std::size_t>(image.samples)) {
-    throw std::invalid_argument("reverberation needs one mean square per sample and row");
-  }
-  const auto envelope = pulse.row(SampledPulse::kPhases / 2);
-  float energy = 0.0F;
-  for (const float e : envelope) energy += e * e;
-  if (draws_.size() < rows) draws_.resize(rows);
-  tbb::parallel_for(0, image.beams, [&](int beam) {
-    auto& draws = draws_[static_cast<std::size_t>(beam)];
-    draws.assign(static_cast<std::size_t>(image.samples) + envelope.size(), {});
-    random::add_gaussian(stream, ping, static_cast<std::uint64_t>(beam) << 32, std::sqrt(0.5F), draws);
-    auto out = image.row(beam);
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      std::complex<float> sum;
-      for (std::size_t i = 0; i < envelope.size(); ++i) sum += envelope[i] * draws[k + envelope.size() - i];
-      out[k] += std::sqrt(mean_square_upa2[k * rows + static_cast<std::size_t>(beam)] / energy) * sum;
     }
   });
 }

@@ -11,7 +11,6 @@
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/base/frames/pose.h"
-#include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
 
@@ -58,17 +57,5 @@ void reverberation_upa2(double source_level_db, double absorption_dbpm, double s
                         std::span<const VolumeDirections> channels, const VolumeLayers& layers,
                         const frames::HeadPose& pose, const Pulse& pulse, const Sampling& sampling,
                         std::vector<float>& mean_square_upa2);
-
-/// Reverberation of single apertures. (Line arrays take Background::volume_upa2 instead.)
-class RowReverberation {
- public:
-  /// Adds reverberation of these mean squares (sample by row) to an image: complex Gaussian, coloured by the pulse,
-  /// independent between rows; a function of (ping, row, sample).
-  void add(std::span<const float> mean_square_upa2, const SampledPulse& pulse, std::uint64_t ping,
-           const random::Stream& stream, Image& image);
-
- private:
-  std::vector<std::vector<std::complex<float>>> draws_;  // by row
-};
 
 }  // namespace ensonify::echo

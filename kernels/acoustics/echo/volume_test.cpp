@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/aperture.h"
 
 using namespace ensonify;
 using namespace ensonify::echo;
@@ -121,8 +122,8 @@ TEST_CASE("rows of single apertures have the level they are given") {
   image.resize(2, 20000);
   std::vector<float> level(40000);
   for (std::size_t i = 0; i < level.size(); ++i) level[i] = i % 2 == 0 ? 4.0F : 9.0F;
-  RowReverberation reverberation;
-  reverberation.add(level, SampledPulse(kPulse, 50e-6), 3, {1, "volume"}, image);
+  RowBackground background;
+  background.add_reverberation(level, SampledPulse(kPulse, 50e-6), 3, {1, "volume"}, image);
   for (int row = 0; row < 2; ++row) {
     double power = 0, next = 0;
     for (int k = 1; k < 20000; ++k) {

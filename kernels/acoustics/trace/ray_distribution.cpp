@@ -27,8 +27,8 @@ constexpr std::size_t kMostToFacets = 4;  // of all rays one in so many
 // places wander on the seabed by a quarter of what the head moves.
 constexpr double kPlaneStep_m = 0.25,
                  kPlaneShift = 0.3819660113;  // a seabed at a round depth is not between two planes
-constexpr std::size_t kFewestToPlaces =
-    40;  // strata of a part: fewer rays sample a peaked law better if they are strata
+// Strata of a part: fewer rays sample a peaked law better if they are strata.
+constexpr auto kFewestToPlaces = static_cast<std::size_t>(RaySettings::kToPlaces);
 
 constexpr double kSpare = 1.01;  // of the fewest rays
 
@@ -212,7 +212,7 @@ RayDistribution::Need RayDistribution::need(std::size_t i, std::size_t j, const 
   const Need facets{settings_.quality * kRaysPerFacet * std::max(coarse, fine), wide_u_m / wide_phi_m};
 
   Need both = facets.rays > resolution.rays ? facets : resolution;
-  both.rays *= importance_of(i * columns() + j);
+  both.rays = std::max(both.rays, settings_.fewest_in_main_cell) * importance_of(i * columns() + j);
   both.rays = std::min(both.rays, static_cast<double>(settings_.most_rays));
   both.plane_m = seen.plane_m;
   return both;

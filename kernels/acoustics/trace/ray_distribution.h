@@ -114,8 +114,11 @@ struct RaySettings {
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
   std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
   std::size_t fewest_rays = 0;        // at normal quality, else that times the quality: cells share in what is missing
+  double fewest_in_main_cell = 0.0;   // rays to a cell of directions in the main lobe, at any quality; less beyond
 
   static constexpr double kPreview = 0.25, kNormal = 1.0, kReference = 4.0;
+  /// Cells of directions with as many rays aim them at places of the world, where they see ground.
+  static constexpr double kToPlaces = 40.0;
 };
 
 /// Rays over a transmit volume, denser where the seabed asks for it.
@@ -129,8 +132,9 @@ struct RaySettings {
 /// Where a cell sees ground below, its rays aim at places of the world (ground_lattice.h) on the
 /// horizontal plane next to what they see: a head that moved a little has rays to the same places, so its echoes come
 /// from the same scatterers. Elsewhere, and where a cell has fewer than forty rays, it is cut into as many equal
-/// strata, with one ray at a random place in each. Either way rays are a fair sample of the volume whatever the
-/// density, all together carry its solid angle exactly, and the same pose over the same tiles has the same rays.
+/// strata, with one ray at a random place in each, the same as the head sees them. Either way rays are a fair sample of
+/// the volume whatever the density, all together carry its solid angle exactly, and the same pose over the same tiles
+/// has the same rays.
 ///
 /// Small things that probes may miss come as objects (Scene::objects()). Each of their facets in the volume has rays of
 /// its own (FacetRays): 16 at normal quality, at least one in the main lobe, and more where it is larger than

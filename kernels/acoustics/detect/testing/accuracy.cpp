@@ -63,7 +63,7 @@ std::vector<Accuracy> accuracy_at(double snr_db, const std::vector<double>& angl
   }
   Settings settings = settings_for(survey);
   settings.seabed_tilt_rad = tilt_rad;
-  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 8.0 : 13.0};
+  settings.gates = {.min_depth_m = 15.0, .max_depth_m = 25.0, .snr_db = snr_db < 15.0 ? 11.0 : 13.0};
   return accuracy(survey, settings, pings);
 }
 

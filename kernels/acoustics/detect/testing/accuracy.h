@@ -24,7 +24,8 @@ double theoretical_sd(double angle_rad, double snr_db);
 /// One entry per beam of the survey. settings are those of the detector.
 std::vector<Accuracy> accuracy(const PlaneSurvey& survey, const Settings& settings, int pings);
 
-/// 20 m, 1 degree, 100 us. The gate is an operator's: a quarter of the depth either way, so that 8 dB suffice at 10 dB.
+/// 20 m, 1 degree, 100 us. The gate is an operator's: a quarter of the depth either way, so that 11 dB suffice at 10
+/// dB.
 std::vector<Accuracy> accuracy_at(double snr_db, const std::vector<double>& angles_deg, double tilt_rad, int pings);
 
 }  // namespace ensonify::detect

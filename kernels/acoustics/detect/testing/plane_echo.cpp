@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/echo/pulse.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::detect {
@@ -88,6 +89,18 @@ void sample(const PlaneSurvey& survey, const std::vector<Scatterer>& scatterers,
   }
 }
 
+/// Adds noise that came through the filter that echoes came through.
+void add_noise(const PlaneSurvey& survey, float sd, const random::Stream& stream, std::uint64_t ping,
+               std::uint64_t draws_from, std::span<std::complex<float>> half) {
+  const echo::SampledPulse pulse(echo::rectangular_pulse(survey.pulse_length_s), survey.period_s);
+  const auto response = pulse.response();
+  std::vector<std::complex<float>> draws(half.size() + response.size());
+  random::add_gaussian(stream, ping, draws_from, sd, draws);
+  for (std::size_t k = 0; k < half.size(); ++k) {
+    for (std::size_t i = 0; i < response.size(); ++i) half[k] += response[i] * draws[k + response.size() - i];
+  }
+}
+
 }  // namespace
 
 void PlaneEcho::ping(const PlaneSurvey& survey, const random::Stream& stream, std::uint64_t number) {
@@ -102,8 +115,8 @@ void PlaneEcho::ping(const PlaneSurvey& survey, const random::Stream& stream, st
     const Echoes echoes = echoes_of(survey, survey.sin_beams[beam], stream, number, beam);
     sample(survey, echoes.scatterers, positive, negative);
     const auto sd = static_cast<float>(std::sqrt(0.25 * echoes.noise_power));  // per half and component
-    random::add_gaussian(stream, number, (2 * beam + 1) << 40, sd, positive);
-    random::add_gaussian(stream, number, (2 * beam + 2) << 40, sd, negative);
+    add_noise(survey, sd, stream, number, (2 * beam + 1) << 40, positive);
+    add_noise(survey, sd, stream, number, (2 * beam + 2) << 40, negative);
   }
   for (std::size_t i = 0; i < amplitude_upa.size(); ++i) amplitude_upa[i] = std::abs(positive_upa[i] + negative_upa[i]);
 }
