@@ -213,7 +213,7 @@ std::optional<Fault> fault_of(const std::string& process, bool native, const End
 
 Fault most_significant(const std::vector<Fault>& faults) {
   const auto weight = [](const Fault& fault) {
-    return fault.message.starts_with("was killed by signal") ? 0 : fault.culprit == "clock" ? 1 : 2;
+    return fault.message.starts_with("was killed by signal") ? 0 : fault.by_clock || fault.culprit == "clock" ? 1 : 2;
   };
   return *std::min_element(faults.begin(), faults.end(),
                            [&](const Fault& a, const Fault& b) { return weight(a) < weight(b); });

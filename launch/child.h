@@ -55,6 +55,7 @@ struct Fault {
   int code = kExitDied;
   std::string culprit;  // process name
   std::string message;
+  bool by_clock = false;  // the clock said so, whoever the culprit is
 };
 
 /// Decides a run's exit code: the first fault wins; a failed assertion (1) counts only when there was no fault;

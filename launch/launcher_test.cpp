@@ -12,6 +12,7 @@
 
 #include "launch/child.h"
 #include "launch/commands.h"
+#include "launch/memory.h"
 #include "launch/report.h"
 #include "launch/run_dir.h"
 
@@ -147,6 +148,34 @@ TEST_CASE("of faults noticed together a death by signal is reported first, then 
   CHECK(most_significant({follower, clock, killed}).culprit == "bow");
   CHECK(most_significant({follower, clock}).culprit == "clock");
   CHECK(most_significant({follower}).culprit == "auv");
+}
+
+TEST_CASE("memory is bounded by process and for the run as a whole, and who holds the most is named") {
+  const Held small{"auv", {150.0, 100.0}, std::nullopt};
+  Held large{"agent", {900.0, 800.0}, 1000.0};
+  CHECK_FALSE(too_much_memory({small, large}, 1125.0));  // 900 of their own: 80 %
+  const auto together = too_much_memory({small, large}, 1124.0);
+  REQUIRE(together);
+  CHECK(together->culprit == "agent");
+  CHECK(together->code == kExitDied);
+  large.most_mb = 899.0;
+  const auto alone = too_much_memory({small, large}, 1e6);
+  REQUIRE(alone);
+  CHECK(alone->message == "holds 900 MB of memory, its memory_mb is 899");
+}
+
+TEST_CASE("memory of a group is that of all its processes") {
+  const pid_t group = ::getpgrp();
+  const auto before = resident_of({group});
+  REQUIRE(before.contains(group));
+  const std::vector<char> block(100'000'000, 'x');
+  const auto after = resident_of({group}).at(group);
+  // 100 MB were written; the kernel counts pages in batches of at most 64 per thread, 0.3 MB.
+  CHECK(after.all_mb - before.at(group).all_mb > 99.0);
+  CHECK(after.own_mb - before.at(group).own_mb > 99.0);
+  CHECK(after.all_mb < machine_mb());
+  CHECK(block.back() == 'x');
+  CHECK(resident_of({}).empty());
 }
 
 TEST_CASE("a child runs in its own group, writes its log and gets its environment") {

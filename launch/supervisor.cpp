@@ -9,6 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "launch/memory.h"
+
 namespace ensonify::launcher {
 namespace {
 
@@ -16,8 +18,10 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kAskEvery{200};
+constexpr milliseconds kWatchMemoryEvery{500};
 constexpr milliseconds kAnswerPatience{50};
 constexpr milliseconds kSettle{100};            // deaths noticed together are judged together
+constexpr milliseconds kClocksWord{1000};       // it may name another process than the one that gave up first
 constexpr milliseconds kSettleUserErrors{300};  // so that the mistakes in several configurations are shown at once
 constexpr milliseconds kGraceAfterStop{5000};   // an orderly end after Ctrl-C
 constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death, but for
@@ -180,7 +184,9 @@ void Supervisor::on_ended(const Reaped& reaped) {
     }
     member.fault = fault;
     noticed_.push_back(*fault);
-    judge_at_ = now + (fault->code == kExitUserError ? kSettleUserErrors : kSettle);
+    const bool clock_knows =
+        fault->code != kExitUserError && member.child->ending()->signal == 0 && clock().child->running();
+    judge_at_ = now + (fault->code == kExitUserError ? kSettleUserErrors : clock_knows ? kClocksWord : kSettle);
   }
 }
 
@@ -197,6 +203,7 @@ void Supervisor::on_clock_ended(Member& member) {
     }
   }
   if (fault && !by_us() && fault->code != kExitInterrupted) {
+    fault->by_clock = true;
     member.fault = fault;
     noticed_.push_back(*fault);
     judge_at_ = now + kSettle;
@@ -307,6 +314,7 @@ void Supervisor::on_time(WallTime now) {
     ask_clock(now);
     check_leavers(now);
     respawn(now);
+    watch_memory(now);
   }
   progress_.show(sim_s_, elapsed_s(began_, now), clock_state_);
 }
@@ -368,6 +376,41 @@ void Supervisor::respawn(WallTime now) {
       start(member, process_command(launch_, *member.spec, places_, clock_endpoint_));
     }
   }
+}
+
+/// A run must not take the machine down. An observer that outgrows its memory is lost alone.
+void Supervisor::watch_memory(WallTime now) {
+  if (now - memory_watched_ < kWatchMemoryEvery || !noticed_.empty()) {
+    return;
+  }
+  memory_watched_ = now;
+  std::vector<pid_t> groups;
+  for (const auto& member : members_) {
+    if (member.child && member.child->running()) {
+      groups.push_back(member.child->pid());
+    }
+  }
+  const auto resident = resident_of(groups);
+  std::vector<Held> held;
+  for (const auto& member : members_) {
+    if (const auto found = member.child ? resident.find(member.child->pid()) : resident.end();
+        found != resident.end()) {
+      held.push_back({member.name, found->second, member.spec != nullptr ? member.spec->memory_mb : std::nullopt});
+    }
+  }
+  const auto fault = too_much_memory(held, machine_mb());
+  if (!fault) {
+    return;
+  }
+  auto& culprit =
+      *std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.name == fault->culprit; });
+  if (culprit.spec != nullptr && culprit.spec->observer) {
+    culprit.child->send(SIGKILL);
+    return;
+  }
+  culprit.fault = fault;
+  noticed_.push_back(*fault);
+  judge_at_ = now;
 }
 
 void Supervisor::send_all(int signal) {

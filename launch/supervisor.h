@@ -58,6 +58,7 @@ class Supervisor {
   void read_status(const std::string& text);
   void check_leavers(WallTime now);
   void respawn(WallTime now);
+  void watch_memory(WallTime now);
   void begin(Ending ending, WallTime now, std::chrono::milliseconds grace);
   void send_all(int signal);
   bool by_us() const { return ending_ >= Ending::kTerminated; }
@@ -87,6 +88,7 @@ class Supervisor {
   WallTime began_{};
   WallTime last_asked_{};
   WallTime last_answer_{};
+  WallTime memory_watched_{};
   double sim_s_ = 0.0;
   std::string clock_state_ = "STARTING";
 };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -115,6 +117,35 @@ void from_value(const Value& value, T& member, const std::string& path) {
       if (const Value* found = value.find(name)) from_value(*found, field, path.empty() ? name : path + "." + name);
     });
   }
+}
+
+/// Whether a field's or a type's text says that its numbers may be no numbers.
+constexpr bool speaks_of_nan(std::string_view about) { return about.find("NaN") != std::string_view::npos; }
+
+/// Name of the first field of a message with a number that is not finite though its text does not speak of NaN; "" when
+/// there is none. Raw arrays are not looked into: they are large, and who uses their elements checks them.
+template <class T>
+std::string not_finite(const T& member, const char* name, bool allowed) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return allowed || std::isfinite(member) ? "" : name;
+  } else if constexpr (IsFixed<T>::value || IsVector<T>::value) {
+    for (const auto& element : member) {
+      if (auto field = not_finite(element, name, allowed); !field.empty()) return field;
+    }
+  } else if constexpr (HasFields<T>) {
+    std::string first;
+    T::fields(member, [&](const char* inner, const char*, const char* about, const auto& field) {
+      if (!first.empty()) return;
+      first = not_finite(field, inner, allowed || speaks_of_nan(about));
+      if (!first.empty() && *name != '\0') first = std::string(name) + "." + first;
+    });
+    return first;
+  }
+  return "";
+}
+template <Message M>
+std::string not_finite(const M& message) {
+  return not_finite(message, "", speaks_of_nan(M::kAbout));
 }
 
 }  // namespace ensonify::msg

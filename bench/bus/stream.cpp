@@ -77,6 +77,7 @@ void publish_link(const Plan& plan) {
     packet.envelope.frame_count = 4;
     packet.envelope.type_hash = ensonify::msg::type_hash("blob/1");
     packet.envelope.seq = static_cast<std::uint64_t>(i);
+    packet.envelope.t_sim_ns = 1'000'000 * i;  // 1 kHz, as declared
     link.publish(packet);
   });
 }
@@ -84,7 +85,9 @@ void publish_link(const Plan& plan) {
 /// Age of each message on arrival; `gaps` counts missing numbers.
 std::vector<std::int64_t> receive_link(const Plan& plan, int& gaps) {
   Link link("sub", control_of(plan), {false, plan.folder, ""}, 64);
-  link.subscribe({{"pub/blob", 0, "blob/1", "ipc://" + plan.folder + "/pub.sync", "t", plan.bytes + 4096}}, 1);
+  const std::string endpoint = "ipc://" + plan.folder + "/pub.sync";
+  link.subscribe({{"pub/blob", 0, "blob/1", endpoint, "t", plan.bytes + 4096, "pub", 0, {1000, 1}}}, 1);
+  link.expect_until(std::chrono::hours(24));
   std::vector<std::int64_t> ages;
   std::uint64_t expected = 0;
   while (static_cast<int>(expected) < plan.count) {

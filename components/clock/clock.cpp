@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
@@ -60,32 +62,57 @@ std::optional<WallTime> Clock::next_alarm() const {
   return paced && (!alarm || *paced < *alarm) ? paced : alarm;
 }
 
+/// What ends or moves a run is heard from those alone who have joined it; everybody else is answered.
 void Clock::on_message(const bus::Router::Message& message) {
-  if (const auto done = protocol::read_done(message.text)) return on_done(message.from, *done);
   const std::string kind = protocol::kind_of(message.text);
+  if (kind == "hello") return on_hello(message.from, message.text);
+  if (kind != "done" && kind != "proven" && kind != "failed" && kind != "bye")
+    return on_request(message.from, kind, message.text);
+  const auto rank = registry_.participant(message.from);
+  if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
   try {
-    if (kind == "hello") on_hello(message.from, message.text);
-    else if (kind == "proven") on_proven(message.from, message.text);
-    else if (kind == "failed") on_failed(message.from, message.text);
-    else if (kind == "bye") {
-      if (const auto rank = registry_.rank_of(message.from); rank && *rank < left_.size()) left_[*rank] = true;
-    } else {
-      on_request(message.from, kind, message.text);
-    }
-  } catch (const std::exception& e) {  // a stranger's malformed text must not end the run
-    log::line("clock", conductor_ ? conductor_->now() : SimTime{0}, "bad_message",
-              "from=" + message.from + " error=" + e.what());
+    on_word(*rank, kind, message.text);
+  } catch (const std::exception& e) {
+    fail(kExitDied, message.from, fmt::format("{} broke the protocol: {}: {}", message.from, kind, e.what()));
+  }
+}
+
+void Clock::on_word(std::size_t rank, const std::string& kind, const std::string& text) {
+  const std::string& name = registry_.hellos()[rank].declaration.process;
+  if (kind == "done") {
+    const auto done = protocol::read_done(text);
+    if (!done) throw std::runtime_error(fmt::format("{} bytes are none", text.size()));
+    on_done(rank, *done);
+  } else if (kind == "proven") {
+    on_proven(name, text);
+  } else if (kind == "failed") {
+    on_failed(rank, protocol::read_failed(text));
+  } else if (phase_ == Phase::kEnding) {
+    left_[rank] = true;
+  } else {
+    fail(kExitDied, name, name + " left before the end of the run");
   }
 }
 
 void Clock::on_hello(const std::string& from, const std::string& text) {
-  const std::string refusal =
-      phase_ == Phase::kJoining ? registry_.join(from, protocol::read_hello(text)) : from + ": the run has started";
+  std::string refusal = "the run has started";
+  if (phase_ == Phase::kJoining) {
+    try {
+      refusal = registry_.join(from, protocol::read_hello(text));
+    } catch (const std::exception& e) {
+      refusal = std::string("hello: ") + e.what();
+    }
+  }
   if (!refusal.empty()) {
     router_.send(from, protocol::encode_refused({refusal}));
   } else if (registry_.complete()) {
     gather();
   }
+}
+
+/// A tool's mistake is answered, and costs nobody anything.
+void Clock::refuse(const std::string& to, const std::string& kind, const std::string& why) {
+  router_.send(to, nlohmann::json{{"kind", kind}, {"ok", false}, {"error", why}}.dump());
 }
 
 void Clock::gather() {
@@ -101,7 +128,7 @@ void Clock::gather() {
     return;
   }
   conductor_ = make_conductor(registry_.graph(), registry_.declarations(), launch_);
-  published_.assign(registry_.graph().topics.size(), 0);
+  referee_.emplace(registry_.graph(), registry_.declarations());
   inputs_.resize(registry_.size());
   left_.resize(registry_.size());
   for (const Graph::Edge& edge : registry_.graph().edges) {
@@ -140,46 +167,50 @@ void Clock::hand_out() {
   for (const Conductor::Grant& grant : conductor_->grants()) {
     protocol::Grant message;
     message.horizon = grant.horizon;
-    for (const std::uint32_t topic : inputs_[grant.participant]) message.inputs.emplace_back(topic, published_[topic]);
+    for (const std::uint32_t topic : inputs_[grant.participant])
+      message.inputs.emplace_back(topic, referee_->published(topic));
     ++accounts_[grant.participant].grants;
     router_.send(accounts_[grant.participant].name, protocol::encode(message));
   }
   if (conductor_->finished()) end(0);
 }
 
-void Clock::on_done(const std::string& from, const protocol::Done& done) {
-  const auto rank = registry_.rank_of(from);
-  if (phase_ != Phase::kRunning || !rank || !conductor_->running(*rank)) return;
+void Clock::on_done(std::size_t rank, const protocol::Done& done) {
+  if (phase_ == Phase::kEnding || phase_ == Phase::kOver) return;
+  if (phase_ != Phase::kRunning || !conductor_->running(rank)) throw std::runtime_error("answers no GRANT");
+  const std::string& name = accounts_[rank].name;
+  if (const auto breach = referee_->judge(rank, done, conductor_->next(rank), conductor_->granted(rank)))
+    return fail(breach->code, name, name + " " + breach->text);
   const WallTime now = steady_clock::now();
   last_progress_ = now;
   stall_stage_ = 0;
-  for (const auto& [topic, count] : done.outputs) {
-    if (topic < published_.size() && registry_.graph().topics[topic].publisher == *rank) published_[topic] = count;
-  }
-  Account& account = accounts_[*rank];
+  Account& account = accounts_[rank];
   account.cost_ns += done.cost_ns;
-  const bool was_last = conductor_->next(*rank) == conductor_->now();
+  const bool was_last = conductor_->next(rank) == conductor_->now();
   const SimTime late = pacer_.lateness(conductor_->now(), now);
   if (was_last && late > kLateAfter) {
     ++account.late_events;
     account.worst_lateness = std::max(account.worst_lateness, late);
   }
   if (done.finish) conductor_->end_at(done.next - SimTime{1} + kFinishMargin);
-  conductor_->done(*rank, done.next);
+  conductor_->done(rank, done.next);
   if (const SimTime slipped = pacer_.slip(conductor_->now(), now); slipped > SimTime{0}) {
     ++slips_;
     slipped_ += slipped;
-    log::line("clock", conductor_->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), from));
+    log::line("clock", conductor_->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), name));
     if (launch_.clock.slip_policy == ClockSettings::SlipPolicy::kFail) {
-      return fail(kExitStall, from,
-                  fmt::format("{} made the run {:.3f} s late; slip_policy is fail", from, seconds(slipped)));
+      return fail(kExitStall, name,
+                  fmt::format("{} made the run {:.3f} s late; slip_policy is fail", name, seconds(slipped)));
     }
   }
   hand_out();
 }
 
-void Clock::on_failed(const std::string& from, const std::string& text) {
-  fail(protocol::read_code(text), from, protocol::read_message(text));
+/// The culprit that a participant names must be one whose messages it takes.
+void Clock::on_failed(std::size_t rank, const protocol::Failed& failed) {
+  const auto culprit = registry_.participant(failed.culprit);
+  const bool of_another = culprit && registry_.feeds(*culprit, rank);
+  fail(failed.code, registry_.hellos()[of_another ? *culprit : rank].declaration.process, failed.message);
 }
 
 void Clock::on_time(WallTime now) {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "components/clock/pacer.h"
+#include "components/clock/referee.h"
 #include "components/clock/registry.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/lockstep/conductor.h"
@@ -57,10 +59,14 @@ class Clock {
   std::optional<WallTime> next_alarm() const;
   void on_message(const bus::Router::Message& message);
   void on_hello(const std::string& from, const std::string& text);
+  void on_word(std::size_t rank, const std::string& kind, const std::string& text);
   void on_proven(const std::string& from, const std::string& text);
-  void on_done(const std::string& from, const protocol::Done& done);
-  void on_failed(const std::string& from, const std::string& text);
+  void on_done(std::size_t rank, const protocol::Done& done);
+  void on_failed(std::size_t rank, const protocol::Failed& failed);
   void on_request(const std::string& from, const std::string& kind, const std::string& text);
+  // Each returns what is wrong with the request, or "".
+  std::string look_up(const nlohmann::json& request, nlohmann::json& answer) const;
+  std::string steer(const std::string& kind, const nlohmann::json& request, nlohmann::json& answer);
   void on_time(WallTime now);
 
   void gather();
@@ -68,6 +74,7 @@ class Clock {
   void hand_out();
   void watch_progress(WallTime now);
   void report_health(WallTime now);
+  void refuse(const std::string& to, const std::string& kind, const std::string& why);
   void fail(int code, const std::string& culprit, const std::string& message);
   void end(int code);
   void send_to_all(const std::string& text);
@@ -97,7 +104,7 @@ class Clock {
   int stall_stage_ = 0;
   std::vector<Account> accounts_;
   std::vector<std::vector<std::uint32_t>> inputs_;  // topic ids that each participant reads
-  std::vector<std::uint64_t> published_;            // per topic, as of the last DONE
+  std::optional<Referee> referee_;                  // with the conductor
   std::vector<bool> left_;
   std::uint64_t slips_ = 0;
   SimTime slipped_{0};

@@ -8,12 +8,15 @@ SimTime Pacer::cap(WallTime now) const {
   if (paused_) return pause_cap_;
   if (!rate_) return kNever;
   const double elapsed_s = std::chrono::duration<double>(now - origin_wall_).count();
-  return origin_sim_ + from_seconds(std::max(0.0, elapsed_s) * *rate_);
+  const double ahead_s = std::max(0.0, elapsed_s) * *rate_;
+  const bool for_ever = ahead_s >= seconds(kNever - std::max(origin_sim_, SimTime{0})) - 1.0;  // no overflow
+  return for_ever ? kNever : origin_sim_ + from_seconds(ahead_s);
 }
 
 std::optional<WallTime> Pacer::when(SimTime t) const {
   if (paused_ || !rate_ || t == kNever) return std::nullopt;
-  const std::chrono::duration<double> ahead(seconds(t - origin_sim_) / *rate_);
+  constexpr double kLongest_s = 1e9;  // decades; more would not fit
+  const std::chrono::duration<double> ahead(std::min(seconds(t - origin_sim_) / *rate_, kLongest_s));
   // A nanosecond more, so that rounding cannot leave the cap just short of t.
   return origin_wall_ + std::chrono::duration_cast<WallTime::duration>(ahead) + std::chrono::nanoseconds(1);
 }

@@ -54,3 +54,12 @@ TEST_CASE("a change of rate goes on from where the run is") {
   pacer.set_rate(10.0, 2_s, kStart + 2s);
   CHECK(pacer.cap(kStart + 3s) == 12_s);
 }
+
+TEST_CASE("the fastest and the slowest rate allowed stay in range over days and years") {
+  const Pacer fast = started(1e6);
+  CHECK(fast.cap(kStart + 1h) == SimTime{3'600'000'000'000'000'000});
+  CHECK(fast.cap(kStart + 72h) == kNever);
+  const Pacer slow = started(1e-3);
+  CHECK(*slow.when(std::chrono::hours(24 * 365 * 100)) > kStart + 8760h);
+  CHECK(slow.cap(kStart + 1h) == 3600_ms);
+}

@@ -6,6 +6,10 @@
 
 namespace ensonify::clock {
 
+namespace {
+constexpr double kPatienceInDeadlines = 5.0;  // below the ten after which whoever waits would be taken to stall
+}
+
 Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)), places_(process_places(launch)) {
   for (const ProcessSpec& process : launch.processes) {
     if (!process.observer) names_.push_back(process.name);  // observers are no part of the run
@@ -13,12 +17,24 @@ Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)), places_(p
   joined_.resize(names_.size());
   has_joined_.resize(names_.size());
   facts_ = facts_of(launch);
+  patience_s_ = kPatienceInDeadlines * launch.clock.progress_deadline_s;
 }
 
 std::optional<std::size_t> Registry::rank_of(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names_.begin());
+}
+
+std::optional<std::size_t> Registry::participant(const std::string& name) const {
+  const auto rank = rank_of(name);
+  return rank && has_joined_[*rank] ? rank : std::nullopt;
+}
+
+bool Registry::feeds(std::size_t publisher, std::size_t subscriber) const {
+  return std::any_of(graph_.edges.begin(), graph_.edges.end(), [&](const Graph::Edge& edge) {
+    return edge.to == subscriber && graph_.topics[edge.topic].publisher == publisher;
+  });
 }
 
 std::string Registry::join(const std::string& from, const protocol::Hello& hello) {
@@ -59,6 +75,7 @@ protocol::Welcome Registry::welcome(std::size_t rank) const {
   protocol::Welcome w;
   w.rank = static_cast<std::uint32_t>(rank);
   w.facts = facts_;
+  w.patience_s = patience_s_;
   for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
     if (graph_.topics[t].publisher != rank) continue;
     w.outs.push_back({graph_.topics[t].name, static_cast<std::uint32_t>(t)});

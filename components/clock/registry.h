@@ -35,6 +35,10 @@ class Registry {
   const std::vector<Declaration>& declarations() const { return declarations_; }
   const std::vector<protocol::Hello>& hellos() const { return joined_; }
   std::optional<std::size_t> rank_of(const std::string& name) const;
+  /// The rank of a process that has said HELLO.
+  std::optional<std::size_t> participant(const std::string& name) const;
+  /// Whether a topic of `publisher` goes to `subscriber`.
+  bool feeds(std::size_t publisher, std::size_t subscriber) const;
   std::size_t size() const { return declarations_.size(); }
   const std::map<std::string, std::string>& facts() const { return facts_; }
 
@@ -50,6 +54,7 @@ class Registry {
   Graph graph_;
   std::map<std::string, std::string> unproven_;  // token, publisher
   std::map<std::string, std::string> facts_;
+  double patience_s_ = 0.0;
 };
 
 }  // namespace ensonify::clock

@@ -28,6 +28,11 @@ char process_state(std::int64_t pid) {
 constexpr const char* kHealthTopic = "clock/health";
 constexpr std::size_t kHealthBytes = 1 << 16;
 
+// As launch files have them.
+constexpr double kSlowest = 1e-3;
+constexpr double kFastest = 1e6;
+constexpr SimTime kLongestStep = std::chrono::seconds(10'000'000);
+
 double elapsed_s(WallTime from, WallTime to) { return std::chrono::duration<double>(to - from).count(); }
 
 json to_json(const Summary& s) {
@@ -83,7 +88,8 @@ void Clock::dump_stall() const {
   for (const Graph::Topic& topic : registry_.graph().topics) {
     if (!conductor_->running(topic.publisher)) continue;
     const auto id = static_cast<std::size_t>(&topic - registry_.graph().topics.data());
-    log::line("clock", conductor_->now(), "stall", fmt::format("topic={} published={}", topic.name, published_[id]));
+    log::line("clock", conductor_->now(), "stall",
+              fmt::format("topic={} published={}", topic.name, referee_->published(id)));
   }
 }
 
@@ -121,7 +127,7 @@ std::string Clock::status_json() const {
     j["participants"].push_back(entry);
   }
   if (phase_ == Phase::kJoining) j["missing"] = registry_.missing();
-  return j.dump();
+  return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::string Clock::registry_json() const {
@@ -147,7 +153,7 @@ std::string Clock::registry_json() const {
                       {"rate", {topic.rate.num, topic.rate.den}},
                       {"live", publisher.live_endpoint},
                       {"sync", publisher.sync_endpoint},
-                      {"published", t < published_.size() ? published_[t] : 0},
+                      {"published", referee_ ? referee_->published(t) : 0},
                       {"subscribers", subscribers}});
   }
   if (!graph.topics.empty()) {  // the clock's own, behind everybody's
@@ -167,7 +173,8 @@ std::string Clock::registry_json() const {
   for (const Declaration& d : registry_.declarations()) {
     processes.push_back({{"name", d.process}, {"component", d.component}});
   }
-  return json{{"kind", "registry"}, {"topics", topics}, {"processes", processes}}.dump();
+  return json{{"kind", "registry"}, {"topics", topics}, {"processes", processes}}.dump(-1, ' ', false,
+                                                                                       json::error_handler_t::replace);
 }
 
 msg::ClockHealth Clock::health(WallTime now) const {
@@ -208,54 +215,59 @@ void Clock::report_health(WallTime now) {
 }
 
 void Clock::on_request(const std::string& from, const std::string& kind, const std::string& text) {
+  if (kind == "status") return void(router_.send(from, status_json()));
+  if (kind == "registry") return void(router_.send(from, registry_json()));
   const json request = json::parse(text, nullptr, false);
+  json answer = {{"kind", kind}, {"ok", true}};
+  const std::string problem = kind == "get" ? look_up(request, answer) : steer(kind, request, answer);
+  if (problem.empty()) router_.send(from, answer.dump(-1, ' ', false, json::error_handler_t::replace));
+  else refuse(from, kind, problem);
+}
+
+std::string Clock::look_up(const json& request, json& answer) const {
+  const auto& facts = registry_.facts();
+  if (!request.contains("what")) {
+    answer["facts"] = json::array();
+    for (const auto& fact : facts) answer["facts"].push_back(fact.first);
+    return "";
+  }
+  if (!request["what"].is_string()) return "what: is not text";
+  const auto found = facts.find(request["what"]);
+  if (found == facts.end()) return "no such fact";
+  answer["what"] = found->first;
+  answer["text"] = found->second;
+  return "";
+}
+
+std::string Clock::steer(const std::string& kind, const json& request, json& answer) {
   const WallTime now = steady_clock::now();
   const SimTime reached = conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0};
-  json answer = {{"kind", kind}};
-  std::string problem;
-  if (kind == "status") {
-    router_.send(from, status_json());
-    return;
-  }
-  if (kind == "registry") {
-    router_.send(from, registry_json());
-    return;
-  }
-  if (kind == "get") {
-    const auto& facts = registry_.facts();
-    if (!request.contains("what")) {
-      answer["facts"] = json::array();
-      for (const auto& fact : facts) answer["facts"].push_back(fact.first);
-    } else if (const auto found = facts.find(request.value("what", "")); found != facts.end()) {
-      answer["what"] = found->first;
-      answer["text"] = found->second;
-    } else {
-      answer["error"] = "no such fact";
-    }
-    router_.send(from, answer.dump());
-    return;
-  }
   if (kind == "pause") {
     pacer_.pause(reached, now);
   } else if (kind == "resume") {
     pacer_.resume(now);
-  } else if (kind == "step" && request.value("ns", std::int64_t{0}) > 0) {
+  } else if (kind == "step") {
+    const json ns = request.value("ns", json());
+    if (!ns.is_number_integer() || ns < 1 || ns > kLongestStep.count())
+      return fmt::format("ns: is not an integer in [1, {}]", kLongestStep.count());
     const SimTime stepped_to = pacer_.paused() ? pacer_.cap(now) : SimTime{-1};
     const SimTime from_here = stepped_to >= SimTime{0} ? stepped_to : reached - SimTime{1};
-    const SimTime until = from_here + SimTime{request["ns"].get<std::int64_t>()};
+    const SimTime step{ns.get<std::int64_t>()};
+    const SimTime until = saturating_add(from_here, step);
     pacer_.step_to(until, reached, now);
     answer["until_ns"] = until.count();
-  } else if (kind == "rate" && request.value("rate", -1.0) >= 0.0) {
-    const double rate = request["rate"];
-    pacer_.set_rate(rate > 0.0 ? std::optional(rate) : std::nullopt, reached, now);
+  } else if (kind == "rate") {
+    const json rate = request.value("rate", json());
+    const bool paced = rate.is_number() && rate >= kSlowest && rate <= kFastest;
+    if (!paced && !(rate.is_number() && rate == 0))
+      return fmt::format("rate: is neither 0 (free) nor a number in [{:g}, {:g}]", kSlowest, kFastest);
+    pacer_.set_rate(paced ? std::optional(rate.get<double>()) : std::nullopt, reached, now);
   } else if (kind == "stop") {
     request_stop();
   } else {
-    problem = "unknown request; known: status, registry, get, pause, resume, step (ns > 0), rate (>= 0), stop";
+    return "unknown request; known: status, registry, get, pause, resume, step (ns), rate (0: free), stop";
   }
-  answer["ok"] = problem.empty();
-  if (!problem.empty()) answer["error"] = problem;
-  router_.send(from, answer.dump());
+  return "";
 }
 
 void Clock::write_report() const {
@@ -269,7 +281,7 @@ void Clock::write_report() const {
   }
   j["late_events"] = late;
   std::ofstream file(out_dir_ / "clock.json");
-  file << j.dump(2) << '\n';
+  file << j.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace ensonify::clock

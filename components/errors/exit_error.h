@@ -33,4 +33,11 @@ struct DataLost : ExitError {
   explicit DataLost(const std::string& text) : ExitError(kExitDataLost, text) {}
 };
 
+/// What another process sent cannot be used: it is to blame, not the process that noticed.
+struct PeerError : ExitError {
+  PeerError(ExitCode exit_code, const std::string& process, const std::string& text)
+      : ExitError(exit_code, text), culprit(process) {}
+  std::string culprit;
+};
+
 }  // namespace ensonify

@@ -25,7 +25,8 @@ NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
       ports_(ports),
       poses_due_(Rate{config.pose_rate_hz, 1}),
       poses_(ports.out<msg::Pose>("pose", {.rate = Rate{config.pose_rate_hz, 1}})),
-      fixes_(ports.out<msg::Position>("fix", {.rate = Rate{config.pose_rate_hz, 1}})) {
+      fixes_(ports.out<msg::Position>("fix", {.rate = Rate{config.pose_rate_hz, 1}})),
+      fixes_allowed_(Rate{config.pose_rate_hz, 1}) {
   const auto start = [this](const frames::Geodetic& origin) {
     track_.emplace(config_, frames::LocalProjection(origin), [this](const std::string& what) { ports_.count(what); });
   };
@@ -60,6 +61,10 @@ void NavFeedNode::receive(SimTime now) {
     if (!datagram) break;
     track_->take(*datagram, now);
     if (const auto fix = track_->take_fix()) {
+      if (!fixes_allowed_.take(1, now)) {
+        ports_.count("fixes_too_many");
+        continue;
+      }
       log::event(ports_, "fix", "stamp_s={:.3f} latitude_deg={:.7f} longitude_deg={:.7f} quality={}",
                  seconds(SimTime{fix->stamp_ns}), fix->latitude_deg, fix->longitude_deg, fix->quality);
       fixes_.send(*fix);

@@ -6,6 +6,7 @@
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/fed_track.h"
 #include "components/runtime/ports.h"
+#include "components/runtime/rate_limit.h"
 #include "kernels/vehicle/vertical/floating.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
@@ -50,6 +51,7 @@ class NavFeedNode {
   std::optional<vertical::Floating> floating_;  // from its first pose on
   Ports::Out<msg::Pose> poses_;
   Ports::Out<msg::Position> fixes_;
+  RateLimit fixes_allowed_;
 };
 
 }  // namespace ensonify

@@ -69,7 +69,7 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
   if (carried_.motion_sensor) {
     motion_sensor_.emplace(*carried_.motion_sensor, config.seed, config.process);
     if (carried_.motion_sensor->delayed_heave_s > 0.0) {
-      delayed_heaves_ = ports.out<msg::DelayedHeave>("delayed_heave");
+      delayed_heaves_ = ports.out<msg::DelayedHeave>("delayed_heave", {.rate = attitude_rate(config)});
     }
   }
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {

@@ -64,12 +64,8 @@ void RecorderNode::keep(const msg::Packet& packet) {
   record::RecordWriter& writer = open();
   const msg::Envelope& envelope = packet.envelope;
   if (envelope.seq % every_.at(envelope.topic_id) != 0) return;
-  try {
-    writer.write(static_cast<std::uint16_t>(envelope.topic_id), envelope.seq, SimTime{envelope.t_sim_ns},
-                 msg::encode_inline(packet.body));
-  } catch (const msg::DecodeError& error) {
-    throw DataLost(packet.topic + " " + std::to_string(envelope.seq) + ": cannot be recorded: " + error.what());
-  }
+  writer.write(static_cast<std::uint16_t>(envelope.topic_id), envelope.seq, SimTime{envelope.t_sim_ns},
+               msg::encode_inline(packet.body));
 }
 
 SimTime RecorderNode::step(SimTime now) {

@@ -7,6 +7,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/log.h"
+#include "components/runtime/peer.h"
 #include "components/runtime/protocol.h"
 #include "components/runtime/termination.h"
 
@@ -46,14 +47,9 @@ class Participant {
   /// From another thread: run() throws.
   void interrupt() { link_.interrupt(); }
 
-  void report_failed(int code, const std::string& message) {
-    link_.send_control(protocol::encode_failed(code, message));
-  }
+  void report_failed(const protocol::Failed& failed) { link_.send_control(protocol::encode_failed(failed)); }
 
  private:
-  // The queue must not depend on the launch file, which a program may not have read; the longest window allowed is 5 s.
-  static constexpr SimTime kLongestWindow = std::chrono::seconds(5);
-
   /// Once time has started the clock alone has something to say, unless it is gone.
   bus::Link::Event next_event() {
     if (granted_) {
@@ -65,12 +61,14 @@ class Participant {
   void welcome(const std::string& text) {
     protocol::Welcome w = protocol::read_welcome(text, ports_.outs(), ports_.ins());
     epoch_ = w.epoch;
+    patience_ = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * w.patience_s));
     std::vector<Feed> feeds;
     std::vector<bus::Subscription> subscriptions;
     for (const protocol::WelcomeIn& in : w.ins) {
       const Feed& c = in.feed;
       feeds.push_back(c);
-      subscriptions.push_back({c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes});
+      subscriptions.push_back(
+          {c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes, c.publisher, c.rank, c.rate});
     }
     stepper_.wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
                   [this](msg::Packet&& packet) { link_.publish(packet); });
@@ -82,19 +80,30 @@ class Participant {
   void run_grant(const protocol::Grant& grant) {
     if (grant.epoch != epoch_) return;
     granted_ = true;
-    link_.wait_arrived(grant.inputs);
-    for (const msg::Packet& packet : link_.take()) stepper_.insert(packet);
+    link_.wait_arrived(grant.inputs, patience_);
+    for (const msg::Packet& packet : link_.take()) {
+      if (stepper_.too_late(packet)) throw broken_promise(packet);
+      stepper_.insert(packet);
+    }
     const auto begin = std::chrono::steady_clock::now();
     protocol::Done done;
     done.finish = stepper_.run_to(grant.horizon);
     link_.flush();
     done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
+    link_.expect_until(saturating_add(stepper_.next(), kLongestWindow));
     done.epoch = epoch_;
     done.next = done.finish ? stepper_.last() + SimTime{1} : stepper_.next();
     for (std::size_t i = 0; i < stepper_.outs().size(); ++i) {
       done.outputs.emplace_back(stepper_.outs()[i].topic_id, stepper_.published()[i]);
     }
     link_.send_control(protocol::encode(done));
+  }
+
+  PeerError broken_promise(const msg::Packet& packet) const {
+    const std::string publisher = packet.topic.substr(0, packet.topic.find('/'));
+    return broken_message(
+        publisher, packet.topic, packet.envelope.seq,
+        fmt::format("t_sim: {} ns is before the `next` of an earlier DONE", packet.envelope.t_sim_ns));
   }
 
   int refused(const std::string& text) {
@@ -115,6 +124,7 @@ class Participant {
   Stepper stepper_;
   bus::Link link_;
   std::uint32_t epoch_ = 0;
+  std::chrono::milliseconds patience_{0};
   bool granted_ = false;
 };
 
@@ -129,7 +139,8 @@ int participate(const std::string& component, Ports& ports, AnyNode& node, const
   } catch (const std::exception& e) {
     if (termination && termination->asked()) return kExitInterrupted;  // files are completed as the node goes
     const auto* known = dynamic_cast<const ExitError*>(&e);
-    participant.report_failed(known ? known->code : kExitDied, e.what());
+    const auto* peer = dynamic_cast<const PeerError*>(&e);
+    participant.report_failed({known ? known->code : kExitDied, e.what(), peer ? peer->culprit : ""});
     throw;
   }
 }

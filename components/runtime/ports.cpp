@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "components/errors/assert.h"
+#include "components/runtime/log.h"
 
 namespace ensonify {
 
@@ -55,6 +56,14 @@ void Ports::health(const std::string& state, const std::string& message) {
   health_.state = state;
   health_.message = message;
   health_changed_ = true;
+}
+
+void Ports::refuse(const msg::Packet& packet, const std::string& field) {
+  const std::string what = "refused_" + packet.topic + "." + field;
+  const std::string text = fmt::format("{}: seq {}: {}: is not a finite number", packet.topic, packet.envelope.seq, field);
+  if (!counters_.contains(what)) log::line(process_, now_, "refused", text);  // the first; health counts all
+  count(what);
+  health("degraded", text);
 }
 
 void Ports::begin_event(SimTime now) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,10 +18,13 @@
 namespace ensonify {
 
 inline constexpr SimTime kFinishMargin = std::chrono::seconds(1);
+/// The largest `window_s` of a launch file: how far a publisher may run ahead of its readers. Queues and what a reader
+/// accepts must not depend on the file, which a program may not have read.
+inline constexpr SimTime kLongestWindow = std::chrono::seconds(5);
 
 struct OutOptions {
   std::size_t max_bytes = 4096;  // of one message's body; queues are sized from it
-  Rate rate;                     // highest rate at which it is published; {0} means at most 10 Hz on average
+  Rate rate;                     // highest rate, which it is held to (rate_limit.h); {0}: 10 Hz
 };
 
 struct InOptions {
@@ -54,6 +58,7 @@ struct Feed {
   std::uint32_t rank = 0;  // of the publisher in the launch file
   SimTime delay{0};
   std::size_t max_bytes = 0;
+  Rate rate;  // highest that the publisher declared
 };
 
 /// A received message with what its envelope says, for those who need more than its content.
@@ -92,8 +97,8 @@ class Ports {
   template <msg::Message M>
   void in(const std::string& port, std::function<void(const M&)> handler, InOptions options = {}) {
     declare_in({port, M::kType, options.delay, options.optional, {}, 0},
-               [handler = std::move(handler)](const msg::Packet& packet) {
-                 handler(msg::decode<M>(packet.body, packet.body.size()));
+               [this, handler = std::move(handler)](const msg::Packet& packet) {
+                 if (const auto message = sound<M>(packet)) handler(*message);
                });
   }
 
@@ -102,10 +107,11 @@ class Ports {
   template <msg::Message M>
   void in_topics(const std::string& port, std::vector<std::string> topics,
                  std::function<void(const std::string& publisher, const M&)> handler, InOptions options = {}) {
-    declare_in({port, M::kType, options.delay, options.optional, std::move(topics), 0}, [handler = std::move(handler)](
-                                                                                            const msg::Packet& packet) {
-      handler(packet.topic.substr(0, packet.topic.find('/')), msg::decode<M>(packet.body, packet.body.size()));
-    });
+    declare_in({port, M::kType, options.delay, options.optional, std::move(topics), 0},
+               [this, handler = std::move(handler)](const msg::Packet& packet) {
+                 const auto message = sound<M>(packet);
+                 if (message) handler(packet.topic.substr(0, packet.topic.find('/')), *message);
+               });
   }
 
   /// An input whose type is only known at run time; messages come undecoded.
@@ -165,6 +171,18 @@ class Ports {
 
  private:
   std::size_t declare_in(InPort port, PacketHandler handler);
+
+  /// The message, or nothing when a number of it is not finite where it must be: counted, and its sender named.
+  template <msg::Message M>
+  std::optional<M> sound(const msg::Packet& packet) {
+    std::optional<M> message = msg::decode<M>(packet.body, packet.body.size());
+    if (const std::string field = msg::not_finite(*message); !field.empty()) {
+      refuse(packet, field);
+      message.reset();
+    }
+    return message;
+  }
+  void refuse(const msg::Packet& packet, const std::string& field);
 
   std::string process_;
   std::filesystem::path out_dir_;

@@ -1,14 +1,25 @@
 #include "components/runtime/protocol.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
+
+#include "components/errors/exit_error.h"
 
 namespace ensonify::protocol {
 
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t kLongestPortName = 128;
+constexpr std::size_t kMostPorts = 1000;
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr double kHighestRateHz = 10'000.0;
+constexpr SimTime kLongestDelay = std::chrono::hours(1);
 
 json to_json(const Declaration& d) {
   json out = json::array();
@@ -27,22 +38,114 @@ json to_json(const Declaration& d) {
           {"in", in},          {"notes", d.notes}};
 }
 
+/// The value under `key`, of exactly the kind asked for: a number is no text and 1.5 no integer. Throws naming the key.
+template <class T>
+T field(const json& j, const char* key) {
+  const auto found = j.find(key);
+  if (found == j.end()) throw std::runtime_error(std::string(key) + ": is missing");
+  const auto wrong = [&](const char* wanted) { throw std::runtime_error(std::string(key) + ": is not " + wanted); };
+  if constexpr (std::is_same_v<T, bool>) {
+    if (!found->is_boolean()) wrong("true or false");
+  } else if constexpr (std::is_integral_v<T>) {
+    if (!found->is_number_integer()) wrong("an integer");
+    const bool fits = found->is_number_unsigned() ? std::in_range<T>(found->template get<std::uint64_t>())
+                                                  : std::in_range<T>(found->template get<std::int64_t>());
+    if (!fits) wrong("an integer in range");
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    if (!found->is_string()) wrong("text");
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    const bool texts = found->is_array() &&
+                       std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_string(); });
+    if (!texts) wrong("a list of texts");
+  } else if constexpr (std::is_same_v<T, std::map<std::string, std::string>>) {
+    const bool texts = found->is_object() &&
+                       std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_string(); });
+    if (!texts) wrong("a map of texts");
+  } else if constexpr (std::is_same_v<T, std::map<std::string, double>>) {
+    const bool numbers = found->is_object() &&
+                         std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_number(); });
+    if (!numbers) wrong("a map of numbers");
+  }
+  return found->template get<T>();
+}
+template <class T>
+T field(const json& j, const char* key, T otherwise) {
+  return j.contains(key) ? field<T>(j, key) : std::move(otherwise);
+}
+
+const json& list(const json& j, const char* key) {
+  const auto found = j.find(key);
+  const bool maps = found != j.end() && found->is_array() &&
+                    std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_object(); });
+  if (!maps) throw std::runtime_error(std::string(key) + ": is not a list of ports");
+  return *found;
+}
+
+/// A port's name, which becomes part of topics.
+std::string port_name(const json& p) {
+  const auto name = field<std::string>(p, "port");
+  const bool good =
+      !name.empty() && name.size() <= kLongestPortName &&
+      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '/'; });
+  if (!good) throw std::runtime_error("port: \"" + name + "\" is not a name of at most 128 letters, digits, _ and /");
+  return name;
+}
+
+OutPort out_port(const json& p) {
+  OutPort out{port_name(p), field<std::string>(p, "type"), field<std::size_t>(p, "max_bytes", 4096), {}};
+  if (out.max_bytes > kMostBytes) throw std::runtime_error("max_bytes: is more than " + std::to_string(kMostBytes));
+  if (const auto rate = p.find("rate"); rate != p.end()) {
+    const bool pair =
+        rate->is_array() && rate->size() == 2 && (*rate)[0].is_number_integer() && (*rate)[1].is_number_integer();
+    if (pair) out.rate = {(*rate)[0], (*rate)[1]};
+    if (!pair || out.rate.num < 0 || out.rate.den <= 0 || out.rate.hz() > kHighestRateHz)
+      throw std::runtime_error("rate: is not two integers, [num >= 0, den > 0], of at most 10000 Hz");
+  }
+  return out;
+}
+
+InPort in_port(const json& p) {
+  InPort in{port_name(p),
+            field<std::string>(p, "type"),
+            SimTime{field<std::int64_t>(p, "delay_ns", 0)},
+            field<bool>(p, "optional", false),
+            field<std::vector<std::string>>(p, "topics", {}),
+            0};
+  if (in.delay < SimTime{0} || in.delay > kLongestDelay)
+    throw std::runtime_error("delay_ns: is outside [0, " + std::to_string(kLongestDelay.count()) + "]");
+  return in;
+}
+
+std::string endpoint(const json& j, const char* key) {
+  const auto text = field<std::string>(j, key);
+  if (!text.starts_with("ipc://") && !text.starts_with("tcp://"))
+    throw std::runtime_error(std::string(key) + ": \"" + text + "\" is no endpoint, ipc://... or tcp://...");
+  return text;
+}
+
+/// Calls read(port) for each; what it throws gets the port's place.
+template <class Read>
+void each_port(const json& j, const char* key, const Read& read) {
+  const json& ports = list(j, key);
+  if (ports.size() > kMostPorts)
+    throw std::runtime_error(std::string(key) + ": has more than " + std::to_string(kMostPorts) + " ports");
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    try {
+      read(ports[i]);
+    } catch (const std::exception& e) {
+      throw std::runtime_error(std::string(key) + "[" + std::to_string(i) + "]." + e.what());
+    }
+  }
+}
+
 Declaration from_json(const json& j) {
   Declaration d;
-  d.process = j.at("name");
-  d.component = j.value("component", "");
-  d.may_finish = j.value("may_finish", false);
-  d.notes = j.value("notes", std::map<std::string, double>{});
-  for (const json& p : j.at("out")) {
-    OutPort out{p.at("port"), p.at("type"), p.value("max_bytes", std::size_t{4096}), {}};
-    if (p.contains("rate")) out.rate = {p.at("rate").at(0), p.at("rate").at(1)};
-    if (out.rate.num < 0 || out.rate.den <= 0) throw std::runtime_error(out.port + ": rate is not a positive fraction");
-    d.outs.push_back(out);
-  }
-  for (const json& p : j.at("in")) {
-    d.ins.push_back({p.at("port"), p.at("type"), SimTime{p.value("delay_ns", std::int64_t{0})},
-                     p.value("optional", false), p.value("topics", std::vector<std::string>{}), 0});
-  }
+  d.process = field<std::string>(j, "name");
+  d.component = field<std::string>(j, "component", "");
+  d.may_finish = field<bool>(j, "may_finish", false);
+  d.notes = field<std::map<std::string, double>>(j, "notes", {});
+  each_port(j, "out", [&](const json& p) { d.outs.push_back(out_port(p)); });
+  each_port(j, "in", [&](const json& p) { d.ins.push_back(in_port(p)); });
   return d;
 }
 
@@ -109,11 +212,11 @@ Hello read_hello(std::string_view text) {
   const json j = parse(text);
   Hello hello;
   hello.declaration = from_json(j);
-  hello.pid = j.value("pid", std::int64_t{0});
-  hello.first = SimTime{j.value("first_ns", std::int64_t{0})};
-  hello.sync_endpoint = j.at("sync");
-  hello.live_endpoint = j.at("live");
-  hello.facts = j.value("facts", std::map<std::string, std::string>{});
+  hello.pid = field<std::int64_t>(j, "pid", 0);
+  hello.first = SimTime{field<std::int64_t>(j, "first_ns", 0)};
+  hello.sync_endpoint = endpoint(j, "sync");
+  hello.live_endpoint = endpoint(j, "live");
+  hello.facts = field<std::map<std::string, std::string>>(j, "facts", {});
   return hello;
 }
 
@@ -136,11 +239,13 @@ std::string encode(const Welcome& w, const Declaration& declaration) {
                   {"rank", c.rank},
                   {"delay_ns", c.delay.count()},
                   {"max_bytes", c.max_bytes},
+                  {"rate", {c.rate.num, c.rate.den}},
                   {"endpoint", i.endpoint},
                   {"token", i.token}});
   }
-  return json{{"kind", "welcome"}, {"epoch", w.epoch}, {"rank", w.rank}, {"out", out}, {"in", in}, {"facts", w.facts}}
-      .dump();
+  return json{{"kind", "welcome"}, {"epoch", w.epoch}, {"rank", w.rank},  {"patience_s", w.patience_s},
+              {"out", out},        {"in", in},         {"facts", w.facts}}
+      .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, const std::vector<InPort>& ins) {
@@ -148,6 +253,7 @@ Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, co
   Welcome w;
   w.epoch = j.at("epoch");
   w.rank = j.at("rank");
+  w.patience_s = j.value("patience_s", w.patience_s);
   w.facts = j.value("facts", std::map<std::string, std::string>{});
   if (j.at("out").size() != outs.size()) throw std::runtime_error("welcome: another number of outputs than declared");
   for (const json& o : j.at("out")) {
@@ -166,6 +272,7 @@ Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, co
     in.feed.rank = i.at("rank");
     in.feed.delay = SimTime{i.at("delay_ns").get<std::int64_t>()};
     in.feed.max_bytes = i.at("max_bytes");
+    in.feed.rate = {i.at("rate").at(0), i.at("rate").at(1)};
     in.endpoint = i.at("endpoint");
     in.token = i.at("token");
     w.ins.push_back(std::move(in));
@@ -223,16 +330,25 @@ std::string kind_of(std::string_view text) {
   return j["kind"];
 }
 
-std::string encode_failed(int code, const std::string& message) {
-  return json{{"kind", "failed"}, {"code", code}, {"message", message}}.dump(-1, ' ', false,
-                                                                             json::error_handler_t::replace);
+std::string encode_failed(const Failed& failed) {
+  json j{{"kind", "failed"}, {"code", failed.code}, {"message", failed.message}};
+  if (!failed.culprit.empty()) j["culprit"] = failed.culprit;
+  return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+Failed read_failed(std::string_view text) {
+  const json j = parse(text);
+  Failed failed{field<int>(j, "code"), field<std::string>(j, "message", ""), field<std::string>(j, "culprit", "")};
+  if (failed.code < kExitUserError || failed.code > kExitDiffer)
+    throw std::runtime_error("code: " + std::to_string(failed.code) + " is not an exit code of a failure, 2 to 6");
+  return failed;
 }
 std::string encode_proven(const std::vector<std::string>& tokens) {
   return json{{"kind", "proven"}, {"tokens", tokens}}.dump();
 }
-std::vector<std::string> read_tokens(std::string_view text) { return parse(text).at("tokens"); }
+std::vector<std::string> read_tokens(std::string_view text) {
+  return field<std::vector<std::string>>(parse(text), "tokens");
+}
 std::vector<std::string> read_problems(std::string_view text) { return parse(text).at("problems"); }
-std::string read_message(std::string_view text) { return parse(text).value("message", ""); }
 std::string encode_refused(const std::vector<std::string>& problems) {
   return json{{"kind", "refused"}, {"problems", problems}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -31,6 +31,7 @@ struct WelcomeIn {
 struct Welcome {
   std::uint32_t epoch = 1;
   std::uint32_t rank = 0;
+  double patience_s = 50.0;  // how long what a GRANT counts may take to arrive, wall time
   std::vector<OutTopic> outs;
   std::vector<std::vector<std::string>> out_tokens;  // per out: one for each subscriber to come
   std::vector<WelcomeIn> ins;
@@ -53,6 +54,13 @@ struct Done {
   TopicCounts outputs;
 };
 
+/// Why a participant leaves.
+struct Failed {
+  int code = 0;
+  std::string message;
+  std::string culprit;  // the process whose message could not be used; "": its own doing
+};
+
 /// Ports as the JSON that `--check` prints and HELLO carries, and back. Reading throws std::runtime_error naming the
 /// key.
 std::string declaration_json(const Declaration& declaration);
@@ -71,13 +79,12 @@ Welcome read_welcome(std::string_view json, const std::vector<OutPort>& outs, co
 std::optional<Grant> read_grant(std::string_view bytes);
 std::optional<Done> read_done(std::string_view bytes);
 
-/// {"kind":"failed","code":..,"message":..}
-std::string encode_failed(int code, const std::string& message);
+/// {"kind":"failed","code":..,"message":..,"culprit":..}
+std::string encode_failed(const Failed& failed);
+Failed read_failed(std::string_view json);
 /// {"kind":"proven","tokens":[..]}
 std::string encode_proven(const std::vector<std::string>& tokens);
 std::vector<std::string> read_tokens(std::string_view json);
-/// "message" of a failure.
-std::string read_message(std::string_view json);
 /// {"kind":"refused","problems":[..]}
 std::string encode_refused(const std::vector<std::string>& problems);
 /// The texts under "problems" of a refusal.

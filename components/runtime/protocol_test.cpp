@@ -43,3 +43,49 @@ TEST_CASE("what is not a control message is reported, without a crash") {
   CHECK_THROWS(protocol::read_hello("{}"));
   CHECK_THROWS(protocol::read_hello("[1,2]"));
 }
+
+TEST_CASE("a HELLO with a wrong field is refused, and the field named") {
+  const std::string good = R"({"name":"a","out":[OUT],"in":[IN],"sync":"ipc:///x","live":"ipc:///y"MORE})";
+  const std::string port = R"("port":"x","type":"x/1")";
+  const auto hello = [&](const std::string& out, const std::string& in, const std::string& more) {
+    std::string text = good;
+    for (const auto& [word, value] : {std::pair<std::string, std::string>{"OUT", out}, {"IN", in}, {"MORE", more}})
+      text.replace(text.find(word), word.size(), value);
+    return text;
+  };
+  CHECK(
+      protocol::read_hello(hello("{" + port + R"(,"rate":[10000,1]})", "{" + port + "}", "")).declaration.outs.size() ==
+      1);
+  const auto refused = [&](const std::string& text, const std::string& field) {
+    CHECK_THROWS_WITH(protocol::read_hello(text), Catch::Contains(field));
+  };
+  refused(hello("", "", R"(,"pid":"1")"), "pid: is not an integer");
+  refused(hello("", "", R"(,"pid":18446744073709551615)"), "pid: is not an integer in range");
+  refused(hello("", "", R"(,"may_finish":1)"), "may_finish: is not true or false");
+  refused(hello("", "", R"(,"facts":{"a":1})"), "facts: is not a map of texts");
+  refused(hello("", "", R"(,"notes":{"a":"1"})"), "notes: is not a map of numbers");
+  refused(hello("5", "", ""), "out: is not a list of ports");
+  std::string many = "{" + port + "}";
+  for (int i = 0; i < 1000; ++i) many += ",{" + port + "}";
+  refused(hello(many, "", ""), "out: has more than 1000 ports");
+  refused(hello(R"({"type":"x/1"})", "", ""), "out[0].port: is missing");
+  refused(hello(R"({"port":"a b","type":"x/1"})", "", ""), "out[0].port: \"a b\" is not a name");
+  refused(hello(R"({"port":"a"})", "", ""), "out[0].type: is missing");
+  for (const char* rate : {"10", "[10]", "[1.5,1]", "[10,0]", "[-1,1]", "[10001,1]", "[9223372036854775807,1]"})
+    refused(hello("{" + port + R"(,"rate":)" + rate + "}", "", ""), "out[0].rate: is not two integers");
+  refused(hello("{" + port + R"(,"max_bytes":-1})", "", ""), "out[0].max_bytes: is not an integer in range");
+  refused(hello("{" + port + R"(,"max_bytes":1099511627776})", "", ""), "out[0].max_bytes: is more than");
+  refused(hello("", "{" + port + R"(,"delay_ns":-1})", ""), "in[0].delay_ns: is outside");
+  refused(hello("", "{" + port + R"(,"optional":"no"})", ""), "in[0].optional: is not true or false");
+  refused(hello("", "{" + port + R"(,"topics":[1]})", ""), "in[0].topics: is not a list of texts");
+}
+
+TEST_CASE("a failure has a failure's code, or is none") {
+  const auto back = protocol::read_failed(protocol::encode_failed({5, "gone", "agent"}));
+  CHECK(back.code == 5);
+  CHECK(back.message == "gone");
+  CHECK(back.culprit == "agent");
+  for (const char* text : {R"({"kind":"failed"})", R"({"kind":"failed","code":0})", R"({"kind":"failed","code":"3"})",
+                           R"({"kind":"failed","code":99})", R"({"kind":"failed","code":3,"message":7})"})
+    CHECK_THROWS(protocol::read_failed(text));
+}

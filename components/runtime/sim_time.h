@@ -11,6 +11,9 @@ using SimTime = std::chrono::nanoseconds;
 
 inline constexpr SimTime kNever = SimTime::max();
 
+/// For d >= 0.
+constexpr SimTime saturating_add(SimTime t, SimTime d) { return t >= kNever - d ? kNever : t + d; }
+
 constexpr double seconds(SimTime t) { return std::chrono::duration<double>(t).count(); }
 /// Nearest nanosecond.
 constexpr SimTime from_seconds(double t_s) {

@@ -1,8 +1,10 @@
 #include "components/runtime/stepper.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "components/errors/assert.h"
+#include "components/runtime/peer.h"
 
 namespace ensonify {
 
@@ -23,13 +25,18 @@ void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map
 void Stepper::insert(const msg::Packet& packet) {
   for (Inlet& inlet : inlets_) {
     if (inlet.from.topic_id != packet.envelope.topic_id) continue;
-    if (packet.envelope.seq != inlet.expected_seq) {
-      throw DataLost(inlet.from.topic + ": message " + std::to_string(inlet.expected_seq) + " is missing, got " +
-                     std::to_string(packet.envelope.seq));
-    }
+    if (packet.envelope.seq != inlet.expected_seq)
+      throw lost_messages(inlet.from.publisher, inlet.from.topic, inlet.expected_seq, packet.envelope.seq);
     ++inlet.expected_seq;
     inlet.waiting.push_back(packet);
   }
+}
+
+bool Stepper::too_late(const msg::Packet& packet) const {
+  return std::any_of(inlets_.begin(), inlets_.end(), [&](const Inlet& inlet) {
+    return inlet.from.topic_id == packet.envelope.topic_id &&
+           SimTime{packet.envelope.t_sim_ns} + inlet.from.delay <= last_;
+  });
 }
 
 void Stepper::deliver_due(SimTime now) {
@@ -47,7 +54,11 @@ void Stepper::deliver_due(SimTime now) {
     if (!first) return;
     const msg::Packet packet = std::move(first->waiting.front());
     first->waiting.pop_front();
-    ports_.deliver(first->from.in_index, packet);
+    try {
+      ports_.deliver(first->from.in_index, packet);
+    } catch (const msg::DecodeError& e) {
+      throw broken_message(first->from.publisher, first->from.topic, packet.envelope.seq, e.what());
+    }
   }
 }
 

@@ -30,8 +30,10 @@ class Stepper {
   void wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
             std::uint32_t epoch, std::uint32_t rank, Send send);
 
-  /// A message has arrived; in order per topic. Throws DataLost on a gap in its topic's seq.
+  /// A message has arrived; in order per topic. Throws PeerError on a gap in its topic's seq.
   void insert(const msg::Packet& packet);
+  /// An event has been run that should have seen this message: its publisher broke a promise.
+  bool too_late(const msg::Packet& packet) const;
 
   /// Runs every event up to and including `horizon`, or up to the one that asks for the run's end.
   /// Returns true in the latter case.

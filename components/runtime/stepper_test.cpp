@@ -1,9 +1,11 @@
 #include "components/runtime/stepper.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "components/errors/assert.h"
 #include "components/runtime/testing/node_under_test.h"
+#include "messages/health.h"
 #include "messages/motion.h"
 
 using namespace ensonify;
@@ -68,14 +70,15 @@ TEST_CASE("messages of several topics come by time, then publisher, then topic, 
   CHECK(listener.node().order == std::vector<std::string>{"b/y#0", "c/x#0", "b/y#1", "b/y#2", "c/x#1", "c/x#2"});
 }
 
-TEST_CASE("a gap in a topic's sequence is data lost") {
+TEST_CASE("a gap in a topic's sequence is data that its publisher lost") {
   NodeUnderTest<Listener> listener({});
   msg::Packet packet;
   packet.envelope.seq = 1;  // the first must be 0
   Ports ports("p");
   Stepper stepper(ports, [](SimTime) { return kNever; });
   stepper.wire({{0, "a/b", 0, "guidance/1", "a", 0, SimTime{0}, 0}}, {}, {}, 1, 0, [](msg::Packet&&) {});
-  CHECK_THROWS_AS(stepper.insert(packet), DataLost);
+  CHECK_THROWS_AS(stepper.insert(packet), PeerError);
+  CHECK_THROWS_WITH(stepper.insert(packet), "a lost messages: a/b: seq 0 is missing, 1 came");
 }
 
 TEST_CASE("a node that asks for the end stops there, whatever the horizon") {
@@ -136,4 +139,46 @@ TEST_CASE("health goes out when it changes, at most once a second, with every co
   REQUIRE(health.size() == 3);
   CHECK(health[1].stamp_ns == 1'000'000'000);
   CHECK(health[1].counters.at(0).count == 11);
+}
+
+TEST_CASE("a message that cannot be read is its sender's mistake, with topic, seq and field") {
+  NodeUnderTest<Listener> listener({});
+  listener.give("command", command_at(0_s, 1.0));
+  msg::Value::Map map;
+  map.emplace_back("speed_mps", msg::Value{std::string("fast")});
+  listener.give_body("command", 50_ms, msg::encode_value({map}));
+  try {
+    listener.run_until(100_ms);
+    FAIL("it was taken");
+  } catch (const PeerError& e) {
+    CHECK(e.culprit == "given");
+    CHECK(e.code == kExitDied);
+    CHECK_THAT(e.what(), Catch::Contains("given/command: seq 1: speed_mps: is not a number"));
+  }
+}
+
+TEST_CASE("a number that is not finite is refused, counted and its sender named; NaN may mean something") {
+  NodeUnderTest<Listener> listener({});
+  listener.give("command", command_at(0_s, 1.0), command_at(10_ms, std::nan("")), command_at(20_ms, INFINITY));
+  listener.run_until(100_ms);
+  CHECK(listener.node().received.size() == 1);  // with a depth_m of NaN, which says: as before
+  const auto health = listener.step_until<msg::Health>("health", 1_s);
+  REQUIRE_FALSE(health.empty());
+  CHECK(health.back().state == "degraded");
+  CHECK(health.back().message == "given/command: seq 2: speed_mps: is not a finite number");
+  REQUIRE(health.back().counters.size() == 1);
+  CHECK(health.back().counters[0].name == "refused_given/command.speed_mps");
+  CHECK(health.back().counters[0].count == 2);
+}
+
+TEST_CASE("a message of a time that has been run is too late") {
+  Ports ports("p");
+  Stepper stepper(ports, [](SimTime now) { return now + 100_ms; });
+  stepper.wire({{0, "a/b", 0, "guidance/1", "a", 0, 30_ms, 0}}, {}, {}, 1, 0, [](msg::Packet&&) {});
+  stepper.run_to(150_ms);
+  msg::Packet packet;
+  packet.envelope.t_sim_ns = SimTime(70_ms).count();
+  CHECK(stepper.too_late(packet));  // 70 + 30 ms: the event at 100 ms should have seen it
+  packet.envelope.t_sim_ns += 1;
+  CHECK_FALSE(stepper.too_late(packet));
 }

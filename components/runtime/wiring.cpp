@@ -8,6 +8,7 @@
 
 #include "components/errors/nearest_name.h"
 #include "components/runtime/ports.h"
+#include "messages/schema.h"
 
 namespace ensonify {
 namespace {
@@ -31,6 +32,7 @@ class Wirer {
 
   Graph run() {
     list_topics();
+    check_types();
     check_rules();
     for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
       for (std::size_t in = 0; in < processes_[rank].ins.size(); ++in) connect(rank, in);
@@ -47,8 +49,11 @@ class Wirer {
 
   /// An input that no rule names, for messages.
   std::string placed_name(std::size_t rank, std::size_t in) const {
-    const auto place = places_.find(processes_[rank].process);
-    return (place == places_.end() ? "" : place->second + ": ") + input_name(rank, in);
+    return placed(processes_[rank].process) + "." + processes_[rank].ins[in].port;
+  }
+  std::string placed(const std::string& process) const {
+    const auto place = places_.find(process);
+    return (place == places_.end() ? "" : place->second + ": ") + process;
   }
 
   void list_topics() {
@@ -65,6 +70,23 @@ class Wirer {
             {processes_[rank].process + "/" + out.port, rank, port, out.type, out.max_bytes, out.rate});
         topic_names_.push_back(graph_.topics.back().name);
       }
+    }
+  }
+
+  /// Types of ours in a version that this program does not know; other names are other people's affair.
+  void check_types() {
+    for (std::size_t rank = 0; rank < processes_.size(); ++rank) {
+      for (const OutPort& out : processes_[rank].outs) check_type(rank, out.port, out.type);
+      for (const InPort& in : processes_[rank].ins) check_type(rank, in.port, in.type);
+    }
+  }
+  void check_type(std::size_t rank, const std::string& port, const std::string& type) {
+    if (msg::find_type(type) != nullptr) return;
+    const std::string_view name = std::string_view(type).substr(0, type.find('/') + 1);
+    for (const msg::TypeInfo& known : msg::message_types()) {
+      if (!name.empty() && known.type.starts_with(name))
+        problem(placed(processes_[rank].process) + "/" + port + ": type " + type +
+                " is of an unknown version; known: " + known.type);
     }
   }
 
@@ -241,7 +263,7 @@ std::vector<Feed> feeds_of(const Graph& graph, const std::vector<Declaration>& p
     const Graph::Topic& topic = graph.topics[edge.topic];
     feeds.push_back({edge.in_port, topic.name, static_cast<std::uint32_t>(edge.topic), topic.type,
                      processes[topic.publisher].process, static_cast<std::uint32_t>(topic.publisher), edge.delay,
-                     topic.max_bytes});
+                     topic.max_bytes, topic.rate});
   }
   std::sort(feeds.begin(), feeds.end(), [](const Feed& a, const Feed& b) {
     return std::pair(a.in_index, a.topic_id) < std::pair(b.in_index, b.topic_id);

@@ -89,8 +89,8 @@ TEST_CASE("a publisher that is slower than an input needs is refused") {
 }
 
 TEST_CASE("another major version of a type is another type") {
-  CHECK(only_problem({process("auv", {out("pose", "pose/2")}, {}), process("head", {}, {in("pose", "pose/1")})}) ==
-        "head.pose: no publisher offers pose/1; allowed: a launch with one");
+  CHECK(only_problem({process("auv", {out("pose", "x/2")}, {}), process("head", {}, {in("pose", "x/1")})}) ==
+        "head.pose: no publisher offers x/1; allowed: a launch with one");
 }
 
 TEST_CASE("every cycle needs a delayed edge, and the one without is named") {
@@ -159,4 +159,15 @@ TEST_CASE("two recorders record everything but each other, and wait for nobody i
   CHECK(graph.problems.empty());
   REQUIRE(graph.edges.size() == 2);
   for (const Graph::Edge& edge : graph.edges) CHECK(graph.topics[edge.topic].name == "auv/pose");
+}
+
+TEST_CASE("a type of ours in an unknown version is a mistake, whether or not anybody takes it") {
+  auto processes = kLoop;
+  processes.push_back(process("agent", {out("mark", "mark/9")}, {}));
+  CHECK(only_problem(processes) == "agent/mark: type mark/9 is of an unknown version; known: mark/1");
+  processes.back() = process("agent", {}, {in("pose", "pose/2")});
+  processes.back().ins[0].optional = true;
+  CHECK(only_problem(processes) == "agent/pose: type pose/2 is of an unknown version; known: pose/1");
+  processes.back() = process("agent", {out("mark", "my_mark/9")}, {});
+  CHECK(wire(processes, {}).problems.empty());
 }

@@ -15,6 +15,8 @@ constexpr SimTime kRounding = std::chrono::microseconds(1);
 
 SimTime period(Rate rate) { return rate.num > 0 ? event_time(1, rate) - kRounding : SimTime{0}; }
 
+constexpr std::int64_t kMostTransmissions = 16;  // of a ping: its sectors or channels
+
 }  // namespace
 
 Interference::Interference(Ports& ports, const HeadInputs& inputs, const std::vector<OtherHead>& others,
@@ -155,7 +157,8 @@ PingCycle::PingCycle(Ports& ports, const HeadInputs& inputs, const PingTiming& t
       processing_latency_(timing.processing_latency),
       clock_(ports, timing),
       others_(ports, inputs, timing.others, timing.processing_latency),
-      transmit_out_(ports.out<msg::Transmit>("transmit", {.rate = timing.rate})) {}
+      transmit_out_(
+          ports.out<msg::Transmit>("transmit", {.rate = {kMostTransmissions * timing.rate.num, timing.rate.den}})) {}
 
 std::optional<PingUnderWay> PingCycle::ready(SimTime now) {
   if (under_way_.empty() || under_way_.front().ready > now) return std::nullopt;

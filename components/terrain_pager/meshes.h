@@ -29,6 +29,7 @@ class Meshes {
 
   /// Size of the largest one, as a message.
   std::size_t max_bytes() const;
+  std::size_t count() const { return meshes_.size(); }
   /// Names of those whose splits had to be made at the start and are many.
   const std::vector<std::string>& unprepared() const { return unprepared_; }
 

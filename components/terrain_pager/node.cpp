@@ -32,6 +32,11 @@ pager::Box box_of(const source::Extent& extent) {
   return {{extent.west_m, extent.south_m}, {extent.east_m, extent.north_m}};
 }
 
+/// The first update publishes all that is near, which a declared rate must leave room for.
+Rate all_at_once(std::size_t messages) {
+  return {std::clamp<std::int64_t>(static_cast<std::int64_t>(messages), 10, 10'000), 1};
+}
+
 }  // namespace
 
 msg::Tile pager::make_tile(const source::TerrainSource& terrain, const terrain::TileGrid& grid,
@@ -67,6 +72,8 @@ msg::Chart pager::make_chart(const source::TerrainSource& terrain, const source:
   return chart;
 }
 
+std::size_t TerrainPagerNode::most_tiles() const { return pager::most_in_memory(config_, grid_); }
+
 TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     : config_(config),
       ports_(ports),
@@ -76,10 +83,11 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
             source::lsb_m(config.terrain, *terrain_)},
       box_(box_of(terrain_->extent())),
       meshes_(config, *terrain_),
-      tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes})),
-      releases_(ports.out<msg::TileRelease>("release")),
-      meshes_out_(ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes()})),
-      mesh_releases_(ports.out<msg::MeshRelease>("mesh_release")),
+      tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes, .rate = all_at_once(most_tiles())})),
+      releases_(ports.out<msg::TileRelease>("release", {.rate = all_at_once(most_tiles())})),
+      meshes_out_(
+          ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes(), .rate = all_at_once(meshes_.count())})),
+      mesh_releases_(ports.out<msg::MeshRelease>("mesh_release", {.rate = all_at_once(meshes_.count())})),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const double feed_m =
@@ -88,7 +96,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   // Tiles and chart come while the mission is checked and other processes start.
   open_cache();
   store_.emplace([this](const TileKey& key) { return made(key); },
-                 pager::TileStore::Limits{config.threads, pager::most_in_memory(config, grid_)});
+                 pager::TileStore::Limits{config.threads, most_tiles()});
   if (!config.mission.runlines.empty()) {
     const runlines::Runline& line = config.mission.runlines.front();
     const pager::Paging probably(grid_, box_, rules(feed_m));
@@ -159,7 +167,7 @@ pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
   pager::Paging::Rules rules;
   rules.margins = {feed_margin_m, feed_margin_m + config_.release_hysteresis_m};
   rules.horizon = {config_.load_ahead_s, 1.0 / config_.rate_hz, feed_margin_m, feed_margin_m + config_.wide_margin_m};
-  rules.most = pager::most_in_memory(config_, grid_);
+  rules.most = most_tiles();
   return rules;
 }
 

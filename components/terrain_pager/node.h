@@ -41,6 +41,7 @@ class TerrainPagerNode {
   pager::TileCache::Statistics cached() const { return cache_ ? cache_->statistics() : pager::TileCache::Statistics{}; }
 
  private:
+  std::size_t most_tiles() const;
   pager::Paging::Rules rules(double feed_margin_m) const;
   void open_cache();
   pager::TileStore::TilePtr made(const pager::TileKey& key);

@@ -48,7 +48,8 @@ struct ProcessSpec {
   double join_s = 30.0;
   bool observer = false;
   bool respawn = false;
-  ConfigPlace place;  // of its stanza
+  std::optional<double> memory_mb;  // most resident memory; nothing: only the run as a whole is bounded
+  ConfigPlace place;                // of its stanza
 
   /// What of a stanza has one value; the rest is read by read_launch().
   static void parameters(auto& self, auto&& visit) {
@@ -56,6 +57,8 @@ struct ProcessSpec {
     visit("join_s", "s", in(0.01, 86400), "how long an external process is awaited", self.join_s);
     visit("observer", "", any(), "true: may be lost without ending the run", self.observer);
     visit("respawn", "", any(), "true: an observer that is started again", self.respawn);
+    visit("memory_mb", "MB", in(1, 1e9), "resident memory that it may hold, with what it starts; more ends the run",
+          self.memory_mb);
   }
 
   /// Reads this process's parameters: `Config::read(reader)`, then reader.finish().

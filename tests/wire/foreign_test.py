@@ -1,11 +1,14 @@
-"""docs/manual/wire.md is enough: a client that uses nothing of ours takes part in a run, over ipc and over tcp."""
+"""docs/manual/wire.md is enough: clients in Python and JavaScript that use nothing of ours take part in runs, over ipc and tcp."""
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+
+import ensonify
 
 HERE = pathlib.Path(__file__).resolve().parent
 RUN = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "bin" / "ensonify-run"
@@ -18,7 +21,7 @@ duration_s: 20
 clock: {transport: TRANSPORT}
 processes:
   auv: {run: vehicle}
-  foreign: {run: [PYTHON, CLIENT]}
+  foreign: {run: [PROGRAM, CLIENT]}
 expect:
   - {name: every command arrives, count: {topic: foreign/command, min: 199, max: 201}}
   - {name: no gap, no_gap: {topic: foreign/command}}
@@ -28,18 +31,46 @@ expect:
 """
 
 
+PACKAGES = ("zeromq@6.8.0", "@msgpack/msgpack@3.1.3")  # zeromq brings a built libzmq inside the package
+
+
 class Foreign(unittest.TestCase):
-    def run_it(self, transport, client="foreign_client.py", out_of=None):
-        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
-            text = LAUNCH
-            for word, value in (("SCENARIO", SCENARIO), ("TRANSPORT", transport), ("PYTHON", sys.executable),
-                                ("CLIENT", HERE / client)):
-                text = text.replace(word, str(value))
-            launch = pathlib.Path(folder) / "foreign.yaml"
-            launch.write_text(text if out_of is None else text.replace(*out_of))
-            done = subprocess.run([RUN, launch, "--free", "--json", "--quiet", "--out", pathlib.Path(folder) / "out"],
-                                  capture_output=True, text=True, timeout=60)
-            return done.returncode, done.stdout, done.stderr
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="ens-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_it(self, transport, client=HERE / "foreign_client.py", program=sys.executable, out_of=None, options=()):
+        text = LAUNCH
+        for word, value in (("SCENARIO", SCENARIO), ("TRANSPORT", transport), ("PROGRAM", program), ("CLIENT", client)):
+            text = text.replace(word, str(value))
+        launch = self.folder / "foreign.yaml"
+        launch.write_text(text if out_of is None else text.replace(*out_of))
+        done = subprocess.run([RUN, launch, "--free", "--json", "--quiet", "--out", self.folder / transport, *options],
+                              capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout, done.stderr
+
+    def javascript(self):
+        """The client beside its packages, where Node searches for them."""
+        if not shutil.which("node") or not shutil.which("npm"):
+            self.skipTest("node and npm are not installed")
+        modules = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "npm_zeromq"
+        modules.mkdir(exist_ok=True)
+        if not all((modules / "node_modules" / name).is_dir() for name in ("zeromq", "@msgpack/msgpack")):
+            install = subprocess.run(["npm", "install", "--prefix", modules, "--no-audit", "--no-fund", "--save-exact", *PACKAGES],
+                                     capture_output=True, text=True, timeout=100)
+            if install.returncode != 0:
+                self.skipTest(f"npm cannot install {PACKAGES}: {install.stderr.strip().splitlines()[-1:]}")
+        return shutil.copy(HERE / "foreign_client.mjs", modules)
+
+    def test_a_javascript_client_takes_part_and_its_empty_arrays_are_read(self):
+        for transport in ("ipc", "tcp"):
+            record = self.folder / f"{transport}.mcap"
+            code, out, error = self.run_it(transport, self.javascript(), "node", options=("--record", record))
+            self.assertEqual(code, 0, error + out)
+            with ensonify.Record(record) as images:
+                sizes = [image["pixels"].size for _, _, image in images.messages("foreign/image")]
+            self.assertEqual(sizes, [0, 2, 4] * 67)
 
     def test_takes_part_over_ipc_and_tcp(self):
         for transport in ("ipc", "tcp"):

@@ -139,7 +139,8 @@ class Participant:
         return port_in
 
     def publish(self, port: str, message_type: type, *, max_bytes: int = 4096, rate=10) -> Out:
-        """An output: at most `max_bytes` per message and `rate` messages per second (queues are sized from them)."""
+        """An output: at most `max_bytes` per message and `rate` messages per second, which it is
+        held to: what one second of it brings and 2 more may come at once."""
         port_out = Out(self, port, message_type, max_bytes, as_fraction(rate))
         self._outs.append(port_out)
         return port_out
@@ -205,7 +206,9 @@ class Participant:
                 self._idle()
             elif error is not None and not self._left:
                 code = error.code if isinstance(error, RunError) else EXIT_DIED
-                session.fail(code, f"{kind.__name__}: {error}" if str(error) else kind.__name__)
+                text = f"{kind.__name__}: {error}" if str(error) else kind.__name__
+                known = isinstance(error, RunError)
+                session.fail(code, str(error) if known else text, error.culprit if known else "")
         finally:
             session.close()
         return self._reported(error)
@@ -256,11 +259,20 @@ class Participant:
                 due.append(((e.t_sim_ns, e.publisher, e.topic_id, e.seq), packet, port, topic))
         due.sort(key=lambda entry: entry[0])
         for _, packet, port, topic in due:
-            content = wire.decode_body(packet.head, packet.arrays)
-            if port.message_type is not None:
-                content = port.message_type.from_map(content)
+            content = self._content(port, topic, packet)
             port.received.append(Received(topic, packet.envelope, content))
             port.latest = content
+
+    @staticmethod
+    def _content(port: In, topic: str, packet) -> Any:
+        """What a message says. One that cannot be read is its sender's mistake."""
+        try:
+            content = wire.decode_body(packet.head, packet.arrays)
+            return content if port.message_type is None else port.message_type.from_map(content)
+        except wire.DecodeError as error:
+            sender = topic.split("/")[0]
+            raise RunError(f"{sender} sent a message that cannot be used: {topic}: seq {packet.envelope.seq}: {error}", EXIT_DIED,
+                           sender) from None
 
     def _publish(self, topic: bytes, topic_id: int, type_hash: int, body: list) -> None:
         if self._now_ns is None:

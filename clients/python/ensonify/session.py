@@ -13,19 +13,22 @@ from ensonify import wire
 LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
 LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of its readers
 FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
+PATIENCE_S = 50.0  # how long what a grant counts may take to come, unless the clock says otherwise
 WAKE_MS = 1000  # how often a waiting participant checks whether the clock is still there
 
-_EVENTS, _POLLIN, _SNDMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE)  # plain numbers: pyzmq's enums cost more than the calls
+_EVENTS, _POLLIN, _SNDMORE, _RCVMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE), int(zmq.RCVMORE)  # plain numbers: pyzmq's enums cost more than the calls
 
 EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_DATA_LOST = 0, 2, 3, 5
 
 
 class RunError(Exception):
-    """The run cannot go on for this process. `code` is the exit code that says why."""
+    """The run cannot go on for this process. `code` is the exit code that says why; `culprit`, if any, the process whose
+    message could not be used."""
 
-    def __init__(self, message: str, code: int):
+    def __init__(self, message: str, code: int, culprit: str = ""):
         super().__init__(message)
         self.code = code
+        self.culprit = culprit
 
 
 class Packet(NamedTuple):
@@ -62,9 +65,10 @@ class Session:
         self._sub.setsockopt(zmq.LINGER, 0)
         self.epoch = 0
         self.rank = 0
+        self._patience_s = PATIENCE_S
         self.end_code = None  # set once the run has ended
         self._arrived: dict = {}  # topic id -> messages so far
-        self._inputs: dict = {}  # topic id -> its entry in WELCOME
+        self._topics: dict = {}  # first frame of a topic's messages -> its entry in WELCOME
         self._published: dict = {}  # topic id -> messages so far
         try:
             self._bind(clock)
@@ -95,6 +99,7 @@ class Session:
         self._send_control({**hello, "kind": "hello", "name": self.name, **self.endpoints})
         welcome = self._await_json("welcome")
         self.epoch, self.rank = welcome["epoch"], welcome["rank"]
+        self._patience_s = welcome.get("patience_s", PATIENCE_S)
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
         self._subscribe(welcome["in"])
         self._prove({token for out in welcome["out"] for token in out["tokens"]})
@@ -105,7 +110,7 @@ class Session:
         for endpoint in {entry["endpoint"] for entry in inputs}:
             self._sub.connect(endpoint)
         for entry in inputs:
-            self._inputs[entry["topic_id"]] = {**entry, "hash": wire.type_hash(entry["type"])}
+            self._topics[entry["topic"].encode() + b"\0"] = {**entry, "hash": wire.type_hash(entry["type"])}
             self._arrived[entry["topic_id"]] = 0
             self._sub.subscribe(entry["topic"].encode() + b"\0")
         for entry in inputs:  # last, so that a token vouches for the topics before it
@@ -146,7 +151,8 @@ class Session:
     def collect(self, grant: wire.Grant, deliver) -> bool:
         """Calls deliver(topic id, packet) for whatever arrives until the grant's input vector has. False if the run
         ended meanwhile."""
-        for topic_id, count in grant.counts:
+        for topic_id, count in () if self._sub.closed else grant.counts:
+            waited_ms = 0
             while self._arrived.get(topic_id, count) < count:
                 try:
                     topic = self._sub.recv()
@@ -156,14 +162,25 @@ class Session:
                         self._control_message(self._control.recv())
                     if self.end_code is not None:
                         return False
+                    waited_ms += WAKE_MS
+                    if waited_ms > 1000 * self._patience_s:
+                        raise self._missing(topic_id, count)
                     continue
+                waited_ms = 0
                 packet = self._packet(topic)
-                if packet is not None:
-                    deliver(packet.envelope.topic_id, packet)
+                deliver(packet.envelope.topic_id, packet)
         return True
 
+    def _missing(self, topic_id: int, count: int) -> RunError:
+        entry = next(entry for entry in self._topics.values() if entry["topic_id"] == topic_id)
+        return RunError(f"{entry['publisher']} lost messages: {entry['topic']}: its DONE counted {count}, {self._arrived[topic_id]} "
+                        "have come", EXIT_DATA_LOST, entry["publisher"])
+
     def done(self, next_ns: int, finish: bool, cost_ns: int) -> None:
-        """Answers the grant. Whatever was published until now has been handed to ZeroMQ before."""
+        """Answers the grant. Whatever was published until now has been handed to ZeroMQ before. Who will do nothing more is sent
+        nothing more, or it would pile up here."""
+        if next_ns == wire.NEVER:
+            self._sub.close()
         self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, self._published.items()))
         if self._published:
             self._note_viewers()  # while the others work
@@ -191,9 +208,9 @@ class Session:
         """Answers the end."""
         self._send_control({"kind": "bye"})
 
-    def fail(self, code: int, message: str) -> None:
+    def fail(self, code: int, message: str, culprit: str = "") -> None:
         """Reports to the clock why this process leaves."""
-        self._send_control({"kind": "failed", "code": code, "message": message})
+        self._send_control({"kind": "failed", "code": code, "message": message, **({"culprit": culprit} if culprit else {})})
 
     def close(self) -> None:
         """Lets what has been sent leave, then gives every socket back."""
@@ -242,32 +259,44 @@ class Session:
             self._control.setsockopt(zmq.LINGER, 0)  # nobody will read what is left
             raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
 
-    def _packet(self, topic: bytes) -> Packet | None:
-        """The rest of the message that begins with `topic`, if it is of this epoch and the one that its topic expects.
-        Small frames are copied, arrays are not."""
-        envelope = wire.decode_envelope(self._sub.recv())
-        if envelope.frame_count < wire.FIRST_ARRAY_FRAME:
-            raise RunError(f"{self.name}: {topic!r} brought {envelope.frame_count} frames", EXIT_DATA_LOST)
-        head = self._sub.recv(copy=False)
-        arrays = [head]
-        while arrays[-1].more:
-            arrays.append(self._sub.recv(copy=False))
-        if envelope.epoch != self.epoch:
-            return None
-        entry = self._inputs.get(envelope.topic_id)
-        if entry is None or envelope.type_hash != entry["hash"] or envelope.frame_count != 2 + len(arrays):
-            raise RunError(f"{self.name}: {topic!r} brought what was not announced", EXIT_DATA_LOST)
-        expected = self._arrived[envelope.topic_id]
+    def _packet(self, topic: bytes) -> Packet:
+        """The rest of the message that begins with `topic`, if it is the one that its topic expects. Small frames are
+        copied, arrays are not."""
+        entry = self._topics.get(topic)
+        if entry is None:
+            raise RunError(f"{self.name}: {topic!r} is no topic of ours", EXIT_DIED)
+        frames = []
+        more = self._sub.getsockopt(_RCVMORE)
+        while more:
+            frames.append(self._sub.recv(copy=False))
+            more = frames[-1].more
+        expected = self._arrived[entry["topic_id"]]
+
+        def broken(what: str) -> RunError:
+            return RunError(f"{entry['publisher']} sent a message that cannot be used: {entry['topic']}: seq {expected}: {what}",
+                            EXIT_DIED, entry["publisher"])
+        if len(frames) < wire.FIRST_ARRAY_FRAME - 1:
+            raise broken("message: fewer than 3 frames")
+        try:
+            envelope = wire.decode_envelope(frames[0].bytes)
+        except wire.DecodeError as error:
+            raise broken(str(error)) from None
+        for what, has, wanted in (("epoch", envelope.epoch, self.epoch), ("publisher", envelope.publisher, entry["rank"]),
+                                  ("topic id", envelope.topic_id, entry["topic_id"]), ("type hash", envelope.type_hash, entry["hash"]),
+                                  ("frame count", envelope.frame_count, 1 + len(frames))):
+            if has != wanted:
+                raise broken(f"envelope: {what}: is {has}, not {wanted}")
         if envelope.seq != expected:
-            raise RunError(f"{self.name}: {entry['topic']} lost messages: seq {envelope.seq}, expected {expected}",
-                           EXIT_DATA_LOST)
-        self._arrived[envelope.topic_id] = expected + 1
-        if envelope.flags & wire.FLAG_WALL_FACTS:
+            raise RunError(f"{entry['publisher']} lost messages: {entry['topic']}: seq {expected} is missing, {envelope.seq} came",
+                           EXIT_DATA_LOST, entry["publisher"])
+        self._arrived[entry["topic_id"]] = expected + 1
+        head, arrays = frames[1], frames[2:]
+        if envelope.flags & wire.FLAG_WALL_FACTS and arrays:
             arrays.pop()
-        if sum(map(len, arrays)) > entry["max_bytes"]:
-            raise RunError(f"{self.name}: {entry['topic']} has {sum(map(len, arrays))} bytes, at most {entry['max_bytes']} "
-                           "were declared", EXIT_DATA_LOST)
-        return Packet(envelope, head.bytes, [frame.buffer for frame in arrays[1:]])
+        size = len(head) + sum(map(len, arrays))
+        if size > entry["max_bytes"]:
+            raise broken(f"{size} bytes, declared at most {entry['max_bytes']}")
+        return Packet(envelope, head.bytes, [frame.buffer for frame in arrays])
 
 
 def _send(socket, frames: list) -> None:

@@ -157,7 +157,48 @@ class InARun(unittest.TestCase):
         self.finish(clock, head)
         self.assertEqual(left.exception.code, 5)
         self.assertEqual(clock.failed["code"], 5)
-        self.assertIn("head/ping lost messages: seq 11, expected 10", errors.getvalue())
+        self.assertIn("head lost messages: head/ping: seq 10 is missing, 11 came", errors.getvalue())
+
+    def test_what_is_counted_and_never_comes_is_lost_by_its_publisher(self):
+        clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, SECOND)
+
+        def boasting_head():
+            with ensonify.Participant("head", clock=clock.endpoint, config={}) as me:
+                out = me.publish("ping", ensonify.Ping, rate=20)
+                for _ in me.steps(rate=20):
+                    me._session._published[out.topic_id] += 1  # counted, not sent
+
+        head = threading.Thread(target=boasting_head, daemon=True)
+        head.start()
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as left, \
+                mock.patch("ensonify.session.PATIENCE_S", 0.5):
+            with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
+                me.subscribe("ping", ensonify.Ping)
+                list(me.steps(rate=20))
+        self.finish(clock, head)
+        self.assertEqual((left.exception.code, clock.failed["code"], clock.failed["culprit"]), (5, 5, "head"))
+        self.assertRegex(errors.getvalue(), r"^head lost messages: head/ping: its DONE counted \d+, 0 have come$")
+
+    def test_a_message_that_cannot_be_read_is_its_senders_mistake(self):
+        clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, SECOND)
+
+        def babbling_head():
+            with ensonify.Participant("head", clock=clock.endpoint, config={}) as me:
+                out = me.publish("ping", ensonify.Ping, rate=20)
+                for step in me.steps(rate=20):
+                    me._session.publish(out._topic_frame, out.topic_id, out._hash, step.t_ns, [b"\xc1"])
+
+        head = threading.Thread(target=babbling_head, daemon=True)
+        head.start()
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as left:
+            with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
+                me.subscribe("ping", ensonify.Ping)
+                list(me.steps(rate=20))
+        self.finish(clock, head)
+        self.assertEqual((left.exception.code, clock.failed["culprit"]), (3, "head"))
+        self.assertIn("head sent a message that cannot be used: head/ping: seq 0: ", errors.getvalue())
 
     def test_a_clock_that_vanishes_is_noticed(self):
         clock = self.start(["agent"], {}, 10**6 * SECOND)

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 #include "components/errors/exit_error.h"
@@ -53,7 +54,8 @@ struct Pair {
       : clock({tcp, folder.path, ""}),
         publisher("pub", clock.endpoint(), {tcp, folder.path, ""}, 16),
         subscriber("sub", clock.endpoint(), {tcp, folder.path, ""}, 16) {
-    subscriber.subscribe({{"pager/tile", 3, "tile/1", publisher.sync_endpoint(), "e0", max_bytes}}, 1);
+    subscriber.subscribe(
+        {{"pager/tile", 3, "tile/1", publisher.sync_endpoint(), "e0", max_bytes, "pager", 0, {1000, 1}}}, 1);
     const Link::Event event = publisher.wait();
     CHECK(event.kind == Link::Event::kTokens);
     CHECK(event.tokens == std::vector<std::string>{"e0"});
@@ -83,28 +85,93 @@ TEST_CASE("a message arrives whole over ipc and tcp, its arrays viewing received
   }
 }
 
-TEST_CASE("a message too large or of another type ends the receiver with data lost") {
-  Pair small(false, 1000);
-  small.publisher.publish(packet_of(tile_of(129)));
-  CHECK_THROWS_AS(small.subscriber.wait_arrived({{3, 1}}), DataLost);
+namespace {
 
-  Pair wrong(false);
-  msg::Packet packet = packet_of(tile_of(3));
-  packet.envelope.type_hash = msg::type_hash("tile/2");
-  wrong.publisher.publish(packet);
-  wrong.publisher.flush();
-  CHECK_THROWS_WITH(wrong.subscriber.wait_arrived({{3, 1}}), Catch::Contains("pager/tile: is not tile/1"));
+/// What a subscriber says of a message that has something wrong; the message comes at once, nothing asked for it.
+PeerError refusal_of(const std::function<void(msg::Packet&)>& spoil, std::uint64_t good_ones = 0) {
+  Pair pair(false, 1 << 17);
+  for (std::uint64_t seq = 0; seq < good_ones; ++seq) pair.publisher.publish(packet_of(tile_of(3), seq));
+  msg::Packet packet = packet_of(tile_of(3), good_ones);
+  spoil(packet);
+  pair.publisher.publish(packet);
+  pair.publisher.flush();
+  try {
+    pair.subscriber.wait();
+  } catch (const PeerError& e) {
+    return e;
+  }
+  return {kExitOk, "", ""};
 }
 
-TEST_CASE("messages of an older epoch are discarded") {
+void check_refused(const std::function<void(msg::Packet&)>& spoil, const std::string& text, int code = kExitDied) {
+  const PeerError e = refusal_of(spoil, 2);
+  CHECK(e.culprit == "pager");
+  CHECK(e.code == code);
+  CHECK_THAT(e.what(), Catch::StartsWith("pager ") && Catch::Contains("pager/tile: seq 2") && Catch::Contains(text));
+}
+
+}  // namespace
+
+TEST_CASE("what is wrong with a message is said of its sender, with topic, seq and field") {
+  using msg::Packet;
+  check_refused([](Packet& p) { p.body = msg::encode(tile_of(200)); }, "bytes, declared at most 131072");
+  check_refused([](Packet& p) { p.envelope.type_hash = msg::type_hash("tile/2"); }, "type hash: is not that of tile/1");
+  check_refused([](Packet& p) { p.envelope.epoch = 0; }, "epoch: is 0");
+  check_refused([](Packet& p) { p.envelope.publisher = 7; }, "publisher: is 7");
+  check_refused([](Packet& p) { p.envelope.topic_id = 4; }, "envelope: topic id is 4");
+  check_refused([](Packet& p) { p.envelope.version = 2; }, "envelope: wire version 2");
+  check_refused([](Packet& p) { p.envelope.frame_count = 9; }, "envelope: frame count does not match");
+  check_refused([](Packet& p) { p.envelope.t_sim_ns = -1; }, "t_sim: -1 ns");
+  check_refused([](Packet& p) { p.envelope.t_sim_ns = 5'000'000'001; }, "t_sim: 5000000001 ns");
+  check_refused([](Packet& p) { p.envelope.seq = 3; }, "is missing, 3 came", kExitDataLost);
+  check_refused(
+      [](Packet& p) {
+        p.envelope.seq = 1;
+        p.topic += std::string("\0x", 2);
+      },
+      "topic id is 3");
+}
+
+TEST_CASE("a publisher is held to its rate in sim time, whatever the wall clock says") {
   Pair pair(false);
-  pair.publisher.publish(packet_of(tile_of(3), 0, 0));
-  pair.publisher.publish(packet_of(tile_of(3), 0, 1));
+  std::uint64_t seq = 0;
+  const auto publish = [&](std::uint64_t n, std::int64_t t_ns) {
+    for (std::uint64_t i = 0; i < n; ++i) {
+      msg::Packet packet = packet_of(tile_of(3), seq++);
+      packet.envelope.t_sim_ns = t_ns;
+      pair.publisher.publish(packet);
+    }
+    pair.publisher.flush();
+  };
+  publish(1002, 0);
+  publish(500, 500'000'000);
+  pair.subscriber.wait_arrived({{3, 1502}});
+  publish(1, 500'000'000);
+  CHECK_THROWS_WITH(pair.subscriber.wait_arrived({{3, 1503}}),
+                    Catch::Contains("seq 1502") && Catch::Contains("1000 Hz"));
+}
+
+TEST_CASE("whoever will read nothing more keeps nothing, and still knows what has come") {
+  Pair pair(false);
+  pair.subscriber.expect_until(kNever);
+  for (std::uint64_t seq = 0; seq < 100; ++seq) pair.publisher.publish(packet_of(tile_of(3), seq));
   pair.publisher.flush();
-  pair.subscriber.wait_arrived({{3, 1}});
-  const auto packets = pair.subscriber.take();
-  REQUIRE(packets.size() == 1);
-  CHECK(packets[0].envelope.epoch == 1);
+  pair.subscriber.wait_arrived({{3, 100}});
+  CHECK(pair.subscriber.take().empty());
+}
+
+TEST_CASE("what was counted and never comes is lost by its publisher") {
+  Pair pair(false);
+  pair.publisher.publish(packet_of(tile_of(3)));
+  pair.publisher.flush();
+  try {
+    pair.subscriber.wait_arrived({{3, 2}}, std::chrono::milliseconds(500));
+    FAIL("it arrived");
+  } catch (const PeerError& e) {
+    CHECK(e.code == kExitDataLost);
+    CHECK(e.culprit == "pager");
+    CHECK_THAT(e.what(), Catch::Contains("its DONE counted 2, 1 have come"));
+  }
 }
 
 TEST_CASE("a full sync queue holds the publisher back instead of losing a message") {

@@ -1,6 +1,7 @@
 #include "components/runtime/bus/link.h"
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <map>
@@ -11,10 +12,14 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/bus/sockets.h"
+#include "components/runtime/peer.h"
+#include "components/runtime/ports.h"
+#include "components/runtime/rate_limit.h"
 
 namespace ensonify::bus {
 namespace {
-constexpr int kPollMs = 500;                       // how soon a lost clock is noticed
+constexpr int kPollMs = 500;  // how soon a lost clock is noticed
+constexpr std::size_t kLeastLargestFrame = 1 << 24;
 constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better under way while its publisher works on
 }  // namespace
 
@@ -54,48 +59,111 @@ struct Link::Receiver {
     socket.set(zmq::sockopt::linger, 0);
     socket.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
     std::set<std::string> connected;
+    std::size_t largest = kLeastLargestFrame;
+    for (const Subscription& s : subscriptions) largest = std::max(largest, 2 * s.max_bytes);
+    socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(largest));  // a frame beyond all sense cuts the line
     for (const Subscription& s : subscriptions) {
-      expected[s.topic_id] = s;
-      arrived[s.topic_id] = 0;
-      if (connected.insert(s.endpoint).second) socket.connect(s.endpoint);
+      inputs.try_emplace(s.topic_id, s);
+      if (connected.insert(s.endpoint).second) connect(s);
     }
     for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, s.topic + '\0');
     for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, "~" + s.token);
     thread = std::thread([this] { drain(); });
   }
 
+  void connect(const Subscription& s) {
+    try {
+      socket.connect(s.endpoint);
+    } catch (const zmq::error_t& e) {
+      throw PeerError(kExitDied, s.publisher,
+                      s.publisher + " cannot be reached: sync: " + s.endpoint + ": " + e.what());
+    }
+  }
+
   void drain() {
     try {
       std::vector<zmq::message_t> frames;
-      while (receive_frames(socket, frames)) accept(to_packet(std::move(frames)));
+      while (receive_frames(socket, frames)) take(std::move(frames));
     } catch (const zmq::error_t& e) {  // also ETERM, after interrupt()
       fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
-    } catch (const std::exception& e) {
-      fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
+    } catch (...) {
+      fail(std::current_exception());
     }
     socket.close();
   }
 
-  void accept(msg::Packet&& packet) {
-    const auto known = expected.find(packet.envelope.topic_id);
-    if (packet.envelope.epoch != epoch || known == expected.end()) return;  // of an older epoch
-    const Subscription& s = known->second;
-    if (packet.envelope.type_hash != msg::type_hash(s.type)) throw msg::DecodeError(s.topic + ": is not " + s.type);
-    if (packet.body.size() > s.max_bytes) {
-      throw msg::DecodeError(s.topic + ": " + std::to_string(packet.body.size()) + " bytes, declared at most " +
-                             std::to_string(s.max_bytes));
+  /// Whose topic the message came on says whose mistake it is.
+  void take(std::vector<zmq::message_t>&& frames) {
+    const std::string came_on = frames[0].to_string();
+    try {
+      msg::Packet packet = to_packet(std::move(frames));
+      const auto known = inputs.find(packet.envelope.topic_id);
+      if (known == inputs.end() || packet.topic != known->second.subscription.topic)
+        throw msg::DecodeError("envelope: topic id is " + std::to_string(packet.envelope.topic_id));
+      accept(known->second, std::move(packet));
+    } catch (const msg::DecodeError& e) {
+      for (const auto& [id, input] : inputs) {
+        const Subscription& s = input.subscription;
+        if (came_on.starts_with(s.topic + '\0') || came_on.starts_with("~" + s.token))
+          throw broken_message(s.publisher, s.topic, input.arrived, e.what());
+      }
+      throw;
     }
+  }
+
+  struct Input {
+    explicit Input(const Subscription& s) : subscription(s), limit(s.rate) {}
+    Subscription subscription;
+    RateLimit limit;
+    SimTime last{0};            // time of the last message
+    std::uint64_t arrived = 0;  // the next message's seq
+  };
+
+  void accept(Input& input, msg::Packet&& packet) {
+    const Subscription& s = input.subscription;
+    const msg::Envelope& e = packet.envelope;
+    const auto broken = [&](const std::string& what) { throw broken_message(s.publisher, s.topic, e.seq, what); };
+    if (e.epoch != epoch) broken("epoch: is " + std::to_string(e.epoch));
+    if (e.publisher != s.rank) broken("publisher: is " + std::to_string(e.publisher));
+    if (e.type_hash != msg::type_hash(s.type)) broken("type hash: is not that of " + s.type);
+    if (packet.body.size() > s.max_bytes)
+      broken(std::to_string(packet.body.size()) + " bytes, declared at most " + std::to_string(s.max_bytes));
+    const SimTime t{e.t_sim_ns};
+    if (t < input.last || t > SimTime{latest.load()})
+      broken("t_sim: " + std::to_string(e.t_sim_ns) +
+             " ns is before the message before it, or beyond what was granted");
+    if (e.seq != input.arrived) throw lost_messages(s.publisher, s.topic, input.arrived, e.seq);
+    if (!input.limit.take(1, t)) broken("t_sim: " + input.limit.text());
+    input.last = t;
     const std::lock_guard lock(mutex);
-    ++arrived[s.topic_id];
-    packets.push_back(std::move(packet));
+    ++input.arrived;
+    if (latest.load() != kNever.count()) packets.push_back(std::move(packet));
     if (awaited && all_arrived(*awaited)) news.notify_one();
+  }
+
+  /// The topics of which something is still to come, for messages.
+  PeerError missing(const TopicCounts& counts) const {
+    for (const auto& [id, count] : counts) {
+      const auto found = inputs.find(id);
+      if (found == inputs.end() || found->second.arrived >= count) continue;
+      const Subscription& s = found->second.subscription;
+      return {kExitDataLost, s.publisher,
+              s.publisher + " lost messages: " + s.topic + ": its DONE counted " + std::to_string(count) + ", " +
+                  std::to_string(found->second.arrived) + " have come"};
+    }
+    return {kExitDataLost, "", "a message is missing"};
   }
 
   bool all_arrived(const TopicCounts& counts) const {
     return std::all_of(counts.begin(), counts.end(), [this](const auto& count) {
-      const auto found = arrived.find(count.first);
-      return count.second == 0 || (found != arrived.end() && found->second >= count.second);
+      const auto found = inputs.find(count.first);
+      return count.second == 0 || (found != inputs.end() && found->second.arrived >= count.second);
     });
+  }
+
+  void rethrow() {
+    const std::lock_guard lock(mutex);
+    if (error) std::rethrow_exception(error);
   }
 
   void fail(std::exception_ptr why) {
@@ -106,11 +174,11 @@ struct Link::Receiver {
 
   zmq::socket_t socket;
   std::uint32_t epoch;
-  std::map<std::uint32_t, Subscription> expected;
+  std::map<std::uint32_t, Input> inputs;                     // by topic id
+  std::atomic<std::int64_t> latest{kLongestWindow.count()};  // sim time beyond which nothing can be sent
   std::thread thread;
   std::mutex mutex;
   std::condition_variable news;
-  std::map<std::uint32_t, std::uint64_t> arrived;
   const TopicCounts* awaited = nullptr;  // what the other thread sleeps for: it is not woken for less
   std::vector<msg::Packet> packets;
   std::exception_ptr error;
@@ -149,7 +217,8 @@ Link::Event Link::wait() {
                              {sockets_->sync.handle(), 0, ZMQ_POLLIN, 0},
                              {sockets_->monitor.handle(), 0, ZMQ_POLLIN, 0}};
   while (true) {
-    zmq::poll(items, 3, std::chrono::milliseconds(-1));
+    zmq::poll(items, 3, std::chrono::milliseconds(kPollMs));
+    if (receiver_) receiver_->rethrow();
     zmq::message_t message;
     if (items[0].revents && sockets_->clock.recv(message, zmq::recv_flags::dontwait)) {
       return {Event::kControl, message.to_string(), {}};
@@ -167,13 +236,25 @@ void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32
   receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch);
 }
 
-void Link::wait_arrived(const TopicCounts& counts) {
+void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience) {
   std::unique_lock lock(receiver_->mutex);
   receiver_->awaited = &counts;
-  receiver_->news.wait(lock, [&] { return receiver_->error || receiver_->all_arrived(counts); });
+  std::size_t before = receiver_->packets.size();
+  for (std::chrono::milliseconds waited{0}; !receiver_->news.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] {
+         return receiver_->error || receiver_->all_arrived(counts);
+       });) {
+    waited = receiver_->packets.size() == before ? waited + std::chrono::milliseconds(kPollMs)
+                                                 : std::chrono::milliseconds(0);
+    before = receiver_->packets.size();
+    if (waited < patience) continue;
+    receiver_->awaited = nullptr;
+    throw receiver_->missing(counts);
+  }
   receiver_->awaited = nullptr;
   if (receiver_->error) std::rethrow_exception(receiver_->error);
 }
+
+void Link::expect_until(SimTime t) { receiver_->latest = t.count(); }
 
 std::vector<msg::Packet> Link::take() {
   const std::lock_guard lock(receiver_->mutex);

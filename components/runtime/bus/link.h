@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/runtime/sim_time.h"
 #include "messages/codec.h"
 
 namespace ensonify::bus {
@@ -28,6 +30,9 @@ struct Subscription {
   std::string endpoint;
   std::string token;
   std::size_t max_bytes = 0;
+  std::string publisher;
+  std::uint32_t rank = 0;  // of the publisher
+  Rate rate;               // highest that it declared
 };
 
 /// One process's sockets: a DEALER to the clock, two XPUBs (sync: nothing lost; live: lossy, for viewers) and a SUB
@@ -42,7 +47,7 @@ class Link {
   const std::string& live_endpoint() const;
 
   void send_control(std::string_view text);
-  /// The next event. Blocks; `clock_lost` when the clock's socket went away.
+  /// The next event. Blocks; `clock_lost` when the clock's socket went away. Throws what the receiving thread threw.
   struct Event {
     enum Kind { kControl, kTokens, kClockLost } kind = kControl;
     std::string control;
@@ -58,9 +63,13 @@ class Link {
 
   /// Starts receiving. The token of each topic is subscribed after the topic itself.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
-  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw.
+  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw, and
+  /// PeerError when nothing more has come for `patience`; time in which this process was stopped does not count.
   using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
-  void wait_arrived(const TopicCounts& counts);
+  void wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience = std::chrono::hours(1));
+  /// No message can come with a later time than this: a sender that goes beyond it is refused. kNever: nothing will be
+  /// read any more, so nothing is kept.
+  void expect_until(SimTime t);
   /// Everything received since the last call, in order per topic.
   std::vector<msg::Packet> take();
 

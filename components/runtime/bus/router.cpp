@@ -13,6 +13,10 @@ namespace {
 // A plain blocking receive costs half of what polling a socket and a timer does; the timer is for the last stretch.
 constexpr std::chrono::milliseconds kCoarse{50};
 
+// What one peer may have on its way to and from the clock: a participant waits for answers, a tool need not.
+constexpr int kQueueOfPeer = 1000;
+constexpr std::int64_t kLargestControl = 1 << 26;
+
 bool receive(zmq::socket_t& socket, Router::Message& message, zmq::recv_flags flags) {
   zmq::message_t from;
   zmq::message_t text;
@@ -48,8 +52,9 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::router_handover, false);
   socket.set(zmq::sockopt::linger, kLingerMs);
   socket.set(zmq::sockopt::rcvtimeo, static_cast<int>(kCoarse.count()));
-  socket.set(zmq::sockopt::sndhwm, 0);
-  socket.set(zmq::sockopt::rcvhwm, 0);
+  socket.set(zmq::sockopt::sndhwm, kQueueOfPeer);
+  socket.set(zmq::sockopt::rcvhwm, kQueueOfPeer);
+  socket.set(zmq::sockopt::maxmsgsize, kLargestControl);
   sockets_->endpoint = bind_to(socket, address, "clock");
   sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
 }
@@ -80,9 +85,9 @@ std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
 
 bool Router::send(const std::string& to, std::string_view text) {
   try {
-    sockets_->socket.send(zmq::buffer(to), zmq::send_flags::sndmore);
-    sockets_->socket.send(zmq::buffer(text));
-    return true;
+    // A tool that asks and never reads loses answers, nobody else does.
+    if (!sockets_->socket.send(zmq::buffer(to), zmq::send_flags::sndmore | zmq::send_flags::dontwait)) return false;
+    return sockets_->socket.send(zmq::buffer(text), zmq::send_flags::dontwait).has_value();
   } catch (const zmq::error_t&) {  // EHOSTUNREACH: the peer is gone; the launcher states why
     return false;
   }

@@ -9,8 +9,6 @@ namespace ensonify {
 
 namespace {
 constexpr SimTime kTick{1};
-
-SimTime saturating_add(SimTime t, SimTime d) { return t >= kNever - d ? kNever : t + d; }
 }  // namespace
 
 Conductor::Conductor(std::size_t participants, std::vector<Edge> edges, std::vector<bool> may_finish, SimTime window)
@@ -41,7 +39,7 @@ std::vector<Conductor::Grant> Conductor::grants() {
   std::vector<Grant> granted;
   for (std::size_t p = 0; p < state_.size(); ++p) {
     State& s = state_[p];
-    if (s.running) continue;
+    if (s.running || s.next == kNever) continue;  // nothing is due any more
     const SimTime horizon = std::min(uncapped_horizon(p), cap_);
     if (horizon < s.next) continue;
     s.running = true;

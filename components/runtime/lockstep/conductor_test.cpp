@@ -110,3 +110,13 @@ TEST_CASE("no participant ever acts before its inputs are certain, and time alwa
     for (const SimTime t : next) CHECK(t > 5_s);
   }
 }
+
+TEST_CASE("whoever has nothing left to do is given no grants, though nothing ends the run") {
+  Conductor conductor(2, {}, {false, false}, 1_s);
+  CHECK(conductor.grants().size() == 2);
+  conductor.done(0, kNever);
+  conductor.done(1, 1_s);
+  const auto grants = conductor.grants();
+  REQUIRE(grants.size() == 1);
+  CHECK(grants[0].participant == 1);
+}

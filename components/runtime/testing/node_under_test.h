@@ -57,6 +57,11 @@ class NodeUnderTest {
 
   template <msg::Message M>
   void give_at(const std::string& port, SimTime t, const M& message) {
+    give_body(port, t, msg::encode(message), msg::type_hash(M::kType));
+  }
+
+  /// A message of any content.
+  void give_body(const std::string& port, SimTime t, msg::Body body, std::uint64_t type_hash = 0) {
     start();
     for (const Feed& c : feeds_) {
       if (c.topic != "given/" + port && c.topic != port) continue;
@@ -64,10 +69,10 @@ class NodeUnderTest {
       packet.topic = c.topic;
       packet.envelope.topic_id = c.topic_id;
       packet.envelope.publisher = c.rank;
-      packet.envelope.type_hash = msg::type_hash(M::kType);
+      packet.envelope.type_hash = type_hash;
       packet.envelope.seq = seq_[c.topic_id]++;
       packet.envelope.t_sim_ns = t.count();
-      packet.body = msg::encode(message);
+      packet.body = std::move(body);
       stepper_.insert(packet);
       return;
     }
