@@ -60,7 +60,8 @@ void Ports::health(const std::string& state, const std::string& message) {
 
 void Ports::refuse(const msg::Packet& packet, const std::string& field) {
   const std::string what = "refused_" + packet.topic + "." + field;
-  const std::string text = fmt::format("{}: seq {}: {}: is not a finite number", packet.topic, packet.envelope.seq, field);
+  const std::string text =
+      fmt::format("{}: seq {}: {}: is not a finite number", packet.topic, packet.envelope.seq, field);
   if (!counters_.contains(what)) log::line(process_, now_, "refused", text);  // the first; health counts all
   count(what);
   health("degraded", text);
