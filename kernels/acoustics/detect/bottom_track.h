@@ -38,8 +38,9 @@ struct BottomPick {
 /// column is the geometric mean power of all samples between blanking and there, so that a few strong ones count little
 /// (for noise it reads 2.5 dB below the mean).
 ///
-/// False picks: noise is strong with probability p = exp(-10^((threshold - 2.5 dB) / 10)), 1.5e-4 at 12 dB; n samples
-/// of persistence must hold 0.7 n strong ones: below 1e-20 for n = 10.
+/// False picks: noise is strong with probability p = exp(-10^((threshold - 2.5 dB) / 10)), 1.5e-4 at 12 dB. Behind the
+/// receiver's filter samples within a pulse are alike, so pulses count: 1.1 of them hold two independent samples, p^2,
+/// and of n pulses of persistence 0.7 n must be strong, below 1e-20 for n = 10.
 BottomPick first_bottom(const FirstBottomSettings& settings, const WaterfallLine& line, double nearest_m = 0.0,
                         double farthest_m = 1e9);
 
