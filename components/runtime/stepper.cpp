@@ -15,6 +15,8 @@ void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map
   send_ = std::move(send);
   outs_ = std::move(outs);
   published_.assign(outs_.size(), 0);
+  limits_.clear();
+  for (const OutPort& out : ports_.outs()) limits_.emplace_back(out.rate);
   inlets_.clear();
   for (const Feed& feed : feeds) inlets_.push_back({feed, 0, {}});
   ports_.connect(std::move(feeds), std::move(facts), [this](std::size_t out, msg::Body body, msg::Buffer wall) {
@@ -79,6 +81,8 @@ bool Stepper::run_to(SimTime horizon) {
 
 void Stepper::publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts) {
   const OutTopic& out = outs_[out_index];
+  ENSONIFY_ASSERT(limits_[out_index].take(1, last_),
+                  ports_.process() + "/" + ports_.outs()[out_index].port + ": " + limits_[out_index].text());
   msg::Packet packet;
   packet.topic = out.topic;
   packet.envelope.flags = wall_facts.size > 0 ? msg::kFlagWallFacts : std::uint16_t{0};

@@ -7,6 +7,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/ports.h"
+#include "components/runtime/rate_limit.h"
 #include "messages/codec.h"
 
 namespace ensonify {
@@ -65,6 +66,7 @@ class Stepper {
   std::vector<Inlet> inlets_;
   std::vector<OutTopic> outs_;
   std::vector<std::uint64_t> published_;
+  std::vector<RateLimit> limits_;  // of each output
   SimTime next_{0};
   SimTime last_{-1};
 };

@@ -117,6 +117,24 @@ struct TooBig {
 };
 }  // namespace
 
+namespace {
+struct TooOften {
+  struct Config {};
+  TooOften(const Config&, Ports& ports) : out(ports.out<msg::Guidance>("out", {.rate = {10, 1}})) {}
+  SimTime step(SimTime now) {
+    out.send({});
+    return now + 10_ms;
+  }
+  Ports::Out<msg::Guidance> out;
+};
+}  // namespace
+
+TEST_CASE("a node that publishes more often than it declared asserts, after a second's worth and two") {
+  NodeUnderTest<TooOften> often({});
+  CHECK_THROWS_WITH(often.run_until(1_s), Catch::Contains("test/out: more than 10 Hz with 12 at once"));
+  CHECK(often.ports().now() == 130_ms);  // the 14th at 100 Hz: 12 at once, and one more by then
+}
+
 TEST_CASE("an event that does not advance or an oversized message asserts with its values") {
   NodeUnderTest<Stuck> stuck({});
   CHECK_THROWS_AS(stuck.run_until(1_s), AssertionError);

@@ -29,8 +29,7 @@ SimTime VehicleNode::step(SimTime now) {
   if (!vehicle_ && chart_) vehicle_.emplace(config_, start_of(config_.plan, planned_lines(config_.plan, *chart_)), now);
   if (vehicle_) {
     vehicle_->advance(now);
-    if (command_ && std::isfinite(command_->heading_grid_rad) && std::isfinite(command_->speed_mps) &&
-        !std::isinf(command_->depth_m)) {
+    if (command_ && !std::isinf(command_->depth_m)) {  // it may be NaN; no other field may, and none arrives so
       vehicle_->command(*command_);
     } else if (command_) {
       ports_.count("commands_not_finite");

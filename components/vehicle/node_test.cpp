@@ -76,7 +76,7 @@ TEST_CASE("speed is limited to what the vehicle can do, and nonsense is ignored 
   CHECK(poses[3000].velocity_enu_mps[1] == Approx(4.0));
   const auto health = vehicle.step_until<msg::Health>("health", 31_s);
   REQUIRE(health.size() == 1);
-  CHECK(health[0].counters.at(0).name == "commands_not_finite");
+  CHECK(health[0].counters.at(0).name == "refused_given/command.heading_grid_rad");
 }
 
 TEST_CASE("roll and heave are the sinusoids of the scenario") {

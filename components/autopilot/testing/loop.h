@@ -67,7 +67,8 @@ class BoatNode {
     estimates_.send(estimate);
     if (altitudes_) {
       const double range_m = config_.bottom(state.position_enu_m.y()) + state.position_enu_m.z();
-      altitudes_->send(msg::Altitude{now.count(), !std::isnan(range_m), range_m});
+      const bool valid = !std::isnan(range_m);
+      altitudes_->send(msg::Altitude{now.count(), valid, valid ? range_m : 0.0});
     }
     state = motion::advance(state, command_, 0.1, config_.limits);
     state.position_enu_m.head<2>() += 0.1 * config_.current_enu_mps;
