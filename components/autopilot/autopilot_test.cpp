@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::piloted;
+using Catch::WithinAbs;
 
 TEST_CASE("lines are run in order, whole, within 0.1 m of their track; then the run ends") {
   for (const double spacing_m : {8.0, 20.0, 24.0, 40.0}) {  // below, at and above two turning radii
@@ -45,7 +46,7 @@ TEST_CASE("a turn takes about as long as its shortest way") {
   loop.run_until(600_s,
                  [&](const msg::MissionState& mission, const motion::State&) { in_turn += mission.state == "turn"; });
   const double way_m = 2 * (3.14159 * 12 + config.plan.mission.run_in_m);  // two half circles, then back to the run-ins
-  CHECK(0.1 * in_turn * 2.0 == Approx(way_m).margin(4.0));
+  CHECK_THAT(0.1 * in_turn * 2.0, WithinAbs(way_m, 4.0));
 }
 
 TEST_CASE("a vehicle that starts elsewhere and at rest finds the first line") {
@@ -140,7 +141,7 @@ TEST_CASE("a line of several legs is followed round its bends, a circuit as ofte
   CHECK(last_line == 1);
   // At a bend of 90 degrees the circle leaves a piece a radius before its end, so the next is first seen that far off.
   CHECK(worst_m < 1.3 * 12.0);
-  CHECK(longest_to_go_m == Approx(130.0 + 100.0 + std::hypot(50.0, 100.0)).margin(0.5));
+  CHECK_THAT(longest_to_go_m, WithinAbs(130.0 + 100.0 + std::hypot(50.0, 100.0), 0.5));
   CHECK(loop.finished());
 }
 
@@ -171,11 +172,11 @@ TEST_CASE("an inspection passes on a heading, stays, orbits, sets the sonar and 
   CHECK(states == std::vector<std::string>{"pass", "keep", "orbit", "done"});
   REQUIRE(passed);
   CHECK((passed->position_enu_m.head<2>() - Vec2(60, 100)).norm() < 1.5);
-  CHECK(passed->heading_rad == Approx(1.5).margin(0.1));
-  CHECK(kept_s == Approx(20.0).margin(0.5));
+  CHECK_THAT(passed->heading_rad, WithinAbs(1.5, 0.1));
+  CHECK_THAT(kept_s, WithinAbs(20.0, 0.5));
   CHECK(slowest_mps < 0.05);
   // 1.25 turns of a circle of 25 m at 2 m/s, and the way onto it.
-  CHECK(orbit_s == Approx(1.25 * 2 * 3.14159 * 25.0 / 2.0).margin(25.0));
+  CHECK_THAT(orbit_s, WithinAbs(1.25 * 2 * 3.14159 * 25.0 / 2.0, 25.0));
   CHECK(off_circle_m < 0.5);
 
   REQUIRE(settings.size() == 1);
@@ -207,7 +208,7 @@ TEST_CASE("in a current a station is kept from the run upstream on, a wait from 
   CHECK(turned);
   CHECK(place_s > 60.0);
   CHECK(farthest_m < 4.5);
-  CHECK(std::get<1>(run({std::nullopt, 20.0, 3.0})) == Approx(20.0).margin(0.3));
+  CHECK_THAT(std::get<1>(run({std::nullopt, 20.0, 3.0})), WithinAbs(20.0, 0.3));
 }
 
 TEST_CASE("a turn that leads past a place does not count as keeping it") {
@@ -231,7 +232,7 @@ TEST_CASE("a vehicle waits where its last step has left it") {
   });
   CAPTURE(farthest_m);
   CHECK(loop.finished());
-  CHECK(ended_s - begun_s == Approx(20.0).margin(0.3));
+  CHECK_THAT(ended_s - begun_s, WithinAbs(20.0, 0.3));
   CHECK(farthest_m <
         7.0);  // 4 m to come to rest from 2 m/s, half a period and the command's delay, and no turning back
 }

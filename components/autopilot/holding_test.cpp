@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::piloted;
+using Catch::WithinAbs;
 
 TEST_CASE("a vehicle follows the bottom by altimeter, and climbs first where it is too low") {
   AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 600}}}});
@@ -35,7 +36,7 @@ TEST_CASE("a mission's depth is held from any start, and nothing that floats has
   double up_m = 0.0;
   loop.run_until(60_s,
                  [&](const msg::MissionState&, const motion::State& vehicle) { up_m = vehicle.position_enu_m.z(); });
-  CHECK(up_m == Approx(-6.0).margin(1e-6));
+  CHECK_THAT(up_m, WithinAbs(-6.0, 1e-6));
 
   World world;  // one vehicle dives, but it is the other that is steered
   world.vehicles.resize(2);
@@ -57,7 +58,7 @@ TEST_CASE("a mission that takes too long is given up at the surface") {
   CHECK(states.back() == "abort");
   CHECK(loop.finished());
   // 9 m up at 0.5 m/s: 18 s, and the command's delay.
-  CHECK(seconds(loop.now()) == Approx(118.0).margin(2.0));
+  CHECK_THAT(seconds(loop.now()), WithinAbs(118.0, 2.0));
 }
 
 TEST_CASE("a mission whose place becomes too uncertain is given up then") {
@@ -68,7 +69,7 @@ TEST_CASE("a mission whose place becomes too uncertain is given up then") {
   const auto& health = loop.nodes.collect<msg::Health>("pilot/health");
   CHECK(states_of(loop, 600_s).back() == "abort");
   CHECK(loop.finished());
-  CHECK(seconds(loop.now()) == Approx(50.0).margin(0.3));  // it is at the surface already
+  CHECK_THAT(seconds(loop.now()), WithinAbs(50.0, 0.3));  // it is at the surface already
   REQUIRE_FALSE(health.empty());
   CHECK(health.back().message == "mission given up: the place is less certain than abort.position_sd_m");
 }

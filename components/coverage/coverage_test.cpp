@@ -9,6 +9,7 @@
 #include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -85,7 +86,7 @@ TEST_CASE("lines are laid where coverage ends until all is covered; savings are 
     CHECK(next[0].number == line + 1);
     if (next[0].done) break;
     CHECK(next[0].start_enu_m[0] > east_m);
-    CHECK(next[0].start_enu_m[1] == Approx(line % 2 == 0 ? 60.0 : 0.0).margin(1e-9));  // there and back
+    CHECK_THAT(next[0].start_enu_m[1], WithinAbs(line % 2 == 0 ? 60.0 : 0.0, 1e-9));  // there and back
     east_m = next[0].start_enu_m[0];
   }
   const auto coverages = coverage.step_until<msg::Coverage>("coverage", t + 1_s);

@@ -17,6 +17,7 @@
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -81,7 +82,7 @@ TEST_CASE("depth below the piston is right to a sample, also with roll within th
     for (const auto& bottom : survey.bottom) {
       INFO("rolled by " << roll_deg << " degrees");
       CHECK(bottom.valid);
-      CHECK(bottom.altitude_m == Approx(20.0).margin(1.1 * sample_m));  // the first echo comes from straight below
+      CHECK_THAT(bottom.altitude_m, WithinAbs(20.0, 1.1 * sample_m));  // the first echo comes from straight below
     }
     CHECK(survey.pings[0].beam_angle_rad.size() == 1);
     CHECK(survey.pings[0].track.pose_position_enu_m(0, 2) == -2.0);
@@ -109,11 +110,11 @@ TEST_CASE("a mesh above the seabed is the bottom while the head holds it") {
   // Within 4 degrees the bottom is 0.05 m farther than straight below; the pulse is 0.075 m long, its samples half of
   // it.
   const double margin_m = 0.05 + 750.0 * (config.pulse_length_s + config.sample_period_s());
-  CHECK(strongest_m(450_ms) == Approx(20.0).margin(margin_m));
+  CHECK_THAT(strongest_m(450_ms), WithinAbs(20.0, margin_m));
   sounder.give_at("mesh", 460_ms, table_of(60.0, -12.0));
-  CHECK(strongest_m(950_ms) == Approx(10.0).margin(margin_m));
+  CHECK_THAT(strongest_m(950_ms), WithinAbs(10.0, margin_m));
   sounder.give_at("mesh_release", 960_ms, msg::MeshRelease{0});
-  CHECK(strongest_m(1450_ms) == Approx(20.0).margin(margin_m));
+  CHECK_THAT(strongest_m(1450_ms), WithinAbs(20.0, margin_m));
 }
 
 TEST_CASE("facet slopes stated by tiles count as those of the scenario") {
@@ -171,7 +172,7 @@ TEST_CASE("bottom echo energy equals the area integral, of both faces and tapere
     // The square of a raised cosine has a mean of 3/8.
     expected *= std::pow(10.0, 21.5) * config.pulse_length_s * (1.0 - 5.0 / 8.0 * taper);
     INFO("taper " << taper);
-    CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+    CHECK_THAT(10.0 * std::log10(energy / expected), WithinAbs(0.0, 0.3));
   }
 }
 
@@ -204,7 +205,7 @@ TEST_CASE("without speckle the ghost by the surface has the energy of pressures,
     }
     expected *= 4.0 * std::pow(10.0, 21.5) * config.pulse_length_s;
     INFO("from " << from_m << " m");
-    CHECK(10.0 * std::log10(energy / expected) == Approx(0.0).margin(0.3));
+    CHECK_THAT(10.0 * std::log10(energy / expected), WithinAbs(0.0, 0.3));
   }
 }
 
@@ -237,8 +238,8 @@ TEST_CASE("a ping has the second echo: energy by images, and a tail that falls t
                 std::pow(R1 * R2, 2) * std::pow(10.0, -0.1 * 0.05 * (R1 + R2));
   }
   expected *= 4.0 * std::pow(10.0, 21.5 - 1.5) * config.pulse_length_s;
-  CHECK(10.0 * std::log10((energy(both, 41.5, 59.5) - energy(direct, 41.5, 59.5)) / expected) ==
-        Approx(0.0).margin(0.3));
+  CHECK_THAT(10.0 * std::log10((energy(both, 41.5, 59.5) - energy(direct, 41.5, 59.5)) / expected),
+             WithinAbs(0.0, 0.3));
   // Beyond the main lobe, side lobes fall by a few dB from 2 m to the next; where rays end, echoes would.
   for (double from_m = 46.0; from_m < 58.0; from_m += 2.0) {
     INFO("from " << from_m << " m");
@@ -254,8 +255,8 @@ TEST_CASE("the surface overhead is received through the back of the piston only"
   const auto& amplitude = survey.pings.at(0).amplitude_upa;
   const auto last = static_cast<std::size_t>(2.0 * 10.0 / 1500.0 / config.sample_period_s());  // 10 m, above the bed
   const float strongest = *std::max_element(&amplitude[0], &amplitude[last]);
-  CHECK(20.0 * std::log10(static_cast<double>(strongest)) ==
-        Approx(215.0 - 20.0 * std::log10(4.0) - 0.05 * 4.0 - 80.0).margin(0.1));  // a steady tone's level is exact
+  CHECK_THAT(20.0 * std::log10(static_cast<double>(strongest)),
+             WithinAbs(215.0 - 20.0 * std::log10(4.0) - 0.05 * 4.0 - 80.0, 0.1));  // a steady tone's level is exact
 }
 
 TEST_CASE("the surface overhead is never taken for the bottom, at any pulse length") {
@@ -273,7 +274,7 @@ TEST_CASE("the surface overhead is never taken for the bottom, at any pulse leng
       for (const auto& bottom : survey.bottom) {
         CHECK(bottom.valid);
         // To a sample, and to the ray that is nearest to straight below.
-        CHECK(bottom.altitude_m == Approx(20.0).margin(1.1 * sample_m + 0.01));
+        CHECK_THAT(bottom.altitude_m, WithinAbs(20.0, 1.1 * sample_m + 0.01));
       }
     }
   }
@@ -292,7 +293,7 @@ TEST_CASE("a pulse that a command makes longer is judged by its own length") {
   settings.pulse_length_s = 2e-3;  // 40 samples, 1.5 m
   const auto received = head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene());
   CHECK(received.bottom.valid);
-  CHECK(received.bottom.altitude_m == Approx(20.0).margin(1.1 * 750.0 * config.sample_period_s()));
+  CHECK_THAT(received.bottom.altitude_m, WithinAbs(20.0, 1.1 * 750.0 * config.sample_period_s()));
 }
 
 TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {
@@ -305,7 +306,7 @@ TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {
   REQUIRE(near.bottom.size() == 4);
   for (const auto& bottom : near.bottom) {
     CHECK(bottom.valid);
-    CHECK(bottom.altitude_m == Approx(1.5).margin(1.1 * 750.0 * config.sample_period_s()));
+    CHECK_THAT(bottom.altitude_m, WithinAbs(1.5, 1.1 * 750.0 * config.sample_period_s()));
   }
 }
 

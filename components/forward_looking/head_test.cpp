@@ -11,6 +11,7 @@
 #include "kernels/seabed/backscatter.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -114,8 +115,8 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   const auto on_axis = images[0].row(0);
   std::size_t peak = 0;
   for (std::size_t k = 0; k < on_axis.size(); ++k) peak = std::abs(on_axis[k]) > std::abs(on_axis[peak]) ? k : peak;
-  CHECK(0.5 * kSpeed_mps * static_cast<double>(peak) * ranged.sampling.period_s ==
-        Approx(R).margin(0.25 * kSpeed_mps * ranged.sampling.period_s));
+  CHECK_THAT(0.5 * kSpeed_mps * static_cast<double>(peak) * ranged.sampling.period_s,
+             WithinAbs(R, 0.25 * kSpeed_mps * ranged.sampling.period_s));
   // Patterns in closed form: cos^q with -3 dB at 65 degrees, both lines of 20 degrees, a half-wave element.
   const double across_db =
       20.0 * std::log10(std::cos(std::asin(sin_target))) * (db(0.5) / (20.0 * std::log10(std::cos(65 * kDeg))));
@@ -125,13 +126,13 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
                              across_db + 2.0 * line_db + element_db;
   // A sample may stand half a period off the compressed pulse's peak: 0.4 dB there with two samples per 1 / B.
   const double level_db = db(std::norm(on_axis[peak]));
-  CHECK(level_db == Approx(expected_db).margin(0.5));
+  CHECK_THAT(level_db, WithinAbs(expected_db, 0.5));
 
   double side_lobe = 0.0;  // beyond the first null
   for (std::size_t i = 105; i < 200; ++i) {
     side_lobe = std::max(side_lobe, static_cast<double>(std::norm(images[0].row(static_cast<int>(i))[peak])));
   }
-  CHECK(db(side_lobe) - level_db == Approx(-13.26).margin(0.05));  // uniform line [Lurton2010, ch. 5]
+  CHECK_THAT(db(side_lobe) - level_db, WithinAbs(-13.26, 0.05));  // uniform line [Lurton2010, ch. 5]
 }
 
 TEST_CASE("the mean level of a flat seabed is that of the area integral") {
@@ -169,7 +170,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
       // The nearest beam or two, and a metre of range over which the level is near enough linear.
       const double level_db = db(mean_square(ping, beam_deg - 1.1, beam_deg + 1.1, R - 0.5, R + 0.5));
       INFO("range " << R << " m, beam " << beam_deg << " deg");
-      CHECK(level_db == Approx(expected_db).margin(0.5));
+      CHECK_THAT(level_db, WithinAbs(expected_db, 0.5));
     }
   }
 }
@@ -192,7 +193,7 @@ TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective
   for (const double R : {10.0, 15.0, 25.0}) {
     const auto level_db = [&](const msg::Ping& ping) { return db(mean_square(ping, -60, 60, R - 1.0, R + 1.0)); };
     // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.
-    CHECK(level_db(tapered) - level_db(rectangular) == Approx(db(1.0 - 5.0 / 16.0)).margin(0.2));
+    CHECK_THAT(level_db(tapered) - level_db(rectangular), WithinAbs(db(1.0 - 5.0 / 16.0), 0.2));
   }
 }
 
@@ -237,9 +238,9 @@ TEST_CASE("a block is at its azimuth and range, and its shadow has the length of
     const double from_m = edge_m(top, -1), to_m = edge_m(beyond, 1);
     INFO("wall at " << front_m << " m: shadow from " << from_m << " to " << to_m << " m, by geometry from " << begins_m
                     << " to " << ends_m << " m");
-    CHECK(to_m == Approx(ends_m).margin(step_m));
-    CHECK(from_m == Approx(begins_m).margin(step_m));
-    CHECK(to_m - from_m == Approx(ends_m - begins_m).margin(step_m));
+    CHECK_THAT(to_m, WithinAbs(ends_m, step_m));
+    CHECK_THAT(from_m, WithinAbs(begins_m, step_m));
+    CHECK_THAT(to_m - from_m, WithinAbs(ends_m - begins_m, step_m));
   }
 }
 
@@ -264,7 +265,7 @@ TEST_CASE("a pillar is brightest in the beam and at the range where it stands") 
     if (out(i) > out(brightest)) brightest = i;
   }
   const double found_deg = static_cast<double>(ping.beam_angle_rad[brightest / ping.amplitude_upa.cols()]) / kDeg;
-  CHECK(found_deg == Approx(30.0).margin(1.6));  // 0.55 m to either side with its slopes: half its width
+  CHECK_THAT(found_deg, WithinAbs(30.0, 1.6));  // 0.55 m to either side with its slopes: half its width
   const double front_m = 20.0 - 0.3 - 0.25, range_m = range_of(ping, brightest % ping.amplitude_upa.cols());
   CHECK(range_m > std::hypot(front_m, 3.5) - 0.1);  // from the front's top ...
   CHECK(range_m < std::hypot(20.0, 5.0) + 0.1);     // ... to its foot
@@ -362,7 +363,7 @@ TEST_CASE("a shaded array of equal beamwidth is longer, and has lower side lobes
   // Half-power widths are 64.4 and 50.76 lambda / L degrees.
   CHECK(ForwardLookingHead(config).near_field_m() / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
   CHECK(mean_square(shaded, -60, -40, 20, 30) < 0.1 * mean_square(uniform, -60, -40, 20, 30));
-  CHECK(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)) == Approx(0.0).margin(0.5));
+  CHECK_THAT(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)), WithinAbs(0.0, 0.5));
 }
 
 TEST_CASE("no directivity raises outer beams; no side lobes empty a wall's far side") {
@@ -400,7 +401,7 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;
   };
   // The pillar is 1.7 degrees wide, and its brightest spot anywhere on it.
-  CHECK(seen_deg(1500.0) == Approx(50.0).margin(0.9));
+  CHECK_THAT(seen_deg(1500.0), WithinAbs(50.0, 0.9));
   // sin(beam) 1500 / 1440 = sin(50): 47.3 degrees, two and a half beams off.
-  CHECK(seen_deg(1440.0) == Approx(std::asin(std::sin(50 * kDeg) * 0.96) / kDeg).margin(0.9));
+  CHECK_THAT(seen_deg(1440.0), WithinAbs(std::asin(std::sin(50 * kDeg) * 0.96) / kDeg, 0.9));
 }

@@ -9,6 +9,7 @@
 #include "components/sonar/tile_set.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -143,11 +144,11 @@ TEST_CASE("calm surface echoes arrive after 2 d / c; none with multipath off or 
   // SL - 20 log 4 m - 0.07 x 4 - 2 x 10 dB behind the face, and what a beam of 4 degrees loses 2 degrees beside its
   // axis: 3 dB.
   const double level_db = 20.0 * std::log10(at_surface());
-  CHECK(level_db == Approx(215.0 - 12.04 - 0.28 - 20.0 - 3.0).margin(1.0));
+  CHECK_THAT(level_db, WithinAbs(215.0 - 12.04 - 0.28 - 20.0 - 3.0, 1.0));
 
   config.world.vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
   CHECK(at_surface(2.0) == 0.0);
-  CHECK(20.0 * std::log10(at_surface(5.0)) == Approx(215.0 - 20.0 - 0.7 - 20.0 - 3.0).margin(1.0));
+  CHECK_THAT(20.0 * std::log10(at_surface(5.0)), WithinAbs(215.0 - 20.0 - 0.7 - 20.0 - 3.0, 1.0));
   config.world.vertical.tide = vertical::Tide();
 
   config.effects.multipath = false;
@@ -173,7 +174,7 @@ TEST_CASE("counts are amplitudes with the operator's gain, to half a step, and s
     const double gain_db = 30.0 * std::log10(range_m) + 2.0 * 0.07 * range_m;
     const double step = static_cast<double>(plain.amplitude_upa[i]) * std::pow(10.0, gain_db / 20.0) / ping.count_upa;
     saturated += step > 255.5;
-    REQUIRE(static_cast<double>(ping.amplitude_count[i]) == Approx(std::min(step, 255.0)).margin(0.51));
+    REQUIRE_THAT(static_cast<double>(ping.amplitude_count[i]), WithinAbs(std::min(step, 255.0), 0.51));
   }
   CHECK(saturated > 0);
   config.effects.tvg = false;
@@ -208,7 +209,7 @@ TEST_CASE("each sector is sent at its own time and frequency, and received by it
   const auto row = ping.amplitude_upa.row(16);
   const float strongest = *std::max_element(row.begin(), row.end());
   const auto first = std::find_if(row.begin(), row.end(), [&](float a) { return a > 0.2F * strongest; });
-  CHECK(static_cast<double>(first - row.begin()) * ping.sample_period_s == Approx(0.004 + 0.0267).margin(0.0006));
+  CHECK_THAT(static_cast<double>(first - row.begin()) * ping.sample_period_s, WithinAbs(0.004 + 0.0267, 0.0006));
 }
 
 TEST_CASE("where two sectors join each is sent with half its amplitude") {
@@ -226,7 +227,7 @@ TEST_CASE("where two sectors join each is sent with half its amplitude") {
   };
   // Rays differ: some hundred of them share a beam, and their mean is good to half a decibel.
   for (const std::size_t inside : {4U, 16U, 24U}) {
-    CHECK(10.0 * std::log10(energy(two, inside) / energy(one, inside)) == Approx(0.0).margin(0.5));
+    CHECK_THAT(10.0 * std::log10(energy(two, inside) / energy(one, inside)), WithinAbs(0.0, 0.5));
   }
   // The edge is the axis of beam 10: a quarter of the power there, none to one side and all of it to the other, and
   // half of the beam's width lies within the edge's 0.1 of sine.
@@ -267,7 +268,7 @@ TEST_CASE("a sector receives the others as its filter passes them") {
     };
     return 10.0 * std::log10(energy(32e-3) / energy(28e-3));
   };
-  CHECK(again_db() == Approx(0.0).margin(1.5));
+  CHECK_THAT(again_db(), WithinAbs(0.0, 1.5));
   config.effects.interference = false;
   CHECK(again_db() > 20.0);  // the edge is the second's
 }

@@ -6,6 +6,7 @@
 // The whole head on a vehicle that moves, and whose sensors and mountings err.
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 TEST_CASE("with true navigation, motion during the ping and second echoes keep depths right") {
   auto config = shallow();
@@ -24,8 +25,8 @@ TEST_CASE("a 1 m error in the measured lever arm shows as 1 m in the soundings")
   const auto right = survey(shallow(), {}, 500_ms), off = survey(wrong, {}, 500_ms);
   REQUIRE(right.size() == off.size());
   for (std::size_t beam = 0; beam < 256; ++beam) {
-    CHECK(off[0].position_enu_m(beam, 0) - right[0].position_enu_m(beam, 0) == Approx(1.0).margin(1e-9));
-    CHECK(off[0].position_enu_m(beam, 2) == Approx(right[0].position_enu_m(beam, 2)).margin(1e-9));
+    CHECK_THAT(off[0].position_enu_m(beam, 0) - right[0].position_enu_m(beam, 0), WithinAbs(1.0, 1e-9));
+    CHECK_THAT(off[0].position_enu_m(beam, 2), WithinAbs(right[0].position_enu_m(beam, 2), 1e-9));
   }
 }
 
@@ -68,7 +69,7 @@ TEST_CASE("with ten degrees of roll the swath stays where the motion sensor stee
     double largest = 0.0;
     for (const EdgeRoll& edge : rolls) {
       // A sounding scatters by 0.1 m of 50 m; both edges together by less.
-      CHECK(edge.found_rad == Approx(edge.theory_rad).margin(0.3 * MultibeamConfig::kDegree));
+      CHECK_THAT(edge.found_rad, WithinAbs(edge.theory_rad, 0.3 * MultibeamConfig::kDegree));
       largest = std::max(largest, std::abs(edge.theory_rad));
     }
     // 13 degrees a second, for the latency and the 0.06 s that the echo takes.
@@ -158,8 +159,8 @@ TEST_CASE("soundings never use the truth: an estimate 5 m off moves them by 5 m"
   for (std::size_t ping = 0; ping < a.size(); ++ping) {
     CHECK(a[ping].travel_time_s == b[ping].travel_time_s);  // what is received is the same
     for (std::size_t beam = 0; beam < 256; ++beam) {
-      REQUIRE(b[ping].position_enu_m(beam, 0) - a[ping].position_enu_m(beam, 0) == Approx(3.0).margin(1e-9));
-      REQUIRE(b[ping].position_enu_m(beam, 1) - a[ping].position_enu_m(beam, 1) == Approx(-4.0).margin(1e-9));
+      REQUIRE_THAT(b[ping].position_enu_m(beam, 0) - a[ping].position_enu_m(beam, 0), WithinAbs(3.0, 1e-9));
+      REQUIRE_THAT(b[ping].position_enu_m(beam, 1) - a[ping].position_enu_m(beam, 1), WithinAbs(-4.0, 1e-9));
     }
   }
 }
@@ -192,6 +193,6 @@ TEST_CASE("with yaw stabilised the fans of sectors stay across the mean heading"
   const double off_m = 20.0 * std::tan(43.3 * MultibeamConfig::kDegree) * std::sin(yaw);
   CHECK(turned[0] == Approx(off_m).epsilon(0.05));
   CHECK(turned[1] == Approx(-off_m).epsilon(0.05));
-  CHECK(held[0] == Approx(0.0).margin(0.05));
-  CHECK(held[1] == Approx(0.0).margin(0.05));
+  CHECK_THAT(held[0], WithinAbs(0.0, 0.05));
+  CHECK_THAT(held[1], WithinAbs(0.0, 0.05));
 }

@@ -8,6 +8,7 @@
 // When the node pings, what it is given meanwhile, and what it says of itself.
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -31,7 +32,7 @@ TEST_CASE("a flat seabed 20 m below answers after 26.7 ms at nadir") {
   const float strongest = *std::max_element(nadir.begin(), nadir.end());
   const auto first = std::find_if(nadir.begin(), nadir.end(), [&](float a) { return a > 0.1F * strongest; });
   const double first_echo_s = ping.first_sample_s + (first - nadir.begin()) * ping.sample_period_s;
-  CHECK(first_echo_s == Approx(2 * 20.0 / 1500.0).margin(1.5 * ping.sample_period_s));
+  CHECK_THAT(first_echo_s, WithinAbs(2 * 20.0 / 1500.0, 1.5 * ping.sample_period_s));
 }
 
 TEST_CASE("without a tile there is no ping, and health says why") {
@@ -161,7 +162,7 @@ TEST_CASE("commands change the next ping: range, power, pulse, gain, swath, rate
   CHECK(pings[1].track.pose_time_s.size() > 10);
   CHECK(static_cast<double>(pings[1].beam_angle_rad[255]) == Approx(45.0 * MultibeamConfig::kDegree));
   const double nadir_m = -soundings.back().position_enu_m(128, 2);
-  CHECK(nadir_m == Approx(20.0).margin(0.05));
+  CHECK_THAT(nadir_m, WithinAbs(20.0, 0.05));
 }
 
 TEST_CASE("a range of 0 lets the head choose, one beyond the longest is clamped") {
@@ -179,7 +180,7 @@ TEST_CASE("a range of 0 lets the head choose, one beyond the longest is clamped"
     return std::ranges::find(soundings, t.count(), &msg::Soundings::stamp_ns)->applied.range_m;
   };
   CHECK(at(0_ms) == 60.0);
-  CHECK(at(1400_ms) == Approx(1.13 * 20.0 / std::cos(65.0 * MultibeamConfig::kDegree)).margin(1.5));
+  CHECK_THAT(at(1400_ms), WithinAbs(1.13 * 20.0 / std::cos(65.0 * MultibeamConfig::kDegree), 1.5));
   CHECK(at(1800_ms) == 60.0);
 }
 

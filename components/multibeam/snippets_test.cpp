@@ -7,6 +7,7 @@
 #include "kernels/acoustics/detect/seabed_image.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -65,7 +66,7 @@ TEST_CASE("snippets are the ping's own samples about each detection, uncorrected
       REQUIRE(s.amplitude_upa[k] == ping.amplitude_upa(s.beam[i], first + k - s.offset[i]));
     }
     const double centre_s = static_cast<double>(s.first_sample_s[i]) + s.centre[i] * s.sample_period_s;
-    REQUIRE(centre_s == Approx(static_cast<double>(soundings.travel_time_s[i])).margin(0.51 * s.sample_period_s));
+    REQUIRE_THAT(centre_s, WithinAbs(static_cast<double>(soundings.travel_time_s[i]), 0.51 * s.sample_period_s));
   }
 }
 
@@ -74,10 +75,10 @@ TEST_CASE("the seabed image of a level Lambert seabed is flat where its law is a
   config.image.crossover_rad = 10.0 * MultibeamConfig::kDegree;
   const Images received = imaged(config, 2_s);
   CHECK(received.images.back().lambert_removed);
-  CHECK(received.images.back().normal_incidence_range_m == Approx(20.0).margin(0.1));
+  CHECK_THAT(received.images.back().normal_incidence_range_m, WithinAbs(20.0, 0.1));
   // Lambert's law with mu = -25 dB, the oblique strength that is assumed. The assumed area is right to 0.2 dB beyond 30
   // degrees, and some 300 independent samples to 0.25 dB.
-  for (const double deg : {35.0, 45.0, 55.0}) CHECK(strength_db(received.images, deg) == Approx(-25.0).margin(0.7));
+  for (const double deg : {35.0, 45.0, 55.0}) CHECK_THAT(strength_db(received.images, deg), WithinAbs(-25.0, 0.7));
 }
 
 TEST_CASE("a wrong absorption leaves the trend across the swath that theory gives") {
@@ -88,15 +89,15 @@ TEST_CASE("a wrong absorption leaves the trend across the swath that theory give
   CHECK(wrong.images.back().absorption_dbpm == 0.12);
   for (const double deg : {20.0, 40.0, 60.0}) {
     const double range_m = 20.0 / std::cos(deg * MultibeamConfig::kDegree);
-    CHECK(strength_db(wrong.images, deg) - strength_db(right.images, deg) ==
-          Approx(2.0 * 0.05 * range_m).margin(0.1));  // within a degree the range changes by 0.05 dB
+    CHECK_THAT(strength_db(wrong.images, deg) - strength_db(right.images, deg),
+               WithinAbs(2.0 * 0.05 * range_m, 0.1));  // within a degree the range changes by 0.05 dB
   }
   for (const std::size_t beam : {20U, 100U, 200U}) {
     const auto strength = [&](const Images& of) {
       return static_cast<double>(of.soundings.back().backscatter_strength_db[beam]);
     };
     const double range_m = 750.0 * static_cast<double>(right.soundings.back().travel_time_s[beam]);
-    CHECK(strength(wrong) - strength(right) == Approx(2.0 * 0.05 * range_m).margin(0.1));
+    CHECK_THAT(strength(wrong) - strength(right), WithinAbs(2.0 * 0.05 * range_m, 0.1));
   }
 }
 

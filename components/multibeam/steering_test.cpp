@@ -8,6 +8,7 @@
 #include "kernels/acoustics/array/stabilisation.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 using frames::Vec3;
 
 namespace {
@@ -36,8 +37,8 @@ TEST_CASE("stabilised beams keep their angles from the vertical, whatever roll a
       const Steering steering = steer(config, config.swath_rad, {1500.0, attitude});
       CHECK((steering.roll_stabilised && steering.pitch_stabilised));
       for (const std::size_t beam : {0U, 60U, 128U, 255U}) {  // of a float sine at 75 degrees: 2e-7
-        CHECK(across_rad(steering, beam, attitude) ==
-              Approx(static_cast<double>(steering.across_rad[beam])).margin(1e-6));
+        CHECK_THAT(across_rad(steering, beam, attitude),
+                   WithinAbs(static_cast<double>(steering.across_rad[beam]), 1e-6));
       }
     }
   }
@@ -80,15 +81,15 @@ TEST_CASE("each sector's fan passes through the middle of its part of the swath"
     for (std::size_t i = 0; i < 3; ++i) {
       const double a = sectors[i].centre_rad, t = sectors[i].tilt_rad;
       const Vec3 middle(std::sin(t), std::cos(t) * std::sin(a), std::cos(t) * std::cos(a));
-      CHECK((level_from_head * Vec3::UnitX()).dot(middle) == Approx(steering.sectors[i].sin_transmit).margin(1e-12));
+      CHECK_THAT((level_from_head * Vec3::UnitX()).dot(middle), WithinAbs(steering.sectors[i].sin_transmit, 1e-12));
     }
     // Every beam lies in its sector's edges, and at its angle from the vertical.
     for (std::size_t beam = 0; beam < 256; ++beam) {
       const SteeredSector& sector = steering.sectors[steering.beam_sector[beam]];
       CHECK(static_cast<double>(steering.sin_beams[beam]) >= sector.lower_sine - 1e-6);
       CHECK(static_cast<double>(steering.sin_beams[beam]) <= sector.upper_sine + 1e-6);
-      CHECK(across_rad(steering, beam, attitude, 1.0) ==
-            Approx(static_cast<double>(steering.across_rad[beam])).margin(1e-5));
+      CHECK_THAT(across_rad(steering, beam, attitude, 1.0),
+                 WithinAbs(static_cast<double>(steering.across_rad[beam]), 1e-5));
     }
   }
 }
@@ -99,5 +100,5 @@ TEST_CASE("the mean heading follows slowly, the short way round") {
   CHECK(mean.mean_rad() == 6.2);
   for (int i = 1; i <= 100; ++i) mean.update(0.1 * i, 0.1);  // 0.183 rad further, through north
   const double turned = 0.1 - (6.2 - 2.0 * std::acos(-1.0));
-  CHECK(mean.mean_rad() == Approx(6.2 + turned * (1.0 - std::exp(-1.0))).margin(1e-9));
+  CHECK_THAT(mean.mean_rad(), WithinAbs(6.2 + turned * (1.0 - std::exp(-1.0)), 1e-9));
 }

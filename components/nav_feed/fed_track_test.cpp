@@ -9,6 +9,7 @@
 #include "components/nav_feed/testing/sentence.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 using nmea::sentence;
 
 namespace {
@@ -69,14 +70,14 @@ TEST_CASE("a vehicle follows its fixes delayed, across midnight, with their deri
     const auto moving = fed.feed.at(at_s(t));
     REQUIRE(moving);
     // Of a curve through samples h = 1 s apart, by (w h)^3 / 12 of the amplitude at most: 20 * 0.001 / 12.
-    REQUIRE(moving->pose.position_enu_m.x() == Approx(east(t - 7.5)).margin(0.002));
-    REQUIRE(moving->pose.position_enu_m.y() == Approx(north(t - 7.5)).margin(0.004));
+    REQUIRE_THAT(moving->pose.position_enu_m.x(), WithinAbs(east(t - 7.5), 0.002));
+    REQUIRE_THAT(moving->pose.position_enu_m.y(), WithinAbs(north(t - 7.5), 0.004));
     const auto later = fed.feed.at(at_s(t + 1e-3));
     const frames::Vec3 rate = (later->pose.position_enu_m - moving->pose.position_enu_m) / 1e-3;
     REQUIRE((rate - moving->velocity_enu_mps).norm() < 1e-3);
     const double grid_rad = frames::attitude_of(moving->pose.enu_from_body).heading_rad;
     const double convergence = frames::LocalProjection(kOrigin).convergence_rad({east(t - 7.5), north(t - 7.5)});
-    REQUIRE(frames::wrap_pi(grid_rad + convergence - (359.0 + 0.5 * (t - 7.5)) * kDegree) == Approx(0.0).margin(1e-4));
+    REQUIRE_THAT(frames::wrap_pi(grid_rad + convergence - (359.0 + 0.5 * (t - 7.5)) * kDegree), WithinAbs(0.0, 1e-4));
   }
 }
 
@@ -90,13 +91,13 @@ TEST_CASE("roll, pitch and heave come from motion sentences; the gyro's heading 
   const auto attitude = frames::attitude_of(moving.pose.enu_from_body);
   CHECK(attitude.roll_rad == Approx(2.0 * kDegree));
   CHECK(attitude.pitch_rad == Approx(-1.0 * kDegree));
-  CHECK(attitude.heading_rad == Approx(90.0 * kDegree).margin(1e-6));
+  CHECK_THAT(attitude.heading_rad, WithinAbs(90.0 * kDegree, 1e-6));
   CHECK(moving.pose.position_enu_m.z() == Approx(0.25));
   fed.feed.take(heading(45.0), at_s(7));
   fed.feed.take(sentence("PASHR," + time_of(107) + ",90.00,T,+2.00,-1.00,+0.25,0.1,0.1,0.1,1,1"), at_s(7.1));
   CHECK(fed.counts["motions_taken"] == 8);
-  CHECK(frames::attitude_of(fed.feed.at(at_s(12))->pose.enu_from_body).heading_rad ==
-        Approx(45.0 * kDegree).margin(1e-6));
+  CHECK_THAT(frames::attitude_of(fed.feed.at(at_s(12))->pose.enu_from_body).heading_rad,
+             WithinAbs(45.0 * kDegree, 1e-6));
 }
 
 TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
@@ -128,11 +129,11 @@ TEST_CASE("without fixes it goes straight on and reports it; new fixes are follo
   for (int i = 0; i <= 10; ++i) fed.feed.take(fix(100 + i, 2.0 * i, 0.0) + heading(90.0), at_s(i));
   CHECK_FALSE(fed.feed.lacks_data(at_s(12.5)));
   CHECK(fed.feed.lacks_data(at_s(12.6)));
-  CHECK(fed.feed.at(at_s(22.5))->pose.position_enu_m.x() == Approx(40.0).margin(0.01));  // 10 s at 2 m/s
+  CHECK_THAT(fed.feed.at(at_s(22.5))->pose.position_enu_m.x(), WithinAbs(40.0, 0.01));  // 10 s at 2 m/s
   for (int i = 25; i <= 40; ++i) fed.feed.take(fix(100 + i, 60.0, 5.0), at_s(i));
-  CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.x() == Approx(60.0).margin(0.01));
+  CHECK_THAT(fed.feed.at(at_s(40))->pose.position_enu_m.x(), WithinAbs(60.0, 0.01));
   fed.feed.forget(at_s(40));
-  CHECK(fed.feed.at(at_s(40))->pose.position_enu_m.y() == Approx(5.0).margin(0.01));
+  CHECK_THAT(fed.feed.at(at_s(40))->pose.position_enu_m.y(), WithinAbs(5.0, 0.01));
 }
 
 TEST_CASE("fixes of an antenna off the reference point lead the reference point") {
@@ -180,10 +181,10 @@ TEST_CASE("heights of the antenna give the reference point's, between fixes by h
   for (double t = 2.0; t < 26.0; t += 0.37) {
     const auto moving = *fed.feed.at(at_s(t + 3.5));
     // Of the heave's curve (w h)^3 / 12 of the amplitude, 0.2 mm, and decimals.
-    REQUIRE(moving.pose.position_enu_m.z() == Approx(above_datum(t)).margin(0.001));
-    REQUIRE(moving.velocity_enu_mps.z() == Approx(0.01 + 0.5 * 1.5708 * std::cos(1.5708 * t)).margin(0.02));
+    REQUIRE_THAT(moving.pose.position_enu_m.z(), WithinAbs(above_datum(t), 0.001));
+    REQUIRE_THAT(moving.velocity_enu_mps.z(), WithinAbs(0.01 + 0.5 * 1.5708 * std::cos(1.5708 * t), 0.02));
   }
-  CHECK(fed.feed.take_fix()->position_enu_m[2] == Approx(above_datum(30.0) + up_m).margin(1e-3));
+  CHECK_THAT(fed.feed.take_fix()->position_enu_m[2], WithinAbs(above_datum(30.0) + up_m, 1e-3));
   fed.feed.take(sentence("GPGGA,000031.00,5312.6000000,N,00922.2000000,W,4,12,0.7,,M,,M,,"), at_s(31));
   CHECK(fed.counts["fixes_without_height"] == 1);
 }

@@ -4,6 +4,7 @@
 
 using namespace ensonify;
 using namespace ensonify::test_run;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -68,7 +69,7 @@ TEST_CASE("estimates are as wrong as they say, with instruments as graded") {
   // what is drawn once, so their mean is hardly more certain: 3.3 deviations, one in a thousand.
   const auto check = [](const std::vector<Nees>& epochs) {
     for (double Nees::*of : {&Nees::position, &Nees::velocity, &Nees::rotation}) {
-      CHECK(mean_of(epochs, of) == Approx(3.0).margin(0.57));
+      CHECK_THAT(mean_of(epochs, of), WithinAbs(3.0, 0.57));
     }
   };
   check(mean_nees(magnetic));

@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::test_run;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -86,7 +87,7 @@ TEST_CASE("FOG and RTK: the estimate is within centimetres and as uncertain as i
   const auto increments = navigation.step_until<msg::InertialIncrements>("imu", 60_s);
   CHECK(estimates.size() == 6001);
   CHECK(increments.size() == 6000);
-  CHECK(increments.back().velocity_mps[2] / increments.back().interval_s == Approx(-9.8).margin(0.3));
+  CHECK_THAT(increments.back().velocity_mps[2] / increments.back().interval_s, WithinAbs(-9.8, 0.3));
   for (std::size_t i = 3000; i < estimates.size(); i += 500) {
     const frames::Vec3 off = off_m(estimates[i], kLevel);
     const double sigma = std::sqrt(estimates[i].position_covariance_enu_m2[0]);
@@ -100,7 +101,7 @@ TEST_CASE("FOG and RTK: the estimate is within centimetres and as uncertain as i
     CHECK(
         frames::quaternion_of(estimates[i].enu_from_body).angularDistance(frames::quaternion_of(truth.enu_from_body)) <
         0.3 * kDegree);
-    CHECK(estimates[i].velocity_enu_mps[0] == Approx(truth.velocity_enu_mps[0]).margin(0.1));
+    CHECK_THAT(estimates[i].velocity_enu_mps[0], WithinAbs(truth.velocity_enu_mps[0], 0.1));
   }
 }
 
@@ -124,11 +125,11 @@ TEST_CASE("in a dive there are no fixes; log and depth hold the estimate") {
   for (const auto& log : logs) {
     if (!log.bottom_lock) continue;
     ++locked;
-    REQUIRE(log.velocity_body_mps[0] == Approx(2.0).margin(0.1));
+    REQUIRE_THAT(log.velocity_body_mps[0], WithinAbs(2.0, 0.1));
   }
   CHECK(locked > 440);
-  CHECK(logs.back().altitude_m == Approx(20.0 - 5.7).margin(0.3));
-  CHECK(navigation.step_until<msg::Depth>("depth", 90_s).back().depth_m == Approx(5.2).margin(0.3));
+  CHECK_THAT(logs.back().altitude_m, WithinAbs(20.0 - 5.7, 0.3));
+  CHECK_THAT(navigation.step_until<msg::Depth>("depth", 90_s).back().depth_m, WithinAbs(5.2, 0.3));
   const auto altitudes = navigation.step_until<msg::Altitude>("altitude", 90_s);
   CHECK(altitudes.back().valid);
   const auto estimates = navigation.step_until<msg::Estimate>("estimate", 90_s);
@@ -151,7 +152,7 @@ TEST_CASE("an altimeter's beam ends on a mesh while it is there") {
   for (const auto& [until, height_m] : {std::pair{3900_ms, -20.0}, {7900_ms, -12.0}, {11900_ms, -20.0}}) {
     const auto altitude = reported(until);
     CHECK(altitude.valid);
-    CHECK(altitude.range_m == Approx(-1.0 - height_m).margin(0.3));  // rolling by 5 degrees makes 0.08 m
+    CHECK_THAT(altitude.range_m, WithinAbs(-1.0 - height_m, 0.3));  // rolling by 5 degrees makes 0.08 m
   }
 }
 
@@ -183,13 +184,13 @@ TEST_CASE("heave has no draught in it; delayed heave is right a window later") {
   const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 300_s);
   double mean = 0.0;
   for (std::size_t i = 2000; i < 2800; ++i) mean += attitudes[i].heave_m / 800;  // ten periods
-  CHECK(mean == Approx(0.0).margin(0.01));
+  CHECK_THAT(mean, WithinAbs(0.0, 0.01));
   const auto delayed = navigation.step_until<msg::DelayedHeave>("delayed_heave", 300_s);
   REQUIRE(!delayed.empty());
   CHECK(delayed.back().stamp_ns == 225'000'000'000);
   for (const auto& heave : delayed) {
-    REQUIRE(heave.heave_m ==
-            Approx(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(heave.stamp_ns) / 8)).margin(0.01));
+    REQUIRE_THAT(heave.heave_m,
+                 WithinAbs(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(heave.stamp_ns) / 8), 0.01));
   }
 }
 
@@ -207,7 +208,7 @@ TEST_CASE("a compass gives the heading of attitude, clockwise from grid north") 
   NodeUnderTest<NavigationNode> navigation(config_of("heading: { errors: { bias_deg: 2 } }"));
   run_for(navigation, 1, kLevel);
   const auto attitudes = navigation.step_until<msg::Attitude>("attitude", 1_s);
-  CHECK(attitudes.back().heading_grid_rad == Approx(0.02 + 2 * kDegree).margin(1e-5));
+  CHECK_THAT(attitudes.back().heading_grid_rad, WithinAbs(0.02 + 2 * kDegree, 1e-5));
 }
 
 namespace {
@@ -232,8 +233,8 @@ TEST_CASE("heave of a simple and of a graded sensor holds no tide, draught or lo
   NodeUnderTest<NavigationNode> ideal(simple);
   run_for(ideal, 16, riding);
   for (const auto& attitude : ideal.step_until<msg::Attitude>("attitude", 16_s)) {
-    REQUIRE(attitude.heave_m ==
-            Approx(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(attitude.stamp_ns) / 8)).margin(1e-9));
+    REQUIRE_THAT(attitude.heave_m,
+                 WithinAbs(0.5 * std::sin(2 * kPi * 1e-9 * static_cast<double>(attitude.stamp_ns) / 8), 1e-9));
   }
 
   // The filter's corner is at 30 s: what it started with has died away after 160 s to exp(-0.7 * 2 pi * 160 / 30), and
@@ -244,8 +245,8 @@ TEST_CASE("heave of a simple and of a graded sensor holds no tide, draught or lo
   double mean = 0.0, early = 0.0;
   for (std::size_t i = 1600; i < 2400; ++i) mean += attitudes[i].heave_m / 800;
   for (std::size_t i = 1600; i < 2000; ++i) early += attitudes[i].heave_m / 400;
-  CHECK(mean == Approx(0.0).margin(1e-3));
-  CHECK(early - mean == Approx(0.0).margin(1e-3));  // in 20 s the tide has risen by 4 mm
+  CHECK_THAT(mean, WithinAbs(0.0, 1e-3));
+  CHECK_THAT(early - mean, WithinAbs(0.0, 1e-3));  // in 20 s the tide has risen by 4 mm
 }
 
 TEST_CASE("pressure depth counts from the water level, and heights by it follow the tide") {
@@ -258,10 +259,10 @@ TEST_CASE("pressure depth counts from the water level, and heights by it follow 
   for (const auto& depth : depths) {
     const double t = 1e-9 * static_cast<double>(depth.stamp_ns);
     const double roll = 5 * kDegree * std::sin(2 * kPi * t / 6);
-    REQUIRE(depth.depth_m == Approx(1.3 + 2.0 * std::cos(roll)).margin(1e-3));  // draught and load, not the tide
+    REQUIRE_THAT(depth.depth_m, WithinAbs(1.3 + 2.0 * std::cos(roll), 1e-3));  // draught and load, not the tide
   }
   const auto estimate = navigation.step_until<msg::Estimate>("estimate", 60_s).back();
-  CHECK(estimate.position_enu_m[2] == Approx(still(60)).margin(0.05));
+  CHECK_THAT(estimate.position_enu_m[2], WithinAbs(still(60), 0.05));
 }
 
 TEST_CASE("an antenna above chart datum but under the water has no fix") {

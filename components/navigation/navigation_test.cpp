@@ -7,6 +7,7 @@
 #include "messages/terrain.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 constexpr double kPi = std::numbers::pi;
 
 namespace {
@@ -74,7 +75,7 @@ TEST_CASE("without noise the instruments report the truth") {
     const msg::Pose truth = truth_at(SimTime{estimates[i].stamp_ns});
     // Trapezoids follow a sine of 0.3 m and 5 s within w^2 h^2 / 12 of its height.
     for (std::size_t k = 0; k < 3; ++k) {
-      REQUIRE(estimates[i].position_enu_m[k] == Approx(truth.position_enu_m[k]).margin(1e-5));
+      REQUIRE_THAT(estimates[i].position_enu_m[k], WithinAbs(truth.position_enu_m[k], 1e-5));
     }
     REQUIRE(estimates[i].enu_from_body[0] == Approx(truth.enu_from_body[0]));
   }
@@ -92,7 +93,7 @@ TEST_CASE("noise has the stated sigma and no mean, and depends on seed and proce
   }
   const NavigationErrors sigma;
   // 10001 samples: a mean strays by sigma / 100, a sigma by sigma / 141; four times that is allowed.
-  CHECK(roll.mean() == Approx(0).margin(0.04 * sigma.roll_rad));
+  CHECK_THAT(roll.mean(), WithinAbs(0, 0.04 * sigma.roll_rad));
   CHECK(roll.sigma() == Approx(sigma.roll_rad).epsilon(0.03));
   CHECK(heading.sigma() == Approx(sigma.heading_rad).epsilon(0.03));
   CHECK(heave.sigma() == Approx(sigma.heave_m).epsilon(0.03));
@@ -154,7 +155,7 @@ TEST_CASE("the probe reports sound speed at its depth, with bias, noise and late
   for (const auto& s : noisy.step_until<msg::SoundSpeed>("sound_speed", 100_s)) error.add(s.sound_speed_mps - 1490.0);
   // 1001 samples: the mean strays by sigma / 32, sigma by 2.2 %; four times that is allowed.
   CHECK(error.n == 1001);
-  CHECK(error.mean() == Approx(0).margin(config.probe.sigma_mps / 8));
+  CHECK_THAT(error.mean(), WithinAbs(0, config.probe.sigma_mps / 8));
   CHECK(error.sigma() == Approx(config.probe.sigma_mps).epsilon(0.09));
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("an origin left to the raster comes with the chart; nothing is measure
   const auto positions = navigation.step_until<msg::Position>("position", 2_s);
   REQUIRE(positions.size() == 6);
   CHECK(positions[0].stamp_ns == 1'000'000'000);
-  CHECK(positions[0].latitude_deg == Approx(10.0).margin(1e-4));
+  CHECK_THAT(positions[0].latitude_deg, WithinAbs(10.0, 1e-4));
 }
 
 TEST_CASE("position latency delays the estimate's east and north, and nothing else") {
@@ -183,7 +184,7 @@ TEST_CASE("position latency delays the estimate's east and north, and nothing el
   };
   const msg::Estimate old = last_of(late), now = last_of(config_of(0));
   CHECK(old.stamp_ns == now.stamp_ns);
-  CHECK(now.position_enu_m[1] - old.position_enu_m[1] == Approx(2.0 * 0.155).margin(1e-6));  // north at 2 m/s
+  CHECK_THAT(now.position_enu_m[1] - old.position_enu_m[1], WithinAbs(2.0 * 0.155, 1e-6));  // north at 2 m/s
   CHECK(old.position_enu_m[2] == now.position_enu_m[2]);
   CHECK(old.enu_from_body == now.enu_from_body);
 }
@@ -203,8 +204,8 @@ TEST_CASE("motion sensor latency delays attitude and heave, not the position fix
   const msg::Attitude& last = attitudes.back();
   CHECK(last.stamp_ns == (2_s).count());
   // Poses come every 10 ms: the newest that is old enough is 0.84 s old.
-  CHECK(last.roll_rad == Approx(2 * kPi / 180 * (2.0 - 0.84)).margin(1e-9));
-  CHECK(last.heave_m == Approx(0.3 * std::sin(2 * kPi / 5.0 * (2.0 - 0.84))).margin(1e-9));
-  CHECK(attitudes.front().roll_rad == Approx(0.0).margin(1e-9));  // before, the oldest there is
+  CHECK_THAT(last.roll_rad, WithinAbs(2 * kPi / 180 * (2.0 - 0.84), 1e-9));
+  CHECK_THAT(last.heave_m, WithinAbs(0.3 * std::sin(2 * kPi / 5.0 * (2.0 - 0.84)), 1e-9));
+  CHECK_THAT(attitudes.front().roll_rad, WithinAbs(0.0, 1e-9));  // before, the oldest there is
   CHECK(positions.back().position_enu_m[1] == Approx(4.0));
 }

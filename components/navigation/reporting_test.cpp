@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::test_run;
+using Catch::WithinAbs;
 
 // What every instrument does with its outages, its clock and its latency.
 
@@ -125,7 +126,7 @@ TEST_CASE("attitude has the newest heading that the compass has sent") {
   for (const msg::Attitude& attitude : navigation.step_until<msg::Attitude>("attitude", 3_s)) {
     if (attitude.stamp_ns % 100'000'000 != 0 || attitude.stamp_ns < 500'000'000) continue;  // ten headings a second
     const double then_s = 1e-9 * static_cast<double>(attitude.stamp_ns) - 0.5;
-    REQUIRE(attitude.heading_grid_rad == Approx(0.02 * then_s + 2 * kDegree).margin(1e-5));
+    REQUIRE_THAT(attitude.heading_grid_rad, WithinAbs(0.02 * then_s + 2 * kDegree, 1e-5));
   }
 }
 

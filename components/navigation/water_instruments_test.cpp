@@ -6,6 +6,7 @@
 
 using namespace ensonify;
 using namespace ensonify::test_run;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -138,7 +139,7 @@ TEST_CASE("USBL finds a vehicle's transponder where it was when it answered") {
     // The target's poses stand 10 ms apart and are joined by straight lines; the ship's estimate is of the same moment.
     CHECK((vec(fix.position_enu_m) - frames::Vec3(60, 3.0 * t - 1.0, -81)).norm() < 0.01);
     const double age_s = std::ceil(t) - t;
-    CHECK(age_s == Approx(fix.range_m / 1500.0).margin(1e-4));
+    CHECK_THAT(age_s, WithinAbs(fix.range_m / 1500.0, 1e-4));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -28,7 +29,7 @@ void check_angles(const Scan& scan, const std::vector<double>& expected) {
   const auto found = angles_deg(scan, static_cast<int>(expected.size()));
   for (std::size_t i = 0; i < expected.size(); ++i) {
     INFO("ping " << i);
-    CHECK(found[i] == Approx(expected[i]).margin(1e-9));
+    CHECK_THAT(found[i], WithinAbs(expected[i], 1e-9));
   }
 }
 
@@ -106,8 +107,8 @@ TEST_CASE("a pole echoes in the ping that points at it, at its range") {
       range_m = range_of(row, k);
     }
   }
-  CHECK(angle_deg == Approx(-60).margin(1.0));
-  CHECK(range_m == Approx(12.0).margin(0.5));  // a post of 0.4 m on posts of terrain 0.25 m apart
+  CHECK_THAT(angle_deg, WithinAbs(-60, 1.0));
+  CHECK_THAT(range_m, WithinAbs(12.0, 0.5));  // a post of 0.4 m on posts of terrain 0.25 m apart
 }
 
 TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe level") {
@@ -118,13 +119,13 @@ TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe l
     return 20.0 * std::log10(std::abs(static_cast<double>(pattern(direction.cast<float>(), 1.0F))) + 1e-9);
   };
   const AperturePattern shaded = scanning_pattern(config);
-  CHECK(at(shaded, std::sin(1.0 * kDeg)) - at(shaded, 0.0) == Approx(-3.01).margin(0.05));
+  CHECK_THAT(at(shaded, std::sin(1.0 * kDeg)) - at(shaded, 0.0), WithinAbs(-3.01, 0.05));
   // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
   // (docs/physics/acoustics/arrays.md), and what the face takes there is less than 0.1 dB.
   const double wave_over_length = 1.0 / array::length_in_waves_for(2.0 * kDeg);
   double highest_db = -100.0;
   for (double u = 1.25; u < 5.0; u += 0.01) highest_db = std::max(highest_db, at(shaded, u * wave_over_length));
-  CHECK(highest_db == Approx(-30.3).margin(0.2));
+  CHECK_THAT(highest_db, WithinAbs(-30.3, 0.2));
   config.effects.side_lobes = false;
   CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.25 * wave_over_length), 0.0F}, 1.0F) == 0.0F);
   CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.1 * wave_over_length), 0.0F}, 1.0F) != 0.0F);
@@ -165,7 +166,7 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
       ++count;
     }
     INFO("range " << R);
-    CHECK(10.0 * std::log10(mean_square / count) == Approx(expected_db).margin(0.5));
+    CHECK_THAT(10.0 * std::log10(mean_square / count), WithinAbs(expected_db, 0.5));
   }
 }
 
@@ -195,7 +196,7 @@ TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective
     return 10.0 * std::log10(sum);
   };
   // The square of a raised cosine has a mean of 3/8: 1 - 5/8 of the tapered fraction is left.
-  CHECK(level_db(tapered) - level_db(rectangular) == Approx(10.0 * std::log10(1.0 - 5.0 / 16.0)).margin(0.2));
+  CHECK_THAT(level_db(tapered) - level_db(rectangular), WithinAbs(10.0 * std::log10(1.0 - 5.0 / 16.0), 0.2));
 }
 
 TEST_CASE("a command holds the tone and sets the sector's width") {
@@ -257,7 +258,7 @@ TEST_CASE("pings carry their angle, and a head that can only see black says why"
   }
   CHECK(static_cast<double>(pings[10].beam_angle_rad[0]) == Approx(45 * kDeg));
   CHECK(static_cast<double>(pings[11].beam_angle_rad[0]) == Approx(36 * kDeg));
-  CHECK(pings[1].stamp_ns - pings[0].stamp_ns == Approx(25'365'333).margin(20'000));
+  CHECK_THAT(pings[1].stamp_ns - pings[0].stamp_ns, WithinAbs(25'365'333, 20'000));
   const auto health = head.step_until<msg::Health>("health", 460_ms);
   REQUIRE_FALSE(health.empty());
   CHECK(health.back().message == "the range of 4.0 m is below the altitude of 5.0 m");

@@ -6,6 +6,7 @@
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 TEST_CASE("sidescan/default.yaml lists every parameter with its default") {
   CHECK(default_yaml_fault<SidescanConfig>("sidescan", world_with("sidescan")) == "");
@@ -79,6 +80,6 @@ TEST_CASE("the window of a channel's chirp weighs its filter") {
   const auto config = SidescanConfig::read(from, world_with("towed"), "towed");
   from.finish();
   // 20 dB of B T = 100, less what each window costs [Harris1978]: 1.76 and 1.34 dB.
-  CHECK(config.channels.at(0).pulse(1e-2).processing_gain_db == Approx(20.0 - 1.76).margin(0.02));
-  CHECK(config.channels.at(1).pulse(1e-2).processing_gain_db == Approx(20.0 - 1.34).margin(0.02));
+  CHECK_THAT(config.channels.at(0).pulse(1e-2).processing_gain_db, WithinAbs(20.0 - 1.76, 0.02));
+  CHECK_THAT(config.channels.at(1).pulse(1e-2).processing_gain_db, WithinAbs(20.0 - 1.34, 0.02));
 }

@@ -8,6 +8,7 @@
 #include "messages/motion.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -87,10 +88,10 @@ TEST_CASE("interference is at its slant range, and drifts where heads are not sy
   REQUIRE(pings.size() >= 5);
   for (int n = 0; n < 5; ++n) {
     const double expected_s = 3e-3 + n * 1e-3 + flight_s(config, kLever_m);
-    CHECK(first_arrival_s(pings[n], 1) == Approx(expected_s).margin(pings[n].sample_period_s));
+    CHECK_THAT(first_arrival_s(pings[n], 1), WithinAbs(expected_s, pings[n].sample_period_s));
   }
   const double drift_m = slant_range_m(first_arrival_s(pings[4], 1)) - slant_range_m(first_arrival_s(pings[0], 1));
-  CHECK(drift_m == Approx(4 * 0.75).margin(slant_range_m(pings[0].sample_period_s)));
+  CHECK_THAT(drift_m, WithinAbs(4 * 0.75, slant_range_m(pings[0].sample_period_s)));
 }
 
 TEST_CASE("cross-talk has the level of source, isolation, spreading and our own pattern") {
@@ -101,8 +102,8 @@ TEST_CASE("cross-talk has the level of source, isolation, spreading and our own 
   const auto sample = static_cast<std::size_t>((expected_s + 0.5 * kPulse_s) / pings[0].sample_period_s);
   for (const std::size_t side : {0U, 1U}) {
     const double pattern_db = 20 * std::log10(std::abs(sides.receive[side](Eigen::Vector3f::UnitY(), 1e6F)));
-    CHECK(20 * std::log10(pings[0].amplitude_upa(side, sample)) ==
-          Approx(220 - 60 - 20 * std::log10(kLever_m) + pattern_db).margin(0.01));
+    CHECK_THAT(20 * std::log10(pings[0].amplitude_upa(side, sample)),
+               WithinAbs(220 - 60 - 20 * std::log10(kLever_m) + pattern_db, 0.01));
   }
 }
 
@@ -112,7 +113,7 @@ TEST_CASE("it comes by way of the bottom too, where the mirror is") {
   const auto pings = receive_echoes(config, {transmission_of_other(95_ms)}, 250_ms);
   REQUIRE(pings.size() == 2);
   const double expected_s = -5e-3 + flight_s(config, std::hypot(2.0 * kAltitude_m, kLever_m));
-  CHECK(first_arrival_s(pings[1], 1) == Approx(expected_s).margin(pings[1].sample_period_s));
+  CHECK_THAT(first_arrival_s(pings[1], 1), WithinAbs(expected_s, pings[1].sample_period_s));
   CHECK(first_arrival_s(pings[0], 1) > 2.0 * kAltitude_m / 1550.0);  // sent after its 40 ms: not received
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("a slave receives its master at one range only") {
     CHECK(pings[n].stamp_ns == (n * 103_ms).count());
     CHECK(first_arrival_s(pings[n], 1) == first_arrival_s(pings[0], 1));
   }
-  CHECK(slant_range_m(first_arrival_s(pings[0], 1)) == Approx(0.5 * kLever_m).margin(0.1));
+  CHECK_THAT(slant_range_m(first_arrival_s(pings[0], 1)), WithinAbs(0.5 * kLever_m, 0.1));
 }
 
 TEST_CASE("interference switched off changes nothing but itself") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 TEST_CASE("near, a chirp keeps its band; far, it sweeps what the samples can show") {
   const PulseDesign design{.chirp = true, .length_s = 100e-6, .bandwidth_hz = 188e3, .most_samples = 2000};
@@ -78,7 +79,7 @@ TEST_CASE("the window of a chirp's filter is the design's") {
     return 20.0 - echo_pulse(design, pulse_at(design, 3.0, 1500.0)).processing_gain_db;  // of B T = 100
   };
   // Mean square over squared mean of the weights [Harris1978]; the sweep's 100 samples of them leave 0.02 dB.
-  CHECK(loss_db(echo::Window::kNone) == Approx(0.0).margin(0.02));
-  CHECK(loss_db(echo::Window::kHann) == Approx(1.76).margin(0.02));
-  CHECK(loss_db(echo::Window::kHamming) == Approx(1.34).margin(0.02));
+  CHECK_THAT(loss_db(echo::Window::kNone), WithinAbs(0.0, 0.02));
+  CHECK_THAT(loss_db(echo::Window::kHann), WithinAbs(1.76, 0.02));
+  CHECK_THAT(loss_db(echo::Window::kHamming), WithinAbs(1.34, 0.02));
 }

@@ -3,6 +3,7 @@
 #include "components/sonar/sea_acoustics.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 TEST_CASE("a black image has a reason, in words") {
   CHECK(no_echo_reason({.rays_that_hit = 9, .rays_in_lobe = 1, .range_m = 20.0, .altitude_m = 5.0}).empty());
@@ -21,6 +22,6 @@ TEST_CASE("the altitude is measured straight down, however the head is turned") 
                                             [](double, double) { return -30.0; }));
   const frames::HeadPose head{{1.0, 2.0, -10.0}, frames::enu_from_body({0.7, 0.4, -0.3})};
   REQUIRE(altitude_m(scene, head));
-  CHECK(*altitude_m(scene, head) == Approx(20.0).margin(1e-4));
+  CHECK_THAT(*altitude_m(scene, head), WithinAbs(20.0, 1e-4));
   CHECK_FALSE(altitude_m(scene, {{100.0, 0.0, -10.0}, head.enu_from_head}));
 }

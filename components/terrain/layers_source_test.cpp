@@ -18,6 +18,7 @@
 
 using namespace ensonify;
 using namespace ensonify::source;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -212,7 +213,7 @@ TEST_CASE("a tile set can be the guide of a seabed, and what its cells lack is r
   const LayersSource smooth(seabed_from(guide + "}}"), kOrigin);
   const LayersSource rough(seabed_from(guide + ", detail: {restored: {guide: ground}}}}"), kOrigin);
   for (const double x : {-80.0, 4.0, 96.0})  // at its own values the guide is itself, to the lattices' steps
-    CHECK(smooth.height_m({x, 2 * x}) == Approx(survey.height_m({x, 2 * x})).margin(5e-4));
+    CHECK_THAT(smooth.height_m({x, 2 * x}), WithinAbs(survey.height_m({x, 2 * x}), 5e-4));
   const frames::Geodetic elsewhere{kOrigin.latitude_deg + 0.01, kOrigin.longitude_deg};
   CHECK_THROWS_WITH(LayersSource(seabed_from(guide + "}}"), elsewhere),
                     Catch::Contains("seabed.layers.ground: the guide's tiles: their origin is") &&

@@ -15,6 +15,7 @@
 
 using namespace ensonify;
 using namespace ensonify::source;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -213,7 +214,7 @@ TEST_CASE("what a mask of a guide's shape holds on is looked up on the guide") {
   CHECK(share("curvature_1pm: {from: 0.006}") == 0.0);
   const auto uneven = relief_of(of("depth_m: {to: 21}"), read_guide).uneven;
   REQUIRE(uneven.size() == 2);  // classes 0 and 1
-  CHECK(uneven[0].share == Approx(0.62).margin(0.03));
+  CHECK_THAT(uneven[0].share, WithinAbs(0.62, 0.03));
   CHECK_THAT(text_of(uneven[0]), Catch::Contains("layer silt holds at 0.6"));
 }
 
@@ -229,7 +230,7 @@ TEST_CASE("facets of a partly rough seabed return on average what the plane's la
         "{spectral: {as_sediment: medium silt, outer_scale_m: 8}, mask: {depth_m: {to: 20.07}, of: ground}}"}) {
     INFO(layer);
     const Seabed seabed = silt_with(std::string("silt: ") + layer);
-    CHECK(returned_db(seabed, law_on_mesh(seabed), everywhere) == Approx(0.0).margin(0.3));
+    CHECK_THAT(returned_db(seabed, law_on_mesh(seabed), everywhere), WithinAbs(0.0, 0.3));
     CHECK(returned_db(seabed, seabed::law_of(seabed.sediments.at(0), 300e3, 1500.0), everywhere) < -0.6);
   }
 }
@@ -245,14 +246,14 @@ TEST_CASE("for a class that is rough in part, the smaller part's error in dB is 
     REQUIRE(uneven.size() == 1);
     CHECK(uneven[0].layer == "silt");
     CHECK(uneven[0].seabed_class == 0);
-    CHECK(uneven[0].share == Approx(rough_is_more ? 0.6 : 0.4).margin(0.02));  // 64 rows of places
+    CHECK_THAT(uneven[0].share, WithinAbs(rough_is_more ? 0.6 : 0.4, 0.02));  // 64 rows of places
     // At 100 kHz they are off by more: there the lobe that facets are left with is narrower.
     const seabed::Law law = law_on_mesh(seabed, 100e3);
     const double lesser_db = returned_db(
         seabed, law, [](double north_m) { return north_m > 6.0; }, 100e3);
     const double greater_db = returned_db(
         seabed, law, [](double north_m) { return north_m < 5.0; }, 100e3);
-    CHECK(uneven[0].off_db == Approx(lesser_db - greater_db).margin(0.2));  // 100,000 facets and more on either part
+    CHECK_THAT(uneven[0].off_db, WithinAbs(lesser_db - greater_db, 0.2));  // 100,000 facets and more on either part
     CHECK(uneven[0].off_db * (rough_is_more ? 1 : -1) > 2.0);
   }
   CHECK(relief_of(of("to: 20.15")).uneven.empty());  // all but 0.02

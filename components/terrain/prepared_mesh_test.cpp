@@ -15,6 +15,7 @@
 
 using namespace ensonify;
 using namespace ensonify::source;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -150,8 +151,8 @@ TEST_CASE("strewn copies stand on the ground, on the set classes, by seed and na
   const auto all = feet(poles(40), 1), east = feet(poles(40, {3}), 1);
   REQUIRE(all.size() == 40);
   REQUIRE(east.size() == 40);
-  for (const auto& foot : all) CHECK(foot.z() == Approx(-20 - 0.1 * foot.x()).margin(3e-4));  // a step of heights
-  for (const auto& foot : east) CHECK(foot.x() > 10 - 0.25);                                  // half a post
+  for (const auto& foot : all) CHECK_THAT(foot.z(), WithinAbs(-20 - 0.1 * foot.x(), 3e-4));  // a step of heights
+  for (const auto& foot : east) CHECK(foot.x() > 10 - 0.25);                                 // half a post
   CHECK(std::any_of(all.begin(), all.end(), [](const frames::Vec3& foot) { return foot.x() < 0; }));
   CHECK(feet(poles(40), 1) == all);
   CHECK(feet(poles(40), 2) != all);

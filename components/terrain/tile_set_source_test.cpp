@@ -11,6 +11,7 @@
 
 using namespace ensonify;
 using namespace ensonify::source;
+using Catch::WithinAbs;
 using terrain::TileKey;
 
 namespace {
@@ -66,13 +67,13 @@ TEST_CASE("between posts a set is bilinear") {
   const Set made;
   const TileSetSource source(made.folder);
   // The curvature of the sine is 0.8 x 0.31^2: bilinear between posts 0.5 m apart is within 1/8 of that x 0.25.
-  CHECK(source.height_m({-3.3, 7.7}) == Approx(seabed(-3.3, 7.7)).margin(0.0025));
+  CHECK_THAT(source.height_m({-3.3, 7.7}), WithinAbs(seabed(-3.3, 7.7), 0.0025));
   CHECK(std::isnan(source.height_m({3.3, 7.7})));
   const PostBlock coarse{-4, -4, 8, 8, 3.7};
   std::vector<float> height(coarse.size());
   std::vector<std::uint8_t> sediment(coarse.size());
   source.sample(coarse, height, sediment);
-  CHECK(height[0] == Approx(seabed(-14.8, -14.8)).margin(0.0025));
+  CHECK_THAT(height[0], WithinAbs(seabed(-14.8, -14.8), 0.0025));
   CHECK(sediment[0] == 1);
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("a set's overview is bit-equal to its posts, whether stored, missing o
     for (int column = 0; column < 255; ++column, ++k) {
       const Vec2 place(from_tiles.posts.east_m(column), from_tiles.posts.north_m(row));
       if (std::isnan(from_tiles.height_m[k])) ++holes;
-      else REQUIRE(from_tiles.height_m[k] == Approx(seabed(place.x(), place.y())).margin(0.0025));
+      else REQUIRE_THAT(from_tiles.height_m[k], WithinAbs(seabed(place.x(), place.y()), 0.0025));
     }
   }
   CHECK(holes == 128U * 128U);  // the missing tile's

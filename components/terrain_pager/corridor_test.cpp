@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::pager;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -60,8 +61,8 @@ std::string fault(const TerrainSource& terrain, const runlines::Runline& line, d
 TEST_CASE("along a line of kilometres the least depth is found from few posts") {
   const Counting slope([](double x, double y) { return -30.0 + 1e-3 * (x + 2.0 * y); });
   const runlines::Runline line{{-3000, -3000}, {3000, 3000}};
-  CHECK(check_corridors(slope, {leg_along(line)}, kHolesAllowed) ==
-        Approx(30.0 - 9.0).margin(1e-3));  // at its end, to a float's rounding
+  CHECK_THAT(check_corridors(slope, {leg_along(line)}, kHolesAllowed),
+             WithinAbs(30.0 - 9.0, 1e-3));  // at its end, to a float's rounding
   // Samples stand 4.24 m apart; 64 of them lie on a square of 3 m x 63 in 47 posts a side, 32 times.
   CHECK(slope.posts_made < 2 * 32 * 50 * 50);
 }

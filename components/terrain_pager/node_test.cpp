@@ -14,6 +14,7 @@
 #include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -50,7 +51,7 @@ TEST_CASE("the chart goes out once, at the start") {
   NodeUnderTest<TerrainPagerNode> pager(small_slope());
   const auto charts = pager.step_until<msg::Chart>("chart", 5_s);
   REQUIRE(charts.size() == 1);
-  CHECK(charts[0].deepest_m == Approx(15.0 + 400 * 0.01).margin(0.1));
+  CHECK_THAT(charts[0].deepest_m, WithinAbs(15.0 + 400 * 0.01, 0.1));
   CHECK(charts[0].height_m.rows() <= 256);
 }
 
@@ -62,8 +63,8 @@ TEST_CASE("the tiles around the vehicle go out in the first event, each once") {
   CHECK(tiles[0].col == 0);
   CHECK(tiles[0].row == 0);
   CHECK(tiles[0].height_m.rows() == 1025);
-  CHECK(tiles[0].height_m(0, 0) == Approx(-15.0).margin(1e-4));
-  CHECK(tiles[0].height_m(1024, 0) == Approx(-15.0 - 102.4 * std::tan(0.01)).margin(2e-4));
+  CHECK_THAT(tiles[0].height_m(0, 0), WithinAbs(-15.0, 1e-4));
+  CHECK_THAT(tiles[0].height_m(1024, 0), WithinAbs(-15.0 - 102.4 * std::tan(0.01), 2e-4));
 }
 
 TEST_CASE("a vehicle under way gets tiles ahead and gives up those behind") {

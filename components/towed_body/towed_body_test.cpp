@@ -5,6 +5,7 @@
 #include "components/towed_body/node.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -78,10 +79,10 @@ TEST_CASE("on a straight course the body runs at the cable's end, its motion the
   for (std::size_t i = 100; i < towed.poses.size(); i += 100) {
     const msg::Pose& pose = towed.poses[i];
     const double t_s = static_cast<double>(pose.stamp_ns) * 1e-9;
-    REQUIRE(pose.position_enu_m[0] == Approx(0.0).margin(1e-9));
-    REQUIRE(pose.position_enu_m[1] == Approx(kSpeed_mps * t_s - shape.layback_m).margin(1e-3));
-    REQUIRE(pose.position_enu_m[2] == Approx(-shape.depth_m).margin(1e-3));
-    REQUIRE(pose.velocity_enu_mps[1] == Approx(kSpeed_mps).margin(1e-6));
+    REQUIRE_THAT(pose.position_enu_m[0], WithinAbs(0.0, 1e-9));
+    REQUIRE_THAT(pose.position_enu_m[1], WithinAbs(kSpeed_mps * t_s - shape.layback_m, 1e-3));
+    REQUIRE_THAT(pose.position_enu_m[2], WithinAbs(-shape.depth_m, 1e-3));
+    REQUIRE_THAT(pose.velocity_enu_mps[1], WithinAbs(kSpeed_mps, 1e-6));
   }
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("in a circle it runs inside the vessel's track and deeper, as layback 
 
   const msg::Estimate& estimated = towed.estimates.back();
   const double estimated_m = std::hypot(estimated.position_enu_m[0] - 60.0, estimated.position_enu_m[1] - 40.0);
-  CHECK(estimated_m == Approx(60.0).margin(0.01));  // chords of a metre
+  CHECK_THAT(estimated_m, WithinAbs(60.0, 0.01));  // chords of a metre
   CHECK(across_m(estimated.position_enu_m, pose.position_enu_m) > 60.0 - radius_m - 0.01);
 }
 
@@ -109,9 +110,9 @@ TEST_CASE("layback is that of a straight cable, or a set share, by a counter wit
   };
   const double depth_m = motion::tow_shape(config_of(kShort).cable, config_of(kShort).body, kSpeed_mps).depth_m;
   const double straight_m = std::sqrt(40.0 * 40.0 - depth_m * depth_m);
-  CHECK(off_m("layback_factor: 1") == Approx(straight_m).margin(0.01));
-  CHECK(off_m("layback_factor: 0.9") == Approx(0.9 * straight_m).margin(0.01));
-  CHECK(off_m("cable_scale: 0.05") == Approx(std::sqrt(42.0 * 42.0 - depth_m * depth_m)).margin(0.01));
+  CHECK_THAT(off_m("layback_factor: 1"), WithinAbs(straight_m, 0.01));
+  CHECK_THAT(off_m("layback_factor: 0.9"), WithinAbs(0.9 * straight_m, 0.01));
+  CHECK_THAT(off_m("cable_scale: 0.05"), WithinAbs(std::sqrt(42.0 * 42.0 - depth_m * depth_m), 0.01));
   const double true_m = motion::tow_shape(config_of(kShort).cable, config_of(kShort).body, kSpeed_mps).layback_m;
   CHECK(straight_m > true_m);  // a cable sags: the straight one is too long
 }

@@ -9,6 +9,7 @@
 #include "components/runtime/testing/node_under_test.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 constexpr double kPi = std::numbers::pi;
 
 namespace {
@@ -61,7 +62,7 @@ TEST_CASE("a commanded turn is an arc of the turning circle") {
   const frames::Vec2 centre(10, 0.2);  // 0.1 s straight on, then the circle to starboard
   for (std::size_t i = 10; i <= 790; ++i) {
     const frames::Vec2 place(poses[i].position_enu_m[0], poses[i].position_enu_m[1]);
-    REQUIRE((place - centre).norm() == Approx(10.0).margin(1e-9));
+    REQUIRE_THAT((place - centre).norm(), WithinAbs(10.0, 1e-9));
   }
   CHECK(poses[1000].velocity_enu_mps[0] == Approx(2.0));
   CHECK(poses[400].rate_body_radps[2] == Approx(0.2));
@@ -98,7 +99,7 @@ TEST_CASE("the pose rate does not change the path") {
   const auto fine = a.step_until<msg::Pose>("pose", 20_s);
   const auto coarse = b.step_until<msg::Pose>("pose", 20_s);
   for (int k = 0; k < 3; ++k)
-    CHECK(fine.back().position_enu_m[k] == Approx(coarse.back().position_enu_m[k]).margin(1e-9));
+    CHECK_THAT(fine.back().position_enu_m[k], WithinAbs(coarse.back().position_enu_m[k], 1e-9));
 }
 
 TEST_CASE("with lines planned over a chart the vehicle appears when the chart does") {

@@ -10,6 +10,7 @@
 #include "kernels/vehicle/motion/disturbance.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 using frames::Vec3;
 constexpr double kPi = std::numbers::pi;
 
@@ -119,8 +120,8 @@ TEST_CASE("a ramp of speed makes no vertical step; acceleration integrates to se
     climb_mps += 0.5 * h * (before_mps2 + now_mps2);
     before_mps2 = now_mps2;
   }
-  CHECK(boat.moving().pose.position_enu_m.z() == Approx(-0.08).margin(1e-6));  // of 4 m/s
-  CHECK(height_m == Approx(boat.moving().pose.position_enu_m.z()).margin(1e-4));
+  CHECK_THAT(boat.moving().pose.position_enu_m.z(), WithinAbs(-0.08, 1e-6));  // of 4 m/s
+  CHECK_THAT(height_m, WithinAbs(boat.moving().pose.position_enu_m.z(), 1e-4));
 }
 
 TEST_CASE("two vehicles of one scenario are disturbed differently") {

@@ -10,6 +10,7 @@
 #include "scenarios/world/testing/default_yaml.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -48,7 +49,7 @@ TEST_CASE("a profiler finds a level seabed within half a pulse") {
   // Half a pulse of 50 us: 19 mm; the beam's edge is 1.3 mm farther than its axis.
   for (const auto& bottom : bottoms) {
     REQUIRE(bottom.valid);
-    CHECK(bottom.altitude_m == Approx(12.0).margin(0.02));
+    CHECK_THAT(bottom.altitude_m, WithinAbs(12.0, 0.02));
   }
 }
 

@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::survey;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -32,7 +33,7 @@ TEST_CASE("a cell is covered from the sounding on that it needs") {
   CHECK(coverage.columns() == 10);
   CHECK((coverage.corner_enu_m() - Vec2(0, 0)).norm() < 1e-9);
   for (int i = 0; i < 3; ++i) {
-    CHECK(coverage.covered() == Approx(0.0).margin(1e-12));
+    CHECK_THAT(coverage.covered(), WithinAbs(0.0, 1e-12));
     coverage.add({15.0, 25.0}, -20.0 - i);
   }
   coverage.add({-1.0, 25.0}, -20.0);

@@ -4,6 +4,7 @@
 #include "kernels/survey/coverage.h"
 
 using namespace ensonify::survey;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -27,7 +28,7 @@ TEST_CASE("on a lattice a cube of three distances holds nine soundings, wherever
   CHECK(side_m >= 3.0);
   CHECK(side_m <= 3.0 + 2 * 0.25);
   // One that is half as dense along is decided by that: 3 points along take 6 m, which hold 6 across.
-  CHECK(lattice(1.0, 2.0).smallest_side_m(18, 1.0) == Approx(6.25).margin(0.25));
+  CHECK_THAT(lattice(1.0, 2.0).smallest_side_m(18, 1.0), WithinAbs(6.25, 0.25));
 }
 
 TEST_CASE("the share of places found falls from all to none") {

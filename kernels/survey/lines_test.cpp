@@ -6,6 +6,7 @@
 
 using namespace ensonify;
 using namespace ensonify::survey;
+using Catch::WithinAbs;
 constexpr double kPi = std::numbers::pi;
 
 namespace {
@@ -25,7 +26,7 @@ TEST_CASE("on level ground lines are two reaches apart, the first one reach from
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     CHECK(x_of(lines[i]) == Approx(reach * (2.0 * static_cast<double>(i) + 1.0)).epsilon(1e-6));
     CHECK(runlines::length_m(lines[i]) == Approx(200.0));
-    CHECK(runlines::heading_rad(lines[i]) == Approx(i % 2 == 0 ? 0.0 : kPi).margin(1e-9));
+    CHECK_THAT(runlines::heading_rad(lines[i]), WithinAbs(i % 2 == 0 ? 0.0 : kPi, 1e-9));
   }
   CHECK(fixed_lines(kSquare, level, {0.0, kSixty}).size() == lines.size());
 }

@@ -8,6 +8,7 @@
 #include "scenarios/world/world.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -76,7 +77,7 @@ TEST_CASE("a mission stands in a file of its own, and what the scenario says as 
   CHECK(mission.run_in_m == 25.0);
   REQUIRE(mission.runlines.size() == 1);
   CHECK(mission.runlines[0].start_enu_m.norm() < 1e-6);
-  CHECK(mission.runlines[0].end_enu_m.y() == Approx(111.3).margin(0.1));  // 0.001 degrees of latitude at 53 degrees
+  CHECK_THAT(mission.runlines[0].end_enu_m.y(), WithinAbs(111.3, 0.1));  // 0.001 degrees of latitude at 53 degrees
 
   std::ofstream(file) << "ensonify: mission/1\nspeed_mps: .nan\nsteps:\n  - line: [[0, 0]]\n";
   const std::string problems = problems_of("  file: " + file.string() + "\n");

@@ -6,6 +6,8 @@
 
 #include "components/config/config_reader.h"
 
+using Catch::WithinAbs;
+
 namespace ensonify {
 namespace {
 
@@ -61,7 +63,7 @@ TEST_CASE("a scenario is read whole, in SI units") {
   CHECK(bay.seabed.layered.layers[1].name == "rocks");
   CHECK(std::get<relief::BodyParameters>(bay.seabed.layered.layers[1].form).per_km2 == 900);
   CHECK(bay.seabed.layered.seed == 7);
-  CHECK(bay.mission.speed_mps == Approx(4 * 0.514444).margin(1e-5));
+  CHECK_THAT(bay.mission.speed_mps, WithinAbs(4 * 0.514444, 1e-5));
   CHECK(bay.vehicle().limits.turning_radius_m == 12);
   CHECK(bay.vehicle().limits.turn_acceleration_radps2 == Approx(10 * 3.14159265358979 / 180));
   CHECK(bay.vehicle().limits.vertical_acceleration_mps2 == 0.2);
@@ -73,7 +75,7 @@ TEST_CASE("a scenario is read whole, in SI units") {
 TEST_CASE("a lawnmower of three lines runs up, down, up") {
   const World bay = scenario_of(kBay);
   REQUIRE(bay.mission.runlines.size() == 3);
-  CHECK(runlines::heading_rad(bay.mission.runlines[0]) == Approx(0).margin(1e-12));
+  CHECK_THAT(runlines::heading_rad(bay.mission.runlines[0]), WithinAbs(0, 1e-12));
   CHECK(runlines::heading_rad(bay.mission.runlines[1]) == Approx(3.14159265358979));
   CHECK(bay.mission.runlines[0].start_enu_m.x() == Approx(-50));
 }

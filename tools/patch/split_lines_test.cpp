@@ -4,6 +4,7 @@
 #include "tools/patch/record_soundings.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 using patch_tool::split_lines;
 
 namespace {
@@ -35,11 +36,11 @@ TEST_CASE("runs are split where the vehicle turns or stops pinging") {
   go(soundings, t_s, 15, 90, 90, 2);  // too short
   const auto lines = split_lines(soundings);
   REQUIRE(lines.size() == 3);
-  CHECK(frames::wrap_pi(lines[0].heading_rad) == Approx(0.0).margin(1 * kDegree));
+  CHECK_THAT(frames::wrap_pi(lines[0].heading_rad), WithinAbs(0.0, 1 * kDegree));
   CHECK(lines[0].from_s == 100);
-  CHECK(lines[0].to_s == Approx(159).margin(2));  // the first 10 degrees of the turn belong to it
+  CHECK_THAT(lines[0].to_s, WithinAbs(159, 2));  // the first 10 degrees of the turn belong to it
   CHECK(lines[0].speed_mps == Approx(4));
-  CHECK(lines[1].heading_rad == Approx(M_PI).margin(2 * kDegree));  // as do the turn's last
+  CHECK_THAT(lines[1].heading_rad, WithinAbs(M_PI, 2 * kDegree));  // as do the turn's last
   CHECK(lines[1].to_s == 229);
   CHECK(lines[2].from_s == 260);
   CHECK(lines[2].line.soundings.size() == 100);

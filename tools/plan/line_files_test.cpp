@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::plan;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -45,8 +46,8 @@ TEST_CASE("Hypack lines are world metres, or geodetic with their reference syste
   const LineSet placed = read_lines(written("a.lnw", kLnw), "EPSG:32629");
   CHECK(placed.geodetic);
   // UTM zone 29, central meridian 9 degrees west: 35 km west of it at 53.2 degrees north.
-  CHECK(placed.lines[0].places[0][0] == Approx(53.204).margin(0.002));
-  CHECK(placed.lines[0].places[0][1] == Approx(-9.524).margin(0.002));
+  CHECK_THAT(placed.lines[0].places[0][0], WithinAbs(53.204, 0.002));
+  CHECK_THAT(placed.lines[0].places[0][1], WithinAbs(-9.524, 0.002));
 }
 
 TEST_CASE("Hypack records after a line's positions are skipped, others reported by line") {
@@ -178,7 +179,7 @@ TEST_CASE("CSV that is printed is read again") {
   const LineSet set = read_lines(written("a.lnw", kLnw), "EPSG:32629");
   const LineSet again = read_lines(written("again.csv", plan_text(set, {}, {}, Format::kCsv)), "");
   REQUIRE(again.lines.size() == set.lines.size());
-  CHECK(again.lines[1].places[2][0] == Approx(set.lines[1].places[2][0]).margin(1e-8));
+  CHECK_THAT(again.lines[1].places[2][0], WithinAbs(set.lines[1].places[2][0], 1e-8));
   CHECK(again.lines[0].name == "1_main");
 }
 

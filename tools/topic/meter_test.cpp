@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+using Catch::WithinAbs;
+
 namespace ensonify::topic_tool {
 
 using std::chrono::milliseconds;
@@ -17,7 +19,7 @@ TEST_CASE("a run at twice real time shows 10 Hz sim and 20 Hz wall time, without
   CHECK(t.sim_hz == Approx(10.0));
   CHECK(t.wall_hz == Approx(20.0));
   CHECK(t.wall.mean_s == Approx(0.05));
-  CHECK(t.wall.jitter_s == Approx(0.0).margin(1e-12));
+  CHECK_THAT(t.wall.jitter_s, WithinAbs(0.0, 1e-12));
   CHECK(t.wall_bytes_per_s == Approx(20'000.0));
   CHECK(t.sim_bytes_per_s == Approx(10'000.0));
 }
@@ -30,7 +32,7 @@ TEST_CASE("jitter is the standard deviation of the intervals") {
   const Traffic t = meter.traffic();
   CHECK(t.wall.mean_s == Approx(0.05));  // 40 and 60 ms
   CHECK(t.wall.jitter_s == Approx(0.01));
-  CHECK(t.sim.jitter_s == Approx(0.0).margin(1e-12));
+  CHECK_THAT(t.sim.jitter_s, WithinAbs(0.0, 1e-12));
   CHECK(t.min_bytes == 1);
   CHECK(t.max_bytes == 3);
 }

@@ -10,6 +10,7 @@
 #include "components/vehicle/testing/integrated.h"
 
 using namespace ensonify;
+using Catch::WithinAbs;
 using frames::Vec3;
 constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
 
@@ -108,10 +109,10 @@ TEST_CASE("vehicles reach commanded heading and speed, and hold depth in a cross
     dynamics.advance(120_s);
     const frames::MovingPose moving = dynamics.moving();
     INFO(vehicle.name);
-    CHECK(frames::attitude_of(moving.pose.enu_from_body).heading_rad == Approx(1.2).margin(0.01));
+    CHECK_THAT(frames::attitude_of(moving.pose.enu_from_body).heading_rad, WithinAbs(1.2, 0.01));
     const Vec3 water = moving.velocity_enu_mps - Vec3(0.2, -0.1, 0);
     CHECK((moving.pose.enu_from_body.conjugate() * water).x() == Approx(vehicle.speed_mps).epsilon(0.01));
-    CHECK(moving.pose.position_enu_m.z() == Approx(1.5 + vehicle.height_m).margin(0.05));
+    CHECK_THAT(moving.pose.position_enu_m.z(), WithinAbs(1.5 + vehicle.height_m, 0.05));
   }
 }
 
@@ -130,9 +131,9 @@ TEST_CASE("commanded too fast, a vehicle runs at its highest speed on depth and 
     }
     INFO(vehicle.name);
     CHECK(off_m < 2.0);  // while it speeds up: the fins answer before the propeller does
-    CHECK(dynamics.moving().pose.position_enu_m.z() == Approx(vehicle.height_m).margin(0.05));
+    CHECK_THAT(dynamics.moving().pose.position_enu_m.z(), WithinAbs(vehicle.height_m, 0.05));
     const double heading_rad = frames::attitude_of(dynamics.moving().pose.enu_from_body).heading_rad;
-    CHECK(frames::wrap_pi(heading_rad) == Approx(0.0).margin(0.02));
+    CHECK_THAT(frames::wrap_pi(heading_rad), WithinAbs(0.0, 0.02));
     CHECK(dynamics.moving().velocity_enu_mps.y() == Approx(vehicle.top_mps).epsilon(0.01));
   }
 }
@@ -218,7 +219,7 @@ TEST_CASE("the REMUS class dives at 15 degrees of pitch, at its speed times the 
   auv.advance(60_s);
   const frames::MovingPose dive = auv.moving();
   const double pitch_rad = frames::attitude_of(dive.pose.enu_from_body).pitch_rad;
-  CHECK(pitch_rad / kDegree == Approx(-15).margin(0.5));
+  CHECK_THAT(pitch_rad / kDegree, WithinAbs(-15, 0.5));
   // It sinks by an angle of attack of 0.8 degrees less steeply than it points.
   const double speed_mps = dive.velocity_enu_mps.norm();
   CHECK(speed_mps == Approx(2.0).epsilon(0.01));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::array;
+using Catch::WithinAbs;
 using ensonify::frames::Vec3;
 
 namespace {
@@ -25,14 +26,14 @@ TEST_CASE("a piston's width is 58.96 lambda/D deg, 42.32 two-way, first lobe -17
     return low;
   };
   const double half_power_db = 10.0 * std::log10(0.5);
-  CHECK(2.0 * edge(half_power_db) / kDeg * D == Approx(58.96).margin(0.01));
-  CHECK(2.0 * edge(0.5 * half_power_db) / kDeg * D == Approx(42.32).margin(0.01));
+  CHECK_THAT(2.0 * edge(half_power_db) / kDeg * D, WithinAbs(58.96, 0.01));
+  CHECK_THAT(2.0 * edge(0.5 * half_power_db) / kDeg * D, WithinAbs(42.32, 0.01));
 
   const double first_null = 1.21967 / D;  // x = 3.83171, the first zero of J1
   CHECK(std::abs(piston_amplitude(D, first_null)) < 1e-5);
   double highest = 0.0;
   for (double s = first_null; s < 2.2 / D; s += 1e-4 / D) highest = std::max(highest, std::abs(piston_amplitude(D, s)));
-  CHECK(db(highest) == Approx(-17.57).margin(0.005));
+  CHECK_THAT(db(highest), WithinAbs(-17.57, 0.005));
   CHECK(piston_amplitude(D, 0.0) == 1.0);
   CHECK(piston_amplitude(D, -0.003) == piston_amplitude(D, 0.003));
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::array;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -59,8 +60,8 @@ TEST_CASE("on the axis an unfocused line loses what Fresnel's integrals say") {
     const std::complex<double> expected = std::complex<double>(row.C, -row.S) / row.v;
     const std::complex<double> got = near_field_amplitude(line, kWavelength_m, 0.0, 0.0, range_m);
     INFO("v = " << row.v);
-    CHECK(got.real() == Approx(expected.real()).margin(3e-6));  // 1000 elements for a continuous line: 2.1e-6 at v = 2
-    CHECK(got.imag() == Approx(expected.imag()).margin(3e-6));
+    CHECK_THAT(got.real(), WithinAbs(expected.real(), 3e-6));  // 1000 elements for a continuous line: 2.1e-6 at v = 2
+    CHECK_THAT(got.imag(), WithinAbs(expected.imag(), 3e-6));
     CHECK(std::abs(near_field_amplitude(line, kWavelength_m, 0.0, 0.0, range_m, range_m)) == Approx(1.0));
   }
 }
@@ -71,10 +72,10 @@ TEST_CASE("the loss at L^2 / lambda, half and a quarter of it is 0.24, 0.97 and 
   CHECK(range_m == Approx(50.0));
   // |C - i S| / v at v = 1/sqrt 2, 1 and sqrt 2.
   const auto loss = [&](double r) { return -db(std::norm(near_field_amplitude(line, kWavelength_m, 0.0, 0.0, r))); };
-  CHECK(loss(range_m) == Approx(0.239).margin(0.001));
-  CHECK(loss(range_m / 2) == Approx(0.967).margin(0.001));
-  CHECK(loss(range_m / 4) == Approx(4.037).margin(0.001));
-  CHECK(loss(1e6) == Approx(0.0).margin(1e-6));
+  CHECK_THAT(loss(range_m), WithinAbs(0.239, 0.001));
+  CHECK_THAT(loss(range_m / 2), WithinAbs(0.967, 0.001));
+  CHECK_THAT(loss(range_m / 4), WithinAbs(4.037, 0.001));
+  CHECK_THAT(loss(1e6), WithinAbs(0.0, 1e-6));
 }
 
 TEST_CASE("focused at the source's range the pattern is that of the far field, steered too") {
@@ -96,8 +97,8 @@ TEST_CASE("far away near and far field are the same, focusing off") {
   for (const double u : {-0.7, 0.0, 0.31, 1.0}) {
     const auto far = amplitude(line, kWavelength_m, u, 0.3);
     const auto near = near_field_amplitude(line, kWavelength_m, u, 0.3, kFarAway_m);
-    CHECK(near.real() == Approx(far.real()).margin(1e-12));
-    CHECK(near.imag() == Approx(far.imag()).margin(1e-12));
+    CHECK_THAT(near.real(), WithinAbs(far.real(), 1e-12));
+    CHECK_THAT(near.imag(), WithinAbs(far.imag(), 1e-12));
   }
 }
 
@@ -151,12 +152,12 @@ TEST_CASE("a continuous line in closed form is the sum over its elements") {
 TEST_CASE("Fresnel's integrals have the tabulated values") {
   // [Abramowitz1964], table 7.7: C and S to seven digits.
   const auto at_1 = fresnel_integral(1.0), at_2 = fresnel_integral(2.0), at_5 = fresnel_integral(5.0);
-  CHECK(at_1.real() == Approx(0.7798934).margin(5e-8));
-  CHECK(at_1.imag() == Approx(0.4382591).margin(5e-8));
-  CHECK(at_2.real() == Approx(0.4882534).margin(5e-8));
-  CHECK(at_2.imag() == Approx(0.3434157).margin(5e-8));
-  CHECK(at_5.real() == Approx(0.5636312).margin(5e-8));
-  CHECK(at_5.imag() == Approx(0.4991914).margin(5e-8));
+  CHECK_THAT(at_1.real(), WithinAbs(0.7798934, 5e-8));
+  CHECK_THAT(at_1.imag(), WithinAbs(0.4382591, 5e-8));
+  CHECK_THAT(at_2.real(), WithinAbs(0.4882534, 5e-8));
+  CHECK_THAT(at_2.imag(), WithinAbs(0.3434157, 5e-8));
+  CHECK_THAT(at_5.real(), WithinAbs(0.5636312, 5e-8));
+  CHECK_THAT(at_5.imag(), WithinAbs(0.4991914, 5e-8));
   CHECK(fresnel_integral(-5.0) == -at_5);
   const double edge = 2.0;  // where the series hands over to the fraction
   CHECK(std::abs(fresnel_integral(edge - 1e-13) - fresnel_integral(edge)) < 1e-12);

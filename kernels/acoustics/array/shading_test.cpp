@@ -9,6 +9,7 @@
 #include "kernels/acoustics/array/line.h"
 
 using namespace ensonify::array;
+using Catch::WithinAbs;
 using Window = Shading::Window;
 
 namespace {
@@ -49,8 +50,8 @@ TEST_CASE("widths and side lobes of 128 shaded elements") {
     const LineArray line = line_of(row.shading);
     const double half = half_power_edges(line, 1.0).upper_sine;
     INFO("window " << static_cast<int>(row.shading.window));
-    CHECK(2.0 * half / kDeg * line.length_m() == Approx(row.width).margin(row.width_margin));
-    CHECK(highest_side_lobe_db(line) == Approx(row.side_lobe_db).margin(row.side_lobe_margin));
+    CHECK_THAT(2.0 * half / kDeg * line.length_m(), WithinAbs(row.width, row.width_margin));
+    CHECK_THAT(highest_side_lobe_db(line), WithinAbs(row.side_lobe_db, row.side_lobe_margin));
   }
 }
 
@@ -68,7 +69,7 @@ TEST_CASE("every Dolph-Chebyshev side lobe has the set level, for any number of 
     for (const double level : {20.0, 40.0, 80.0}) {
       const LineArray line = line_of({.window = Window::kDolphChebyshev, .side_lobe_db = level}, elements);
       INFO(elements << " elements, " << level << " dB");
-      CHECK(highest_side_lobe_db(line) == Approx(-level).margin(0.02));  // peaks are found on a grid of 1/100 lobe
+      CHECK_THAT(highest_side_lobe_db(line), WithinAbs(-level, 0.02));  // peaks are found on a grid of 1/100 lobe
     }
   }
 }
@@ -91,13 +92,13 @@ TEST_CASE("weights agree with SciPy's") {
   // SciPy 1.10: chebwin(7, 40); taylor(9, nbar=4, sll=30, norm=False) and taylor(8, 5, 35), over their largest value.
   const double chebyshev[] = {0.15941069, 0.47936432, 0.83973877, 1.0, 0.83973877, 0.47936432, 0.15941069};
   const auto c = shading_weights({.window = Window::kDolphChebyshev, .side_lobe_db = 40.0}, 7);
-  for (std::size_t n = 0; n < 7; ++n) CHECK(c[n] == Approx(chebyshev[n]).margin(1e-8));
+  for (std::size_t n = 0; n < 7; ++n) CHECK_THAT(c[n], WithinAbs(chebyshev[n], 1e-8));
   const double taylor_odd[] = {0.27188349, 0.46690632, 0.72467511, 0.92465583, 1.0};
   const auto odd = shading_weights({.window = Window::kTaylor, .side_lobe_db = 30.0, .nbar = 4}, 9);
-  for (std::size_t n = 0; n < 5; ++n) CHECK(odd[n] == Approx(taylor_odd[n]).margin(1e-8));
+  for (std::size_t n = 0; n < 5; ++n) CHECK_THAT(odd[n], WithinAbs(taylor_odd[n], 1e-8));
   const double taylor_even[] = {0.2094859, 0.47330721, 0.78930108, 1.0};
   const auto even = shading_weights({.window = Window::kTaylor, .side_lobe_db = 35.0, .nbar = 5}, 8);
-  for (std::size_t n = 0; n < 4; ++n) CHECK(even[n] == Approx(taylor_even[n]).margin(1e-8));
+  for (std::size_t n = 0; n < 4; ++n) CHECK_THAT(even[n], WithinAbs(taylor_even[n], 1e-8));
 }
 
 TEST_CASE("uniform weights have the most gain; windows are symmetric with largest weight 1") {
@@ -108,7 +109,7 @@ TEST_CASE("uniform weights have the most gain; windows are symmetric with larges
       INFO("window " << static_cast<int>(window) << ", " << elements << " elements");
       REQUIRE(w.size() == static_cast<std::size_t>(elements));
       CHECK(*std::max_element(w.begin(), w.end()) == 1.0);
-      for (std::size_t n = 0; n < w.size(); ++n) CHECK(w[n] == Approx(w[w.size() - 1 - n]).margin(1e-12));
+      for (std::size_t n = 0; n < w.size(); ++n) CHECK_THAT(w[n], WithinAbs(w[w.size() - 1 - n], 1e-12));
       const double gain = white_noise_gain_db(w);
       if (window == Window::kUniform) CHECK(gain == Approx(10.0 * std::log10(elements)));
       if (window != Window::kUniform && elements > 3) CHECK(gain < 10.0 * std::log10(elements));
@@ -121,10 +122,10 @@ TEST_CASE("Hann and Hamming lose 1.73 and 1.37 dB against independent noise") {
   for (const int elements : {128, 4096}) {
     const double uniform = 10.0 * std::log10(elements);
     const double margin = 10.0 / std::log(10.0) * 3.0 / elements;  // ends: an element or so more or less
-    CHECK(white_noise_gain_db(shading_weights({.window = Window::kHann}, elements)) - uniform ==
-          Approx(-10.0 * std::log10(1.5)).margin(margin));
-    CHECK(white_noise_gain_db(shading_weights({.window = Window::kHamming}, elements)) - uniform ==
-          Approx(-10.0 * std::log10(1.3628)).margin(margin));
+    CHECK_THAT(white_noise_gain_db(shading_weights({.window = Window::kHann}, elements)) - uniform,
+               WithinAbs(-10.0 * std::log10(1.5), margin));
+    CHECK_THAT(white_noise_gain_db(shading_weights({.window = Window::kHamming}, elements)) - uniform,
+               WithinAbs(-10.0 * std::log10(1.3628), margin));
   }
 }
 

@@ -9,6 +9,7 @@
 
 using namespace ensonify;
 using namespace ensonify::array;
+using Catch::WithinAbs;
 using frames::Attitude;
 using frames::Quaternion;
 using frames::Vec3;
@@ -62,8 +63,8 @@ TEST_CASE("roll adds to the beam angle, pitch takes from the tilt, yaw turns the
   // Bow to starboard of the reference: a direction abeam to starboard is forward in the head.
   CHECK(transmit_sine(held_from_head(kAll, {.heading_rad = 1.0 + yaw}, 1.0), direction_held(0.5)) ==
         Approx(std::sin(yaw) * std::sin(0.5)));
-  CHECK(transmit_sine(held_from_head({.yaw = false}, {.heading_rad = 1.0 + yaw}, 1.0), direction_held(0.5)) ==
-        Approx(0.0).margin(1e-15));
+  CHECK_THAT(transmit_sine(held_from_head({.yaw = false}, {.heading_rad = 1.0 + yaw}, 1.0), direction_held(0.5)),
+             WithinAbs(0.0, 1e-15));
 }
 
 TEST_CASE("with a perfect sensor and no delay every beam is steered right at any attitude") {
@@ -80,12 +81,11 @@ TEST_CASE("with a perfect sensor and no delay every beam is steered right at any
     const auto fan = fan_direction(at_transmit, sin_transmit, across);
     REQUIRE(fan);
     CHECK(fan->norm() == Approx(1.0));
-    CHECK(transmit_sine(at_transmit, *fan) == Approx(sin_transmit).margin(1e-12));
-    CHECK(std::atan2(fan->y(), fan->z()) == Approx(across).margin(1e-12));
+    CHECK_THAT(transmit_sine(at_transmit, *fan), WithinAbs(sin_transmit, 1e-12));
+    CHECK_THAT(std::atan2(fan->y(), fan->z()), WithinAbs(across, 1e-12));
     const double sin_receive = across_sine(held_from_head(kAll, receive, 0.0), *fan);
-    CHECK(true_across_rad(transmit, sin_transmit, receive, sin_receive) == Approx(across).margin(1e-9));
-    CHECK(fan_direction(at_transmit, sin_transmit, centre)->x() ==
-          Approx(0.0).margin(1e-12));  // vertical at its centre
+    CHECK_THAT(true_across_rad(transmit, sin_transmit, receive, sin_receive), WithinAbs(across, 1e-9));
+    CHECK_THAT(fan_direction(at_transmit, sin_transmit, centre)->x(), WithinAbs(0.0, 1e-12));  // vertical at its centre
   }
 }
 

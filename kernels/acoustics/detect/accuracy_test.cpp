@@ -7,6 +7,7 @@
 
 using namespace ensonify;
 using namespace ensonify::detect;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -97,8 +98,8 @@ TEST_CASE("depths scatter alike at a signal to noise ratio, however densely a pu
       scatter_m.push_back(*middle / 0.6745);
     }
     INFO(deg << " deg: " << 1e3 * scatter_m[0] << ", " << 1e3 * scatter_m[1] << ", " << 1e3 * scatter_m[2] << " mm");
-    CHECK(scatter_m[0] / scatter_m[1] == Approx(1.0).margin(0.1));
-    CHECK(scatter_m[2] / scatter_m[1] == Approx(1.0).margin(0.1));
+    CHECK_THAT(scatter_m[0] / scatter_m[1], WithinAbs(1.0, 0.1));
+    CHECK_THAT(scatter_m[2] / scatter_m[1], WithinAbs(1.0, 0.1));
   }
 }
 

@@ -13,6 +13,7 @@
 
 using namespace ensonify;
 using namespace ensonify::detect;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -50,19 +51,19 @@ TEST_CASE("a lone pulse is found at its start, to a fraction of a sample") {
   REQUIRE(found[0].valid);
   CHECK(found[0].flags == 0);
   // Samples 400..403 cover a pulse that began between 399 and 400.
-  CHECK(found[0].two_way_s == Approx(0.01 + 399.5 * 50e-6).margin(2e-6));
-  CHECK(found[0].echo_energy_db == Approx(10 * std::log10(1e4 * 200e-6)).margin(0.05));
+  CHECK_THAT(found[0].two_way_s, WithinAbs(0.01 + 399.5 * 50e-6, 2e-6));
+  CHECK_THAT(found[0].echo_energy_db, WithinAbs(10 * std::log10(1e4 * 200e-6), 0.05));
   CHECK(found[0].phase_weight == 0.0F);
   // A sharp pulse in weak noise: what is left is the sampling, period / sqrt(12), as a range at 1500 m/s.
   CHECK(found[0].range_sd_m == Approx(750 * 50e-6 / std::sqrt(12)).epsilon(0.1));
-  CHECK(found[0].quality == Approx(-std::log10(50e-6 / std::sqrt(12) / found[0].two_way_s)).margin(0.05));
+  CHECK_THAT(found[0].quality, WithinAbs(-std::log10(50e-6 / std::sqrt(12) / found[0].two_way_s), 0.05));
   CHECK(found[0].snippet_first <= 400);
   CHECK(found[0].snippet_first + found[0].snippet_count >= 404);
 }
 
 TEST_CASE("flags say why a beam has no bottom") {
   CHECK(Pulses().add(400, 3.0F).detect()[0].flags == kLowSnr);
-  CHECK(Pulses().add(400, 3.0F).detect()[0].snr_db == Approx(10 * std::log10(9 * std::numbers::ln2)).margin(0.01));
+  CHECK_THAT(Pulses().add(400, 3.0F).detect()[0].snr_db, WithinAbs(10 * std::log10(9 * std::numbers::ln2), 0.01));
 
   Pulses early;
   early.add(400, 100.0F);
@@ -89,22 +90,22 @@ TEST_CASE("several detections come in order of time, and the weaker say so") {
   three.settings.max_detections = 4;
   auto found = three.detect();
   REQUIRE(found.size() == 4);
-  CHECK(found[0].two_way_s == Approx(0.01 + 299.5 * 50e-6).margin(2e-6));
+  CHECK_THAT(found[0].two_way_s, WithinAbs(0.01 + 299.5 * 50e-6, 2e-6));
   CHECK(found[0].flags == kNotStrongest);
   CHECK(found[0].valid);
-  CHECK(found[1].two_way_s == Approx(0.01 + 699.5 * 50e-6).margin(2e-6));
+  CHECK_THAT(found[1].two_way_s, WithinAbs(0.01 + 699.5 * 50e-6, 2e-6));
   CHECK(found[1].flags == 0);
   CHECK_FALSE(found[2].valid);  // 14 dB below the strongest is more than second_within_db
   CHECK(found[2].flags == kNoSignal);
 
   three.settings.second_within_db = 15.0;
   found = three.detect();
-  CHECK(found[1].two_way_s == Approx(0.01 + 499.5 * 50e-6).margin(2e-6));
+  CHECK_THAT(found[1].two_way_s, WithinAbs(0.01 + 499.5 * 50e-6, 2e-6));
   CHECK(found[2].valid);
   three.settings.max_detections = 1;
   found = three.detect();
   REQUIRE(found.size() == 1);
-  CHECK(found[0].two_way_s == Approx(0.01 + 699.5 * 50e-6).margin(2e-6));
+  CHECK_THAT(found[0].two_way_s, WithinAbs(0.01 + 699.5 * 50e-6, 2e-6));
 }
 
 TEST_CASE("a plane seabed is one detection per beam, however many are allowed") {
@@ -187,7 +188,7 @@ TEST_CASE("the energy of an echo is that of its scatterers") {
   // Beyond 40 degrees a beam receives 6 or more independent pulses: the mean of 60 has an sd of 0.23 dB or less. The
   // snippet cuts some 5 % of the pattern's skirts, and the second-order fall within the beam adds to them.
   for (const std::size_t beam : {0, 1, 2, 3, 11, 12, 13, 14}) {
-    CHECK(10 * std::log10(energy[beam] / count[beam]) == Approx(-0.1).margin(0.7));
+    CHECK_THAT(10 * std::log10(energy[beam] / count[beam]), WithinAbs(-0.1, 0.7));
   }
 }
 

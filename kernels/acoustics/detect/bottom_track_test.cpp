@@ -9,6 +9,7 @@
 
 using namespace ensonify;
 using namespace ensonify::detect;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -74,7 +75,7 @@ TEST_CASE("nothing is the bottom within the blanking and the water that it is ju
   FirstBottomSettings settings;
   CHECK(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m == Approx(2.5));
   settings.blanking_m = 6.0;
-  CHECK(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m == Approx(10.0).margin(3 * kStep));
+  CHECK_THAT(first_bottom(settings, {amplitude, 0.0, kStep}).altitude_m, WithinAbs(10.0, 3 * kStep));
 }
 
 TEST_CASE("a line of noise has no bottom") {
@@ -92,15 +93,15 @@ TEST_CASE("the track follows a slope, bridges gaps, and starts again after a ste
   };
   for (int i = 0; i < 20; ++i) feed(10.0 + 0.2 * i);
   CHECK(track.tracked);
-  CHECK(track.altitude_m == Approx(13.8).margin(0.15));
+  CHECK_THAT(track.altitude_m, WithinAbs(13.8, 0.15));
   for (int i = 0; i < 5; ++i) feed(13.8, -100.0);  // nothing received
   CHECK(track.tracked);
   CHECK(track.missed == 5);
-  CHECK(track.altitude_m == Approx(13.8).margin(0.15));
+  CHECK_THAT(track.altitude_m, WithinAbs(13.8, 0.15));
   feed(14.0);
   CHECK(track.missed == 0);
   for (int i = 0; i < 6; ++i) feed(40.0);  // a step that nothing tows over: not accepted at once
-  CHECK(track.altitude_m == Approx(14.0).margin(0.15));
+  CHECK_THAT(track.altitude_m, WithinAbs(14.0, 0.15));
   feed(40.0);
-  CHECK(track.altitude_m == Approx(40.0).margin(0.15));
+  CHECK_THAT(track.altitude_m, WithinAbs(40.0, 0.15));
 }

@@ -10,6 +10,7 @@
 
 using namespace ensonify;
 using namespace ensonify::detect;
+using Catch::WithinAbs;
 
 // Which returns are refused as the echo by way of the surface, and which are not.
 
@@ -87,7 +88,7 @@ TEST_CASE("a bottom that has faded below its second echo is found all the same")
       CHECK(beams_off(fan, level) == 0);
       fan.settings.second_echo.refused = false;
       CHECK(beams_off(fan, level) == run);
-      CHECK(fan.depths_m()[static_cast<std::size_t>(first)] == Approx(kSecond_m).margin(750.0 * kPeriod_s));
+      CHECK_THAT(fan.depths_m()[static_cast<std::size_t>(first)], WithinAbs(kSecond_m, 750.0 * kPeriod_s));
     }
   }
 }

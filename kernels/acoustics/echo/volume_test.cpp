@@ -10,6 +10,7 @@
 
 using namespace ensonify;
 using namespace ensonify::echo;
+using Catch::WithinAbs;
 
 static const frames::HeadPose kHead{{0, 0, -5}, frames::enu_from_ned()};
 static const Pulse kPulse = rectangular_pulse(200e-6);
@@ -41,7 +42,7 @@ TEST_CASE("reverberation has the level of the sonar equation") {
     const double R = 750 * (k * 100e-6 - 100e-6);  // the middle of the pulse
     const double want =
         210 - 20 * std::log10(R) - 0.1 * R - 70 + 10 * std::log10(4 * std::numbers::pi * 1500 * 200e-6 / 2);
-    CHECK(10 * std::log10(level[k]) == Approx(want).margin(0.01));
+    CHECK_THAT(10 * std::log10(level[k]), WithinAbs(want, 0.01));
   }
   CHECK(level[0] == 0.0F);
 }
@@ -58,8 +59,8 @@ TEST_CASE("a layer answers from its depth, in every beam at its own time") {
   int begin = 0, end = 599;
   while (level[begin] == 0.0F) ++begin;
   while (level[end] == 0.0F) --end;
-  CHECK(750 * (begin - 1) * 100e-6 == Approx(10 / c).margin(0.45));  // the pencil is 2.3 deg wide: 0.3 m; steps 0.075
-  CHECK(750 * (end - 1) * 100e-6 == Approx(12 / c).margin(0.45));
+  CHECK_THAT(750 * (begin - 1) * 100e-6, WithinAbs(10 / c, 0.45));  // the pencil is 2.3 deg wide: 0.3 m; steps 0.075
+  CHECK_THAT(750 * (end - 1) * 100e-6, WithinAbs(12 / c, 0.45));
 }
 
 TEST_CASE("a seabed above the surface leaves no water to scatter") {
@@ -113,8 +114,8 @@ TEST_CASE("beams of a line array receive it with their own patterns, and neighbo
   CHECK(power / sampling.count == Approx(want).epsilon(0.06));  // 6,000 independent pulses: sd 1.3 %
   CHECK(std::abs(null / power) < 0.06);
   CHECK(std::abs(later / power) < 0.06);
-  CHECK(next / power == Approx(0.5).margin(0.05));
-  CHECK(std::abs(half_null) / power == Approx(2 / std::numbers::pi).margin(0.05));
+  CHECK_THAT(next / power, WithinAbs(0.5, 0.05));
+  CHECK_THAT(std::abs(half_null) / power, WithinAbs(2 / std::numbers::pi, 0.05));
 }
 
 TEST_CASE("rows of single apertures have the level they are given") {
@@ -131,6 +132,6 @@ TEST_CASE("rows of single apertures have the level they are given") {
       next += std::real(image.row(row)[k] * std::conj(image.row(row)[k - 1]));
     }
     CHECK(power / 20000 == Approx(row == 0 ? 4 : 9).epsilon(0.08));  // 5,000 pulses: sd 1.4 %, coloured a little more
-    CHECK(next / power == Approx(0.75).margin(0.05));                // four samples in a pulse
+    CHECK_THAT(next / power, WithinAbs(0.75, 0.05));                 // four samples in a pulse
   }
 }

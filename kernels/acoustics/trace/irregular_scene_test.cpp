@@ -15,6 +15,7 @@
 using namespace ensonify;
 using namespace ensonify::trace;
 using namespace ensonify::trace::adapted;
+using Catch::WithinAbs;
 using frames::HeadPose;
 using frames::Vec2;
 using frames::Vec3;
@@ -167,10 +168,10 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
     scene.trace(head, north, 100.0F, hits);
     REQUIRE(hits[0].hit());
     // Half the section's depth and four deviations of a pile.
-    CHECK(hits[0].range_m == Approx(20.0).margin(0.215 + 0.06));
+    CHECK_THAT(hits[0].range_m, WithinAbs(20.0, 0.215 + 0.06));
     CHECK(hits[0].contributor == sediment_contributor(kSteel));
     CHECK(hits[0].facet_m > 0.3F);
-    CHECK(scene.heights_near({0.0, -20.0}, 30.0)->highest_m == Approx(0.0).margin(1e-5));
+    CHECK_THAT(scene.heights_near({0.0, -20.0}, 30.0)->highest_m, WithinAbs(0.0, 1e-5));
     CHECK_FALSE(scene.heights_near({0.0, -20.0}, 10.0).has_value());
     CHECK(scene.remove(7));
     scene.adapt(std::array{ahead});
@@ -200,7 +201,7 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
   for (const std::uint8_t sediment : {kSteel, std::uint8_t{7}}) {
     INFO(int{sediment});
     CHECK(all_sum[sediment] > 0.0);
-    CHECK(10.0 * std::log10(some_sum[sediment] / all_sum[sediment]) == Approx(0.0).margin(0.1));
+    CHECK_THAT(10.0 * std::log10(some_sum[sediment] / all_sum[sediment]), WithinAbs(0.0, 0.1));
   }
 }
 
@@ -254,7 +255,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
       const auto trace = [&](const Rays& rays, Hits& hit) { scene.trace(head, rays, kFar_m, hit); };
       distribution.trace(head, {}, scene.objects(), kFar_m, nullptr, trace, traced);
       hits = traced.hits;
-      CHECK(10.0 * std::log10(power(traced.aimed.rays) / wanted) == Approx(0.0).margin(most_db));
+      CHECK_THAT(10.0 * std::log10(power(traced.aimed.rays) / wanted), WithinAbs(0.0, most_db));
     }
   }
 }

@@ -12,6 +12,7 @@
 using namespace ensonify::trace;
 using namespace ensonify::trace::sounding;
 using namespace ensonify::terrain;
+using Catch::WithinAbs;
 using ensonify::frames::HeadPose;
 using ensonify::random::Stream;
 
@@ -21,7 +22,7 @@ TEST_CASE("the solid angles of a distribution sum to that of its volume, whateve
     double sum = 0;
     for (const Ray& ray : trace_ping(seabed, {quality, 0.075}).rays) {
       sum += ray.solid_angle_sr;
-      REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
+      REQUIRE_THAT(ray.direction_head.norm(), WithinAbs(1, 1e-6));
     }
     CHECK(sum == Approx(2 * 8.0 / 50 * 2 * 67.5 * kDegree).epsilon(1e-5));  // du dphi
   }
@@ -42,10 +43,10 @@ TEST_CASE("rays lie in the volume, about either axis of the head") {
     port = std::min(port, azimuth), starboard = std::max(starboard, azimuth);
   }
   CHECK(sum == Approx(0.4 * 80 * kDegree).epsilon(1e-5));
-  CHECK(lowest == Approx(-0.1).margin(0.01));
-  CHECK(highest == Approx(0.3).margin(0.01));
-  CHECK(port == Approx(-60 * kDegree).margin(0.01));
-  CHECK(starboard == Approx(20 * kDegree).margin(0.01));
+  CHECK_THAT(lowest, WithinAbs(-0.1, 0.01));
+  CHECK_THAT(highest, WithinAbs(0.3, 0.01));
+  CHECK_THAT(port, WithinAbs(-60 * kDegree, 0.01));
+  CHECK_THAT(starboard, WithinAbs(20 * kDegree, 0.01));
 }
 
 TEST_CASE("the mean level of a plane is that of the area integral, whatever the quality") {
@@ -78,7 +79,7 @@ TEST_CASE("the mean level of a plane is that of the area integral, whatever the 
       const double exact =
           over_u / (kDepth_m * kDepth_m) * (to((sector - 5) * 10 * kDegree) - to((sector - 6) * 10 * kDegree));
       CAPTURE(sector, s.rays.size());
-      CHECK(10 * std::log10(level[static_cast<std::size_t>(sector)] / exact) == Approx(0).margin(0.1));
+      CHECK_THAT(10 * std::log10(level[static_cast<std::size_t>(sector)] / exact), WithinAbs(0, 0.1));
     }
   }
 }
@@ -106,7 +107,7 @@ TEST_CASE("a steered volume keeps its solid angles, but for what is beyond endfi
       double solid_angle_sr = 0, least_sine = 1, most_sine = -1, least_rad = 4, most_rad = -4;
     } e;
     for (const Ray& ray : traced.aimed.rays) {
-      REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
+      REQUIRE_THAT(ray.direction_head.norm(), WithinAbs(1, 1e-6));
       e.solid_angle_sr += ray.solid_angle_sr;
       e.least_sine = std::min(e.least_sine, double(ray.direction_head.x()));
       e.most_sine = std::max(e.most_sine, double(ray.direction_head.x()));
@@ -117,10 +118,10 @@ TEST_CASE("a steered volume keeps its solid angles, but for what is beyond endfi
   };
   const auto turned = extent(0.1, -20 * kDegree), beyond = extent(0.9, 0);
   CHECK(turned.solid_angle_sr == Approx(0.32 * 60 * kDegree).epsilon(1e-5));
-  CHECK(turned.least_sine == Approx(-0.06).margin(0.01));
-  CHECK(turned.most_sine == Approx(0.26).margin(0.01));
-  CHECK(turned.least_rad == Approx(-50 * kDegree).margin(0.02));
-  CHECK(turned.most_rad == Approx(10 * kDegree).margin(0.02));
+  CHECK_THAT(turned.least_sine, WithinAbs(-0.06, 0.01));
+  CHECK_THAT(turned.most_sine, WithinAbs(0.26, 0.01));
+  CHECK_THAT(turned.least_rad, WithinAbs(-50 * kDegree, 0.02));
+  CHECK_THAT(turned.most_rad, WithinAbs(10 * kDegree, 0.02));
   CHECK(beyond.solid_angle_sr == Approx(0.26 * 60 * kDegree).epsilon(1e-5));
 }
 
@@ -171,7 +172,7 @@ TEST_CASE("heads on the seabed, below it and above an edge have rays of finite d
     for (const double x : {0.0, 10.0, 10.1, 80.0}) {
       const Sounding s = trace_ping(scene, {RaySettings::kPreview, 0.075, 20'000}, 1, {{x, 0, z}, kHead.enu_from_head});
       CHECK(s.rays.size() <= 20'000);
-      for (const Ray& ray : s.rays) REQUIRE(ray.direction_head.norm() == Approx(1).margin(1e-6));
+      for (const Ray& ray : s.rays) REQUIRE_THAT(ray.direction_head.norm(), WithinAbs(1, 1e-6));
     }
   }
 }

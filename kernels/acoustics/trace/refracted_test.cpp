@@ -9,6 +9,7 @@
 
 using namespace ensonify::trace;
 using namespace ensonify::terrain;
+using Catch::WithinAbs;
 using ensonify::frames::HeadPose;
 using ensonify::refraction::PathTable;
 using ensonify::refraction::SoundSpeedProfile;
@@ -66,7 +67,7 @@ TEST_CASE("in uniform water bent rays are straight rays") {
     REQUIRE(refracted[i].path_length_m == Approx(straight[i].path_length_m).epsilon(2e-6));
     REQUIRE(refracted[i].travel_time_s == Approx(straight[i].travel_time_s).epsilon(2e-6));
     REQUIRE(refracted[i].tube_m2 == Approx(straight[i].tube_m2).epsilon(3e-5));
-    REQUIRE(refracted[i].sin_grazing == Approx(straight[i].sin_grazing).margin(1e-6));
+    REQUIRE_THAT(refracted[i].sin_grazing, WithinAbs(straight[i].sin_grazing, 1e-6));
     REQUIRE((refracted[i].arrival_enu - straight[i].arrival_enu).norm() < 1e-6F);
     REQUIRE(refracted[i].contributor == straight[i].contributor);
   }
@@ -84,12 +85,12 @@ TEST_CASE("through a thermocline rays end within 1 mm of exact arcs, beyond 75 d
     REQUIRE(exact);
     REQUIRE(hit.hit());
     const Vec3 off = hit.position_enu_m - kHead.position_enu_m;
-    REQUIRE(std::hypot(off.x(), off.y()) == Approx(exact->horizontal_m).margin(1e-3));
+    REQUIRE_THAT(std::hypot(off.x(), off.y()), WithinAbs(exact->horizontal_m, 1e-3));
     REQUIRE(hit.travel_time_s == Approx(exact->travel_time_s).epsilon(1e-6));
     REQUIRE(hit.path_length_m == Approx(exact->path_length_m).epsilon(2e-6));
     REQUIRE(hit.tube_m2 == Approx(exact->tube_m2).epsilon(1e-4));
-    REQUIRE(hit.sin_grazing == Approx(std::sin(exact->depression_rad)).margin(1e-6));
-    REQUIRE(hit.arrival_enu.z() == Approx(-std::sin(exact->depression_rad)).margin(1e-6));
+    REQUIRE_THAT(hit.sin_grazing, WithinAbs(std::sin(exact->depression_rad), 1e-6));
+    REQUIRE_THAT(hit.arrival_enu.z(), WithinAbs(-std::sin(exact->depression_rad), 1e-6));
   }
 }
 
@@ -102,7 +103,7 @@ TEST_CASE("on relief in a gradient every hit lies on its path and no ray slips t
     REQUIRE(hits[i].hit());
     const Vec3 off = hits[i].position_enu_m - kHead.position_enu_m;
     const auto exact = path_at_horizontal(water, 2, depression(rays[i]), std::hypot(off.x(), off.y()));
-    REQUIRE((exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad) == Approx(0).margin(1e-3));
+    REQUIRE_THAT((exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad), WithinAbs(0, 1e-3));
     REQUIRE(hits[i].travel_time_s == Approx(exact.travel_time_s).epsilon(1e-6).margin(1e-3 / 1500));
   }
 }
@@ -119,7 +120,7 @@ TEST_CASE("a head among the relief sees it through chords, upward slopes too") {
     REQUIRE(hits[i].hit());
     const Vec3 off = hits[i].position_enu_m - low.position_enu_m;
     const auto exact = path_at_horizontal(water, 77.5, depression(rays[i]), std::hypot(off.x(), off.y()));
-    REQUIRE((exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad) == Approx(0).margin(1e-3));
+    REQUIRE_THAT((exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad), WithinAbs(0, 1e-3));
   }
 }
 
@@ -184,7 +185,7 @@ TEST_CASE("a bent ray continued behind a contributor hits what stands behind it"
   for (std::size_t i = 0; i < rays.size(); ++i) {
     REQUIRE(first[i].contributor == sediment_contributor(7));
     REQUIRE(behind[i].contributor == alone[i].contributor);
-    REQUIRE(behind[i].position_enu_m.z() == Approx(-80).margin(1e-3));
+    REQUIRE_THAT(behind[i].position_enu_m.z(), WithinAbs(-80, 1e-3));
     REQUIRE(behind[i].travel_time_s == Approx(alone[i].travel_time_s).epsilon(1e-6));
   }
 }

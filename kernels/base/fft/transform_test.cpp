@@ -6,6 +6,7 @@
 #include <vector>
 
 using namespace ensonify::fft;
+using Catch::WithinAbs;
 
 TEST_CASE("a wave becomes one line, where its sign says") {
   const int size = 30, wave = 7;
@@ -18,8 +19,8 @@ TEST_CASE("a wave becomes one line, where its sign says") {
   Transform(size, Transform::Sign::kMinus)(numbers.data());
   for (int i = 0; i < size; ++i) {
     INFO("line " << i);  // float's rounding grows as the root of log2(size): below 1e-5 of 30
-    CHECK(std::abs(numbers[static_cast<std::size_t>(i)]) == Approx(i == wave ? size : 0.0).margin(1e-4));
-    CHECK(std::abs(apart[static_cast<std::size_t>(i)]) == Approx(i == wave ? size : 0.0).margin(1e-4));
+    CHECK_THAT(std::abs(numbers[static_cast<std::size_t>(i)]), WithinAbs(i == wave ? size : 0.0, 1e-4));
+    CHECK_THAT(std::abs(apart[static_cast<std::size_t>(i)]), WithinAbs(i == wave ? size : 0.0, 1e-4));
   }
 }
 
@@ -35,8 +36,8 @@ TEST_CASE("a plane wave becomes one number of the plane") {
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       INFO(i << ", " << j);
-      CHECK(std::abs(numbers[static_cast<std::size_t>(j * columns + i)]) ==
-            Approx(i == 3 && j == 4 ? 300.0 : 0.0).margin(1e-3));
+      CHECK_THAT(std::abs(numbers[static_cast<std::size_t>(j * columns + i)]),
+                 WithinAbs(i == 3 && j == 4 ? 300.0 : 0.0, 1e-3));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::frames;
+using Catch::WithinAbs;
 constexpr double kPi = std::numbers::pi;
 constexpr double kDeg = kPi / 180.0;
 
@@ -32,9 +33,9 @@ TEST_CASE("attitude and rotation are inverses, and w is never negative") {
         const Quaternion q = enu_from_body(Attitude{heading * kDeg, pitch * kDeg, roll * kDeg});
         REQUIRE(q.w() >= 0.0);
         const Attitude back = attitude_of(q);
-        REQUIRE(back.heading_rad == Approx(heading * kDeg).margin(1e-9));
-        REQUIRE(back.pitch_rad == Approx(pitch * kDeg).margin(1e-9));
-        REQUIRE(back.roll_rad == Approx(roll * kDeg).margin(1e-9));
+        REQUIRE_THAT(back.heading_rad, WithinAbs(heading * kDeg, 1e-9));
+        REQUIRE_THAT(back.pitch_rad, WithinAbs(pitch * kDeg, 1e-9));
+        REQUIRE_THAT(back.roll_rad, WithinAbs(roll * kDeg, 1e-9));
       }
 }
 

@@ -6,22 +6,23 @@
 #include <numbers>
 
 using namespace ensonify::frames;
+using Catch::WithinAbs;
 constexpr double kDeg = std::numbers::pi / 180.0;
 
 TEST_CASE("the origin maps to zero, and a place maps back to itself") {
   const LocalProjection map({53.2, -9.1});
   CHECK(map.enu_of({53.2, -9.1}).norm() < 1e-9);
   const Geodetic back = map.geodetic_of(map.enu_of({53.31, -9.4}));
-  CHECK(back.latitude_deg == Approx(53.31).margin(1e-11));
-  CHECK(back.longitude_deg == Approx(-9.4).margin(1e-11));
+  CHECK_THAT(back.latitude_deg, WithinAbs(53.31, 1e-11));
+  CHECK_THAT(back.longitude_deg, WithinAbs(-9.4, 1e-11));
 }
 
 TEST_CASE("a degree of meridian at the equator is 110574.3 m, and at the pole 111694 m") {
   // WGS 84 meridian arc: 0..1 deg 110574.28 m, 89..90 deg 111693.86 m (any geodesy table).
   const LocalProjection equator({0.0, 10.0});
-  CHECK(equator.enu_of({1.0, 10.0}).y() == Approx(110574.28).margin(0.01));
+  CHECK_THAT(equator.enu_of({1.0, 10.0}).y(), WithinAbs(110574.28, 0.01));
   const LocalProjection north({89.0, 10.0});
-  CHECK(north.enu_of({90.0, 10.0}).y() == Approx(111693.86).margin(0.01));
+  CHECK_THAT(north.enu_of({90.0, 10.0}).y(), WithinAbs(111693.86, 0.01));
 }
 
 TEST_CASE("scale is one at the origin") {

@@ -6,6 +6,7 @@
 #include "kernels/base/random/stream.h"
 
 using namespace ensonify::random;
+using Catch::WithinAbs;
 
 TEST_CASE("bulk Gaussians are Box and Muller's transform of the stream's bits") {
   const Stream stream{5, "bulk"};
@@ -15,8 +16,8 @@ TEST_CASE("bulk Gaussians are Box and Muller's transform of the stream's bits") 
     const auto bits = stream.bits(7, 1000 + k / 2);
     const double u = static_cast<float>((bits[2 * (k % 2)] >> 1) + 0.5) / 0x1p31, turn = bits[2 * (k % 2) + 1] / 0x1p32;
     const double radius = 2.0 * std::sqrt(-2.0 * std::log(u));
-    REQUIRE(numbers[k].real() == Approx(radius * std::cos(2 * std::numbers::pi * turn)).margin(4e-6));
-    REQUIRE(numbers[k].imag() == Approx(radius * std::sin(2 * std::numbers::pi * turn)).margin(4e-6));
+    REQUIRE_THAT(numbers[k].real(), WithinAbs(radius * std::cos(2 * std::numbers::pi * turn), 4e-6));
+    REQUIRE_THAT(numbers[k].imag(), WithinAbs(radius * std::sin(2 * std::numbers::pi * turn), 4e-6));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <vector>
 
+using Catch::WithinAbs;
+
 using ensonify::random::philox_block;
 using ensonify::random::Row;
 using ensonify::random::Stream;
@@ -50,8 +52,8 @@ TEST_CASE("uniform numbers have the moments of the uniform distribution") {
     sum += u;
     squares += (u - 0.5) * (u - 0.5);
   }
-  CHECK(sum / n == Approx(0.5).margin(5 * 9.1e-4));
-  CHECK(squares / n == Approx(1.0 / 12.0).margin(5 * 2.4e-4));
+  CHECK_THAT(sum / n, WithinAbs(0.5, 5 * 9.1e-4));
+  CHECK_THAT(squares / n, WithinAbs(1.0 / 12.0, 5 * 2.4e-4));
 }
 
 TEST_CASE("normal numbers have the moments of the Gaussian, and neighbours are uncorrelated") {
@@ -68,10 +70,10 @@ TEST_CASE("normal numbers have the moments of the Gaussian, and neighbours are u
     cross += pair[0] * pair[1] + pair[0] * previous;
     previous = pair[0];
   }
-  CHECK(sum / n == Approx(0.0).margin(5 * 3.2e-3));
-  CHECK(squares / n == Approx(1.0).margin(5 * 4.5e-3));
-  CHECK(fourths / n == Approx(3.0).margin(5 * 3.1e-2));
-  CHECK(cross / n == Approx(0.0).margin(5 * 4.5e-3));
+  CHECK_THAT(sum / n, WithinAbs(0.0, 5 * 3.2e-3));
+  CHECK_THAT(squares / n, WithinAbs(1.0, 5 * 4.5e-3));
+  CHECK_THAT(fourths / n, WithinAbs(3.0, 5 * 3.1e-2));
+  CHECK_THAT(cross / n, WithinAbs(0.0, 5 * 4.5e-3));
 }
 
 TEST_CASE("a row's bits follow its counters, evenly spread, independent of its neighbours") {

@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::sensors;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -68,7 +69,7 @@ TEST_CASE("beams drop out as often as stated; a scale error is the same in all p
     if (scale != 0.0) REQUIRE(now == Approx(scale).epsilon(1e-12));
     scale = now;
   }
-  CHECK(lost / 8000.0 == Approx(0.2).margin(0.018));  // four times sqrt(0.2 * 0.8 / 8000)
+  CHECK_THAT(lost / 8000.0, WithinAbs(0.2, 0.018));  // four times sqrt(0.2 * 0.8 / 8000)
   CHECK(scale != 1.0);
 }
 

@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::sensors;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -26,7 +27,7 @@ TEST_CASE("fixes are as far off as the receiver says") {
     together += r.error_enu_m.x() * last.x();
     last = r.error_enu_m;
   }
-  for (const double sum : {east, north, up}) CHECK(std::sqrt(sum / kCount) == Approx(1.0).margin(0.05));
+  for (const double sum : {east, north, up}) CHECK_THAT(std::sqrt(sum / kCount), WithinAbs(1.0, 0.05));
   // Neighbours share the slow part only: 0.03^2 exp(-10 / 60).
   CHECK(together / kCount == Approx(9e-4 * std::exp(-1.0 / 6)).epsilon(0.1));
 }

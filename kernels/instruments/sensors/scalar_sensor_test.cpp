@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::sensors;
+using Catch::WithinAbs;
 
 TEST_CASE("a scalar sensor's noise and drawn errors have their stated spread") {
   // 4000 draws each: a standard deviation strays by 1.1 %; four times that is allowed.
@@ -28,7 +29,7 @@ TEST_CASE("a wandering error forgets itself as exp(-lag / T)") {
     product += last * next;
     last = next;
   }
-  CHECK(product / kCount == Approx(std::exp(-0.5)).margin(0.03));
+  CHECK_THAT(product / kCount, WithinAbs(std::exp(-0.5), 0.03));
 }
 
 TEST_CASE("a lagging sensor follows a step exponentially, a ramp late by rate times lag") {
@@ -56,7 +57,7 @@ TEST_CASE("an altimeter answers within its range, and fails as often as stated")
       ++answers;
     }
   }
-  CHECK(answers / 4000.0 == Approx(0.75).margin(0.028));  // four times sqrt(0.75 * 0.25 / 4000)
+  CHECK_THAT(answers / 4000.0, WithinAbs(0.75, 0.028));  // four times sqrt(0.75 * 0.25 / 4000)
   RangeSensor sure({}, {}, random::Stream(1, "altimeter"));
   CHECK(!sure.measure(0.2, 0.1));
   CHECK(!sure.measure(101.0, 0.1));

@@ -7,6 +7,7 @@
 #include "kernels/mesh/paging/rules.h"
 
 using namespace ensonify::paging;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -19,7 +20,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 TEST_CASE("a straight track is place plus velocity times time") {
   const Vec2 place = place_after({{10, 20}, {3, -4}, 0.0}, 5.0);
   CHECK(place.x() == Approx(25.0));
-  CHECK(place.y() == Approx(0.0).margin(1e-12));
+  CHECK_THAT(place.y(), WithinAbs(0.0, 1e-12));
 }
 
 TEST_CASE("a turning track is a circle of radius speed over turn rate") {
@@ -27,7 +28,7 @@ TEST_CASE("a turning track is a circle of radius speed over turn rate") {
   const double quarter_s = 0.5 * 3.14159265358979 / 0.1;
   CHECK(place_after(motion, quarter_s).x() == Approx(40.0));
   CHECK(place_after(motion, quarter_s).y() == Approx(40.0));
-  CHECK(place_after(motion, 4.0 * quarter_s).norm() == Approx(0.0).margin(1e-9));
+  CHECK_THAT(place_after(motion, 4.0 * quarter_s).norm(), WithinAbs(0.0, 1e-9));
   for (double t = 0.0; t < 100.0; t += 1.7) CHECK((place_after(motion, t) - Vec2(0, 40)).norm() == Approx(40.0));
 }
 

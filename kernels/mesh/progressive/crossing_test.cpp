@@ -7,6 +7,7 @@
 
 using namespace ensonify;
 using namespace ensonify::progressive;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -25,13 +26,13 @@ TEST_CASE("a track crosses a slope where its height is reached, and nothing belo
   // this slope 2 kSlack_m, and floats.
   const auto crossing = [](double z_m) { return first_crossing_m(slope(), {{101.3, -50.0}, {101.3, 50.0}, z_m}); };
   REQUIRE(crossing(-8.0));
-  CHECK(*crossing(-8.0) == Approx(50.0 + 2.0 * (-8.0 + 10.0)).margin(2.0 * kSlack_m + 1e-5));
+  CHECK_THAT(*crossing(-8.0), WithinAbs(50.0 + 2.0 * (-8.0 + 10.0), 2.0 * kSlack_m + 1e-5));
   REQUIRE(crossing(-15.0));
-  CHECK(*crossing(-15.0) == Approx(50.0 - 10.0).margin(2.0 * kSlack_m + 1e-5));
-  CHECK(*crossing(-30.0) == Approx(30.0).margin(1e-5));  // its edge
+  CHECK_THAT(*crossing(-15.0), WithinAbs(50.0 - 10.0, 2.0 * kSlack_m + 1e-5));
+  CHECK_THAT(*crossing(-30.0), WithinAbs(30.0, 1e-5));  // its edge
   CHECK_FALSE(crossing(0.1));
   // The other way round it is above all of it at once, from its upper edge on; half a way ends before it.
-  CHECK(*first_crossing_m(slope(), {{101.3, 50.0}, {101.3, -50.0}, -8.0}) == Approx(30.0).margin(1e-5));
+  CHECK_THAT(*first_crossing_m(slope(), {{101.3, 50.0}, {101.3, -50.0}, -8.0}), WithinAbs(30.0, 1e-5));
   CHECK_FALSE(first_crossing_m(slope(), {{101.3, -50.0}, {101.3, -10.0}, -8.0}));
   CHECK_FALSE(first_crossing_m(slope(), {{121.0, -50.0}, {121.0, 50.0}, -30.0}));  // beside it
 }

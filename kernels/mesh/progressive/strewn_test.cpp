@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::progressive;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -82,12 +83,12 @@ TEST_CASE("places fill the rectangle evenly, sizes follow their law, headings al
     large += (copy.scale > 1 ? 1.0 : 0.0) / kCount, east += std::sin(copy.heading_rad) / kCount;
   }
   // Uniform numbers have a deviation of their range over sqrt(12); four times that of a mean of 10,000.
-  CHECK(along == Approx(20).margin(4 * 40 / std::sqrt(12.0 * kCount)));
-  CHECK(across == Approx(1.5).margin(4 * 3 / std::sqrt(12.0 * kCount)));
-  CHECK(east == Approx(0).margin(4 / std::sqrt(2.0 * kCount)));
+  CHECK_THAT(along, WithinAbs(20, 4 * 40 / std::sqrt(12.0 * kCount)));
+  CHECK_THAT(across, WithinAbs(1.5, 4 * 3 / std::sqrt(12.0 * kCount)));
+  CHECK_THAT(east, WithinAbs(0, 4 / std::sqrt(2.0 * kCount)));
   // N(> r) = (r^-2 - 4^-2) / (0.5^-2 - 4^-2): 0.238.
   const double share = (1 - 1.0 / 16) / (4 - 1.0 / 16);
-  CHECK(large == Approx(share).margin(4 * std::sqrt(share * (1 - share) / kCount)));
+  CHECK_THAT(large, WithinAbs(share, 4 * std::sqrt(share * (1 - share) / kCount)));
 }
 
 TEST_CASE("what cannot be strewn is refused, and none at all is a mesh of nothing") {

@@ -6,6 +6,7 @@
 #include "kernels/seabed/relief/seabed.h"
 
 using namespace ensonify::relief;
+using Catch::WithinAbs;
 using ensonify::frames::Vec2;
 
 TEST_CASE("across a furrow: its depth, its berms, and the share of the spoil") {
@@ -33,7 +34,7 @@ TEST_CASE("a furrow is deepest on its line, turns to starboard, fades and ends")
   CHECK(line.back().y() == Approx(500 * std::sin(0.4)));
   for (std::size_t i = 4; i < 37; ++i) CHECK(height_at_m(mark, line[i]) == Approx(-0.2));
   CHECK(height_at_m(mark, line[2]) == Approx(-0.1));  // half way through the first tenth
-  CHECK(height_at_m(mark, line[0]) == Approx(0.0).margin(1e-9));
+  CHECK_THAT(height_at_m(mark, line[0]), WithinAbs(0.0, 1e-9));
   CHECK(height_at_m(mark, line[40] + Vec2(0.4, 0.9)) == 0.0);
 }
 
@@ -48,12 +49,12 @@ TEST_CASE("trawl scars come in pairs, as many as asked for, and along their head
                middle = 0.5 * (marks[i].middle_enu_m + marks[i + 1].middle_enu_m);
     CHECK(apart.norm() >= 40.0);
     CHECK(apart.norm() <= 120.0);
-    CHECK(apart.dot(marks[i].ahead_enu) == Approx(0.0).margin(1e-6));
+    CHECK_THAT(apart.dot(marks[i].ahead_enu), WithinAbs(0.0, 1e-6));
     inside += middle.x() >= 0 && middle.x() < 1e4 && middle.y() >= 0 && middle.y() < 1e4 ? 1 : 0;
     heading += std::atan2(marks[i].ahead_enu.x(), marks[i].ahead_enu.y()) / (0.5 * static_cast<double>(marks.size()));
   }
-  CHECK(inside == Approx(800).margin(4 * std::sqrt(800.0)));
-  CHECK(heading == Approx(1.0).margin(4 * 0.1 / std::sqrt(800.0)));
+  CHECK_THAT(inside, WithinAbs(800, 4 * std::sqrt(800.0)));
+  CHECK_THAT(heading, WithinAbs(1.0, 4 * 0.1 / std::sqrt(800.0)));
 }
 
 TEST_CASE("a furrow intersects a rectangle within half its width of its middle line") {
@@ -98,7 +99,7 @@ TEST_CASE("marks are the same in every window, and cover what their closed form 
         const double z = height_at_m(mark, {0.5 * (i - 200), 0.5 * (j - 100)});
         if (std::abs(z) > std::abs(most)) most = z;
       }
-      REQUIRE(all[whole.node(i, j)] == Approx(most).margin(1e-6));
+      REQUIRE_THAT(all[whole.node(i, j)], WithinAbs(most, 1e-6));
     }
   }
 }

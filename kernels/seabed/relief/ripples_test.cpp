@@ -8,6 +8,7 @@
 #include <vector>
 
 using namespace ensonify::relief;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -37,17 +38,17 @@ TEST_CASE("without disorder every ripple has the set height, length and lee side
     CHECK(*high - *low ==
           Approx(0.3).epsilon(
               0.006));  // posts miss crest and trough by up to (pi / 40)^2 / 2 of a sine, more of a refracted one
-    for (std::size_t i = 0; i + 40 < z.size(); ++i) CHECK(z[i + 40] == Approx(z[i]).margin(1e-5));
+    for (std::size_t i = 0; i + 40 < z.size(); ++i) CHECK_THAT(z[i + 40], WithinAbs(z[i], 1e-5));
     // From the crest eastward to the next trough lies the lee.
     const auto crest = std::max_element(z.begin(), z.begin() + 80), trough = std::min_element(crest, z.end());
-    CHECK(static_cast<double>(trough - crest) / 40 == Approx(lee).margin(0.03));
+    CHECK_THAT(static_cast<double>(trough - crest) / 40, WithinAbs(lee, 0.03));
     double steepest = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < 160; ++i) {
       steepest = std::max(steepest, (z[i] - z[i + 1]) / kSpacing);
       sum += z[i];
     }
     CHECK(steepest == Approx(ripples.steepest_lee()).epsilon(0.02));
-    CHECK(sum / 160 == Approx(0.0).margin(1e-5));
+    CHECK_THAT(sum / 160, WithinAbs(0.0, 1e-5));
   }
   // A symmetric wave's steepest slope is pi height / wavelength.
   CHECK(Ripples({.wavelength_m = 2.0, .height_m = 0.3}, kSpacing, 1, "s").steepest_lee() == Approx(kPi * 0.15));
@@ -59,7 +60,7 @@ TEST_CASE("crests run across the travel heading") {
   const Ripples ripples(p, kSpacing, 1, "train");
   // Along the crest: heading 120 degrees; (sqrt(3) / 2, -1 / 2) of 200 posts is (173.2, -100): within 0.2 posts of it.
   const auto here = heights(ripples, {0, 30, 40, 8, 8}), there = heights(ripples, {0, 30 + 173, 40 - 100, 8, 8});
-  for (std::size_t i = 0; i < here.size(); ++i) CHECK(there[i] == Approx(here[i]).margin(0.05 * 2 * kPi * 0.2 * 0.05));
+  for (std::size_t i = 0; i < here.size(); ++i) CHECK_THAT(there[i], WithinAbs(here[i], 0.05 * 2 * kPi * 0.2 * 0.05));
 }
 
 TEST_CASE("defects of a wholly disordered train have the density of zeros of Gaussian noise") {

@@ -7,6 +7,7 @@
 #include "kernels/seabed/relief/mask.h"
 
 using namespace ensonify::relief;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -43,7 +44,7 @@ TEST_CASE("a wave has its amplitude and length, a sphere its top and edge") {
       wave({.depth_m = 20.0, .amplitude_m = 0.5, .wavelength_m = 8.0, .heading_rad = kPi / 2}, kSpacing);
   CHECK(at(waves, 0, 3) == Approx(-19.5));
   CHECK(at(waves, 4, 3) == Approx(-20.5));
-  CHECK(at(waves, 10, 3) == Approx(-20.0).margin(1e-5));
+  CHECK_THAT(at(waves, 10, 3), WithinAbs(-20.0, 1e-5));
   const Field ball =
       sphere({.centre_enu_m = {5, 5}, .centre_depth_m = 19.0, .radius_m = 2.0, .depth_m = 20.0}, kSpacing);
   CHECK(at(ball, 5, 5) == Approx(-17.0));

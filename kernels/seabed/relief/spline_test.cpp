@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace ensonify::relief;
+using Catch::WithinAbs;
 using ensonify::random::Stream;
 
 namespace {
@@ -32,9 +33,9 @@ TEST_CASE("coefficients of a plane give the plane, at every level") {
   evaluate(fine, posts, out);
   for (int j = 0; j < posts.rows; ++j) {
     for (int i = 0; i < posts.columns; ++i)
-      CHECK(out[posts.node(i, j)] ==
-            Approx(3.0 + 0.25 * static_cast<double>(posts.east + i) - 0.125 * static_cast<double>(posts.north + j))
-                .margin(1e-5));
+      CHECK_THAT(out[posts.node(i, j)], WithinAbs(3.0 + 0.25 * static_cast<double>(posts.east + i) -
+                                                      0.125 * static_cast<double>(posts.north + j),
+                                                  1e-5));
   }
 }
 
@@ -56,7 +57,7 @@ TEST_CASE("refinement does not change the surface") {
   evaluate(fine, posts, at_posts);
   for (int j = 0; j < posts.rows; j += 2) {
     for (int i = 0; i < posts.columns; i += 2)
-      CHECK(at_posts[posts.node(i, j)] == Approx(at_coarse[coarse.node(1 + i / 2, 1 + j / 2)]).margin(1e-6));
+      CHECK_THAT(at_posts[posts.node(i, j)], WithinAbs(at_coarse[coarse.node(1 + i / 2, 1 + j / 2)], 1e-6));
   }
 }
 
@@ -68,7 +69,7 @@ TEST_CASE("the bell of one coefficient is the quintic B-spline") {
   const double middle = 66.0 / 120.0;
   for (int i = 0; i < 7; ++i) {
     const std::vector<double> bell{0, 1, 26, 66, 26, 1, 0};
-    CHECK(out[static_cast<std::size_t>(i)] == Approx(middle * bell[static_cast<std::size_t>(i)] / 120).margin(1e-7));
+    CHECK_THAT(out[static_cast<std::size_t>(i)], WithinAbs(middle * bell[static_cast<std::size_t>(i)] / 120, 1e-7));
   }
 }
 
@@ -97,10 +98,10 @@ TEST_CASE("white noise has its moments and no neighbours, and is a function of t
     }
   }
   const double n = 499.0 * 199.0, sd = 1.0 / std::sqrt(n);  // of a mean and of a correlation; of a variance 1.2 times
-  CHECK(sum / n == Approx(0.0).margin(4 * sd));
-  CHECK(squares / n == Approx(1.0).margin(5 * sd));
-  CHECK(east / n == Approx(0.0).margin(4 * sd));
-  CHECK(north / n == Approx(0.0).margin(4 * sd));
+  CHECK_THAT(sum / n, WithinAbs(0.0, 4 * sd));
+  CHECK_THAT(squares / n, WithinAbs(1.0, 5 * sd));
+  CHECK_THAT(east / n, WithinAbs(0.0, 4 * sd));
+  CHECK_THAT(north / n, WithinAbs(0.0, 4 * sd));
 
   const Window part{3, -129, 95, 131, 3};  // across two edges of the generator's chunks
   std::vector<float> some(part.size(), 1.0F), amplitude(part.size(), 0.5F);

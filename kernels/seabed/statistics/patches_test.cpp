@@ -6,6 +6,7 @@
 #include "kernels/seabed/statistics/testing/exact_fbm.h"
 
 using namespace ensonify::relief_statistics;
+using Catch::WithinAbs;
 using ensonify::random::Stream;
 
 TEST_CASE("Sarle's coefficient: 1/3 for a Gaussian, 5/9 for uniform, 1 for two points") {
@@ -17,9 +18,9 @@ TEST_CASE("Sarle's coefficient: 1/3 for a Gaussian, 5/9 for uniform, 1 for two p
     two.push_back(static_cast<double>(i % 2));
   }
   // Kurtosis scatters by sqrt(24 / n) = 0.035: 0.33 by 0.004 (4 sd 0.016), 0.56 by less.
-  CHECK(bimodality(gaussian) == Approx(1.0 / 3.0).margin(0.016));
-  CHECK(bimodality(uniform) == Approx(5.0 / 9.0).margin(0.016));
-  CHECK(bimodality(two) == Approx(1.0).margin(1e-3));
+  CHECK_THAT(bimodality(gaussian), WithinAbs(1.0 / 3.0, 0.016));
+  CHECK_THAT(bimodality(uniform), WithinAbs(5.0 / 9.0, 0.016));
+  CHECK_THAT(bimodality(two), WithinAbs(1.0, 1e-3));
 }
 
 TEST_CASE("rank correlation sees order, not size; ties share a rank") {
@@ -54,7 +55,7 @@ TEST_CASE("a chessboard of two roughnesses has the statistics of its two values"
   CHECK(p.rms_over_median == Approx(std::sqrt(0.475 + 0.00525) / 0.1).epsilon(1e-5));
   CHECK(p.p95_over_p5 == Approx(10.0).epsilon(1e-5));
   CHECK(p.bimodality > 0.98);
-  CHECK(p.slope_p95_deg == Approx(0.0).margin(1e-4));
+  CHECK_THAT(p.slope_p95_deg, WithinAbs(0.0, 1e-4));
 }
 
 TEST_CASE("patches of a plane have its slope; a level surface has no statistics") {
@@ -63,7 +64,7 @@ TEST_CASE("patches of a plane have its slope; a level surface has no statistics"
     for (int column = 0; column < 90; ++column)
       surface.height_m.push_back(static_cast<float>(0.05 * column + (row % 2 == 0 ? 0.01 : -0.01)));
   }
-  CHECK(patchiness(surface).slope_p50_deg == Approx(std::atan(0.1) * 180 / 3.14159265358979).margin(0.01));
+  CHECK_THAT(patchiness(surface).slope_p50_deg, WithinAbs(std::atan(0.1) * 180 / 3.14159265358979, 0.01));
   surface.height_m.assign(surface.height_m.size(), -20.0F);
   CHECK(patchiness(surface).patches == 0);
 }
@@ -72,7 +73,7 @@ TEST_CASE("patches of fractional Brownian relief are alike") {
   const Surface surface = exact_fbm(0.625, 512, Stream{2, "fbm"}, 0);
   const Patchiness p =
       patchiness(surface);  // 3136 patches: their scatter moves these by about 1 %. Others: 1.04, 2.1, 0.35
-  CHECK(p.rms_over_median == Approx(1.04).margin(0.02));
-  CHECK(p.p95_over_p5 == Approx(2.0).margin(0.2));
-  CHECK(p.bimodality == Approx(0.35).margin(0.04));
+  CHECK_THAT(p.rms_over_median, WithinAbs(1.04, 0.02));
+  CHECK_THAT(p.p95_over_p5, WithinAbs(2.0, 0.2));
+  CHECK_THAT(p.bimodality, WithinAbs(0.35, 0.04));
 }

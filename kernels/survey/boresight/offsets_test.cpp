@@ -5,6 +5,7 @@
 #include "kernels/survey/boresight/adjust.h"
 
 using namespace ensonify::boresight;
+using Catch::WithinAbs;
 using ensonify::frames::Attitude;
 using ensonify::frames::enu_from_body;
 
@@ -25,9 +26,9 @@ TEST_CASE("roll rotates soundings about the track: 3.5 deg at 60 deg in 30 m are
   const Vec3 starboard = place(heading_north({x, 0, -30}), {.roll_rad = dr}).place_enu_m;
   // Starboard goes down by x sin dr + z (cos dr - 1) with z = -30, depth negative.
   CHECK(starboard.z() + 30.0 == Approx(-x * std::sin(dr) - 30.0 * (std::cos(dr) - 1.0)));
-  CHECK(starboard.z() + 30.0 == Approx(-3.116).margin(0.001));
+  CHECK_THAT(starboard.z() + 30.0, WithinAbs(-3.116, 0.001));
   CHECK(port.z() + 30.0 == Approx(x * std::sin(dr) + 30.0 * (1.0 - std::cos(dr))));
-  CHECK(port.z() + 30.0 == Approx(3.228).margin(0.001));  // the table's 3.23 m
+  CHECK_THAT(port.z() + 30.0, WithinAbs(3.228, 0.001));  // the table's 3.23 m
 }
 
 TEST_CASE("pitch, yaw and latency move a sounding along the track") {
@@ -49,7 +50,7 @@ TEST_CASE("a mounting turns with the vehicle") {
   east.enu_from_body = enu_from_body(Attitude{.heading_rad = M_PI / 2});
   const Vec3 turned = place(east, {.roll_rad = 0.01}).place_enu_m;
   CHECK(turned.z() < -30.0 - 0.39);
-  CHECK(turned.x() == Approx(0.0).margin(1e-12));
+  CHECK_THAT(turned.x(), WithinAbs(0.0, 1e-12));
 }
 
 TEST_CASE("rates are the derivatives of the place") {

@@ -9,6 +9,7 @@
 
 using namespace ensonify;
 using namespace ensonify::georeference;
+using Catch::WithinAbs;
 using frames::Vec3;
 using refraction::SoundSpeedProfile;
 
@@ -49,8 +50,8 @@ TEST_CASE("the cast that is true puts the seabed where it is") {
     const double angle = degrees * kDeg;
     const auto truth = refraction::path_to_depth(water, 0.0, std::numbers::pi / 2 - angle, 80.0);
     const Vec3 place = received_from(water, angle, 0.0, 80.0, water.speed_mps(0.0), water);
-    CHECK(place.z() == Approx(80.0).margin(1e-3));
-    CHECK(place.y() == Approx(truth->horizontal_m).margin(1e-3));
+    CHECK_THAT(place.z(), WithinAbs(80.0, 1e-3));
+    CHECK_THAT(place.y(), WithinAbs(truth->horizontal_m, 1e-3));
   }
 }
 
@@ -59,7 +60,7 @@ TEST_CASE("a wrong face speed cancels on a level flat array, whatever the water"
   const auto water = refraction::summer_thermocline();
   for (double degrees = 0; degrees <= 70; degrees += 10) {
     const Vec3 place = received_from(water, degrees * kDeg, 0.0, 80.0, water.speed_mps(0.0) + 5.0, water);
-    CHECK(place.z() == Approx(80.0).margin(5e-3));
+    CHECK_THAT(place.z(), WithinAbs(80.0, 5e-3));
   }
 }
 
@@ -86,8 +87,8 @@ TEST_CASE("cones of a Mills cross intersect where both sines say") {
   for (const double sin_receive : {-0.8, 0.0, 0.6}) {
     const Vec3 d = intersect_cones(x, 0.02, y, sin_receive, down);
     CHECK(d.norm() == Approx(1.0));
-    CHECK(d.dot(x) == Approx(0.02).margin(1e-12));
-    CHECK(d.dot(y) == Approx(sin_receive).margin(1e-12));
+    CHECK_THAT(d.dot(x), WithinAbs(0.02, 1e-12));
+    CHECK_THAT(d.dot(y), WithinAbs(sin_receive, 1e-12));
     CHECK(d.z() > 0.0);
   }
   CHECK(intersect_cones(x, 0.9, y, 0.9, down).norm() == Approx(1.0));  // they do not intersect

@@ -8,6 +8,7 @@
 
 using namespace ensonify;
 using namespace ensonify::survey_grid;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -66,7 +67,7 @@ TEST_CASE("the reach of a hole is the distance that a search of all posts finds"
       reach[static_cast<std::size_t>(hole)] = std::max(reach[static_cast<std::size_t>(hole)], nearest);
     }
   }
-  for (std::size_t i = 0; i < reach.size(); ++i) CHECK(holes.hole[i].reach_spacings == Approx(reach[i]).margin(1e-6));
+  for (std::size_t i = 0; i < reach.size(); ++i) CHECK_THAT(holes.hole[i].reach_spacings, WithinAbs(reach[i], 1e-6));
 }
 
 TEST_CASE("a whole surface has no hole, one without any height is refused") {

@@ -9,6 +9,7 @@
 
 using namespace ensonify;
 using namespace ensonify::survey_grid;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -50,8 +51,8 @@ TEST_CASE("spikes are found where they stand, above and below, with their height
   CHECK((spikes[0].column == 40 && spikes[0].row == 20));
   CHECK((spikes[1].column == 70 && spikes[1].row == 60));
   // The extreme of eight neighbours of 0.05 m noise lies 0.07 +- 0.03 m to their side; twice the noise of the cell.
-  CHECK(spikes[0].above_m == Approx(0.93).margin(0.2));
-  CHECK(spikes[1].above_m == Approx(-1.93).margin(0.2));
+  CHECK_THAT(spikes[0].above_m, WithinAbs(0.93, 0.2));
+  CHECK_THAT(spikes[1].above_m, WithinAbs(-1.93, 0.2));
 }
 
 TEST_CASE("what is lower than asked for is not reported") {

@@ -6,6 +6,7 @@
 
 using namespace ensonify;
 using namespace ensonify::uncertainty;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -59,7 +60,7 @@ TEST_CASE("a plane has no bends, whatever its tilt, and noise adds none") {
   std::vector<double> bends = squared_bends_m2(plane);
   CHECK(std::isnan(bends[5]));
   CHECK(std::isnan(bends[3994]));
-  for (std::size_t i = 6; i < 3994; ++i) REQUIRE(bends[i] == Approx(0.0).margin(1e-18));
+  for (std::size_t i = 6; i < 3994; ++i) REQUIRE_THAT(bends[i], WithinAbs(0.0, 1e-18));
 
   for (std::size_t i = 0; i < plane.size(); ++i) {
     plane[i].height_m += 0.02 * noise.normal(i);
@@ -70,7 +71,7 @@ TEST_CASE("a plane has no bends, whatever its tilt, and noise adds none") {
   for (std::size_t i = 6; i < 3994; ++i) sum += bends[i] / 3988.0;
   // Of one bend: 36 + 2 x 16 (0.4^2 + 0.6^2) + 2 (0.2^2 + 0.8^2) = 54 variances, chi-square about it; neighbours are
   // alike, so some 700 are independent: the mean strays by 54 x sqrt(2 / 700) of a variance.
-  CHECK(sum == Approx(0.0).margin(3 * 54 * std::sqrt(2.0 / 700.0) * 0.02 * 0.02));
+  CHECK_THAT(sum, WithinAbs(0.0, 3 * 54 * std::sqrt(2.0 / 700.0) * 0.02 * 0.02));
 }
 
 TEST_CASE("a long flank hardly bends") {

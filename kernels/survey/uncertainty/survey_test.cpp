@@ -12,6 +12,7 @@
 
 using namespace ensonify;
 using namespace ensonify::uncertainty;
+using Catch::WithinAbs;
 using random::Stream;
 using refraction::SoundSpeedProfile;
 
@@ -137,7 +138,7 @@ TEST_CASE("predicted intervals cover 93 to 97 % of true errors in every tenth of
   for (const Share& share : by_angle) {
     const double all = share.all;
     INFO("vertical " << share.inside_vertical / all << ", horizontal " << share.inside_horizontal / all);
-    CHECK(share.inside_vertical / all == Approx(0.95).margin(0.02));
-    CHECK(share.inside_horizontal / all == Approx(0.95).margin(0.02));
+    CHECK_THAT(share.inside_vertical / all, WithinAbs(0.95, 0.02));
+    CHECK_THAT(share.inside_horizontal / all, WithinAbs(0.95, 0.02));
   }
 }

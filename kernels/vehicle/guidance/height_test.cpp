@@ -6,6 +6,7 @@
 
 using namespace ensonify;
 using namespace ensonify::guidance;
+using Catch::WithinAbs;
 
 TEST_CASE("constant slope is tracked without lag, a step with the filter's time constant") {
   BottomTrack track;
@@ -15,7 +16,7 @@ TEST_CASE("constant slope is tracked without lag, a step with the filter's time 
 
   // After a step the error of two equal poles z = exp(-dt / T) is z^n (1 - n (1 - z) ...): below 1 % after 10 T.
   for (int i = 0; i < 200; ++i) track = track_bottom(track, 10.0, 30.0, 0.1, 2.0);
-  CHECK(track.depth_m == Approx(40.0).margin(0.08));
+  CHECK_THAT(track.depth_m, WithinAbs(40.0, 0.08));
 }
 
 TEST_CASE("the order is the bottom less the altitude, within the depths allowed") {
@@ -61,5 +62,5 @@ TEST_CASE("over a ridge of 1 in 5 a vehicle that climbs 0.5 m/s keeps its floor"
     at = motion::approach(at, -order.depth_m, 0.1, 0.5, 0.2);
   }
   CHECK(least_altitude_m > 3.5);
-  CHECK(-at.value == Approx(25.0).margin(0.01));
+  CHECK_THAT(-at.value, WithinAbs(25.0, 0.01));
 }

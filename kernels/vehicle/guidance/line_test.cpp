@@ -5,6 +5,7 @@
 
 using namespace ensonify;
 using namespace ensonify::guidance;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -51,7 +52,7 @@ TEST_CASE("near the line with damping 1 the distance decays as (1 + w t) exp(-w 
   const double w = speed_mps / (2.0 * lookahead_m), dt_s = 1e-3;
   for (int i = 0; i < 20000; ++i) vehicle.advance(gains, speed_mps, 0.0, dt_s);
   // Tolerance: Euler's steps are off by w dt = 5e-5 of a factor, the cubic of atan by (0.1 / 20)^2 / 3 = 8e-6.
-  CHECK(vehicle.cross_track_m == Approx(0.1 * (1.0 - w * 20.0) * std::exp(-w * 20.0)).margin(2e-5));
+  CHECK_THAT(vehicle.cross_track_m, WithinAbs(0.1 * (1.0 - w * 20.0) * std::exp(-w * 20.0), 2e-5));
 }
 
 TEST_CASE("lookahead grows with speed and lag; the integral stops where it would wind up") {

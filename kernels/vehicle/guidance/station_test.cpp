@@ -6,11 +6,12 @@
 
 using namespace ensonify;
 using namespace ensonify::guidance;
+using Catch::WithinAbs;
 
 TEST_CASE("at the stopping speed a vehicle stops within d = v^2 / (2 a) + v lag") {
   for (const double d : {0.0, 0.5, 10.0, 400.0}) {
     const double v = stopping_speed_mps(d, 0.2, 0.5);
-    CHECK(v * v / 0.4 + 0.5 * v == Approx(d).margin(1e-9));
+    CHECK_THAT(v * v / 0.4 + 0.5 * v, WithinAbs(d, 1e-9));
   }
   CHECK(stopping_speed_mps(10.0, 0.2, 0.0) == Approx(2.0));
 }

@@ -5,6 +5,7 @@
 #include "kernels/vehicle/motion/kinematics.h"
 
 using namespace ensonify::motion;
+using Catch::WithinAbs;
 
 TEST_CASE("a long climb is v/a of speeding up, a cruise, and v/a of slowing down") {
   // 0.5 m/s at 0.25 m/s^2: 2 s and 0.5 m at either end, 9 m at 0.5 m/s between: 22 s for 10 m.
@@ -30,7 +31,7 @@ TEST_CASE("a climb past or away from its target brakes, overshoots by v^2/2a and
   const Moving falling{0.0, -0.5, 0.0};
   const Moving lowest = approach(falling, 3.0, 2.0, 0.5, 0.25);
   CHECK(lowest.value == Approx(-0.5));
-  CHECK(lowest.rate == Approx(0.0).margin(1e-12));
+  CHECK_THAT(lowest.rate, WithinAbs(0.0, 1e-12));
   CHECK(approach(falling, 3.0, 100.0, 0.5, 0.25).value == 3.0);
   const Moving too_fast{0.0, 0.5, 0.0};
   CHECK(approach(too_fast, 0.1, 2.0, 0.5, 0.25).value == Approx(0.5));
@@ -41,8 +42,8 @@ TEST_CASE("many small steps of a climb are one large one") {
   Moving often{2.0, 0.3, 0.0};
   const Moving once = approach(often, -7.0, 12.3, 0.5, 0.1);
   for (int i = 0; i < 1230; ++i) often = approach(often, -7.0, 0.01, 0.5, 0.1);
-  CHECK(often.value == Approx(once.value).margin(1e-9));
-  CHECK(often.rate == Approx(once.rate).margin(1e-9));
+  CHECK_THAT(often.value, WithinAbs(once.value, 1e-9));
+  CHECK_THAT(often.rate, WithinAbs(once.rate, 1e-9));
 }
 
 TEST_CASE("without inertia a climb begins and ends at once") {

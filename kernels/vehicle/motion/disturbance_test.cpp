@@ -7,6 +7,7 @@
 #include <vector>
 
 using namespace ensonify::motion;
+using Catch::WithinAbs;
 using ensonify::frames::MovingPose;
 using ensonify::frames::Quaternion;
 using ensonify::frames::Vec3;
@@ -132,7 +133,7 @@ TEST_CASE("four hours of the research ship have her standard deviations and peak
   CHECK(period_s(r, 2, kLines) == Approx(12.8).epsilon(0.05));
 
   // At the common peak (k = 13, 9.8 s) pitch leads by a quarter of a period.
-  CHECK(std::arg(cross(p, h, 13)) == Approx(0.5 * kPi).margin(0.15));
+  CHECK_THAT(std::arg(cross(p, h, 13)), WithinAbs(0.5 * kPi, 0.15));
 }
 
 // What the multibeam test line's launch had [roll 1.7, pitch 0.8 degrees, heave 0.03 m]; periods are assumed. 10 % is
@@ -231,8 +232,8 @@ TEST_CASE("axes have the stated coherence with heave in the mean of many seas") 
     INFO(expected.preset);
     // Of one to four waves a line in 40 seas a line's coherence strays by about 0.1, and what it strays to is too
     // large rather than too small; of seven lines and more the mean strays by 0.04.
-    CHECK(roll == Approx(expected.roll).margin(0.08));
-    CHECK(pitch == Approx(expected.pitch).margin(0.08));
+    CHECK_THAT(roll, WithinAbs(expected.roll, 0.08));
+    CHECK_THAT(pitch, WithinAbs(expected.pitch, 0.08));
   }
 }
 
@@ -250,7 +251,7 @@ TEST_CASE("the fractional part has the slope -(2H + 1) above its corner") {
     return power / (to - from);
   };
   // From 0.07 to 0.7 Hz; each band averages ten lines and about 100 segments, so 0.1 is many standard deviations.
-  CHECK(std::log10(band(60, 80) / band(6, 8)) == Approx(-(2 * 0.7 + 1)).margin(0.1));
+  CHECK_THAT(std::log10(band(60, 80) / band(6, 8)), WithinAbs(-(2 * 0.7 + 1), 0.1));
 }
 
 TEST_CASE("an oscillation is confined to below the highest frequency") {

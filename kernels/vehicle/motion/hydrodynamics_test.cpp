@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::motion;
+using Catch::WithinAbs;
 using ensonify::frames::Attitude;
 using ensonify::frames::attitude_of;
 using ensonify::frames::enu_from_body;
@@ -66,14 +67,14 @@ BodyState run(const Body& body, BodyState state, double t_s, double step_s, cons
 
 TEST_CASE("Lamb's shares: a sphere carries half its mass, a slender body its own across") {
   CHECK(spheroid_added_mass(1.0, 1.0).along == Approx(0.5));
-  CHECK(spheroid_added_mass(1.001, 1.0).along == Approx(0.5).margin(1e-3));
-  CHECK(spheroid_added_mass(1.001, 1.0).turning == Approx(0.0).margin(1e-3));
+  CHECK_THAT(spheroid_added_mass(1.001, 1.0).along, WithinAbs(0.5, 1e-3));
+  CHECK_THAT(spheroid_added_mass(1.001, 1.0).turning, WithinAbs(0.0, 1e-3));
   // The table of [Lamb1932, article 115]; it was worked by hand: 0.895 and 0.701 where the formula gives 0.894 and
   // 0.699.
-  CHECK(spheroid_added_mass(4.99, 1.0).along == Approx(0.059).margin(5e-4));
-  CHECK(spheroid_added_mass(4.99, 1.0).across == Approx(0.895).margin(2e-3));
-  CHECK(spheroid_added_mass(4.99, 1.0).turning == Approx(0.701).margin(3e-3));
-  CHECK(spheroid_added_mass(9.97, 1.0).across == Approx(0.960).margin(5e-4));
+  CHECK_THAT(spheroid_added_mass(4.99, 1.0).along, WithinAbs(0.059, 5e-4));
+  CHECK_THAT(spheroid_added_mass(4.99, 1.0).across, WithinAbs(0.895, 2e-3));
+  CHECK_THAT(spheroid_added_mass(4.99, 1.0).turning, WithinAbs(0.701, 3e-3));
+  CHECK_THAT(spheroid_added_mass(9.97, 1.0).across, WithinAbs(0.960, 5e-4));
   CHECK_THROWS_AS(spheroid_added_mass(1.0, 2.0), std::invalid_argument);
 }
 
@@ -97,11 +98,11 @@ TEST_CASE("an undamped floating hull keeps its energy and heaves at its natural 
   const Body body(p);
   BodyState start = body.at_rest({{0, 0, 0.1}, enu_from_body({0, 0, 0})});
   const double period_s = 2 * kPi * std::sqrt((30.0 + 25.0) / 800.0);
-  CHECK(run(body, start, period_s, period_s / 200).pose.position_enu_m.z() == Approx(0.1).margin(1e-6));
-  CHECK(run(body, start, period_s / 2, period_s / 200).pose.position_enu_m.z() == Approx(-0.1).margin(1e-6));
+  CHECK_THAT(run(body, start, period_s, period_s / 200).pose.position_enu_m.z(), WithinAbs(0.1, 1e-6));
+  CHECK_THAT(run(body, start, period_s / 2, period_s / 200).pose.position_enu_m.z(), WithinAbs(-0.1, 1e-6));
   // Springs about the body's axes have the energy of their Euler angles for small angles: a third order of 0.05 rad.
   start = body.at_rest({{0, 0, 0.02}, enu_from_body({0, 0.03, 0.05})});
-  CHECK(energy_j(body, run(body, start, 5.0, 0.005)) == Approx(energy_j(body, start)).margin(1e-3));
+  CHECK_THAT(energy_j(body, run(body, start, 5.0, 0.005)), WithinAbs(energy_j(body, start), 1e-3));
 }
 
 TEST_CASE("in an infinite sea the impulse of body and water stays") {
@@ -126,8 +127,8 @@ TEST_CASE("with damping and nothing to drive it a body only loses energy and res
     REQUIRE(next <= energy + 1e-9);
     energy = next;
   }
-  CHECK(attitude_of(state.pose.enu_from_body).roll_rad == Approx(0.0).margin(1e-3));
-  CHECK(attitude_of(state.pose.enu_from_body).pitch_rad == Approx(std::atan2(-0.01, 0.03)).margin(1e-3));
+  CHECK_THAT(attitude_of(state.pose.enu_from_body).roll_rad, WithinAbs(0.0, 1e-3));
+  CHECK_THAT(attitude_of(state.pose.enu_from_body).pitch_rad, WithinAbs(std::atan2(-0.01, 0.03), 1e-3));
 }
 
 TEST_CASE("the integrator is of fourth order") {
@@ -201,8 +202,8 @@ TEST_CASE("cross-flow drag is the strip integral, where the flow turns too") {
         moment -= 0.5 * 1026 * 0.3 * 1.2 * std::abs(flow) * flow * x * 2.0 / kStrips;
       }
       const Vec6 drag = body.passive_force(state, {}) - bare.passive_force(state, {});
-      CHECK(drag(1) == Approx(force).margin(1e-3));
-      CHECK(drag(5) == Approx(moment).margin(1e-3));
+      CHECK_THAT(drag(1), WithinAbs(force, 1e-3));
+      CHECK_THAT(drag(5), WithinAbs(moment, 1e-3));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::motion;
+using Catch::WithinAbs;
 using ensonify::frames::attitude_of;
 using ensonify::frames::Vec3;
 constexpr double kPi = std::numbers::pi;
@@ -43,7 +44,7 @@ TEST_CASE("one long step equals many short ones, for speed, turn, climb and path
   State often = start;
   for (int i = 0; i < 4000; ++i) often = advance(often, command, 0.01, kLimits);
   CHECK((once.position_enu_m - often.position_enu_m).norm() < 1e-9);
-  CHECK(once.heading_rad == Approx(often.heading_rad).margin(1e-12));
+  CHECK_THAT(once.heading_rad, WithinAbs(often.heading_rad, 1e-12));
   CHECK(once.speed_mps == often.speed_mps);
   CHECK(once.position_enu_m.z() == -9.0);
 }
@@ -82,9 +83,9 @@ TEST_CASE("steps add up where both limits and a ramp take turns") {
     State often = start;
     for (int i = 0; i < 1000; ++i) often = advance(often, command, until_s / 1000.0, kSlowTurner);
     CHECK((once.position_enu_m - often.position_enu_m).norm() < 1e-9);
-    CHECK(once.heading_rad == Approx(often.heading_rad).margin(1e-12));
-    CHECK(once.speed_mps == Approx(often.speed_mps).margin(1e-12));
-    CHECK(once.climb_mps == Approx(often.climb_mps).margin(1e-9));
+    CHECK_THAT(once.heading_rad, WithinAbs(often.heading_rad, 1e-12));
+    CHECK_THAT(once.speed_mps, WithinAbs(often.speed_mps, 1e-12));
+    CHECK_THAT(once.climb_mps, WithinAbs(often.climb_mps, 1e-9));
   }
 }
 
@@ -101,8 +102,8 @@ TEST_CASE("a half turn takes pi/omega + omega/alpha, its path the integral of he
   const State start{Vec3(5, 7, 0), 0.0, 4.0};
   CHECK(advance(start, {kPi - 1e-9, 4.0, 0.0}, half_turn_s - 0.01, kLaunch).turn_radps == Approx(0.001).epsilon(1e-3));
   const State end = advance(start, {kPi - 1e-9, 4.0, 0.0}, half_turn_s + 1e-9, kLaunch);
-  CHECK(end.heading_rad == Approx(kPi - 1e-9).margin(1e-9));
-  CHECK(end.turn_radps == Approx(0.0).margin(1e-9));
+  CHECK_THAT(end.heading_rad, WithinAbs(kPi - 1e-9, 1e-9));
+  CHECK_THAT(end.turn_radps, WithinAbs(0.0, 1e-9));
   // Symmetric about its middle: it ends abeam of where it began turning, were it not for the way there and back. The
   // integral of sin(heading) by the midpoint rule in steps of 10 us, 1e-9 m.
   double abeam_m = 0.0;
@@ -112,8 +113,8 @@ TEST_CASE("a half turn takes pi/omega + omega/alpha, its path the integral of he
     const double from_end = 0.5 * 0.1 * up_s * up_s + (std::min(t, half_turn_s - t) - up_s) * rate;
     abeam_m += 4.0 * std::sin(from_end) * h;  // sin(pi - heading) = sin(heading)
   }
-  CHECK(end.position_enu_m.x() - 5.0 == Approx(abeam_m).margin(1e-5));
-  CHECK(end.position_enu_m.y() == Approx(7.0).margin(1e-5));
+  CHECK_THAT(end.position_enu_m.x() - 5.0, WithinAbs(abeam_m, 1e-5));
+  CHECK_THAT(end.position_enu_m.y(), WithinAbs(7.0, 1e-5));
   CHECK(abeam_m > 40.0);  // wider than the circle
 }
 
@@ -126,8 +127,8 @@ TEST_CASE("steps of a turn with inertia add up, at a constant speed and with a c
     for (int i = 0; i < 5714; ++i) often = advance(often, command, 0.007, kLaunch);
     often = advance(often, command, 0.002, kLaunch);
     CHECK((once.position_enu_m - often.position_enu_m).norm() < (speed_mps == 1.7 ? 1e-6 : 1e-3));
-    CHECK(once.heading_rad == Approx(often.heading_rad).margin(1e-9));
-    CHECK(once.speed_mps == Approx(often.speed_mps).margin(1e-9));
+    CHECK_THAT(once.heading_rad, WithinAbs(often.heading_rad, 1e-9));
+    CHECK_THAT(once.speed_mps, WithinAbs(often.speed_mps, 1e-9));
   }
 }
 
@@ -155,7 +156,7 @@ double turn_rates_miss_by(const Limits& limits) {
     state = advance(state, command, 0.01, limits);
     turned_rad += 0.005 * (before + rate());
   }
-  CHECK(state.heading_rad == Approx(1.06).margin(2e-4));
+  CHECK_THAT(state.heading_rad, WithinAbs(1.06, 2e-4));
   return std::abs(turned_rad - (state.heading_rad - 1.0));
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace ensonify::motion;
+using Catch::WithinAbs;
 using ensonify::frames::Vec2;
 using ensonify::frames::Vec3;
 constexpr double kPi = std::numbers::pi;
@@ -19,7 +20,7 @@ const TowedBody kFish{300, 0.05};
 TEST_CASE("at rest the cable hangs straight down") {
   const TowShape shape = tow_shape(kCable, kFish, 0.0);
   CHECK(shape.depth_m == Approx(100));
-  CHECK(shape.layback_m == Approx(0).margin(1e-9));
+  CHECK_THAT(shape.layback_m, WithinAbs(0, 1e-9));
   CHECK(shape.tension_n == Approx(300 + 200));
 }
 
@@ -74,9 +75,9 @@ TEST_CASE("on a straight course a body stays where it is towed, in a current too
     fish = tow(kCable, kFish, fish, sheave, current, 20.0, 0.1);
   }
   const TowShape shape = tow_shape(kCable, kFish, 2.0);
-  CHECK(fish.position_enu_m.z() == Approx(2.0 - shape.depth_m).margin(1e-6));
-  CHECK(sheave.y() - fish.position_enu_m.y() == Approx(shape.layback_m).margin(1e-6));
-  CHECK(fish.position_enu_m.x() == Approx(sheave.x()).margin(1e-6));
+  CHECK_THAT(fish.position_enu_m.z(), WithinAbs(2.0 - shape.depth_m, 1e-6));
+  CHECK_THAT(sheave.y() - fish.position_enu_m.y(), WithinAbs(shape.layback_m, 1e-6));
+  CHECK_THAT(fish.position_enu_m.x(), WithinAbs(sheave.x(), 1e-6));
 }
 
 TEST_CASE("on a circle a body runs inside on the tractrix' radius, and slower") {
@@ -97,7 +98,7 @@ TEST_CASE("on a circle a body runs inside on the tractrix' radius, and slower") 
 TEST_CASE("when the ship stops the body sinks below her with its lag") {
   TowState fish = towed_behind(kCable, kFish, {0, 0, 0}, 0.0, 2.0);
   for (int i = 0; i < 4000; ++i) fish = tow(kCable, kFish, fish, Vec3::Zero(), Vec2::Zero(), 20.0, 0.1);
-  CHECK(fish.position_enu_m.z() == Approx(-100).margin(0.01));
+  CHECK_THAT(fish.position_enu_m.z(), WithinAbs(-100, 0.01));
   CHECK(fish.position_enu_m.head<2>().norm() < 1.0);
   CHECK(fish.speed_mps < 0.01);
 }

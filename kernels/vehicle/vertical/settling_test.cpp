@@ -4,6 +4,7 @@
 #include "kernels/vehicle/vertical/floating.h"
 
 using namespace ensonify::vertical;
+using Catch::WithinAbs;
 
 TEST_CASE("a sudden settlement is come to as the step response says") {
   Settling hull(0.0);
@@ -35,7 +36,7 @@ TEST_CASE("rate and acceleration are derivatives, through the beginning of a ram
     lower_m += 0.5 * kStep_s * (before_mps + hull.rate_mps());
     rate_mps += 0.5 * kStep_s * (before_mps2 + hull.acceleration_mps2());
   }
-  CHECK(lower_m == Approx(hull.lower_m()).margin(1e-8));
-  CHECK(rate_mps == Approx(hull.rate_mps()).margin(1e-8));
+  CHECK_THAT(lower_m, WithinAbs(hull.lower_m(), 1e-8));
+  CHECK_THAT(rate_mps, WithinAbs(hull.rate_mps(), 1e-8));
   CHECK(hull.lower_m() > 1e-3);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 using namespace ensonify::vertical;
+using Catch::WithinAbs;
 constexpr double kPi = std::numbers::pi;
 
 namespace {
@@ -17,36 +18,36 @@ double speed(const char* name) { return constituent_speed_degph(name).value(); }
 
 TEST_CASE("compound tides have the sums of the speeds they are made of") {
   // The list gives seven decimals, so sums agree to a few of the last.
-  CHECK(speed("M4") == Approx(2 * speed("M2")).margin(3e-7));
-  CHECK(speed("M6") == Approx(3 * speed("M2")).margin(3e-7));
-  CHECK(speed("MS4") == Approx(speed("M2") + speed("S2")).margin(3e-7));
-  CHECK(speed("MN4") == Approx(speed("M2") + speed("N2")).margin(3e-7));
-  CHECK(speed("MK3") == Approx(speed("M2") + speed("K1")).margin(3e-7));
-  CHECK(speed("MO3") == Approx(speed("M2") + speed("O1")).margin(3e-7));
-  CHECK(speed("2SM2") == Approx(2 * speed("S2") - speed("M2")).margin(3e-7));
-  CHECK(speed("MSF") == Approx(speed("S2") - speed("M2")).margin(3e-7));
-  CHECK(speed("MM") == Approx(speed("M2") - speed("N2")).margin(3e-7));
-  CHECK(speed("MU2") == Approx(speed("M4") - speed("S2")).margin(3e-7));
+  CHECK_THAT(speed("M4"), WithinAbs(2 * speed("M2"), 3e-7));
+  CHECK_THAT(speed("M6"), WithinAbs(3 * speed("M2"), 3e-7));
+  CHECK_THAT(speed("MS4"), WithinAbs(speed("M2") + speed("S2"), 3e-7));
+  CHECK_THAT(speed("MN4"), WithinAbs(speed("M2") + speed("N2"), 3e-7));
+  CHECK_THAT(speed("MK3"), WithinAbs(speed("M2") + speed("K1"), 3e-7));
+  CHECK_THAT(speed("MO3"), WithinAbs(speed("M2") + speed("O1"), 3e-7));
+  CHECK_THAT(speed("2SM2"), WithinAbs(2 * speed("S2") - speed("M2"), 3e-7));
+  CHECK_THAT(speed("MSF"), WithinAbs(speed("S2") - speed("M2"), 3e-7));
+  CHECK_THAT(speed("MM"), WithinAbs(speed("M2") - speed("N2"), 3e-7));
+  CHECK_THAT(speed("MU2"), WithinAbs(speed("M4") - speed("S2"), 3e-7));
 }
 
 TEST_CASE("speeds are those of the sun's and the moon's mean motions") {
   // Degrees per mean solar hour [Schureman1958, table 1]: sun's hour angle, moon, sun, lunar perigee.
   const double T = 15.0, s = 0.54901653, h = 0.04106864, p = 0.00464183;
-  CHECK(speed("M2") == Approx(2 * T - 2 * s + 2 * h).margin(1e-6));
-  CHECK(speed("N2") == Approx(2 * T - 3 * s + 2 * h + p).margin(1e-6));
-  CHECK(speed("L2") == Approx(2 * T - s + 2 * h - p).margin(1e-6));
-  CHECK(speed("2N2") == Approx(2 * T - 4 * s + 2 * h + 2 * p).margin(1e-6));
-  CHECK(speed("NU2") == Approx(2 * T - 3 * s + 4 * h - p).margin(1e-6));
-  CHECK(speed("K2") == Approx(2 * T + 2 * h).margin(1e-6));
-  CHECK(speed("T2") == Approx(2 * T - h).margin(3e-6));  // and the sun's perigee, 0.000002
-  CHECK(speed("K1") == Approx(T + h).margin(1e-6));
-  CHECK(speed("O1") == Approx(T - 2 * s + h).margin(1e-6));
-  CHECK(speed("P1") == Approx(T - h).margin(1e-6));
-  CHECK(speed("Q1") == Approx(T - 3 * s + h + p).margin(1e-6));
-  CHECK(speed("J1") == Approx(T + s + h - p).margin(1e-6));
-  CHECK(speed("OO1") == Approx(T + 2 * s + h).margin(1e-6));
-  CHECK(speed("SSA") == Approx(2 * h).margin(1e-6));
-  CHECK(speed("M3") == Approx(1.5 * speed("M2")).margin(1e-6));
+  CHECK_THAT(speed("M2"), WithinAbs(2 * T - 2 * s + 2 * h, 1e-6));
+  CHECK_THAT(speed("N2"), WithinAbs(2 * T - 3 * s + 2 * h + p, 1e-6));
+  CHECK_THAT(speed("L2"), WithinAbs(2 * T - s + 2 * h - p, 1e-6));
+  CHECK_THAT(speed("2N2"), WithinAbs(2 * T - 4 * s + 2 * h + 2 * p, 1e-6));
+  CHECK_THAT(speed("NU2"), WithinAbs(2 * T - 3 * s + 4 * h - p, 1e-6));
+  CHECK_THAT(speed("K2"), WithinAbs(2 * T + 2 * h, 1e-6));
+  CHECK_THAT(speed("T2"), WithinAbs(2 * T - h, 3e-6));  // and the sun's perigee, 0.000002
+  CHECK_THAT(speed("K1"), WithinAbs(T + h, 1e-6));
+  CHECK_THAT(speed("O1"), WithinAbs(T - 2 * s + h, 1e-6));
+  CHECK_THAT(speed("P1"), WithinAbs(T - h, 1e-6));
+  CHECK_THAT(speed("Q1"), WithinAbs(T - 3 * s + h + p, 1e-6));
+  CHECK_THAT(speed("J1"), WithinAbs(T + s + h - p, 1e-6));
+  CHECK_THAT(speed("OO1"), WithinAbs(T + 2 * s + h, 1e-6));
+  CHECK_THAT(speed("SSA"), WithinAbs(2 * h, 1e-6));
+  CHECK_THAT(speed("M3"), WithinAbs(1.5 * speed("M2"), 1e-6));
 }
 
 TEST_CASE("every name in the list of names has a speed") {
@@ -73,12 +74,12 @@ TEST_CASE("springs and neaps: M2 and S2 beat in 14.77 days") {
     highest = std::max(highest, level);
     lowest = std::min(lowest, level);
   }
-  CHECK(highest - lowest == Approx(2.0).margin(0.03));  // 2 (1.5 - 0.5), a little more half a tide from neaps
+  CHECK_THAT(highest - lowest, WithinAbs(2.0, 0.03));  // 2 (1.5 - 0.5), a little more half a tide from neaps
 }
 
 TEST_CASE("the phase is how long after the reference time high water comes") {
   const Tide tide(HarmonicTide{0.0, {{radps("M2"), 1.0, kPi / 2}}});
-  CHECK(tide.at(12.4206 / 4 * 3600).height_m == Approx(1.0).margin(1e-6));
+  CHECK_THAT(tide.at(12.4206 / 4 * 3600).height_m, WithinAbs(1.0, 1e-6));
 }
 
 TEST_CASE("rates are derivatives of levels, and accelerations of rates") {
@@ -88,8 +89,8 @@ TEST_CASE("rates are derivatives of levels, and accelerations of rates") {
     for (const double t : {1.0, 599.0, 700.0, 1300.0, 1600.0, 1799.0, 2000.0}) {
       const Level before = tide->at(t - 0.5), now = tide->at(t), after = tide->at(t + 0.5);
       CAPTURE(t);
-      CHECK(now.rate_mps == Approx(after.height_m - before.height_m).margin(1e-9));
-      CHECK(now.acceleration_mps2 == Approx(after.rate_mps - before.rate_mps).margin(1e-9));
+      CHECK_THAT(now.rate_mps, WithinAbs(after.height_m - before.height_m, 1e-9));
+      CHECK_THAT(now.acceleration_mps2, WithinAbs(after.rate_mps - before.rate_mps, 1e-9));
     }
   }
   CHECK(Tide(0.7).at(5.0).rate_mps == 0.0);
@@ -104,7 +105,7 @@ TEST_CASE("a gauge's readings are interpolated smoothly, constant before and aft
   CHECK(tide.at(600.0).height_m == Approx(1.3));
   CHECK(tide.at(1200.0).height_m == Approx(1.1));
   for (const double reading_s : {600.0, 1200.0, 1800.0}) {
-    CHECK(tide.at(reading_s - 1e-6).rate_mps == Approx(tide.at(reading_s + 1e-6).rate_mps).margin(1e-10));
+    CHECK_THAT(tide.at(reading_s - 1e-6).rate_mps, WithinAbs(tide.at(reading_s + 1e-6).rate_mps, 1e-10));
   }
   CHECK(tide.at(1800.0).height_m == 1.1);  // at rest one interval behind the last
   CHECK(tide.at(5000.0).height_m == 1.1);
@@ -132,5 +133,5 @@ TEST_CASE("a tide read every six minutes is followed within 0.01 mm but at the e
   CHECK(ends_m < 5e-4);  // the curvature, 4e-8 m/s^2 at most, times h^2 / 12
   const Tide line(GaugeReadings{{{0.0, 1.0}, {180.0, 1.9}}});
   CHECK(line.at(30.0).height_m == Approx(1.15));
-  CHECK(line.at(30.0).acceleration_mps2 == Approx(0.0).margin(1e-15));
+  CHECK_THAT(line.at(30.0).acceleration_mps2, WithinAbs(0.0, 1e-15));
 }

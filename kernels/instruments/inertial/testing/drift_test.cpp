@@ -5,6 +5,7 @@
 #include "kernels/instruments/inertial/strapdown.h"
 
 using namespace ensonify::inertial;
+using Catch::WithinAbs;
 
 namespace {
 
@@ -33,14 +34,14 @@ Drift drift(NavigationState state, const ensonify::frames::Vec3& gyro_error, con
 
 TEST_CASE("closed forms have their published values") {
   CHECK(kSphere.rate_radps() == Approx(1.2400e-3).epsilon(1e-4));
-  CHECK(kSphere.period_s() / 60 == Approx(84.45).margin(0.01));
-  CHECK(accelerometer_bias_drift_m(kSphere, 100 * kUg, 60) == Approx(1.76).margin(0.006));
-  CHECK(accelerometer_bias_drift_m(kSphere, 100 * kUg, 600) == Approx(168.5).margin(0.06));
-  CHECK(gyro_bias_drift_m(kSphere, 0.01 * kDegph, 60) == Approx(0.0171).margin(6e-5));
-  CHECK(gyro_bias_drift_m(kSphere, 0.01 * kDegph, 600) == Approx(16.6).margin(0.06));
+  CHECK_THAT(kSphere.period_s() / 60, WithinAbs(84.45, 0.01));
+  CHECK_THAT(accelerometer_bias_drift_m(kSphere, 100 * kUg, 60), WithinAbs(1.76, 0.006));
+  CHECK_THAT(accelerometer_bias_drift_m(kSphere, 100 * kUg, 600), WithinAbs(168.5, 0.06));
+  CHECK_THAT(gyro_bias_drift_m(kSphere, 0.01 * kDegph, 60), WithinAbs(0.0171, 6e-5));
+  CHECK_THAT(gyro_bias_drift_m(kSphere, 0.01 * kDegph, 600), WithinAbs(16.6, 0.06));
   // R e is the mean speed of a gyro bias's drift: 0.60 nautical miles an hour.
-  CHECK(gyro_bias_drift_m(kSphere, 0.01 * kDegph, kSphere.period_s()) / kSphere.period_s() * 3600 / 1852 ==
-        Approx(0.60).margin(0.005));
+  CHECK_THAT(gyro_bias_drift_m(kSphere, 0.01 * kDegph, kSphere.period_s()) / kSphere.period_s() * 3600 / 1852,
+             WithinAbs(0.60, 0.005));
   CHECK(velocity_random_walk_drift_m(kSphere, 1e-3, 10) == Approx(1e-3 * std::sqrt(1000.0 / 3)).epsilon(1e-4));
   CHECK(angle_random_walk_drift_m(kSphere, 1e-6, 20) ==
         Approx(kSphere.gravity_mps2 * 1e-6 * std::sqrt(3.2e6 / 20)).epsilon(1e-3));
