@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -17,16 +19,27 @@ using namespace ensonify;
 /// Publishes to all where the clock is. Renamed into place, so that whoever sees the file sees all of it.
 void write_endpoint(const std::filesystem::path& run_dir, const std::string& endpoint) {
   const std::filesystem::path unfinished = run_dir / "clock.endpoint.new";
-  std::ofstream(unfinished) << endpoint;
+  std::ofstream file(unfinished);
+  file << endpoint;
+  file.close();
+  if (!file) {
+    throw UserError(unfinished.string() + ": cannot be written: " + std::strerror(errno) +
+                    "; allowed: a folder with room, see XDG_RUNTIME_DIR");
+  }
   std::filesystem::rename(unfinished, run_dir / "clock.endpoint");
 }
 
 int run_clock(const LaunchOptions& options, const std::string& run_dir) {
   const Launch launch = read_launch(options);
-  const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  bus::Address address;
+  address.tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  address.run_dir = run_dir;
+  address.host = launch.clock.address;
+  address.port = launch.clock.port;
+  if (address.tcp && launch.clock.keys) address.keys = bus::Keys::read(run_dir + "/" + bus::kKeysFile);
   int code = 0;
   {
-    bus::Router router({tcp, run_dir, ""});
+    bus::Router router(address);
     write_endpoint(run_dir, router.endpoint());
     code = clock::Clock(launch, router, options.out).run();
   }

@@ -108,6 +108,33 @@ class Deaths(SystemTest):
         self.assertEqual(run.returncode, 0, errors)
 
 
+class Loaded(SystemTest):
+    """With eight busy loops beside, who is to blame is still who is blamed."""
+
+    def setUp(self):
+        super().setUp()
+        for _ in range(8):
+            busy = subprocess.Popen(["sh", "-c", "while :; do :; done"])
+            self.addCleanup(busy.wait)
+            self.addCleanup(busy.kill)
+
+    def test_a_participant_that_is_stopped_is_blamed(self):
+        for process in ("vehicle", "navigation", "pilot", "head", "consumer"):
+            run = self.start_launch(survey(seconds=100000), out=process)
+            self.wait_for_go(process)
+            programs = {pid: line for pid, line in self.processes() if "ensonify-stub" in line.split()[0]}
+            (pid,) = [pid for pid, line in programs.items() if f"--name {process} " in line]
+            os.kill(pid, signal.SIGSTOP)
+            _, errors = run.communicate(timeout=60)
+            self.assertEqual((run.returncode, json.loads((self.folder / process / "run.json").read_text())["culprit"]), (4, process), errors)
+
+    def test_who_never_says_hello_is_blamed(self):
+        mute = survey(seconds=1, more="  mute: { run: [sleep, '1000'] }\n" + Records.RECORDER.format(file="run.mcap"))
+        result = self.run_launch(mute.replace("rate: free", "rate: free, connect_timeout_s: 3"))
+        self.assertEqual((result.code, result.report()["culprit"]), (4, "mute"), result.stderr)
+        self.assertIn("no hello from: mute", result.stderr)
+
+
 class Records(SystemTest):
     RECORDER = "  recorder: {{ run: recorder, config: {{ file: {file} }} }}"
 
@@ -186,6 +213,25 @@ class Records(SystemTest):
         self.assertEqual(run.returncode, 130, errors)
         counted, read = self.read_officially(self.folder / "out" / "run.mcap")
         self.assertEqual(counted, read)
+
+    def test_a_full_runtime_directory_is_2_and_names_file_and_cause(self):
+        small = self.folder / "runs" / "small"
+        small.mkdir(mode=0o700)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k,mode=700", "tmpfs", str(small)], capture_output=True).returncode:
+            self.skipTest("cannot mount a small tmpfs here (needs root)")
+        try:
+            with open(small / "fill", "wb", buffering=0) as fill:
+                try:
+                    while fill.write(b" " * 1024):
+                        pass
+                except OSError:
+                    pass
+            self.environment["XDG_RUNTIME_DIR"] = str(small)
+            result = self.run_launch(survey(seconds=1))
+            self.assertEqual(result.code, 2, result.stderr)
+            self.assertRegex(result.stderr, "clock.endpoint.new: cannot be written: No space left on device; allowed")
+        finally:
+            subprocess.run(["umount", "-l", str(small)], check=True)
 
     def test_a_slow_consumer_costs_lateness_not_data(self):
         result = self.run_launch(survey(seconds=2, consumer="jitter_ms: 300"), "--rate", "1")
