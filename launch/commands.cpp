@@ -10,6 +10,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
+#include "components/runtime/bus/keys.h"
 #include "launch/child.h"
 
 namespace ensonify::launcher {
@@ -85,6 +86,9 @@ Command process_command(const Launch& launch, const ProcessSpec& process, const 
                    {"ENSONIFY_CONFIG", to_json(process.config.root)},
                    {"PYTHONPATH", python_path()},
                    {"PYTHONUNBUFFERED", "1"}};
+    if (launch.clock.transport == ClockSettings::Transport::kTcp && launch.clock.keys) {
+      command.env["ENSONIFY_KEYS"] = places.run_dir + "/" + bus::kKeysFile;
+    }
   }
   if (command.argv[0].empty() || find_program(command.argv[0]).empty()) {
     const std::string program = process.argv.empty() ? "ensonify-" + process.component : process.argv[0];

@@ -45,6 +45,7 @@ Supervisor::Supervisor(const Launch& launch, const World& world, const std::stri
     : launch_(launch),
       guard_(run_dir_.path()),
       places_{program_folder, run_dir_.path(), launch.options.out},
+      quiet_(quiet),
       progress_(quiet, expected_duration_s(launch, world)) {}
 
 RunReport Supervisor::run() {
@@ -82,7 +83,18 @@ void Supervisor::start(Member& member, const Command& command) {
   guard_.watch(member.child->pid());
 }
 
+/// Before the clock starts, which reads them.
+void Supervisor::make_keys() {
+  const ClockSettings& clock = launch_.clock;
+  if (clock.transport != ClockSettings::Transport::kTcp || !clock.keys) return;
+  std::vector<std::string> allowed = clock.allow;
+  allowed.insert(allowed.end(), {"127.0.0.0/8", clock.address});
+  keys_ = bus::Keys::make(allowed);
+  keys_->write(run_dir_.file(bus::kKeysFile));
+}
+
 void Supervisor::start_clock() {
+  make_keys();
   FileWatch watch(places_.run_dir);
   start(clock(), clock_command(launch_, places_));
   const std::string file = run_dir_.file("clock.endpoint");
@@ -91,7 +103,8 @@ void Supervisor::start_clock() {
   while (clock().child->running() && interrupts_ == 0) {
     if (std::ifstream stream(file); stream) {
       std::getline(stream, clock_endpoint_);
-      query_ = std::make_unique<bus::ClockQuery>(clock_endpoint_);
+      query_ = std::make_unique<bus::ClockQuery>(clock_endpoint_, keys_);
+      say_where();
       last_answer_ = steady_clock::now();
       return;
     }
@@ -105,6 +118,15 @@ void Supervisor::start_clock() {
     watch.wait(signals_, std::chrono::ceil<milliseconds>(until - now));
     take_signals();
   }
+}
+
+/// For whoever starts external processes.
+void Supervisor::say_where() const {
+  const bool awaits = std::any_of(launch_.processes.begin(), launch_.processes.end(),
+                                  [](const ProcessSpec& process) { return process.external; });
+  if (!awaits || quiet_) return;
+  fmt::print(stderr, "ensonify run: external processes take part at {}{}\n", clock_endpoint_,
+             keys_ ? " with the keys in " + run_dir_.file(bus::kKeysFile) : "");
 }
 
 void Supervisor::start_members() {

@@ -41,7 +41,9 @@ class Supervisor {
   /// Ending of the run; each step has a deadline after which the next begins.
   enum class Ending { kNo, kAsked, kTerminated, kForeignKilled, kKilled };
 
+  void make_keys();
   void start_clock();
+  void say_where() const;
   void start_members();
   void start(Member& member, const Command& command);
   void supervise();
@@ -73,6 +75,8 @@ class Supervisor {
   RunDir run_dir_;
   Guard guard_;
   RunPlaces places_;
+  bool quiet_;
+  std::optional<bus::Keys> keys_;
   Progress progress_;
   std::vector<Member> members_;  // the clock first
   std::unique_ptr<bus::ClockQuery> query_;

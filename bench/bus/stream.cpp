@@ -62,7 +62,7 @@ void at_rate(const Plan& plan, Send send) {
 std::string control_of(const Plan& plan) { return "ipc://" + plan.folder + "/nobody"; }
 
 void publish_link(const Plan& plan) {
-  Link link("pub", control_of(plan), {false, plan.folder, ""}, 64);
+  Link link("pub", control_of(plan), {.run_dir = plan.folder}, 64);
   while (link.wait().kind != Link::Event::kTokens) {
   }
   at_rate(plan, [&](int i) {
@@ -84,7 +84,7 @@ void publish_link(const Plan& plan) {
 
 /// Age of each message on arrival; `gaps` counts missing numbers.
 std::vector<std::int64_t> receive_link(const Plan& plan, int& gaps) {
-  Link link("sub", control_of(plan), {false, plan.folder, ""}, 64);
+  Link link("sub", control_of(plan), {.run_dir = plan.folder}, 64);
   const std::string endpoint = "ipc://" + plan.folder + "/pub.sync";
   link.subscribe({{"pub/blob", 0, "blob/1", endpoint, "t", plan.bytes + 4096, "pub", 0, {1000, 1}}}, 1);
   link.expect_until(std::chrono::hours(24));

@@ -66,8 +66,7 @@ std::optional<WallTime> Clock::next_alarm() const {
 void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);
-  if (kind != "done" && kind != "proven" && kind != "failed" && kind != "bye")
-    return on_request(message.from, kind, message.text);
+  if (kind != "done" && kind != "proven" && kind != "failed" && kind != "bye") return on_request(message, kind);
   const auto rank = registry_.participant(message.from);
   if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
   try {

@@ -63,7 +63,7 @@ class Clock {
   void on_proven(const std::string& from, const std::string& text);
   void on_done(std::size_t rank, const protocol::Done& done);
   void on_failed(std::size_t rank, const protocol::Failed& failed);
-  void on_request(const std::string& from, const std::string& kind, const std::string& text);
+  void on_request(const bus::Router::Message& message, const std::string& kind);
   // Each returns what is wrong with the request, or "".
   std::string look_up(const nlohmann::json& request, nlohmann::json& answer) const;
   std::string steer(const std::string& kind, const nlohmann::json& request, nlohmann::json& answer);

@@ -214,12 +214,19 @@ void Clock::report_health(WallTime now) {
   health_reported_at_ = SimTime{report.stamp_ns};
 }
 
-void Clock::on_request(const std::string& from, const std::string& kind, const std::string& text) {
+void Clock::on_request(const bus::Router::Message& message, const std::string& kind) {
+  const std::string& from = message.from;
   if (kind == "status") return void(router_.send(from, status_json()));
   if (kind == "registry") return void(router_.send(from, registry_json()));
-  const json request = json::parse(text, nullptr, false);
+  const json request = json::parse(message.text, nullptr, false);
   json answer = {{"kind", kind}, {"ok", true}};
-  const std::string problem = kind == "get" ? look_up(request, answer) : steer(kind, request, answer);
+  const bool steers = kind != "get";
+  const std::string problem = steers ? steer(kind, request, answer) : look_up(request, answer);
+  if (steers && problem.empty()) {
+    const std::string tool = message.address.empty() ? "a tool" : "a tool at " + message.address;
+    log::line("clock", conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0}, kind,
+              fmt::format("asked_by=\"{}\"", registry_.rank_of(from) ? from : tool));
+  }
   if (problem.empty()) router_.send(from, answer.dump(-1, ' ', false, json::error_handler_t::replace));
   else refuse(from, kind, problem);
 }

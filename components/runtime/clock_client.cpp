@@ -44,14 +44,18 @@ RunRegistry read_registry(const json& answer) {
   return registry;
 }
 
-ClockClient::ClockClient(const std::string& run) : endpoint_(find_clock(run)), query_(endpoint_) {}
+ClockClient::ClockClient(const LiveRun& run)
+    : endpoint_(run.endpoint), keys_(bus::keys_for(run.endpoint, "", run.folder)), query_(endpoint_, keys_) {}
+
+ClockClient::ClockClient(const std::string& run) : ClockClient(find_run(run)) {}
 
 json ClockClient::ask(const json& request) {
   const std::string kind = request.at("kind");
   const auto text = query_.ask(request.dump(), kPatience);
   if (!text) {
-    throw UserError(fmt::format("the clock at {} has not answered for {} s: the run has ended, or hangs", endpoint_,
-                                kPatience.count() / 1000));
+    throw UserError(fmt::format(
+        "the clock at {} has not answered for {} s: the run has ended, or hangs{}", endpoint_, kPatience.count() / 1000,
+        keys_ || endpoint_.starts_with("ipc://") ? "" : ", or wants its keys ($ENSONIFY_KEYS)"));
   }
   const json answer = json::parse(*text, nullptr, false);
   if (!answer.is_object() || answer.value("kind", "") != kind) {

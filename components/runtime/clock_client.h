@@ -45,6 +45,8 @@ struct RunRegistry {
 /// Throws std::runtime_error naming what is wrong with the text.
 RunRegistry read_registry(const nlohmann::json& answer);
 
+struct LiveRun;
+
 /// Asks a live run's clock (docs/manual/wire.md, "Control: asking").
 class ClockClient {
  public:
@@ -52,13 +54,18 @@ class ClockClient {
   explicit ClockClient(const std::string& run);
 
   const std::string& endpoint() const { return endpoint_; }
+  /// For sockets of one's own; nothing where the run needs none.
+  const std::optional<bus::Keys>& keys() const { return keys_; }
   /// The clock's answer. Throws UserError when it refuses, or has not answered within 5 s.
   nlohmann::json ask(const nlohmann::json& request);
   /// Throws UserError while processes are still missing: before that there is no wiring.
   RunRegistry registry();
 
  private:
+  explicit ClockClient(const LiveRun& run);
+
   std::string endpoint_;
+  std::optional<bus::Keys> keys_;
   bus::ClockQuery query_;
 };
 

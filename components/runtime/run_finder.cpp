@@ -116,9 +116,9 @@ std::string hint(const std::string& folder) {
   return runs.empty() ? "no run is live; `ensonify run LAUNCH` starts one" : "live runs: " + names_of(runs);
 }
 
-std::string only_live_run(const std::string& folder) {
+LiveRun only_live_run(const std::string& folder) {
   const auto runs = live_runs(folder);
-  if (runs.size() == 1) return runs.front().endpoint;
+  if (runs.size() == 1) return runs.front();
   if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
   throw UserError("no run is live under " + folder +
                   "; `ensonify run LAUNCH` starts one, --run DIR names one that is elsewhere");
@@ -167,19 +167,20 @@ std::vector<std::string> dead_runs(const std::string& folder) {
   return dead;
 }
 
-std::string find_clock(const std::string& run, const std::string& folder) {
+LiveRun find_run(const std::string& run, const std::string& folder) {
   const char* from_environment = std::getenv("ENSONIFY_RUN");
   const std::string wanted = !run.empty() || from_environment == nullptr ? run : from_environment;
   if (wanted.empty()) return only_live_run(folder);
-  std::string endpoint = wanted;
+  LiveRun found{"", wanted};
   if (!wanted.starts_with(kIpc) && !wanted.starts_with(kTcp)) {
-    endpoint = endpoint_in(folder_of(wanted, folder));
-    if (endpoint.empty())
+    found.folder = folder_of(wanted, folder);
+    found.endpoint = endpoint_in(found.folder);
+    if (found.endpoint.empty())
       throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folder));
   }
-  if (!is_listening(endpoint))
-    throw UserError(wanted + ": is dead: no clock listens at " + endpoint + "; " + hint(folder));
-  return endpoint;
+  if (!is_listening(found.endpoint))
+    throw UserError(wanted + ": is dead: no clock listens at " + found.endpoint + "; " + hint(folder));
+  return found;
 }
 
 }  // namespace ensonify

@@ -27,8 +27,8 @@ std::vector<LiveRun> live_runs(const std::string& folder);
 /// Run directories whose clock is gone and whose lock nobody holds: left behind, cleared by the next `ensonify run`.
 std::vector<std::string> dead_runs(const std::string& folder);
 
-/// The endpoint of a run's clock. `run` is a run directory, the id of one or an endpoint; "" means $ENSONIFY_RUN, else
-/// the only live run. Throws UserError when there is none, several, or a dead one, and says what to do.
-std::string find_clock(const std::string& run, const std::string& folder = runs_folder());
+/// A live run by its directory, the id of that or its clock's endpoint (the folder is then ""); "" means $ENSONIFY_RUN,
+/// else the only live run. Throws UserError when there is none, several, or a dead one, and says what to do.
+LiveRun find_run(const std::string& run, const std::string& folder = runs_folder());
 
 }  // namespace ensonify

@@ -66,7 +66,7 @@ TEST_CASE("the only live run is found, a dead one beside it is not in the way") 
   runs.make("run-dead");
   const std::string live = runs.make("run-live");
   const Listener clock(live);
-  CHECK(find_clock("", runs.path()) == "ipc://" + live + "/clock");
+  CHECK(find_run("", runs.path()).endpoint == "ipc://" + live + "/clock");
   REQUIRE(live_runs(runs.path()).size() == 1);
   CHECK(live_runs(runs.path()).front().id() == "run-live");
   CHECK(dead_runs(runs.path()) == std::vector<std::string>{runs.path() + "/run-dead"});
@@ -74,19 +74,19 @@ TEST_CASE("the only live run is found, a dead one beside it is not in the way") 
 
 TEST_CASE("none, several and dead runs are distinguished, with advice") {
   const Runs runs;
-  CHECK_THROWS_WITH(find_clock("", runs.path()),
+  CHECK_THROWS_WITH(find_run("", runs.path()),
                     Contains("no run is live under " + runs.path()) && Contains("`ensonify run LAUNCH` starts one"));
   const std::string a = runs.make("run-a");
-  CHECK_THROWS_WITH(find_clock("run-a", runs.path()), Contains("run-a: is dead: no clock listens at ipc://"));
+  CHECK_THROWS_WITH(find_run("run-a", runs.path()), Contains("run-a: is dead: no clock listens at ipc://"));
   const Listener clock_a(a);
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);
-  CHECK_THROWS_WITH(find_clock("", runs.path()), "several runs are live; name one with --run: run-a, run-b");
-  CHECK(find_clock("run-b", runs.path()) == "ipc://" + b + "/clock");
-  CHECK(find_clock(a, runs.path()) == "ipc://" + a + "/clock");
-  CHECK(find_clock("ipc://" + a + "/clock", runs.path()) == "ipc://" + a + "/clock");
-  CHECK_THROWS_WITH(find_clock("run-c", runs.path()), "run-c: there is no run of this name; live runs: run-a, run-b");
-  CHECK_THROWS_AS(find_clock("tcp://127.0.0.1:1", runs.path()), UserError);
+  CHECK_THROWS_WITH(find_run("", runs.path()), "several runs are live; name one with --run: run-a, run-b");
+  CHECK(find_run("run-b", runs.path()).endpoint == "ipc://" + b + "/clock");
+  CHECK(find_run(a, runs.path()).endpoint == "ipc://" + a + "/clock");
+  CHECK(find_run("ipc://" + a + "/clock", runs.path()).endpoint == "ipc://" + a + "/clock");
+  CHECK_THROWS_WITH(find_run("run-c", runs.path()), "run-c: there is no run of this name; live runs: run-a, run-b");
+  CHECK_THROWS_AS(find_run("tcp://127.0.0.1:1", runs.path()), UserError);
 }
 
 TEST_CASE("the environment names a run, an argument overrules it") {
@@ -96,8 +96,8 @@ TEST_CASE("the environment names a run, an argument overrules it") {
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);
   ::setenv("ENSONIFY_RUN", "run-a", 1);
-  CHECK(find_clock("", runs.path()) == "ipc://" + a + "/clock");
-  CHECK(find_clock("run-b", runs.path()) == "ipc://" + b + "/clock");
+  CHECK(find_run("", runs.path()).endpoint == "ipc://" + a + "/clock");
+  CHECK(find_run("run-b", runs.path()).endpoint == "ipc://" + b + "/clock");
   ::unsetenv("ENSONIFY_RUN");
 }
 

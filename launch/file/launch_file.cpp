@@ -7,6 +7,7 @@
 #include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
 #include "components/errors/nearest_name.h"
+#include "components/runtime/address_list.h"
 #include "launch/file/exits.h"
 #include "launch/file/tree.h"
 
@@ -26,6 +27,27 @@ bool is_process_name(const std::string& name) {
          name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
 }
 
+/// Who may reach the run's sockets.
+void check_network(const ConfigReader& from, const ClockSettings& clock) {
+  const bool tcp = clock.transport == ClockSettings::Transport::kTcp;
+  for (const char* key : {"address", "port", "keys", "allow"}) {
+    if (!tcp && from.has(key)) from.problem(key, "needs transport: tcp");
+  }
+  try {
+    const AddressList addresses(clock.allow);
+  } catch (const UserError& error) {
+    from.problem("allow", error.what());
+  }
+  const bool is_loopback = clock.address.starts_with("127.");
+  if (!is_address(clock.address) || clock.address == "0.0.0.0") {
+    from.problem("address", "\"" + clock.address + "\" is no address; allowed: an IPv4 address of this machine");
+  } else if (!is_loopback && !clock.keys) {
+    from.problem("keys", "false is for the loopback interface; allowed: true with address " + clock.address);
+  } else if (!is_loopback && clock.allow.empty()) {
+    from.problem("address", "beyond the loopback interface asks for `allow`, the addresses that may take part");
+  }
+}
+
 ClockSettings read_clock(ConfigReader from) {
   ClockSettings clock;
   if (const ConfigNode* rate = from.node("rate"); rate != nullptr && !(rate->is_scalar() && rate->scalar == "free")) {
@@ -34,6 +56,7 @@ ClockSettings read_clock(ConfigReader from) {
     clock.rate = value;
   }
   read_parameters(from, clock);
+  if (from.good()) check_network(from, clock);
   return clock;
 }
 

@@ -84,6 +84,10 @@ struct ClockSettings {
   double progress_deadline_s = 10.0;
   Transport transport = Transport::kIpc;
   double connect_timeout_s = 30.0;
+  std::string address = "127.0.0.1";
+  int port = 0;
+  bool keys = true;
+  std::vector<std::string> allow;
 
   static void parameters(auto& self, auto&& visit) {
     visit("window_s", "s", in(0.01, 5.0), "how far a producer may run ahead of its consumers, sim time", self.window_s);
@@ -95,6 +99,12 @@ struct ClockSettings {
     visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}), "between the processes",
           self.transport);
     visit("connect_timeout_s", "s", in(0.01, 3600), "wall time until every process is there", self.connect_timeout_s);
+    visit("address", "", any(), "of this machine, at which the clock and what runs beside it take part by tcp",
+          self.address);
+    visit("port", "", in(0, 65535), "of the clock by tcp; 0: any that is free", self.port);
+    visit("keys", "", any(), "tcp: nobody takes part, or sees anything, without the run's keys", self.keys);
+    visit("allow", "", any(), "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine",
+          self.allow);
   }
 };
 

@@ -26,6 +26,7 @@ struct Options {
   std::string name;
   std::string clock;
   std::string run_dir;
+  std::string keys;
   bool check = false;
 };
 
@@ -47,6 +48,8 @@ std::optional<int> parse(const char* component, ParameterList (*list)(), int arg
   app.add_option("--name", options.name, "name of this process in the launch file")->required();
   app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
   app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
+  app.add_option("--keys", options.keys,
+                 "the run's keys, a copy of keys.json in its run directory (default: $ENSONIFY_KEYS, else there)");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
   app.add_option_function<std::string>(
          "--parameters",
@@ -81,8 +84,16 @@ int run_process(const char* component, const NodeFactory& factory, const Options
     std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
     return kExitOk;
   }
-  const bool tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
-  return participate(component, ports, *node, {clock_of(options), {tcp, options.run_dir, ""}});
+  const std::string clock = clock_of(options);
+  bus::Address address;
+  address.tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  address.run_dir = options.run_dir;
+  address.keys = bus::keys_for(clock, options.keys, options.run_dir);
+  if (address.tcp) address.host = bus::host_towards(clock);
+  if (address.tcp && launch.clock.keys && !address.keys) {
+    throw UserError("--keys: the run at " + clock + " has keys; give a copy of keys.json in its run directory");
+  }
+  return participate(component, ports, *node, {clock, address});
 }
 
 /// All nodes of a launch on one bus, wired.

@@ -13,7 +13,7 @@ from other_namespace import tcp_to_unix, unix_to_tcp
 from support import BIN, SystemTest, survey
 
 RECORDER = "  recorder: { run: recorder, config: { file: run.mcap } }"
-LAUNCH = (survey(seconds=3, more=RECORDER).replace("progress_deadline_s: 0.2", "transport: tcp")
+LAUNCH = (survey(seconds=3, more=RECORDER).replace("progress_deadline_s: 0.2", "transport: tcp, keys: false")
           .replace("head: { run: stub", "head: { run: stub, external: true, join_s: 30"))
 
 

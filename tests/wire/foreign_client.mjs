@@ -2,6 +2,7 @@
 // sees every pose once, in order and in time, steers east at 1.5 m/s and publishes an array. Exit code 1 if what arrives is not
 // what the page promises.
 import { decode, encode } from "@msgpack/msgpack";
+import { readFileSync } from "node:fs";
 import path from "node:path";
 import process from "node:process";
 import { Dealer, Subscriber, XPublisher } from "zeromq";
@@ -23,10 +24,15 @@ function typeHash(text) {
   return value;
 }
 
-const control = new Dealer({ routingId: name, reconnectInterval: 5 });
-const sync = new XPublisher({ noDrop: true });
-const live = new XPublisher();
-const data = new Subscriber({ receiveHighWaterMark: 0 });
+const file = process.env.ENSONIFY_KEYS;
+const keys = file && JSON.parse(readFileSync(file, "utf8"));
+const bound = keys ? { curveServer: true, curveSecretKey: keys.bound_secret } : {};
+const connected = keys
+  ? { curveServerKey: keys.bound_public, curvePublicKey: keys.connected_public, curveSecretKey: keys.connected_secret } : {};
+const control = new Dealer({ routingId: name, reconnectInterval: 5, ...connected });
+const sync = new XPublisher({ noDrop: true, ...bound });
+const live = new XPublisher(bound);
+const data = new Subscriber({ receiveHighWaterMark: 0, ...connected });
 for (const [plane, socket] of Object.entries({ sync, live })) {
   await socket.bind(clock.startsWith("ipc:") ? `${path.dirname(clock)}/${name}.${plane}` : "tcp://127.0.0.1:*");
 }

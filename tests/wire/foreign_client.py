@@ -32,6 +32,14 @@ context = zmq.Context()
 control, sync, live, data = (context.socket(kind) for kind in (zmq.DEALER, zmq.XPUB, zmq.XPUB, zmq.SUB))
 sync.setsockopt(zmq.XPUB_NODROP, 1)
 data.setsockopt(zmq.RCVHWM, 0)
+if os.environ.get("ENSONIFY_KEYS"):
+    with open(os.environ["ENSONIFY_KEYS"], encoding="utf-8") as file:
+        keys = {name: key.encode() for name, key in json.load(file).items() if name != "allowed"}
+    for socket in (sync, live):
+        socket.curve_server, socket.curve_secretkey = True, keys["bound_secret"]
+    for socket in (control, data):
+        socket.curve_serverkey = keys["bound_public"]
+        socket.curve_publickey, socket.curve_secretkey = keys["connected_public"], keys["connected_secret"]
 control.setsockopt(zmq.IDENTITY, NAME.encode())
 control.setsockopt(zmq.RECONNECT_IVL, 5)
 endpoints = {}

@@ -44,10 +44,10 @@ std::optional<bus::Observer::WallTime> deadline(const Options& options) {
 }
 
 /// Subscribes to the live plane of these topics.
-bus::Observer observe(const std::vector<TopicEntry>& topics) {
+bus::Observer observe(const ClockClient& clock, const std::vector<TopicEntry>& topics) {
   std::vector<bus::Observer::Topic> watched;
   for (const TopicEntry& topic : topics) watched.push_back({topic.name, topic.endpoint});
-  return bus::Observer(watched);
+  return bus::Observer(watched, clock.keys());
 }
 
 using nlohmann::ordered_json;
@@ -197,12 +197,13 @@ void print_text(const msg::Packet& packet, const TopicEntry& topic, const msg::V
 
 int echo(const Options& options) {
   std::map<std::string, TopicEntry> topics;
-  const auto selected = select(ClockClient(options.run).registry(), options.topics);
+  ClockClient clock(options.run);
+  const auto selected = select(clock.registry(), options.topics);
   for (const TopicEntry& topic : selected) {
     check_field(topic, options.field);
     topics[topic.name] = topic;
   }
-  bus::Observer observer = observe(selected);
+  bus::Observer observer = observe(clock, selected);
   const auto until = deadline(options);
   std::uint64_t shown = 0;
   while (options.count == 0 || shown < options.count) {
@@ -311,11 +312,12 @@ class Reporter {
 
 int measure(What what, const Options& options) {
   constexpr std::chrono::seconds kReportEvery{1};
-  const auto selected = select(ClockClient(options.run).registry(), options.topics);
+  ClockClient clock(options.run);
+  const auto selected = select(clock.registry(), options.topics);
   Meters meters;
   for (const TopicEntry& topic : selected) meters.emplace(topic.name, Meter(options.window));
   Reporter reporter(what, options.json, meters);
-  bus::Observer observer = observe(selected);
+  bus::Observer observer = observe(clock, selected);
   const auto until = deadline(options);
   auto report_at = steady_clock::now() + kReportEvery;
   std::uint64_t received = 0;

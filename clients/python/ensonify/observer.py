@@ -13,8 +13,9 @@ from typing import Any, Iterator
 import zmq
 
 from ensonify import messages, wire
+from ensonify.keys import keys_for, set_connected
 from ensonify.participant import Received
-from ensonify.runs import find_clock
+from ensonify.runs import find_run
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError
 
 QUEUE = 8  # messages kept per publisher for a reader that does not keep up
@@ -24,12 +25,14 @@ class Observer:
     """Asks a run's clock and listens to its topics."""
 
     def __init__(self, run: str | os.PathLike | None = None, *, answer_s: float = 5.0):
-        self.clock = find_clock(run)
+        self.clock, folder = find_run(run)
+        self._keys = keys_for(self.clock, folder)
         self._answer_s = answer_s  # wall seconds that the clock has for an answer
         self._context = zmq.Context()
         self._control = self._context.socket(zmq.DEALER)
         self._control.setsockopt(zmq.LINGER, 0)
         self._control.setsockopt(zmq.RECONNECT_IVL, 5)
+        set_connected(self._control, self._keys)
         self._control.connect(self.clock)
 
     def ask(self, kind: str, **what: Any) -> dict:
@@ -59,6 +62,7 @@ class Observer:
         with self._context.socket(zmq.SUB) as sub:
             sub.setsockopt(zmq.RCVHWM, QUEUE)
             sub.setsockopt(zmq.LINGER, 0)
+            set_connected(sub, self._keys)
             for endpoint in {entry["live"] for entry in chosen}:
                 sub.connect(endpoint)
             for entry in chosen:

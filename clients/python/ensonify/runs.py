@@ -34,15 +34,20 @@ def _can_be_used(folder: str) -> bool:
 
 def find_clock(run: str | os.PathLike | None = None) -> str:
     """The clock's endpoint. `run` is a run directory, the id of one, or an endpoint."""
+    return find_run(run)[0]
+
+
+def find_run(run: str | os.PathLike | None = None) -> tuple:
+    """The clock's endpoint and the run directory, None where an endpoint was given."""
     run = os.fspath(run) if run is not None else os.environ.get("ENSONIFY_RUN")
     if run:
         if run.startswith(("ipc://", "tcp://")):
-            return run
+            return run, None
         folder = pathlib.Path(run) if "/" in run else run_root() / run
-        return _endpoint(folder)
+        return _endpoint(folder), folder
     live = [folder for folder in _folders() if _is_live(_endpoint(folder))]
     if len(live) == 1:
-        return _endpoint(live[0])
+        return _endpoint(live[0]), live[0]
     if not live:
         raise RunError(f"no run is live under {run_root()}", EXIT_BAD_INPUT)
     raise RunError("several runs are live, name one: " + ", ".join(folder.name for folder in live), EXIT_BAD_INPUT)

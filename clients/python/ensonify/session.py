@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import socket
 import time
 from typing import Any, NamedTuple
 
@@ -9,6 +10,7 @@ import zmq
 import zmq.utils.monitor
 
 from ensonify import wire
+from ensonify.keys import Gate, keys_for, set_bound, set_connected
 
 LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
 LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of its readers
@@ -46,6 +48,8 @@ class Session:
     def __init__(self, name: str, clock: str):
         self.name = name
         self._context = zmq.Context()
+        self._keys = keys_for(clock, os.environ.get("ENSONIFY_RUN_DIR"))
+        self._gate = Gate(self._context, self._keys) if self._keys else None
         self._control = self._context.socket(zmq.DEALER)
         self._control.setsockopt(zmq.LINGER, FLUSH_MS)
         self._control.setsockopt(zmq.IDENTITY, name.encode())
@@ -80,14 +84,21 @@ class Session:
         if clock.startswith("ipc://"):
             folder = os.path.dirname(clock)
             self.endpoints = {"sync": f"{folder}/{self.name}.sync", "live": f"{folder}/{self.name}.live"}
-        elif re.fullmatch(r"tcp://127\.0\.0\.1:\d+", clock):
-            self.endpoints = {"sync": "tcp://127.0.0.1:*", "live": "tcp://127.0.0.1:*"}
+        elif re.fullmatch(r"tcp://[\d.]+:\d+", clock):
+            here = host_towards(clock)
+            if self._keys is None and not here.startswith("127."):
+                self.close()
+                raise RunError(f"{self.name}: {clock} asks for the run's keys; name them with ENSONIFY_KEYS", EXIT_BAD_INPUT)
+            self.endpoints = {"sync": f"tcp://{here}:*", "live": f"tcp://{here}:*"}
         else:
             self.close()
-            raise RunError(f"{self.name}: {clock!r} is no clock; ipc://... and tcp://127.0.0.1:PORT are", EXIT_BAD_INPUT)
-        for plane, socket in (("sync", self._sync), ("live", self._live)):
-            socket.bind(self.endpoints[plane])
-            self.endpoints[plane] = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
+            raise RunError(f"{self.name}: {clock!r} is no clock; ipc://... and tcp://ADDRESS:PORT are", EXIT_BAD_INPUT)
+        set_connected(self._control, self._keys)
+        set_connected(self._sub, self._keys)
+        for plane, own in (("sync", self._sync), ("live", self._live)):
+            set_bound(own, self._keys)
+            own.bind(self.endpoints[plane])
+            self.endpoints[plane] = own.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
         self._control.connect(clock)
 
     # --- joining
@@ -219,6 +230,8 @@ class Session:
         self._control.disable_monitor()
         for socket in (self._monitor, self._control, self._sync, self._live, self._sub):
             socket.close()
+        if self._gate is not None:
+            self._gate.close()
         self._context.term()
 
     # --- inside
@@ -297,6 +310,14 @@ class Session:
         if size > entry["max_bytes"]:
             raise broken(f"{size} bytes, declared at most {entry['max_bytes']}")
         return Packet(envelope, head.bytes, [frame.buffer for frame in arrays])
+
+
+def host_towards(endpoint: str) -> str:
+    """The address of this machine by which it reaches a tcp endpoint."""
+    host, _, port = endpoint[len("tcp://"):].rpartition(":")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.connect((host, int(port)))  # sends nothing
+        return probe.getsockname()[0]
 
 
 def _send(socket, frames: list) -> None:

@@ -51,9 +51,9 @@ msg::Packet packet_of(const msg::Tile& tile, std::uint64_t seq = 0, std::uint32_
 /// A publisher and a subscriber whose edge is proven.
 struct Pair {
   explicit Pair(bool tcp, std::size_t max_bytes = 1 << 24)
-      : clock({tcp, folder.path, ""}),
-        publisher("pub", clock.endpoint(), {tcp, folder.path, ""}, 16),
-        subscriber("sub", clock.endpoint(), {tcp, folder.path, ""}, 16) {
+      : clock({.tcp = tcp, .run_dir = folder.path}),
+        publisher("pub", clock.endpoint(), {.tcp = tcp, .run_dir = folder.path}, 16),
+        subscriber("sub", clock.endpoint(), {.tcp = tcp, .run_dir = folder.path}, 16) {
     subscriber.subscribe(
         {{"pager/tile", 3, "tile/1", publisher.sync_endpoint(), "e0", max_bytes, "pager", 0, {1000, 1}}}, 1);
     const Link::Event event = publisher.wait();
@@ -235,8 +235,8 @@ TEST_CASE("a topic stays subscribed until its last subscriber has left") {
 
 TEST_CASE("small messages wait for the flush only up to 16 KiB together") {
   Folder folder;
-  bus::Router clock({false, folder.path, ""});
-  Link publisher("pub", clock.endpoint(), {false, folder.path, ""}, 16);
+  bus::Router clock({.run_dir = folder.path});
+  Link publisher("pub", clock.endpoint(), {.run_dir = folder.path}, 16);
   zmq::context_t context;
   zmq::socket_t subscriber(context, zmq::socket_type::sub);
   subscriber.set(zmq::sockopt::rcvtimeo, 10'000);  // a fault fails the test instead of stopping it
@@ -283,14 +283,15 @@ TEST_CASE("frames that are no message are refused, not crashed on") {
 TEST_CASE("addresses that cannot be used are the user's mistake, with the reason") {
   Folder folder;
   const std::string long_dir = folder.path + "/" + std::string(100, 'd');
-  CHECK_THROWS_WITH(bus::Router({false, long_dir, ""}), Catch::Contains("at most 107 bytes"));
-  CHECK_THROWS_WITH(bus::Router({true, "", "tcp://0.0.0.0:*"}), Catch::Contains("only tcp://127.0.0.1 is allowed"));
-  CHECK_THROWS_WITH(bus::Router({false, folder.path + "/nowhere", ""}), Catch::Contains("cannot bind"));
+  CHECK_THROWS_WITH(bus::Router({.run_dir = long_dir}), Catch::Contains("at most 107 bytes"));
+  CHECK_THROWS_WITH(bus::Router({.tcp = true, .host = "0.0.0.0"}),
+                    Catch::Contains("only 127.0.0.1 is allowed without keys"));
+  CHECK_THROWS_WITH(bus::Router({.run_dir = folder.path + "/nowhere"}), Catch::Contains("cannot bind"));
 }
 
 TEST_CASE("the router answers every request, and stops waiting on command") {
   Folder folder;
-  bus::Router router({false, folder.path, ""});
+  bus::Router router({.run_dir = folder.path});
   CHECK_FALSE(router.wait(std::chrono::steady_clock::now()));
   std::thread clock([&] {
     while (true) {

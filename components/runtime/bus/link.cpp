@@ -11,6 +11,7 @@
 #include <zmq.hpp>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/bus/gate.h"
 #include "components/runtime/bus/sockets.h"
 #include "components/runtime/peer.h"
 #include "components/runtime/ports.h"
@@ -24,19 +25,23 @@ constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better
 }  // namespace
 
 struct Link::Sockets {
-  Sockets(const std::string& name, const std::string& clock_endpoint)
-      : clock(context, zmq::socket_type::dealer),
+  Sockets(const std::string& name, const std::string& clock_endpoint, const std::optional<Keys>& run_keys)
+      : keys(run_keys),
+        clock(context, zmq::socket_type::dealer),
         sync(context, zmq::socket_type::xpub),
         live(context, zmq::socket_type::xpub),
         monitor(context, zmq::socket_type::pair) {
     clock.set(zmq::sockopt::routing_id, name);
     clock.set(zmq::sockopt::rcvtimeo, kPollMs);
-    connect_control(clock, clock_endpoint);
+    connect_control(clock, clock_endpoint, keys);
+    if (keys) gate.emplace(context, *keys);
     const std::string watch = "inproc://clock-monitor";
     if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
   }
 
   zmq::context_t context{1};
+  std::optional<Keys> keys;
+  std::optional<Gate> gate;
   zmq::socket_t clock;
   zmq::socket_t sync;
   zmq::socket_t live;
@@ -52,8 +57,10 @@ struct Link::Sockets {
 
 /// The thread that drains the SUB socket whether or not a grant has come, and what it has received.
 struct Link::Receiver {
-  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t run_epoch)
+  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t run_epoch,
+           const std::optional<Keys>& keys)
       : socket(context, zmq::socket_type::sub), epoch(run_epoch) {
+    if (keys) set_connected(socket, *keys);
     socket.set(zmq::sockopt::rcvhwm, 0);  // the clock's window bounds what can arrive
     socket.set(zmq::sockopt::rcvbuf, kKernelBuffer);
     socket.set(zmq::sockopt::linger, 0);
@@ -185,7 +192,7 @@ struct Link::Receiver {
 };
 
 Link::Link(const std::string& name, const std::string& clock_endpoint, const Address& address, int queue)
-    : sockets_(std::make_unique<Sockets>(name, clock_endpoint)) {
+    : sockets_(std::make_unique<Sockets>(name, clock_endpoint, address.keys)) {
   sockets_->sync.set(zmq::sockopt::sndhwm, queue);
   sockets_->sync.set(zmq::sockopt::xpub_nodrop, true);
   sockets_->sync.set(zmq::sockopt::sndbuf, kKernelBuffer);
@@ -233,7 +240,7 @@ Link::Event Link::wait() {
 }
 
 void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch) {
-  receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch);
+  receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch, sockets_->keys);
 }
 
 void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience) {

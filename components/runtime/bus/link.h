@@ -9,18 +9,23 @@
 #include <utility>
 #include <vector>
 
+#include "components/runtime/bus/keys.h"
 #include "components/runtime/sim_time.h"
 #include "messages/codec.h"
 
 namespace ensonify::bus {
 
-/// Transport of sockets: in the run directory (`ipc`) or on the loopback interface (`tcp`, a port chosen at bind or
-/// the one given).
+/// Transport of sockets: in the run directory (`ipc`), or on an interface of this machine (`tcp`).
 struct Address {
   bool tcp = false;
   std::string run_dir;
-  std::string tcp_bind;  // "tcp://127.0.0.1:*", or with a fixed port
+  std::string host = "127.0.0.1";
+  int port = 0;              // 0: chosen at bind
+  std::optional<Keys> keys;  // of tcp; none is for the loopback interface alone
 };
+
+/// The address of this machine by which it reaches a `tcp://` endpoint. Throws UserError.
+std::string host_towards(const std::string& endpoint);
 
 /// A topic to receive.
 struct Subscription {

@@ -5,6 +5,7 @@
 #include <zmq.hpp>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/bus/gate.h"
 #include "components/runtime/bus/sockets.h"
 
 namespace ensonify::bus {
@@ -25,8 +26,10 @@ struct Observer::Sockets {
   }
 };
 
-Observer::Observer(const std::vector<Topic>& topics) : sockets_(std::make_unique<Sockets>()) {
+Observer::Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys)
+    : sockets_(std::make_unique<Sockets>()) {
   zmq::socket_t& data = sockets_->data;
+  if (keys) set_connected(data, *keys);
   data.set(zmq::sockopt::rcvhwm, kQueue);
   data.set(zmq::sockopt::linger, 0);
   data.set(zmq::sockopt::reconnect_ivl, kReconnectMs);

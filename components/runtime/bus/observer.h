@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/bus/keys.h"
 #include "messages/codec.h"
 
 namespace ensonify::bus {
@@ -24,7 +25,7 @@ class Observer {
   static constexpr int kQueue = 8;
 
   /// Throws UserError for an endpoint that cannot be connected to.
-  explicit Observer(const std::vector<Topic>& topics);
+  explicit Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys = std::nullopt);
   ~Observer();
 
   /// The next message, or nothing once `until` has passed, a signal came or every publisher is gone. Throws

@@ -3,9 +3,12 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <zmq.hpp>
 
+#include "components/runtime/bus/gate.h"
 #include "components/runtime/bus/sockets.h"
+#include "components/runtime/log.h"
 
 namespace ensonify::bus {
 namespace {
@@ -26,6 +29,8 @@ bool receive(zmq::socket_t& socket, Router::Message& message, zmq::recv_flags fl
     return false;
   }
   message.from = from.to_string();
+  const char* address = zmq_msg_gets(from.handle(), "Peer-Address");  // nothing over ipc
+  message.address = address != nullptr ? address : "";
   message.text.clear();
   for (bool more = from.more(); more; more = text.more()) {
     if (!socket.recv(text, zmq::recv_flags::none)) return false;
@@ -34,10 +39,18 @@ bool receive(zmq::socket_t& socket, Router::Message& message, zmq::recv_flags fl
   return true;
 }
 
+/// Named in the log, up to a number: whoever knocks without end shall not fill the disk.
+void turned_away(const std::string& address, const std::string& why) {
+  static std::atomic<int> count{0};
+  constexpr int kMost = 100;
+  if (count++ < kMost) log::line("clock", SimTime{0}, "turned_away", "address=" + address + " why=\"" + why + "\"");
+}
+
 }  // namespace
 
 struct Router::Sockets {
   zmq::context_t context{1};
+  std::optional<Gate> gate;
   zmq::socket_t socket{context, zmq::socket_type::router};
   zmq::socket_t live{context, zmq::socket_type::xpub};
   Subscribers viewers;
@@ -55,6 +68,7 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::sndhwm, kQueueOfPeer);
   socket.set(zmq::sockopt::rcvhwm, kQueueOfPeer);
   socket.set(zmq::sockopt::maxmsgsize, kLargestControl);
+  if (address.keys) sockets_->gate.emplace(sockets_->context, *address.keys, turned_away);
   sockets_->endpoint = bind_to(socket, address, "clock");
   sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
 }
@@ -107,8 +121,9 @@ struct ClockQuery::Sockets {
   zmq::socket_t socket{context, zmq::socket_type::dealer};
 };
 
-ClockQuery::ClockQuery(const std::string& clock_endpoint) : sockets_(std::make_unique<Sockets>()) {
-  connect_control(sockets_->socket, clock_endpoint);
+ClockQuery::ClockQuery(const std::string& clock_endpoint, const std::optional<Keys>& keys)
+    : sockets_(std::make_unique<Sockets>()) {
+  connect_control(sockets_->socket, clock_endpoint, keys);
   sockets_->socket.set(zmq::sockopt::linger, 0);
 }
 ClockQuery::~ClockQuery() = default;

@@ -16,7 +16,7 @@ using WallTime = std::chrono::steady_clock::time_point;
 /// for what viewers may want to know of it. It has no sync plane: nothing that it says reaches a participant as data.
 class Router {
  public:
-  /// Binds `<run_dir>/clock` and `<run_dir>/clock.live`, or loopback ports.
+  /// Binds `<run_dir>/clock` and `<run_dir>/clock.live`, or ports.
   explicit Router(const Address& address);
   ~Router();
 
@@ -25,6 +25,7 @@ class Router {
   struct Message {
     std::string from;  // routing id: a participant's name, or one that ZeroMQ made up for a tool
     std::string text;
+    std::string address;  // of whoever sent it, over tcp
   };
   /// The next message; nothing at `until`, after a signal, or now and then before: check the time and call again.
   std::optional<Message> wait(std::optional<WallTime> until);
@@ -43,7 +44,7 @@ class Router {
 /// A tool's end: asks the clock and waits for the answer.
 class ClockQuery {
  public:
-  explicit ClockQuery(const std::string& clock_endpoint);
+  explicit ClockQuery(const std::string& clock_endpoint, const std::optional<Keys>& keys = std::nullopt);
   ~ClockQuery();
   /// The answer, or nothing when none came within `patience`.
   std::optional<std::string> ask(std::string_view request, std::chrono::milliseconds patience);

@@ -1,9 +1,15 @@
 #include "components/runtime/bus/sockets.h"
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/bus/gate.h"
 
 namespace ensonify::bus {
 
@@ -13,16 +19,37 @@ std::string bind_to(zmq::socket_t& socket, const Address& address, const std::st
   if (!address.tcp && path.size() > kLongestSocketPath) {
     throw UserError(path + ": a socket path has at most 107 bytes; use a shorter run directory or process name");
   }
-  const std::string tcp = address.tcp_bind.empty() ? "tcp://127.0.0.1:*" : address.tcp_bind;
-  if (address.tcp && !tcp.starts_with("tcp://127.0.0.1:")) {
-    throw UserError(tcp + ": only tcp://127.0.0.1 is allowed; other interfaces need keys, which are not supported yet");
+  const std::string tcp = "tcp://" + address.host + ":" + (address.port == 0 ? "*" : std::to_string(address.port));
+  if (address.tcp && !address.keys && !address.host.starts_with("127.")) {
+    throw UserError(tcp + ": only 127.0.0.1 is allowed without keys");
   }
+  if (address.tcp && address.keys) set_bound(socket, *address.keys);
   try {
     socket.bind(address.tcp ? tcp : "ipc://" + path);
   } catch (const zmq::error_t& e) {
     throw UserError((address.tcp ? tcp : path) + ": cannot bind: " + e.what());
   }
   return socket.get(zmq::sockopt::last_endpoint);
+}
+
+std::string host_towards(const std::string& endpoint) {
+  const std::size_t start = std::strlen("tcp://"), colon = endpoint.rfind(':');
+  sockaddr_in there{}, here{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(9);  // any: nothing is sent
+  const bool is_address = endpoint.starts_with("tcp://") && colon > start &&
+                          ::inet_pton(AF_INET, endpoint.substr(start, colon - start).c_str(), &there.sin_addr) == 1;
+  if (!is_address) throw UserError(endpoint + ": is no clock; ipc://... and tcp://ADDRESS:PORT are");
+  const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  socklen_t size = sizeof here;
+  const bool known = ::connect(probe, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0 &&
+                     ::getsockname(probe, reinterpret_cast<sockaddr*>(&here), &size) == 0;
+  const std::string cause = std::strerror(errno);
+  if (probe >= 0) ::close(probe);
+  if (!known) throw UserError(endpoint + ": cannot be reached from here: " + cause);
+  char text[INET_ADDRSTRLEN] = "";
+  ::inet_ntop(AF_INET, &here.sin_addr, text, sizeof text);
+  return text;
 }
 
 std::string bind_live(zmq::socket_t& socket, const Address& address, const std::string& process) {
@@ -51,7 +78,8 @@ bool Subscribers::has_subscriber(const std::string& topic) const {
                      [&](const std::string& prefix) { return frame.starts_with(prefix); });
 }
 
-void connect_control(zmq::socket_t& dealer, const std::string& endpoint) {
+void connect_control(zmq::socket_t& dealer, const std::string& endpoint, const std::optional<Keys>& keys) {
+  if (keys) set_connected(dealer, *keys);
   dealer.set(zmq::sockopt::linger, kLingerMs);
   dealer.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
   dealer.set(zmq::sockopt::sndhwm, 0);

@@ -16,8 +16,8 @@ inline constexpr int kReconnectMs = 5;
 inline constexpr int kLingerMs = 1000;         // a leaving process hands over what it has sent
 inline constexpr int kKernelBuffer = 1 << 20;  // fewer switches between processes for multi-megabyte messages
 
-/// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, not on the loopback
-/// interface, or a socket path is longer than the system's 107 bytes.
+/// Binds and returns the endpoint to connect to. Throws UserError when the address is taken, is beyond the loopback
+/// interface without keys, or a socket path is longer than the system's 107 bytes.
 std::string bind_to(zmq::socket_t& socket, const Address& address, const std::string& name);
 
 /// Makes an XPUB the live plane of a process: a tiny queue, nothing is waited for. Binds it and returns its endpoint.
@@ -36,7 +36,7 @@ class Subscribers {
 };
 
 /// Options and connect of a DEALER to the clock.
-void connect_control(zmq::socket_t& dealer, const std::string& endpoint);
+void connect_control(zmq::socket_t& dealer, const std::string& endpoint, const std::optional<Keys>& keys);
 
 /// A packet as ZeroMQ frames. Large buffers are not copied: the frame keeps their owner alive.
 std::vector<zmq::message_t> to_frames(const msg::Packet& packet);
