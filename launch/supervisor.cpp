@@ -21,7 +21,7 @@ constexpr milliseconds kAskEvery{200};
 constexpr milliseconds kWatchMemoryEvery{500};
 constexpr milliseconds kAnswerPatience{50};
 constexpr milliseconds kSettle{100};            // deaths noticed together are judged together
-constexpr milliseconds kClocksWord{1000};       // it may name another process than the one that gave up first
+constexpr milliseconds kClocksWord{3000};       // it may name another process than the one that gave up first
 constexpr milliseconds kSettleUserErrors{300};  // so that the mistakes in several configurations are shown at once
 constexpr milliseconds kGraceAfterStop{5000};   // an orderly end after Ctrl-C
 constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a second of a death, but for
@@ -239,6 +239,18 @@ void Supervisor::on_clock_ended(Member& member) {
   }
 }
 
+/// It writes down who is to blame before it takes leave of the others, for which a loaded machine may need seconds.
+void Supervisor::ask_for_the_clocks_word(WallTime now) {
+  if (noticed_.empty() || !clock().child || !clock().child->running()) {
+    return;
+  }
+  const auto reported = read_clock_report(places_.out);
+  if (reported && reported->exit_code != kExitOk && !reported->culprit.empty()) {
+    noticed_.push_back({reported->exit_code, reported->culprit, reported->message, true});
+    judge_at_ = std::min(judge_at_, now);
+  }
+}
+
 void Supervisor::judge() {
   const Fault fault = most_significant(noticed_);
   noticed_.clear();
@@ -311,6 +323,7 @@ void Supervisor::begin(Ending ending, WallTime now, milliseconds grace) {
 }
 
 void Supervisor::on_time(WallTime now) {
+  ask_for_the_clocks_word(now);
   if (!noticed_.empty() && now >= judge_at_) {
     judge();
     begin(Ending::kTerminated, now, kGraceAfterFault);

@@ -51,6 +51,7 @@ class Supervisor {
   void take_signals();
   void on_ended(const Reaped& reaped);
   void on_clock_ended(Member& clock);
+  void ask_for_the_clocks_word(WallTime now);
   void judge();
   std::optional<launcher::Ending> ending_of(const std::string& process) const;
   bool ended_as_expected(const std::string& process) const;
