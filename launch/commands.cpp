@@ -86,9 +86,8 @@ Command process_command(const Launch& launch, const ProcessSpec& process, const 
                    {"ENSONIFY_CONFIG", to_json(process.config.root)},
                    {"PYTHONPATH", python_path()},
                    {"PYTHONUNBUFFERED", "1"}};
-    if (launch.clock.transport == ClockSettings::Transport::kTcp && launch.clock.keys) {
-      command.env["ENSONIFY_KEYS"] = places.run_dir + "/" + bus::kKeysFile;
-    }
+    const bool has_keys = launch.clock.transport == ClockSettings::Transport::kTcp && launch.clock.keys;
+    command.env["ENSONIFY_KEYS"] = has_keys ? places.run_dir + "/" + bus::kKeysFile : "";  // not those of another run
   }
   if (command.argv[0].empty() || find_program(command.argv[0]).empty()) {
     const std::string program = process.argv.empty() ? "ensonify-" + process.component : process.argv[0];

@@ -183,6 +183,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
   }
   const bool native = member.spec->argv.empty();
   auto fault = fault_of(member.name, native, *member.child->ending());
+  const bool had_joined = member.state != "STARTING";
   member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (!fault) {
     member.left_at = now;
@@ -207,7 +208,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
     member.fault = fault;
     noticed_.push_back(*fault);
     const bool clock_knows =
-        fault->code != kExitUserError && member.child->ending()->signal == 0 && clock().child->running();
+        had_joined && fault->code != kExitUserError && member.child->ending()->signal == 0 && clock().child->running();
     judge_at_ = now + (fault->code == kExitUserError ? kSettleUserErrors : clock_knows ? kClocksWord : kSettle);
   }
 }

@@ -209,6 +209,7 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
 void Clock::on_failed(std::size_t rank, const protocol::Failed& failed) {
   const auto culprit = registry_.participant(failed.culprit);
   const bool of_another = culprit && registry_.feeds(*culprit, rank);
+  if (phase_ == Phase::kEnding) left_[rank] = true;
   fail(failed.code, registry_.hellos()[of_another ? *culprit : rank].declaration.process, failed.message);
 }
 

@@ -79,6 +79,7 @@ class Clock {
   void end(int code);
   void send_to_all(const std::string& text);
 
+  char state_of(std::size_t p) const;
   std::string name_stalled() const;
   void dump_stall() const;
   Summary summary() const;

@@ -60,13 +60,21 @@ json to_json(const Account& a) {
 
 }  // namespace
 
+/// Of a process on another host nothing is known: its number may be anybody's here.
+char Clock::state_of(std::size_t p) const {
+  const std::string& endpoint = registry_.hellos()[p].sync_endpoint;
+  const bool is_here = endpoint.starts_with("ipc://") || endpoint.starts_with("tcp://127.") ||
+                       endpoint.starts_with("tcp://" + launch_.clock.address + ":");
+  return is_here ? process_state(accounts_[p].pid) : '?';
+}
+
 /// A stopped process first, then a busy one, then whoever has a grant: a participant that blocks on a full queue of a
 /// stopped one has a grant too, but is not to blame.
 std::string Clock::name_stalled() const {
   for (const char state : {'T', 't', 'R'}) {
     for (std::size_t p = 0; p < accounts_.size(); ++p) {
       const bool suspect = state != 'R' || conductor_->running(p);
-      if (suspect && process_state(accounts_[p].pid) == state) return accounts_[p].name;
+      if (suspect && state_of(p) == state) return accounts_[p].name;
     }
   }
   std::string names;
@@ -83,7 +91,7 @@ void Clock::dump_stall() const {
     log::line("clock", conductor_->now(), "stall",
               fmt::format("process={} has_grant={} next_s={:.3f} granted_to_s={:.3f} waits_for=[{}] system_state={}",
                           accounts_[p].name, conductor_->running(p), seconds(conductor_->next(p)),
-                          seconds(conductor_->granted(p)), waits, process_state(accounts_[p].pid)));
+                          seconds(conductor_->granted(p)), waits, state_of(p)));
   }
   for (const Graph::Topic& topic : registry_.graph().topics) {
     if (!conductor_->running(topic.publisher)) continue;

@@ -109,8 +109,7 @@ class Scan {
     } catch (const Malformed& error) {
       refuse("is damaged at " + at + ": " + error.what());
     }
-    const bool blank = static_cast<std::uint8_t>(record->op) == 0 && rest_is_blank();  // a disk that lost its power
-    if (!blank) refuse("is damaged at " + at + ": there is no record of a known kind");
+    if (!is_blank_from(end_.size)) refuse("is damaged at " + at + ": there is no record of a known kind");
     return false;
   }
 
@@ -127,10 +126,15 @@ class Scan {
     return length == in.u64() + 8 + 8 + 8 + 4 + 4 + 8;
   }
 
-  bool rest_is_blank() const {
-    std::vector<std::byte> rest(file_bytes_ - end_.size);
-    file_.read(end_.size, rest);
-    return std::all_of(rest.begin(), rest.end(), [](std::byte byte) { return byte == std::byte{0}; });
+  /// What a disk that lost its power leaves behind.
+  bool is_blank_from(std::uint64_t at) const {
+    std::vector<std::byte> piece(1U << 16U);
+    for (; at < file_bytes_; at += piece.size()) {
+      piece.resize(std::min<std::uint64_t>(piece.size(), file_bytes_ - at));
+      file_.read(at, piece);
+      if (std::any_of(piece.begin(), piece.end(), [](std::byte byte) { return byte != std::byte{0}; })) return false;
+    }
+    return true;
   }
 
   bool read_chunk(const Record& chunk) {
@@ -141,7 +145,7 @@ class Scan {
     if (!in.text().empty()) throw Malformed("a chunk is compressed");
     const auto records = in.raw(in.u64());
     if (crc != crc32(records)) {
-      if (chunk.end < file_bytes_) throw Malformed("a chunk's checksum is wrong, and more follows it");
+      if (!is_blank_from(chunk.end)) throw Malformed("a chunk's checksum is wrong, and more follows it");
       return false;
     }
     const ChunkEntries entries = read_entries(records);
@@ -172,10 +176,12 @@ class Scan {
 
   bool read_indices(const ChunkEntries& entries) {
     const RecordFile::Mark chunk_end = end_;
-    for (std::size_t n = 0; n < entries.size(); ++n) {
+    for (const auto& [channel, places] : entries) {
       const auto index = record_at(end_.size);
-      if (!index || index->op != Op::message_index) {
-        if (index) throw Malformed("a chunk's index is missing, and more follows it");
+      const ByteSink wanted = message_index(channel, places);
+      if (!index || index->op != Op::message_index || !std::ranges::equal(index->content, wanted.bytes())) {
+        const std::uint64_t rest = index && index->op == Op::message_index ? index->end : end_.size;
+        if (index && !is_blank_from(rest)) throw Malformed("a chunk's index is wrong, and more follows it");
         end_ = chunk_end;
         missing_indices_ = entries;
         return false;

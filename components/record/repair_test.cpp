@@ -120,6 +120,13 @@ TEST_CASE("zeros that a lost power supply left behind are dropped") {
   const Repair repaired = repair(folder / "run.mcap");
   CHECK(repaired.dropped_bytes == 5000);
   CHECK(read_file(folder / "run.mcap") == whole);
+
+  write_run(folder / "short.mcap", 1);
+  for (const std::size_t lost : {2000, 300, 100}) {  // within the last chunk, and within its indices
+    write_file(folder / "run.mcap", whole.substr(0, data_end - lost) + std::string(lost + 5000, '\0'));
+    CHECK(repair(folder / "run.mcap").messages == (lost == 2000 ? 20 : 40));
+    CHECK(read_file(folder / "run.mcap") == (lost == 2000 ? read_file(folder / "short.mcap") : whole));
+  }
 }
 
 TEST_CASE("what is damaged before its end, or is no record of ours, is left alone") {

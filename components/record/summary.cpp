@@ -46,16 +46,20 @@ void append_record(ByteSink& to, Op op, std::span<const std::byte> content) {
   to.raw(content);
 }
 
+ByteSink message_index(std::uint16_t channel, const ChunkEntries::mapped_type& places) {
+  ByteSink content;
+  content.u16(channel);
+  content.u32(static_cast<std::uint32_t>(places.size() * 16));
+  for (const auto& [time, at] : places) {
+    content.u64(time);
+    content.u64(at);
+  }
+  return content;
+}
+
 void put_message_indices(RecordFile& file, const ChunkEntries& entries) {
   for (const auto& [channel, places] : entries) {
-    ByteSink content;
-    content.u16(channel);
-    content.u32(static_cast<std::uint32_t>(places.size() * 16));
-    for (const auto& [time, at] : places) {
-      content.u64(time);
-      content.u64(at);
-    }
-    file.put_record(Op::message_index, content.bytes());
+    file.put_record(Op::message_index, message_index(channel, places).bytes());
   }
 }
 

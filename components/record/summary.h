@@ -16,6 +16,9 @@ using ChunkEntries = std::map<std::uint16_t, std::vector<std::pair<std::uint64_t
 
 void append_record(ByteSink& to, Op op, std::span<const std::byte> content);
 
+/// Content of the message index of one channel.
+ByteSink message_index(std::uint16_t channel, const ChunkEntries::mapped_type& places);
+
 /// Appends the message indices that follow a chunk, one per channel.
 void put_message_indices(RecordFile& file, const ChunkEntries& entries);
 

@@ -48,8 +48,9 @@ std::optional<int> parse(const char* component, ParameterList (*list)(), int arg
   app.add_option("--name", options.name, "name of this process in the launch file")->required();
   app.add_option("--clock", options.clock, "endpoint of the clock; else read from the run directory");
   app.add_option("--run-dir", options.run_dir, "private directory of the run, for sockets");
-  app.add_option("--keys", options.keys,
-                 "the run's keys, a copy of keys.json in its run directory (default: $ENSONIFY_KEYS, else there)");
+  app.add_option(
+      "--keys", options.keys,
+      "the run's keys, a copy of keys.json in its run directory (default: there; without one, $ENSONIFY_KEYS)");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
   app.add_option_function<std::string>(
          "--parameters",
@@ -132,9 +133,9 @@ int run_component(const char* component, const NodeFactory& factory, ParameterLi
 }
 
 int run_local(const Launch& launch, const std::map<std::string, NodeFactory>& components) {
+  const Termination termination([] {});  // before nodes have threads
   LocalBus bus = bus_of(launch, components);
   Conductor conductor = make_conductor(bus.graph(), bus.declarations(), launch);
-  const Termination termination([] {});
   try {
     while (!conductor.finished() && !termination.asked()) bus.advance(conductor);
   } catch (...) {

@@ -94,7 +94,8 @@ class VehicleCheck {
       }
       if (const auto* line = std::get_if<FollowLine>(&mission.steps[i])) {
         check_bends(i, line->points_enu_m, speed_mps);
-        check_headway(i, line->points_enu_m, speed_mps, depth_m.value_or(0.0));
+        // Where the bottom is followed nobody knows at which depth of a sheared current.
+        if (depth_m || !current_.sheared()) check_headway(i, line->points_enu_m, speed_mps, depth_m.value_or(0.0));
       }
     }
   }

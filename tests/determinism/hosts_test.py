@@ -16,7 +16,7 @@ from support import BIN, SystemTest, survey
 HERE, THERE, OTHER = "10.77.0.1", "10.77.0.2", "10.77.0.3"
 RECORDER = "  recorder: { run: recorder, config: { file: run.mcap } }"
 LAUNCH = (survey(seconds=3, more=RECORDER)
-          .replace("progress_deadline_s: 0.2", f"transport: tcp, address: {HERE}, allow: [{THERE}]")
+          .replace("progress_deadline_s: 0.2", f"transport: tcp, address: {HERE}, port: 20077, allow: [{THERE}]")
           .replace("head: { run: stub", "head: { run: stub, external: true, join_s: 30"))
 
 # What a stranger asks and subscribes to, from the address given, with the keys of the file given or none; prints what came.
@@ -84,7 +84,7 @@ class Hosts(SystemTest):
         copy = shutil.copy(found.parent / "keys.json", self.folder / f"{out}.keys.json")
         self.assertEqual((found.parent / "keys.json").stat().st_mode & 0o777, 0o600)
         endpoint = found.read_text().strip()
-        self.assertTrue(endpoint.startswith(f"tcp://{HERE}:"))
+        self.assertEqual(endpoint, f"tcp://{HERE}:20077")
         return whole, endpoint, copy, lambda: subprocess.Popen(self.inside(
             namespace, BIN / "ensonify-stub", "--launch", launch, "--out", self.folder / out, "--name", "head",
             "--clock", endpoint, "--keys", copy), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -130,7 +130,7 @@ class Loaded(SystemTest):
 
     def test_who_never_says_hello_is_blamed(self):
         mute = survey(seconds=1, more="  mute: { run: [sleep, '1000'] }\n" + Records.RECORDER.format(file="run.mcap"))
-        result = self.run_launch(mute.replace("rate: free", "rate: free, connect_timeout_s: 3"))
+        result = self.run_launch(mute.replace("rate: free", "rate: free, connect_timeout_s: 10"))
         self.assertEqual((result.code, result.report()["culprit"]), (4, "mute"), result.stderr)
         self.assertIn("no hello from: mute", result.stderr)
 
@@ -163,8 +163,11 @@ class Records(SystemTest):
             return reader.get_summary().statistics.message_count, sum(1 for _ in reader.iter_messages())
 
     def test_a_run_that_dies_leaves_a_record_with_its_index(self):
-        for out, faults in (("dies", {"head": "die_s: 20"}), ("spins", {"navigation": "spin_s: 20"})):
-            result = self.run_launch(survey(seconds=60, more=self.RECORDER.format(file="run.mcap"), **faults), out=out)
+        for out, faults in (("dies", {"head": "die_s: 20"}), ("spins", {"navigation": "spin_s: 20"}), ("tcp", {"head": "die_s: 20"})):
+            launch = survey(seconds=60, more=self.RECORDER.format(file="run.mcap"), **faults)
+            if out == "tcp":
+                launch = launch.replace("rate: free", "rate: free, transport: tcp")
+            result = self.run_launch(launch, out=out)
             self.assertNotEqual(result.code, 0)
             counted, read = self.read_officially(self.folder / out / "run.mcap")
             self.assertEqual(counted, read)

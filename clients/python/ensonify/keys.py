@@ -23,11 +23,12 @@ class Keys(NamedTuple):
 
 
 def keys_for(endpoint: str, folder: str | os.PathLike | None = None) -> Keys | None:
-    """Of the file that $ENSONIFY_KEYS names, else of the run directory; None for `ipc://`, and where there is no file."""
+    """Of the run directory, or where that is not known of the file that $ENSONIFY_KEYS names; None for `ipc://`, and where
+    there is no file."""
     if endpoint.startswith("ipc://"):
         return None
-    file = os.environ.get("ENSONIFY_KEYS") or (pathlib.Path(folder) / FILE if folder else None)
-    if file is None or not pathlib.Path(file).exists():
+    file = pathlib.Path(folder) / FILE if folder else os.environ.get("ENSONIFY_KEYS")
+    if not file or not pathlib.Path(file).exists():
         return None
     read = json.loads(pathlib.Path(file).read_text())
     return Keys(*(read[name].encode() for name in Keys._fields[:4]), tuple(ipaddress.ip_network(a) for a in read["allowed"]))

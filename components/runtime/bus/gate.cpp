@@ -1,6 +1,7 @@
 #include "components/runtime/bus/gate.h"
 
 #include <array>
+#include <csignal>
 
 namespace ensonify::bus {
 
@@ -25,6 +26,9 @@ Gate::Gate(zmq::context_t& context, const Keys& keys, Refused refused)
   questions.bind("inproc://zeromq.zap.01");
   ended.bind("inproc://gate-ends");
   end_.connect("inproc://gate-ends");
+  sigset_t all, before;  // signals are for the other threads, as with ZeroMQ's own
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this, asked = std::move(questions), over = std::move(ended)]() mutable {
     zmq::pollitem_t items[] = {{asked.handle(), 0, ZMQ_POLLIN, 0}, {over.handle(), 0, ZMQ_POLLIN, 0}};
     try {
@@ -32,6 +36,7 @@ Gate::Gate(zmq::context_t& context, const Keys& keys, Refused refused)
     } catch (const zmq::error_t&) {  // the context ends
     }
   });
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 Gate::~Gate() {

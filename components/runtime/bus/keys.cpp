@@ -74,11 +74,13 @@ Keys Keys::read(const std::string& file) {
 std::optional<Keys> keys_for(const std::string& endpoint, const std::string& file, const std::string& run_dir) {
   if (endpoint.starts_with("ipc://")) return std::nullopt;
   if (!file.empty()) return Keys::read(file);
-  if (const char* named = std::getenv("ENSONIFY_KEYS"); named != nullptr && *named != '\0') return Keys::read(named);
+  if (run_dir.empty()) {
+    const char* named = std::getenv("ENSONIFY_KEYS");
+    return named != nullptr && *named != '\0' ? std::optional(Keys::read(named)) : std::nullopt;
+  }
   const std::string own = run_dir + "/" + kKeysFile;
   std::error_code error;
-  if (run_dir.empty() || !std::filesystem::exists(own, error)) return std::nullopt;
-  return Keys::read(own);
+  return std::filesystem::exists(own, error) ? std::optional(Keys::read(own)) : std::nullopt;
 }
 
 }  // namespace ensonify::bus

@@ -24,8 +24,8 @@ struct Keys {
 /// File of a run directory that holds its keys; there is none where the sockets are files themselves.
 inline constexpr const char* kKeysFile = "keys.json";
 
-/// Keys for an endpoint: of the file given, else of $ENSONIFY_KEYS, else of the run directory; none for `ipc://`, and
-/// none where there is no file.
+/// Keys for an endpoint: of the file given, else of the run directory, or where that is not known of $ENSONIFY_KEYS;
+/// none for `ipc://`, and none where there is no file.
 std::optional<Keys> keys_for(const std::string& endpoint, const std::string& file, const std::string& run_dir);
 
 }  // namespace ensonify::bus

@@ -70,7 +70,9 @@ Router::Router(const Address& address) : sockets_(std::make_unique<Sockets>()) {
   socket.set(zmq::sockopt::maxmsgsize, kLargestControl);
   if (address.keys) sockets_->gate.emplace(sockets_->context, *address.keys, turned_away);
   sockets_->endpoint = bind_to(socket, address, "clock");
-  sockets_->live_endpoint = bind_live(sockets_->live, address, "clock");
+  Address any_port = address;
+  any_port.port = 0;
+  sockets_->live_endpoint = bind_live(sockets_->live, any_port, "clock");
 }
 
 Router::~Router() { close(sockets_->alarm); }

@@ -22,7 +22,7 @@ double meridian_radius_m(const Earth& earth, double latitude_rad);
 double prime_vertical_radius_m(const Earth& earth, double latitude_rad);
 
 /// Normal gravity, downwards along the ellipsoid's normal, centrifugal part included: Somigliana's formula on the
-/// ellipsoid and its expansion to second order in height [NIMA2000, eqs 4-1, 4-3]. Good to 1e-6 m/s^2 within 10 km of
+/// ellipsoid and its expansion to second order in height [NIMA2000, eqs 4-1, 4-3]. Good to 2e-6 m/s^2 within 10 km of
 /// the ellipsoid; deflections of the vertical and anomalies (up to 1e-3 m/s^2) are left out.
 double gravity_mps2(const Earth& earth, double latitude_rad, double height_m);
 

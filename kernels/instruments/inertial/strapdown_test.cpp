@@ -101,12 +101,12 @@ class EarthCentred {
 
 TEST_CASE("normal gravity is that of the level ellipsoid") {
   for (const double latitude : {0.0, 30.0, 44.0, 60.0, 89.0}) {
-    for (const double height : {-8000.0, 0.0, 5000.0}) {
+    for (const double height : {-10000.0, 0.0, 10000.0}) {
       double north, up;
       const auto& exact = GeographicLib::NormalGravity::WGS84();
       exact.Gravity(latitude, height, north, up);
       CAPTURE(latitude, height);
-      CHECK_THAT(gravity_mps2(kWgs84, latitude * kDegree, height), WithinAbs(-up, 1e-6));
+      CHECK_THAT(gravity_mps2(kWgs84, latitude * kDegree, height), WithinAbs(-up, 2e-6));
     }
   }
   CHECK_THAT(gravity_mps2(kWgs84, 90 * kDegree, 0), WithinAbs(9.8321849379, 1e-9));  // [NIMA2000], table 3.4
