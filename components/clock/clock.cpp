@@ -62,7 +62,7 @@ std::optional<WallTime> Clock::next_alarm() const {
   return paced && (!alarm || *paced < *alarm) ? paced : alarm;
 }
 
-/// What ends or moves a run is heard from those alone who have joined it; everybody else is answered.
+/// What ends or moves a run counts from those alone who have joined it; everybody else gets an answer.
 void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);

@@ -9,6 +9,7 @@
 
 #include "components/record/bytes.h"
 #include "components/record/reader.h"
+#include "components/record/testing/test_folder.h"
 #include "components/record/writer.h"
 #include "messages/codec.h"
 #include "messages/sonar.h"
@@ -20,23 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kStart = 1'718'000'000'000'000'000;
-
-/// A folder of this test program, gone at its end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ensonify_record_test_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path operator/(const std::string& name) const { return path / name; }
-};
-
-std::string read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-void write_file(const fs::path& file, const std::string& bytes) {
-  fs::remove(file);  // a truncated file would be flushed to disk when it is closed (ext4), thousands of times here
-  std::ofstream(file, std::ios::binary) << bytes;
-}
 
 msg::Ping ping(std::int64_t number, std::size_t samples) {
   msg::Ping ping;
@@ -114,7 +98,7 @@ TEST_CASE("the checksum gives the published check value, however it is cut") {
 }
 
 TEST_CASE("what was written is read, in order") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 25);
 
   RecordReader reader(folder / "a.mcap");
@@ -151,7 +135,7 @@ TEST_CASE("what was written is read, in order") {
 }
 
 TEST_CASE("two records of the same messages are equal byte by byte") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 25);
   write_survey(folder / "deeper/down/b.mcap", 25);
   CHECK(read_file(folder / "a.mcap") == read_file(folder / "deeper/down/b.mcap"));
@@ -160,7 +144,7 @@ TEST_CASE("two records of the same messages are equal byte by byte") {
 }
 
 TEST_CASE("records follow the specification's order, one chunk per second of sim time") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 25);  // 0 .. 2.4 s
   const std::string chunk = "\x06\x07\x07";
   CHECK(opcodes(read_file(folder / "a.mcap")) == "\x01\x0C\x09" + chunk + chunk + chunk +
@@ -169,7 +153,7 @@ TEST_CASE("records follow the specification's order, one chunk per second of sim
 }
 
 TEST_CASE("a long record needs no more memory than a short one") {
-  const Folder folder;
+  const TestFolder folder;
   RecordWriter writer(folder / "long.mcap", {"1.2.3", 42, kStart});
   writer.add_channel({3, "bow/transmit", "transmit/1", "", 2, 100});
   const msg::Buffer event = payload(msg::Transmit{});
@@ -191,7 +175,7 @@ TEST_CASE("a long record needs no more memory than a short one") {
 }
 
 TEST_CASE("a chunk ends at 16 MiB") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 5, 600'000);  // 4.8 MB each, all within a second: three fit
   const std::string ops = opcodes(read_file(folder / "a.mcap"));
   CHECK(std::count(ops.begin(), ops.end(), '\x06') == 2);
@@ -199,13 +183,13 @@ TEST_CASE("a chunk ends at 16 MiB") {
 }
 
 TEST_CASE("a message larger than a chunk has one of its own") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 2, 2'500'000);  // 20 MB each
   CHECK(read_all(folder / "a.mcap").messages == 4);
 }
 
 TEST_CASE("a record without messages is a record") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "a.mcap", 0);
   RecordReader reader(folder / "a.mcap");
   CHECK(reader.channels().size() == 2);
@@ -215,7 +199,7 @@ TEST_CASE("a record without messages is a record") {
 }
 
 TEST_CASE("a record cut anywhere is read to its last whole chunk, and says so") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "whole.mcap", 25, 10);
   const std::string whole = read_file(folder / "whole.mcap");
   const std::size_t data_end = whole.rfind(std::string("\x0F\x04\0\0\0\0\0\0\0", 9));
@@ -234,7 +218,7 @@ TEST_CASE("a record cut anywhere is read to its last whole chunk, and says so") 
 }
 
 TEST_CASE("damaged records never crash, and damaged messages are not passed on") {
-  const Folder folder;
+  const TestFolder folder;
   write_survey(folder / "whole.mcap", 12, 10);
   const std::string whole = read_file(folder / "whole.mcap");
   std::mt19937 random(1);
@@ -253,7 +237,7 @@ TEST_CASE("damaged records never crash, and damaged messages are not passed on")
 }
 
 TEST_CASE("what is no record is refused with its name and the reason") {
-  const Folder folder;
+  const TestFolder folder;
   const auto refusal = [](const fs::path& file) {
     try {
       RecordReader reader(file);
@@ -279,7 +263,7 @@ TEST_CASE("what is no record is refused with its name and the reason") {
 }
 
 TEST_CASE("a file that cannot be created is named with the cause") {
-  const Folder folder;
+  const TestFolder folder;
   write_file(folder / "file", "");
   const auto problem = [](const fs::path& file) {
     try {
@@ -301,7 +285,7 @@ TEST_CASE("a file that cannot be created is named with the cause") {
 TEST_CASE("a full disk is data lost, and what is there can be read") {
   CHECK_THROWS_AS(RecordWriter("/dev/full", {}), DataLost);
 
-  const Folder folder;
+  const TestFolder folder;
   struct rlimit before {};
   ::getrlimit(RLIMIT_FSIZE, &before);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);

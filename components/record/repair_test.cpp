@@ -8,6 +8,7 @@
 #include <set>
 
 #include "components/record/reader.h"
+#include "components/record/testing/test_folder.h"
 #include "components/record/writer.h"
 #include "messages/codec.h"
 #include "messages/sonar.h"
@@ -17,23 +18,6 @@ using namespace ensonify::record;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of this test program, gone at its end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ensonify_repair_test_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path operator/(const std::string& name) const { return path / name; }
-};
-
-std::string read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-void write_file(const fs::path& file, const std::string& bytes) {
-  fs::remove(file);
-  std::ofstream(file, std::ios::binary) << bytes;
-}
 
 constexpr std::int64_t kStart = 1'718'000'000'000'000'000;
 constexpr int kPerChunk = 10;  // messages on each of two topics, 0.1 s apart
@@ -67,7 +51,7 @@ std::string refusal(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("a record cut anywhere becomes the record of its whole chunks") {
-  const Folder folder;
+  const TestFolder folder;
   std::vector<std::string> of_chunks;  // the writer's own record of a run that long
   for (int chunks = 0; chunks <= 3; ++chunks) {
     write_run(folder / "run.mcap", chunks);
@@ -104,7 +88,7 @@ TEST_CASE("a record cut anywhere becomes the record of its whole chunks") {
 }
 
 TEST_CASE("a whole record is left alone") {
-  const Folder folder;
+  const TestFolder folder;
   write_run(folder / "run.mcap", 2);
   const std::string before = read_file(folder / "run.mcap");
   CHECK(repair(folder / "run.mcap").was_whole);
@@ -112,7 +96,7 @@ TEST_CASE("a whole record is left alone") {
 }
 
 TEST_CASE("zeros that a lost power supply left behind are dropped") {
-  const Folder folder;
+  const TestFolder folder;
   write_run(folder / "run.mcap", 2);
   const std::string whole = read_file(folder / "run.mcap");
   const std::size_t data_end = whole.rfind(std::string("\x0F\x04\0\0\0\0\0\0\0", 9));
@@ -130,7 +114,7 @@ TEST_CASE("zeros that a lost power supply left behind are dropped") {
 }
 
 TEST_CASE("what is damaged before its end, or is no record of ours, is left alone") {
-  const Folder folder;
+  const TestFolder folder;
   write_run(folder / "run.mcap", 3);
   const std::string whole = read_file(folder / "run.mcap");
   const std::string chunk_head("\x06", 1);
@@ -163,7 +147,7 @@ TEST_CASE("what is damaged before its end, or is no record of ours, is left alon
 }
 
 TEST_CASE("a record that is being written is neither repaired nor begun anew") {
-  const Folder folder;
+  const TestFolder folder;
   RecordWriter writer(folder / "run.mcap", {"1.2.3", 42, kStart});
   CHECK(refusal(folder / "run.mcap") == "another process is writing it");
   CHECK_THROWS_WITH(RecordWriter(folder / "run.mcap", {}), Catch::EndsWith("run.mcap: another process is writing it"));

@@ -24,7 +24,7 @@ STRANGER = """
 import json, sys, zmq
 clock, live, source, keys = sys.argv[1:]
 context = zmq.Context()
-heard = []
+came = []
 poller = zmq.Poller()
 for kind, endpoint in ((zmq.DEALER, clock), (zmq.SUB, live)):
     socket = context.socket(kind)
@@ -41,8 +41,8 @@ for kind, endpoint in ((zmq.DEALER, clock), (zmq.SUB, live)):
         socket.subscribe(b"")
     poller.register(socket, zmq.POLLIN)
 for socket, _ in poller.poll(1500):
-    heard.append(socket.recv()[:40].decode(errors="replace"))
-print(json.dumps(heard))
+    came.append(socket.recv()[:40].decode(errors="replace"))
+print(json.dumps(came))
 """
 
 

@@ -136,18 +136,18 @@ class InARun(unittest.TestCase):
         self.finish(clock)
         self.assertEqual((clock.failed["code"], clock.failed["message"]), (3, "ZeroDivisionError: planted"))
 
-    def test_a_lost_message_ends_the_run_with_5(self):
+    def agent_beside(self, publish):
+        """An agent that reads the pings of a head which publishes by `publish(me, out, step)`: exit code and last words of
+        the agent, and what it said to the clock."""
         clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, SECOND)
 
-        def lossy_head():
+        def head_of_the_run():
             with ensonify.Participant("head", clock=clock.endpoint, config={}) as me:
                 out = me.publish("ping", ensonify.Ping, rate=20)
                 for step in me.steps(rate=20):
-                    if step.t_ns == SECOND // 2:
-                        me._session._published[out.topic_id] += 1  # as if a message had vanished
-                    out.send(ensonify.Ping())
+                    publish(me, out, step)
 
-        head = threading.Thread(target=lossy_head, daemon=True)
+        head = threading.Thread(target=head_of_the_run, daemon=True)
         head.start()
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as left:
@@ -155,50 +155,35 @@ class InARun(unittest.TestCase):
                 me.subscribe("ping", ensonify.Ping)
                 list(me.steps(rate=20))
         self.finish(clock, head)
-        self.assertEqual(left.exception.code, 5)
-        self.assertEqual(clock.failed["code"], 5)
-        self.assertIn("head lost messages: head/ping: seq 10 is missing, 11 came", errors.getvalue())
+        self.assertEqual(clock.failed["culprit"], "head")
+        return left.exception.code, errors.getvalue(), clock.failed
+
+    def test_a_lost_message_ends_the_run_with_5(self):
+        def lossy(me, out, step):
+            if step.t_ns == SECOND // 2:
+                me._session._published[out.topic_id] += 1  # as if a message had vanished
+            out.send(ensonify.Ping())
+
+        code, words, failed = self.agent_beside(lossy)
+        self.assertEqual((code, failed["code"]), (5, 5))
+        self.assertIn("head lost messages: head/ping: seq 10 is missing, 11 came", words)
 
     def test_what_is_counted_and_never_comes_is_lost_by_its_publisher(self):
-        clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, SECOND)
+        def boasting(me, out, step):
+            me._session._published[out.topic_id] += 1  # counted, not sent
 
-        def boasting_head():
-            with ensonify.Participant("head", clock=clock.endpoint, config={}) as me:
-                out = me.publish("ping", ensonify.Ping, rate=20)
-                for _ in me.steps(rate=20):
-                    me._session._published[out.topic_id] += 1  # counted, not sent
-
-        head = threading.Thread(target=boasting_head, daemon=True)
-        head.start()
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as left, \
-                mock.patch("ensonify.session.PATIENCE_S", 0.5):
-            with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
-                me.subscribe("ping", ensonify.Ping)
-                list(me.steps(rate=20))
-        self.finish(clock, head)
-        self.assertEqual((left.exception.code, clock.failed["code"], clock.failed["culprit"]), (5, 5, "head"))
-        self.assertRegex(errors.getvalue(), r"^head lost messages: head/ping: its DONE counted \d+, 0 have come$")
+        with mock.patch("ensonify.session.PATIENCE_S", 0.5):
+            code, words, failed = self.agent_beside(boasting)
+        self.assertEqual((code, failed["code"]), (5, 5))
+        self.assertRegex(words, r"^head lost messages: head/ping: its DONE counted \d+, 0 have come$")
 
     def test_a_message_that_cannot_be_read_is_its_senders_mistake(self):
-        clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, SECOND)
+        def babbling(me, out, step):
+            me._session.publish(out._topic_frame, out.topic_id, out._hash, step.t_ns, [b"\xc1"])
 
-        def babbling_head():
-            with ensonify.Participant("head", clock=clock.endpoint, config={}) as me:
-                out = me.publish("ping", ensonify.Ping, rate=20)
-                for step in me.steps(rate=20):
-                    me._session.publish(out._topic_frame, out.topic_id, out._hash, step.t_ns, [b"\xc1"])
-
-        head = threading.Thread(target=babbling_head, daemon=True)
-        head.start()
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as left:
-            with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
-                me.subscribe("ping", ensonify.Ping)
-                list(me.steps(rate=20))
-        self.finish(clock, head)
-        self.assertEqual((left.exception.code, clock.failed["culprit"]), (3, "head"))
-        self.assertIn("head sent a message that cannot be used: head/ping: seq 0: ", errors.getvalue())
+        code, words, _ = self.agent_beside(babbling)
+        self.assertEqual(code, 3)
+        self.assertIn("head sent a message that cannot be used: head/ping: seq 0: ", words)
 
     def test_a_clock_that_vanishes_is_noticed(self):
         clock = self.start(["agent"], {}, 10**6 * SECOND)

@@ -70,7 +70,7 @@ TEST_CASE("near nadir two samples a pulse suffice, and the detector knows how ex
 }
 
 TEST_CASE("depths scatter alike at a signal to noise ratio, however densely a pulse is sampled") {
-  // 25 beams of 100 pings, of one seabed. The median of 2,500 magnitudes is uncertain by 2 %, and does not hear of the
+  // 25 beams of 100 pings, of one seabed. The median of 2,500 magnitudes is uncertain by 2 %, and is not moved by the
   // few that took noise for the bottom.
   for (const double deg : {40.0, 50.0, 60.0}) {
     std::vector<double> scatter_m;

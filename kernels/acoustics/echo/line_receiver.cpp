@@ -212,7 +212,7 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
     own.field.resize(row);
     own.sum.resize(row);
     const auto drawn = static_cast<std::size_t>(kBlock + input.pulse.support() - 1);
-    const auto size = [&](bool heard, int each) { return heard ? drawn * static_cast<std::size_t>(each) : 0; };
+    const auto size = [&](bool received, int each) { return received ? drawn * static_cast<std::size_t>(each) : 0; };
     own.volume.resize(size(!input.background.volume_upa2.empty(), cells_));
     own.isotropic.resize(size(hears_field(input.background), cells_));
     own.noise.resize(size(hears_elements(input.background), line_.elements));
