@@ -101,7 +101,7 @@ def chart(record, axes):
     """Soundings of a multibeam on the middle of its lines, gridded: depth in colours, lit from the north-west."""
     survey = read_survey(record)
     soundings = survey.soundings
-    on_line = np.any([(soundings.t_s >= begin) & (soundings.t_s <= end) for begin, end in survey.on_line_s], axis=0)
+    on_line = soundings.line >= 0
     middle = on_line & (np.abs(soundings.north_m) < 30)
     east_m, north_m, up_m = (values[middle] for values in (soundings.east_m, soundings.north_m, soundings.up_m))
     frame = grid.frame_around(east_m, north_m, 1.0)
