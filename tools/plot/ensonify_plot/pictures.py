@@ -22,6 +22,12 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     return figure
 
 
+def entitle(figure, title: str, facts: list) -> None:
+    """A short title above, and below it in small print what a reader must know besides: one line each."""
+    figure.suptitle(title, fontsize=10, x=0.02, ha="left")
+    figure.supxlabel("\n".join(fact for fact in facts if fact), fontsize=7.5, x=0.02, ha="left", color="0.35")
+
+
 def hillshade(up_m: np.ndarray, cell_m: float, exaggeration: float) -> np.ndarray:
     """Brightness 0..1 of a surface (row 0 in the south) under a sun in the north-west."""
     slope_north, slope_east = (_slope(up_m, axis) * exaggeration / cell_m for axis in (0, 1))
