@@ -19,7 +19,7 @@ from ensonify_plot.main import main  # noqa: E402
 
 pictures.DPI = 80  # small files: fewer pixels, cells and colours than the commands give
 forward_looking.CELLS, waterfall.CELLS = 300, 300
-COLOURS = 64
+COLOURS = 128
 
 
 def draw(name, *command, of=None):
