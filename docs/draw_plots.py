@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/manual/plots.md (and the ping of docs/manual/first-survey.md) by the commands that the page gives.
+"""Draws the pictures of README.md, docs/manual/plots.md and docs/manual/first-survey.md from runs, by the commands that the pages give.
 
-    docs/draw_plots.py first.mcap forward_looking.mcap scanning.mcap
+    docs/draw_plots.py demo.mcap first.mcap forward_looking.mcap scanning.mcap sidescan.mcap
 
-The first record is that of docs/manual/first-survey.md with `amplitude_every: 1`, the others those of launch/forward_looking.yaml and
-launch/scanning.yaml. What these heads cannot show is drawn from echoes made by formula (tools/plot/tests/synthetic_heads.py, which needs the package mcap).
+The records are those of launch/demo.yaml, of docs/manual/first-survey.md with `amplitude_every: 1`, and of the launches named like them.
 """
 import pathlib
 import sys
@@ -13,44 +12,41 @@ import tempfile
 from PIL import Image
 
 DOCS = pathlib.Path(__file__).resolve().parent
-for folder in ("tools/plot", "tools/plot/tests", "clients/python"):
+for folder in ("tools/plot", "clients/python"):
     sys.path.insert(0, str(DOCS.parent / folder))
-import synthetic_heads as made  # noqa: E402
 from ensonify_plot import forward_looking, pictures, waterfall  # noqa: E402
 from ensonify_plot.main import main  # noqa: E402
 
 pictures.DPI = 80  # small files: fewer pixels, cells and colours than the commands give
 forward_looking.CELLS, waterfall.CELLS = 300, 300
-COLOURS = 64
+COLOURS = 128
 
 
-def draw(name, *command):
-    """One command's picture."""
+def draw(name, *command, of=None):
+    """One command's picture; `of` several."""
     with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "picture.png"
-        if main([*map(str, command), "--out", str(file)]) != 0:
+        if main([*map(str, command), "--out", folder]) != 0:
             sys.exit(f"{name}: not drawn")
+        [file] = pathlib.Path(folder).glob(of or "*.png")
         picture = Image.open(file).convert("RGB")
         small = picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
         small.save(DOCS / "pictures" / f"{name}.png", optimize=True)
 
 
-def draw_all(survey, ahead, around):
+def draw_all(demo, survey, ahead, around, aside):
+    draw("survey_and_truth", "survey", demo, of="survey_and_truth.png")
+    draw("plot_coverage", "coverage", demo)
     draw("plot_fls", "fls", ahead)
     draw("plot_scan", "scan", around)
     draw("ping", "ping", survey, "--ping", 45)
     draw("plot_fan", "fan", survey, "--ping", 45)
     draw("plot_water_column", "water-column", survey)
-    with tempfile.TemporaryDirectory() as folder:
-        fish, bow = (pathlib.Path(folder) / f"{name}.mcap" for name in ("fish", "bow"))
-        made.write(fish, made.sidescan(pings=160))
-        made.write(bow, made.soundings())
-        draw("plot_waterfall", "waterfall", fish)
-        draw("plot_waterfall_ground", "waterfall", fish, "--ground")
-        draw("plot_angular_response", "angular-response", bow)
+    draw("plot_waterfall", "waterfall", aside)
+    draw("plot_waterfall_ground", "waterfall", aside, "--ground")
+    draw("plot_angular_response", "angular-response", demo)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 6:
         sys.exit(__doc__)
     draw_all(*sys.argv[1:])

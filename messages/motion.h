@@ -61,6 +61,7 @@ struct MissionState {
   std::string state;
   std::int64_t line = -1;
   std::int64_t line_count = 0;
+  std::string line_name;
   double cross_track_m = 0.0;
   double distance_to_go_m = 0.0;
 
@@ -70,6 +71,7 @@ struct MissionState {
     visit("state", "", "run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done", self.state);
     visit("line", "1", "index of the runline being run, -1 before the first", self.line);
     visit("line_count", "1", "number of runlines in the mission", self.line_count);
+    visit("line_name", "", "name of the runline being run; empty: it has none", self.line_name);
     visit("cross_track_m", "m", "estimated distance right of the runline, positive to starboard", self.cross_track_m);
     visit("distance_to_go_m", "m", "distance to the end of the runline", self.distance_to_go_m);
   }

@@ -125,7 +125,7 @@ TEST_CASE("in a current lines are held against it, and run-outs are run") {
 }
 
 TEST_CASE("a line of several legs is followed round its bends, a circuit as often as set") {
-  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 150}, {100, 150}, {150, 250}}}});
+  AutopilotConfig config = steps({FollowLine{{{0, 20}, {0, 150}, {100, 150}, {150, 250}}, "bank"}});
   config.plan.mission.repeat = 2;
   Loop loop(config, kUnderWay);
   double worst_m = 0.0;
@@ -133,6 +133,7 @@ TEST_CASE("a line of several legs is followed round its bends, a circuit as ofte
   double longest_to_go_m = 0.0;
   loop.run_until(900_s, [&](const msg::MissionState& mission, const motion::State&) {
     CHECK(mission.line_count == 2);
+    CHECK(mission.line_name == (mission.state.starts_with("turn") || mission.state == "done" ? "" : "bank"));
     if (mission.state != "on_line") return;
     last_line = mission.line;
     worst_m = std::max(worst_m, std::abs(mission.cross_track_m));

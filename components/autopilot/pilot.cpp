@@ -78,6 +78,7 @@ void Pilot::begin(const FollowLine& line, SimTime) {
   }
   piece_ = 0;
   ++line_;
+  line_name_ = line.name;
   head_for_line();
 }
 
@@ -370,6 +371,7 @@ msg::MissionState Pilot::mission_state(SimTime now) const {
   mission.state = name_of(state_);
   mission.line = line_ - (state_ == State::kTurn ? 1 : 0);
   mission.line_count = line_count_;
+  if (holds_line()) mission.line_name = line_name_;
   if (state_ == State::kKeep) {
     mission.distance_to_go_m = (station_.place_enu_m() - place).norm();
   } else if (state_ == State::kOrbit) {

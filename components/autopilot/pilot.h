@@ -109,6 +109,7 @@ class Pilot {
   State state_ = State::kTurn;
   bool begun_ = false;
   std::int64_t line_ = -1;  // number of the line run or headed for
+  std::string line_name_;
   std::vector<runlines::Runline> pieces_;
   std::size_t piece_ = 0;
   runlines::Turn turn_;

@@ -78,9 +78,11 @@ struct AdaptivePlan {
 /// A line through two places or more, with run-in and run-out.
 struct FollowLine {
   std::vector<runlines::Vec2> points_enu_m;
+  std::string name = {};
 
   static void parameters(auto& self, auto&& visit) {
     visit("line", "", must(place()), "two places or more, run through with run-in and run-out", self.points_enu_m);
+    visit("name", "", any(), "name of the line, as mission_state/1 reports it", self.name);
   }
 };
 /// Pass through a place, on a heading where one is given.

@@ -39,7 +39,7 @@ TEST_CASE("a mission's steps are read in order, its straight legs with their dep
   run_out_m: 15
   repeat: 2
   steps:
-    - line: [[0, 0], [0, 100], [50, 150]]
+    - {line: [[0, 0], [0, 100], [50, 150]], name: bank 1}
     - {speed_mps: 1.5, altitude_m: 6}
     - {pass: [60, 160], heading_deg: 90}
     - {keep: [80, 160], for_s: 30, within_m: 2}
@@ -54,6 +54,7 @@ TEST_CASE("a mission's steps are read in order, its straight legs with their dep
                               .mission;
   REQUIRE(mission.steps.size() == 10);
   CHECK(std::get<FollowLine>(mission.steps[0]).points_enu_m.size() == 3);
+  CHECK(std::get<FollowLine>(mission.steps[0]).name == "bank 1");
   CHECK(std::get<GoAt>(mission.steps[1]).altitude_m == 6.0);
   CHECK(*std::get<PassPlace>(mission.steps[2]).heading_rad == Approx(1.5707963));
   CHECK(std::get<KeepPlace>(mission.steps[3]).within_m == 2.0);

@@ -8,10 +8,12 @@ import ensonify
 import numpy as np
 from support import SHARED, SOURCE, SystemTest
 
-# The harbour and its quay, posts farther apart; the boat drives at the quay, turns beside it at once, and leaves.
+# The harbour and its quay, posts farther apart, in a swell; the boat drives at the quay, turns beside it at once, and leaves.
 HARBOUR = (SOURCE / "scenarios/harbour/scenario.yaml").read_text()
 WALL_NORTH_M = -126.0
 OF_HARBOUR = {"post_spacing_m: 0.05": "post_spacing_m: 0.5",
+              "    disturbance: { preset: survey_launch }\n":
+                  "    roll: { amplitude_deg: 1.7, period_s: 5 }\n    heave: { amplitude_m: 0.1, period_s: 6 }\n",
               "  boat:\n": "  boat:\n    turn_acceleration_dps2: 10000\n    start: { position_m: [20, -66, 0], heading_deg: 180, speed_mps: 5 }\n",
               "    mountings:\n": "    mountings:\n      eye: { actual: { position_m: [1.5, 0, 0.8] } }\n"}
 MISSION = """mission:

@@ -27,9 +27,17 @@ class Terrain(SystemTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return folder
 
-    def scenario_on(self, folder):
-        """The bay with its generator replaced by a tile set."""
-        text = SCENARIO.read_text(encoding="utf-8")
+    def plain(self):
+        """The bay by Lambert's law: tiles do not know what of a rough sediment's slopes their heights have already."""
+        text, changed = re.subn(r"sediments: .*", "sediments: { 0: { lambert_mu_db: -25 } }", SCENARIO.read_text(encoding="utf-8"))
+        self.assertEqual(changed, 1)
+        path = self.folder / "plain.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def on_tiles(self, scenario, folder):
+        """A scenario with its generator replaced by a tile set."""
+        text = scenario.read_text(encoding="utf-8")
         text = re.sub(r"^  kind: layers\n", f"  kind: tiles\n  tiles: {{ folder: {folder} }}\n", text, flags=re.M)
         text = re.sub(r"^  (size_m: .*\n|layers:\n(    .*\n)+)", "", text, flags=re.M)
         path = self.folder / "on_tiles.yaml"
@@ -38,9 +46,10 @@ class Terrain(SystemTest):
 
     def test_a_survey_of_the_tiles_gives_the_pings_of_the_generator(self):
         launch = bay(3, topics="[bow/soundings]")
-        generated = self.run_launch(launch, out="generated", timeout=120)
+        plain = self.plain()
+        generated = self.run_launch(launch.replace(str(SCENARIO), str(plain)), out="generated", timeout=120)
         self.assertEqual(generated.code, 0, generated.stderr)
-        on_tiles = launch.replace(str(SCENARIO), str(self.scenario_on(self.build())))
+        on_tiles = launch.replace(str(SCENARIO), str(self.on_tiles(plain, self.build())))
         stored = self.run_launch(on_tiles, out="stored", timeout=120)
         self.assertEqual(stored.code, 0, stored.stderr)
         depths = []
@@ -281,7 +290,7 @@ class Terrain(SystemTest):
             subprocess.run(["umount", mount], check=True)
 
     def test_tiles_of_another_place_are_refused(self):
-        scenario = self.scenario_on(self.build())
+        scenario = self.on_tiles(SCENARIO, self.build())
         scenario.write_text(scenario.read_text().replace("latitude_deg: 42.25", "latitude_deg: 43.25"))
         launch = bay(1).replace(str(SCENARIO), str(scenario))
         result = self.run_launch(launch, out="elsewhere", timeout=60)

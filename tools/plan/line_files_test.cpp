@@ -189,8 +189,8 @@ TEST_CASE("a name that holds line ends, quotes or commas stays a name in each fo
   const std::string yaml = plan_text(set, {}, {}, Format::kYaml);
   CHECK(yaml ==
         "ensonify: mission/1\nsteps:\n"
-        "  - line: [[0.000, 0.000], [0.000, 90.000]]  # \"A\\nrepeat: 7\\r\\n\\\"x\\\", y\\u2028z\"\n"
-        "  - line: [[9.000, 0.000], [9.000, 90.000]]  # Linie \xc3\xa9\n");
+        "  - name: \"A\\nrepeat: 7\\r\\n\\\"x\\\", y\\u2028z\"\n    line: [[0.000, 0.000], [0.000, 90.000]]\n"
+        "  - name: \"Linie \xc3\xa9\"\n    line: [[9.000, 0.000], [9.000, 90.000]]\n");
   const LineSet again = read_lines(written("names.csv", plan_text(set, {}, {}, Format::kCsv)), "");
   REQUIRE(again.lines.size() == 2);
   CHECK(again.lines[0].name == name);
@@ -198,7 +198,7 @@ TEST_CASE("a name that holds line ends, quotes or commas stays a name in each fo
 
   // Latin-1 in a file that does not say so is no UTF-8: it is replaced, and nothing fails.
   set.lines[0].name = "Linie \xe9";
-  CHECK(plan_text(set, {}, {}, Format::kYaml).find("# \"Linie \xef\xbf\xbd\"\n") != std::string::npos);
+  CHECK(plan_text(set, {}, {}, Format::kYaml).find("name: \"Linie \xef\xbf\xbd\"\n") != std::string::npos);
   CHECK(plan_text(set, {}, {}, Format::kJson).find("\"Linie \xef\xbf\xbd\"") != std::string::npos);
 }
 

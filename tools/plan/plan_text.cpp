@@ -23,17 +23,14 @@ std::string place_text(const std::array<double, 2>& place, bool geodetic, const 
 
 constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // what is no UTF-8
 
-/// A name that ends no comment: as it is, or between quotes with escapes, which YAML and JSON share, where it holds
-/// what some reader takes for the end of a line (next line, line and paragraph separators too) or what cannot be
-/// printed.
-std::string in_comment(const std::string& name) {
+/// A text between quotes with escapes, which YAML and JSON share; what some reader takes for the end of a line (next
+/// line, line and paragraph separators too) is escaped.
+std::string quoted(const std::string& text) {
   bool breaks = false;
   for (const char* separator : {"\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"}) {
-    breaks = breaks || name.find(separator) != std::string::npos;
+    breaks = breaks || text.find(separator) != std::string::npos;
   }
-  const std::string quoted = nlohmann::json(name).dump(-1, ' ', breaks, kReplace);
-  const bool escaped = quoted != "\"" + name + "\"";
-  return escaped ? quoted : name;
+  return nlohmann::json(text).dump(-1, ' ', breaks, kReplace);
 }
 
 std::string yaml(const LineSet& set, const Numbers& numbers, std::optional<double> speed_mps) {
@@ -43,11 +40,11 @@ std::string yaml(const LineSet& set, const Numbers& numbers, std::optional<doubl
   if (set.geodetic) text += "positions: geodetic\n";
   text += "steps:\n";
   for (const auto& line : set.lines) {
-    text += "  - line: [";
+    text += line.name.empty() ? "  - line: [" : fmt::format("  - name: {}\n    line: [", quoted(line.name));
     for (std::size_t i = 0; i < line.places.size(); ++i) {
       text += fmt::format("{}[{}]", i == 0 ? "" : ", ", place_text(line.places[i], set.geodetic, ", "));
     }
-    text += line.name.empty() ? "]\n" : fmt::format("]  # {}\n", in_comment(line.name));
+    text += "]\n";
   }
   return text;
 }

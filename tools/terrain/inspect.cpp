@@ -268,7 +268,9 @@ int grid(const GridOptions& options) {
                                             {"rows", block.rows},
                                             {"spacing_m", block.spacing_m},
                                             {"west_m", block.east_m(0)},
-                                            {"south_m", block.north_m(0)}}
+                                            {"south_m", block.north_m(0)},
+                                            {"latitude_deg", seabed.terrain->origin().latitude_deg},
+                                            {"longitude_deg", seabed.terrain->origin().longitude_deg}}
                          .dump());
   return kExitOk;
 }

@@ -239,6 +239,7 @@ class MissionState(Message):
     state: run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done
     line [1]: index of the runline being run, -1 before the first
     line_count [1]: number of runlines in the mission
+    line_name: name of the runline being run; empty: it has none
     cross_track_m [m]: estimated distance right of the runline, positive to starboard
     distance_to_go_m [m]: distance to the end of the runline
     """
@@ -248,6 +249,7 @@ class MissionState(Message):
     state: str = ""
     line: int = -1
     line_count: int = 0
+    line_name: str = ""
     cross_track_m: float = 0.0
     distance_to_go_m: float = 0.0
 

@@ -70,7 +70,7 @@ def waterfall_panel(record, axes, ground: bool):
     altitudes_m = known_m if ground else [0.0] * len(pings)
     reach_m = max(float(geometry.ground_range_m(pings[0].end_m, altitude_m)) for altitude_m in altitudes_m)
     stack = stacked([received.t_s for received in pings], waterfall.lines_of(pings, altitudes_m, gain, reach_m / 300, 300))
-    drawn = axes.imshow(level_db(stack.rows), extent=(-reach_m, reach_m, stack.begin_s, stack.end_s), origin="lower", aspect="auto",
+    drawn = axes.imshow(level_db(stack.rows), extent=(-reach_m, reach_m, stack.begin, stack.end), origin="lower", aspect="auto",
                         cmap=waterfall.COPPER, interpolation="nearest")
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
     axes.set(xlabel=f"port     {'ground' if ground else 'slant'} range (m)     starboard", ylabel="time (s)")
@@ -91,7 +91,7 @@ def echogram(record, axes):
     gain = Gain(20.0, pings[0].ping.gain_absorption_dbpm)
     reach_m = pings[0].end_m
     stack = stacked([received.t_s for received in pings], water_column.lines_of(pings, [0] * len(pings), gain, reach_m / 500, 500))
-    drawn = axes.imshow(level_db(stack.rows).T, extent=(stack.begin_s, stack.end_s, reach_m, 0.0), aspect="auto", cmap=ECHOES,
+    drawn = axes.imshow(level_db(stack.rows).T, extent=(stack.begin, stack.end, reach_m, 0.0), aspect="auto", cmap=ECHOES,
                         interpolation="nearest")
     axes.set(xlabel="time (s)", ylabel="range below the sounder (m)")
     return drawn, gain.label()
@@ -101,7 +101,7 @@ def chart(record, axes):
     """Soundings of a multibeam on the middle of its lines, gridded: depth in colours, lit from the north-west."""
     survey = read_survey(record)
     soundings = survey.soundings
-    on_line = np.any([(soundings.t_s >= begin) & (soundings.t_s <= end) for begin, end in survey.on_line_s], axis=0)
+    on_line = soundings.line >= 0
     middle = on_line & (np.abs(soundings.north_m) < 30)
     east_m, north_m, up_m = (values[middle] for values in (soundings.east_m, soundings.north_m, soundings.up_m))
     frame = grid.frame_around(east_m, north_m, 1.0)

@@ -6,7 +6,7 @@ import numpy as np
 import ensonify
 from ensonify_plot.received import Span, process_of, settings_line
 from ensonify_plot.level import Gain
-from ensonify_plot.pictures import new_figure
+from ensonify_plot.pictures import entitle, new_figure
 from ensonify_plot.survey import UserError
 
 ONE_WAY_EQUIVALENT = 1.1288  # equivalent width of a uniform line's beam over its -3 dB width
@@ -188,9 +188,8 @@ def angular_response_picture(response: Response, class_deg: float):
     for each in (axes, counts):
         each.grid(alpha=0.2)
     (first, first_s), (last, last_s) = response.pings
-    which = f"{process_of(response.topic)}, pings {first} to {last}, t = {first_s:.3f} to {last_s:.3f} s"
-    figure.suptitle(f"Angular response: {which}, {len(response.strength_db):,} soundings\n{response.facts}\n{response.corrections}",
-                    fontsize=9.5, x=0.02, ha="left")
+    which = f"{len(response.strength_db):,} soundings of pings {first} to {last}, t = {first_s:.3f} to {last_s:.3f} s"
+    entitle(figure, f"Angular response: {process_of(response.topic)}", [which, response.facts, response.corrections])
     return figure
 
 

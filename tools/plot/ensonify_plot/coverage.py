@@ -1,21 +1,15 @@
-"""An adaptive survey from above: what soundings have covered, the depths found, the lines run, and lines that were planned."""
-import json
-import pathlib
-
+"""A survey from above: what soundings have covered, the depths found, the lines run, and lines that were planned."""
 import numpy as np
 
 import ensonify
-from ensonify_plot.pictures import new_figure
-from ensonify_plot.survey import UserError
+from ensonify_plot import grid, pictures
+from ensonify_plot.pictures import DEPTH_COLOURS, new_figure
+from ensonify_plot.survey import Survey
 
 
-def coverage_picture(record: ensonify.Record, plan: str | None):
-    """Depth with the lines run above, soundings of each cell below; with a plan its lines above both."""
-    topics = record.topics_of(ensonify.Coverage)
-    if not topics:
-        raise UserError("the record has no coverage/1; record the topic of a coverage process")
-    last = [m.content for m in record.messages(topics[0])][-1]
-    planned = read_plan(plan) if plan else []
+def adaptive_picture(record: ensonify.Record, topic: str, planned: list):
+    """What a coverage process counted: depth with the lines run above, soundings of each cell below; with a plan its lines above both."""
+    last = [m.content for m in record.messages(topic)][-1]
     figure = new_figure(10, 2.2 * (3 if planned else 2) + 0.6)
     panels = list(figure.subplots(3 if planned else 2, 1, sharex=True))
     shape = np.array(last.soundings.shape) * last.cell_m
@@ -23,7 +17,7 @@ def coverage_picture(record: ensonify.Record, plan: str | None):
     depth_m, count = -np.asarray(last.height_m, float).T, np.asarray(last.soundings, float).T
     if planned:
         _depths(panels[0], depth_m, extent)
-        lines = [_in_rectangle(np.array(line), last) for line in planned]
+        lines = [_in_rectangle(line, last) for line in planned]
         for line in lines:
             panels[0].plot(*line.T, color="black", linewidth=0.8)
         panels[0].set_title(f"planned: {len(lines)} lines, {sum(map(_length_m, lines)) / 1e3:.2f} km", fontsize=10)
@@ -48,16 +42,35 @@ def coverage_picture(record: ensonify.Record, plan: str | None):
     return figure
 
 
-def read_plan(path: str) -> list:
-    """Places of each line of `ensonify plan lines --json`."""
-    try:
-        return [line["places"] for line in json.loads(pathlib.Path(path).read_text())["lines"]]
-    except (OSError, ValueError, KeyError, TypeError) as fault:
-        raise UserError(f"{path}: cannot be read as a plan ({fault}); allowed: what ensonify plan lines --json prints") from fault
+def survey_picture(survey: Survey, frame: grid.Frame, needed: int, planned: list):
+    """Any survey: depth with the track and planned lines, and beside it the soundings of each cell; cells of the area that hold fewer
+    than are needed are red."""
+    s = survey.soundings
+    gridder = grid.Gridder(frame, s.east_m, s.north_m)
+    up_m = gridder.mean(s.up_m)
+    area = grid.inside(frame, grid.outline(frame, gridder.count > 0))
+    width, height = pictures.map_size_in(frame)
+    tall = height > 0.75 * width
+    figure = new_figure(width * (1.7 if tall else 1), height * (1 if tall else 1.85))
+    left, right = figure.subplots(1, 2, sharey=True) if tall else figure.subplots(2, 1, sharex=True)
+    relief = pictures.Relief(up_m, frame.cell_m)
+    mappable = relief.draw(left, frame, up_m)
+    covered = np.count_nonzero((gridder.count >= needed) & area) / max(np.count_nonzero(area), 1)
+    pictures.map_axes(left, frame, f"Depth: {len(s):,} soundings, {len(survey.lines)} lines")
+    pictures.draw_track(left, survey)
+    pictures.draw_plan(left, planned)
+    pictures.depth_bar(figure, mappable, left)
+    counted = np.where(gridder.count >= needed, gridder.count, np.nan).astype(float)
+    right.imshow(np.where(area, 1.0, np.nan), extent=frame.extent_m, origin="lower", cmap=pictures.UNCOVERED, interpolation="nearest")
+    mappable = right.imshow(counted, extent=frame.extent_m, origin="lower", cmap="viridis", interpolation="nearest", vmin=needed,
+                            vmax=max(np.percentile(gridder.count[gridder.count > 0], 98), needed + 1))
+    pictures.map_axes(right, frame, f"{covered:.2%} of the area covered by {needed} or more in {frame.cell_m:g} m (red: not)")
+    pictures.colour_bar(figure, mappable, right, "soundings")
+    return figure
 
 
 def _depths(panel, depth_m: np.ndarray, extent: tuple):
-    return panel.imshow(depth_m, origin="lower", extent=extent, aspect="auto", cmap="viridis_r", interpolation="nearest")
+    return panel.imshow(depth_m, origin="lower", extent=extent, aspect="auto", cmap=DEPTH_COLOURS, interpolation="nearest")
 
 
 def _length_m(line: np.ndarray) -> float:

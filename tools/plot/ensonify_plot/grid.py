@@ -18,6 +18,7 @@ class Frame:
     cell_m: float
     cols: int
     rows: int
+    origin: tuple | None = None  # latitude and longitude of the world's, degrees: maps bear these instead of metres
 
     @property
     def extent_m(self) -> tuple:
@@ -37,11 +38,11 @@ class Frame:
         return np.meshgrid(east, north)
 
 
-def frame_around(east_m, north_m, cell_m: float) -> Frame:
+def frame_around(east_m, north_m, cell_m: float, origin: tuple | None = None) -> Frame:
     """The smallest frame around all points."""
     west, south = (np.floor(x.min() / cell_m) * cell_m for x in (east_m, north_m))
     cols, rows = (int(np.floor((x.max() - low) / cell_m)) + 1 for x, low in ((east_m, west), (north_m, south)))
-    return Frame(float(west), float(south), cell_m, cols, rows)
+    return Frame(float(west), float(south), cell_m, cols, rows, origin)
 
 
 def cells_of(east_m, north_m, cell_m: float) -> float:

@@ -5,6 +5,7 @@ import os
 import sys
 
 import numpy as np
+from osgeo import osr
 
 import ensonify
 from ensonify_plot import files, grid, pictures, reduction, uncertainty
@@ -39,6 +40,11 @@ def parse(arguments) -> argparse.Namespace:
     survey.add_argument("--out", metavar="DIR", help="folder for the results; default: where the record is")
     survey.add_argument("--cell", type=float, metavar="M", help="cell size in m; default: the finest of 0.1, 0.2, 0.5, ... m at "
                         f"which {grid.WELL_FILLED:.0%} of the cells hold {grid.MIN_COUNT} soundings".replace("%", "%%"))
+    survey.add_argument("--turns", action="store_true", help="soundings of turns, run-ins and run-outs too; default: of lines alone, where the "
+                        "record states the mission")
+    survey.add_argument("--utm", action="store_true", help="bathymetry.tif in the UTM zone of the survey; default: in the scenario's own "
+                        "transverse Mercator")
+    survey.add_argument("--latlon", action="store_true", help="maps with latitude and longitude; default: metres from the origin")
     how = survey.add_mutually_exclusive_group()
     how.add_argument("--gauge", metavar="FILE", help="heights by tide gauge: water levels in m above chart datum, lines \"2025-06-01T12:00:00Z,"
                      "1.35\", less settlement, plus the measured heave; default: the estimate's heights")
@@ -62,16 +68,15 @@ def plot_survey(options) -> int:
     """`ensonify plot survey`."""
     record = open_record(options.record)
     out = Writer(options.out or folder_of(record), options.json)
-    survey = read_survey(record)
+    survey = read_survey(record, options.turns)
+    if options.utm and survey.origin is None:
+        raise UserError(f"--utm: {record.file} does not state where the world is (no chart/1)")
     if options.settlement and not options.gauge:
         raise UserError("--settlement: needs --gauge")
     heights = "by the estimate"
     if options.gauge or options.separation:
         heights = reduction.reduce(survey, record, options.gauge, options.settlement, options.separation)
-    if len(survey.soundings) == 0:
-        raise UserError(f"{record.file}: none of the {survey.beam_count:,} beams of {survey.ping_count:,} pings has an accepted "
-                        "sounding")
-    summary = draw_survey(survey, chosen_cell(survey, options.cell), out)
+    summary = draw_survey(survey, options, out)
     draw_a_ping(record, out)
     summary = {"record": os.path.basename(record.file), "whole_record": record.whole, "heights": heights, **summary, **run_facts(out.folder),
                "files": [*out.files, "summary.json"]}
@@ -94,31 +99,17 @@ def draw_a_ping(record: ensonify.Record, out: Writer) -> None:
     out.picture("ping.png", ping_picture(received, soundings_of(record, received)))
 
 
-def chosen_cell(survey: Survey, given: float | None) -> float:
-    """The cell size in metres: the user's, or what the soundings can fill."""
-    s = survey.soundings
-    if given is None:
-        return grid.choose_cell_m(s.east_m, s.north_m)
-    if not given > 0 or grid.cells_of(s.east_m, s.north_m, given) > grid.MAX_CELLS:
-        raise UserError(f"--cell {given:g}: must be positive and give at most {grid.MAX_CELLS:,} cells")
-    return given
-
-
-def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
+def draw_survey(survey: Survey, options, out: Writer) -> dict:
     """Everything about the seabed; returns its part of the summary."""
     s = survey.soundings
-    frame = grid.frame_around(s.east_m, s.north_m, cell_m)
+    frame = survey.frame(options.cell, options.latlon)
+    cell_m = frame.cell_m
     gridder = grid.Gridder(frame, s.east_m, s.north_m)
     up_m = gridder.mean(s.up_m)
-    facts = {"ENSONIFY_VERSION": survey.info.get("version", ""), "SEED": survey.info.get("seed", ""), "CELL_SIZE_M": cell_m,
-             "VERTICAL_DATUM": "chart datum of the scenario"}
     stated = uncertainty.stated(s.tvu_m, s.thu_m, -s.up_m)
-    tvu_m = gridder.mean(s.tvu_m) if stated else None
-    files.write_geotiff(out.path("bathymetry.tif"), frame, up_m, gridder.count, tvu_m, survey.origin, facts)
-    files.write_csv(out.path("soundings.csv"), [
-        ("t_s", s.t_s, 6), ("head", s.head, survey.heads), ("ping", s.ping, 0), ("beam", s.beam, 0),
-        ("east_m", s.east_m, 3), ("north_m", s.north_m, 3), ("depth_m", -s.up_m, 3), ("backscatter_db", s.backscatter_db, 2),
-        ("tvu_m", s.tvu_m, 3), ("thu_m", s.thu_m, 3)])
+    latitude_deg, longitude_deg = files.geodetic_of(survey.origin, s.east_m, s.north_m)
+    write_bathymetry(survey, cell_m, files.utm_crs(latitude_deg.mean(), longitude_deg.mean()) if options.utm else None, out)
+    write_soundings(survey, latitude_deg, longitude_deg, out)
     relief = pictures.Relief(up_m, cell_m)
     out.picture("survey.png", pictures.survey_picture(survey, frame, up_m, relief))
     statistics = None
@@ -131,23 +122,58 @@ def draw_survey(survey: Survey, cell_m: float, out: Writer) -> dict:
         if statistics:
             error_m = s.up_m - true_up_m
             statistics |= uncertainty.kept(error_m, s.tvu_m, s.beam_angle_rad) or {}
+            statistics["order"] = uncertainty.order_of_errors(error_m, -true_up_m)
             picture = pictures.difference_picture(survey, frame, gridder.mean(error_m), error_m, statistics)
             out.picture("difference.png", picture)
     return {
-        "heads": survey.heads, "pings": survey.ping_count, "beams": survey.beam_count, "soundings": len(s),
-        "accepted": len(s) / survey.beam_count, "cell_m": cell_m, "end_s": survey.end_s,
+        "heads": survey.heads, "lines": [line.name for line in survey.lines], "pings": survey.ping_count, "beams": survey.beam_count,
+        "soundings": len(s), "left_out_in_turns": survey.in_turns,
+        "accepted": (len(s) + survey.in_turns) / survey.beam_count, "cell_m": cell_m, "end_s": survey.end_s,
         "depth_m": {"least": float(-s.up_m.max()), "mean": float(-s.up_m.mean()), "greatest": float(-s.up_m.min())},
-        "coverage": coverage(survey, frame), "uncertainty": stated, "depth_against_truth": statistics,
+        "coverage": coverage(survey, frame), "depth_against_truth": statistics, "uncertainty": stated,
+        "warning": uncertainty.warning(statistics, stated),
     }
+
+
+def write_bathymetry(survey: Survey, cell_m: float, utm: osr.SpatialReference | None, out: Writer) -> None:
+    """bathymetry.tif: cells of the world, or of UTM."""
+    s = survey.soundings
+    world = files.world_crs(survey.origin)
+    east_m, north_m = (s.east_m, s.north_m) if utm is None else files.transformed(world, utm, s.east_m, s.north_m)
+    frame = grid.frame_around(east_m, north_m, cell_m)
+    gridder = grid.Gridder(frame, east_m, north_m)
+    facts = {"ENSONIFY_VERSION": survey.info.get("version", ""), "SEED": survey.info.get("seed", ""), "CELL_SIZE_M": cell_m,
+             "VERTICAL_DATUM": "chart datum of the scenario"}
+    tvu_m = gridder.mean(s.tvu_m) if np.isfinite(s.tvu_m).any() else None
+    files.write_geotiff(out.path("bathymetry.tif"), frame, gridder.mean(s.up_m), gridder.count, tvu_m, utm or world, facts)
+
+
+def write_soundings(survey: Survey, latitude_deg, longitude_deg, out: Writer) -> None:
+    """soundings.csv. What the record does not state is left empty."""
+    s = survey.soundings
+    times_s, ping = np.unique(s.t_s, return_inverse=True)
+    files.write_csv(out.path("soundings.csv"), [
+        ("t_s", s.t_s, 6), ("utc", ping, utc_texts(survey.utc_start_ns, times_s)),
+        ("line", s.line, [*(line.name for line in survey.lines), ""]),  # index -1 is the last
+        ("head", s.head, survey.heads), ("ping", s.ping, 0), ("beam", s.beam, 0),
+        ("latitude_deg", latitude_deg, 9), ("longitude_deg", longitude_deg, 9),
+        ("east_m", s.east_m, 3), ("north_m", s.north_m, 3), ("depth_m", -s.up_m, 3), ("received_level_db", s.received_level_db, 2),
+        ("tvu_m", s.tvu_m, 3), ("thu_m", s.thu_m, 3)])
+
+
+def utc_texts(utc_start_ns: int | None, times_s: np.ndarray) -> list:
+    """Sim times as 2025-06-01T12:00:00.123456Z."""
+    if utc_start_ns is None:
+        return [""] * len(times_s)
+    utc = np.datetime64(utc_start_ns, "ns") + np.rint(times_s * 1e9).astype("timedelta64[ns]")
+    return [text + "Z" for text in np.datetime_as_string(utc, unit="us").tolist()]
 
 
 def coverage(survey: Survey, frame: grid.Frame) -> dict:
     """Share of the surveyed area that has soundings. The area is the convex hull of what was seen on the runlines (or, if
     the record does not state these, at any time)."""
     s = survey.soundings
-    on_line = np.zeros(len(s), bool)
-    for begin, end in survey.on_line_s:
-        on_line |= (s.t_s >= begin) & (s.t_s <= end)
+    on_line = s.line >= 0
     reported = bool(on_line.any())
     part = on_line if reported else np.ones(len(s), bool)
     cells = frame.cols * frame.rows
@@ -162,23 +188,27 @@ def coverage(survey: Survey, frame: grid.Frame) -> dict:
 
 
 def in_words(summary: dict) -> str:
-    """The summary for people, in some lines."""
-    lines = [f"{summary['soundings']:,} soundings ({summary['accepted']:.1%} of the beams) of {summary['pings']:,} pings, depth "
+    """The summary for people, in some lines: what is true before what is claimed."""
+    turns = f", {summary['left_out_in_turns']:,} of turns left out" if summary["left_out_in_turns"] else ""
+    lines = [f"{summary['soundings']:,} soundings of {summary['pings']:,} pings ({summary['accepted']:.1%} of the beams accepted{turns}), depth "
              f"{summary['depth_m']['least']:.2f} to {summary['depth_m']['greatest']:.2f} m, cells of {summary['cell_m']:g} m",
              f"coverage {summary['coverage']['share']:.1%} of {summary['coverage']['area_m2'] / 1e4:.2f} ha "
              f"({summary['coverage']['of']})"]
     stated, truth = summary["uncertainty"], summary["depth_against_truth"]
+    if truth:
+        lines.append(f"against the true seabed: bias {truth['bias_m']:+.3f} m, standard deviation {truth['std_m']:.3f} m, 95 % "
+                     f"within {truth['within_95_m']:.3f} m, {truth['inside_special_order']:.1%} inside IHO S-44 Special Order; "
+                     f"heights keep {truth['order'] or 'no order'}")
+    else:
+        lines.append("the record holds no tiles below the soundings: nothing to compare with")
     if stated:
-        lines.append(f"predicted at 95 %: TVU {stated['tvu_m']:.3f} m, THU {stated['thu_m']:.3f} m (medians); IHO S-44 (6th edition), "
+        lines.append(f"as stated at 95 %: TVU {stated['tvu_m']:.3f} m, THU {stated['thu_m']:.3f} m (medians); IHO S-44 (6th edition), "
                      f"uncertainty only: {stated['order'] or 'no order'}")
     if truth and "inside_tvu" in truth:
         shares = truth["inside_tvu_by_angle"]
-        lines.append(f"errors inside the predicted TVU: {truth['inside_tvu']:.1%}; by beam angle {min(shares):.1%} to {max(shares):.1%}")
-    if truth:
-        lines.append(f"against the true seabed: bias {truth['bias_m']:+.3f} m, standard deviation {truth['std_m']:.3f} m, 95 % "
-                     f"within {truth['within_95_m']:.3f} m, {truth['inside_special_order']:.1%} inside IHO S-44 Special Order")
-    else:
-        lines.append("the record holds no tiles below the soundings: nothing to compare with")
+        lines.append(f"errors inside the stated TVU: {truth['inside_tvu']:.1%}; by beam angle {min(shares):.1%} to {max(shares):.1%}")
+    if summary["warning"]:
+        lines.append(f"warning: {summary['warning']}")
     if summary.get("real_time_factor"):
         lines.append(f"{summary['sim_s']:.1f} s in {summary['wall_s']:.1f} s: {summary['real_time_factor']:.1f} times real time, "
                      f"{summary['late_events']} late events")

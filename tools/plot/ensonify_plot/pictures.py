@@ -1,16 +1,18 @@
 """Maps of a survey: depth with hillshade and track, the true seabed in the same colours, the difference."""
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
+from ensonify_plot.files import geodetic_of, transformed, wgs84, world_crs
 from ensonify_plot.grid import Frame
 
 DPI = 130
 SUN_AZIMUTH_DEG, SUN_ALTITUDE_DEG = 315.0, 45.0
-# Shallow to deep: ever darker, as on a chart, with enough hues to read a depth off the bar.
+# Shoal is red and deep is blue, as hydrographers colour it.
 DEPTH_COLOURS = LinearSegmentedColormap.from_list(
-    "depth", ["#fdeeb0", "#f0d574", "#b9d27a", "#72bf8c", "#3fa29b", "#3280aa", "#3358a0", "#332f78", "#21194a"])
+    "depth", ["#c8262b", "#ec6a2c", "#f6b13a", "#efe267", "#a6d466", "#4cb98a", "#2f95b5", "#315fae", "#33307f"])
+UNCOVERED = ListedColormap(["#d62728"])
 
 
 def new_figure(width_in: float, height_in: float) -> Figure:
@@ -18,6 +20,12 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     figure = Figure(figsize=(width_in, height_in), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def entitle(figure, title: str, facts: list) -> None:
+    """A short title above, and below it in small print what a reader must know besides: one line each."""
+    figure.suptitle(title, fontsize=10, x=0.02, ha="left")
+    figure.supxlabel("\n".join(fact for fact in facts if fact), fontsize=7.5, x=0.02, ha="left", color="0.35")
 
 
 def hillshade(up_m: np.ndarray, cell_m: float, exaggeration: float) -> np.ndarray:
@@ -65,16 +73,50 @@ class Relief:
 
 
 def map_axes(axes, frame: Frame, title: str) -> None:
-    """East and north in metres, the same scale on both, a light grid."""
+    """East and north in metres or longitude and latitude, the same scale on both, a light grid."""
     west, east, south, north = frame.extent_m
     margin = 0.02 * max(east - west, north - south)
-    axes.set(xlim=(west - margin, east + margin), ylim=(south - margin, north + margin), xlabel="east of origin (m)",
-             ylabel="north of origin (m)")
+    axes.set(xlim=(west - margin, east + margin), ylim=(south - margin, north + margin))
     axes.set_aspect("equal")
+    if frame.origin is None:
+        axes.set(xlabel="east of origin (m)", ylabel="north of origin (m)")
+    else:
+        _geodetic_ticks(axes, frame)
     axes.set_title(title, fontsize=10, loc="left")
     axes.set_facecolor("#f2f2f0")
     axes.grid(color="black", alpha=0.12, linewidth=0.5)
     axes.tick_params(labelsize=8)
+
+
+def _geodetic_ticks(axes, frame: Frame) -> None:
+    """Ticks at round latitudes along the west side and round longitudes along the south side, in degrees and minutes."""
+    west, east, south, north = frame.extent_m
+    latitudes, longitudes = geodetic_of(frame.origin, [west, east, west], [south, south, north])
+    parallels = round_minutes(latitudes[0], latitudes[2])
+    meridians = round_minutes(longitudes[0], longitudes[1])
+    world = world_crs(frame.origin)
+    _, north_m = transformed(wgs84(), world, parallels / 60, np.full(len(parallels), longitudes[0]))
+    east_m, _ = transformed(wgs84(), world, np.full(len(meridians), latitudes[0]), meridians / 60)
+    axes.set_yticks(north_m, in_minutes(parallels, "NS"), rotation=90, va="center")
+    axes.set_xticks(east_m, in_minutes(meridians, "EW"))
+
+
+def round_minutes(low_deg: float, high_deg: float) -> np.ndarray:
+    """Two to five round places between two, in minutes of arc."""
+    span = 60 * (high_deg - low_deg)
+    step = next(size * 10.0**power for power in range(-4, 5) for size in (1, 2, 5) if span / (size * 10.0**power) < 5)
+    return step * np.arange(np.ceil(60 * low_deg / step), np.floor(60 * high_deg / step) + 1)
+
+
+def in_minutes(minutes: np.ndarray, sides: str) -> list:
+    """54°17.95'N, as charts have it; with as many decimals as tell them apart."""
+    step = np.diff(minutes).min() if len(minutes) > 1 else 1.0
+    decimals = max(0, int(np.ceil(-np.log10(step) - 1e-9)))
+    texts = []
+    for each in minutes:
+        degrees, rest = divmod(round(abs(each), decimals), 60)
+        texts.append(f"{degrees:.0f}°{rest:0{2 + decimals + (decimals > 0)}.{decimals}f}'{sides[each < 0]}")
+    return texts
 
 
 def colour_bar(figure, mappable, axes, label: str):
@@ -104,13 +146,22 @@ def draw_track(axes, survey) -> None:
     if not t_s.size:
         return
     axes.plot(east, north, color="black", linewidth=0.6, alpha=0.6, linestyle=(0, (4, 2)), label="track")
-    for number, (begin, end) in enumerate(survey.on_line_s, start=1):
-        part = (t_s >= begin) & (t_s <= end)
+    for number, line in enumerate(survey.lines):
+        part = (t_s >= line.begin_s) & (t_s <= line.end_s)
         if part.any():
-            axes.plot(east[part], north[part], color="black", linewidth=1.0, label="runline" if number == 1 else None)
-            axes.annotate(str(number), (east[part][0], north[part][0]), fontsize=7, ha="center", va="center",
+            axes.plot(east[part], north[part], color="black", linewidth=1.0, label="runline" if number == 0 else None)
+            axes.annotate(line.name, (east[part][0], north[part][0]), fontsize=7, ha="center", va="center",
                           bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "linewidth": 0.6})
     axes.legend(loc="upper right", fontsize=7, framealpha=0.9)
+
+
+def draw_plan(axes, planned: list) -> None:
+    """Planned lines over a map, each with a dot where it begins."""
+    for number, line in enumerate(planned):
+        axes.plot(*line.T, color="#c2007a", linewidth=3, alpha=0.5, label="planned" if number == 0 else None)
+        axes.plot(*line[0], color="#c2007a", marker="o", markersize=5)
+    if planned:
+        axes.legend(loc="upper right", fontsize=7, framealpha=0.9)
 
 
 def survey_picture(survey, frame: Frame, up_m, relief: Relief) -> Figure:
@@ -169,12 +220,12 @@ def difference_picture(survey, frame: Frame, difference_m, error_m, statistics: 
     left, right = figure.subfigures(1, 2, width_ratios=(1.25 if tall else 1.75, 1))
     limit = max(3 * robust_std(error_m), 0.01)
     axes = left.subplots()
-    mappable = axes.imshow(difference_m, extent=frame.extent_m, origin="lower", interpolation="nearest", cmap="RdBu",
+    mappable = axes.imshow(difference_m, extent=frame.extent_m, origin="lower", interpolation="nearest", cmap="RdBu_r",
                            vmin=-limit, vmax=limit)
     map_axes(axes, frame, "")
     left.suptitle(f"Survey minus truth, mean per {frame.cell_m:g} m cell\n{_in_words(statistics)}", x=0.02, ha="left",
                   fontsize=10)
-    colour_bar(left, mappable, axes, "survey minus truth (m); blue: too shallow, red: too deep")
+    colour_bar(left, mappable, axes, "survey minus truth (m); red: too shallow, blue: too deep")
     histogram, by_angle = right.subplots(2, 1)
     _draw_histogram(histogram, error_m, statistics)
     _draw_by_angle(by_angle, survey.soundings, error_m)

@@ -7,7 +7,7 @@ import ensonify
 from ensonify_plot import geometry
 from ensonify_plot.received import ReceivedPing
 from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
-from ensonify_plot.pictures import new_figure
+from ensonify_plot.pictures import entitle, new_figure
 
 ECHOES = "inferno"  # dark to bright, evenly, also for the colour-blind and on paper
 FINDS = "#6fe3ff"  # detections on top of it
@@ -37,8 +37,8 @@ def bar(figure, mappable, axes, gain: Gain, limits: Limits) -> None:
 
 
 def headline(figure, what: str, received: ReceivedPing) -> None:
-    """Two lines over a picture: what, which ping of which head when; with which settings."""
-    figure.suptitle(f"{what}: {received.name()}\n{received.facts()}", fontsize=9.5, x=0.02, ha="left")
+    """What, and which ping of which head; when and with which settings below."""
+    entitle(figure, f"{what}: {received.head}, ping {received.ping.ping}", [f"t = {received.t_s:.3f} s; {received.facts()}"])
 
 
 def fan_picture(received: ReceivedPing, soundings: ensonify.Soundings | None, show: Show):

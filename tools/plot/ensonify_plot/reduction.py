@@ -41,9 +41,7 @@ def reduce(survey: Survey, record: ensonify.Record, gauge: str | None, settlemen
     known = np.isfinite(anew_m)
     if not known.any():
         raise UserError(f"{record.file}: no sounding lies between the first and the last height")
-    kept = {field.name: getattr(s, field.name)[known] for field in dataclasses.fields(s)}
-    kept["up_m"] = kept["up_m"] + (anew_m - estimated_m)[known]
-    survey.soundings = type(s)(**kept)
+    survey.soundings = dataclasses.replace(s, up_m=s.up_m + (anew_m - estimated_m)).chosen(known)
     return "by tide gauge" if gauge else "by satellite"
 
 

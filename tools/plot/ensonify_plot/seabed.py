@@ -1,4 +1,5 @@
 """A seabed as its scenario or tile set has it: depths under a sun, and the sediment classes beside them."""
+import dataclasses
 import json
 import os
 import subprocess
@@ -9,7 +10,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from ensonify_plot.grid import Frame
-from ensonify_plot.pictures import Relief, depth_bar, map_axes, map_size_in, new_figure
+from ensonify_plot.pictures import Relief, depth_bar, draw_plan, map_axes, map_size_in, new_figure
+from ensonify_plot.plan import add_plan, read_plan
 from ensonify_plot.survey import UserError
 
 CLASS_COLOURS = ["#d9cfa8", "#8a5a44", "#e8c98f", "#5b8c5a", "#4d6f94", "#c0504d", "#8064a2", "#7f7f7f"]
@@ -25,22 +27,27 @@ def add_seabed(verbs) -> None:
     verb.add_argument("--title", help="above the picture; default: the file's folder")
     verb.add_argument("--around", nargs=3, type=float, metavar=("EAST", "NORTH", "SIDE"), help="a square, in m; default: all of it")
     verb.add_argument("--posts", type=int, default=1000, help="per side, at most; default: 1000")
+    verb.add_argument("--latlon", action="store_true", help="latitude and longitude; default: metres from the origin")
+    add_plan(verb)
 
 
 def plot_seabed(options) -> int:
     """`ensonify plot seabed`."""
-    frame, up_m, classes = read_seabed(options)
+    frame, up_m, classes, origin = read_seabed(options)
     if not np.isfinite(up_m).any():
         raise UserError(f"{options.seabed}: has no height there")
     title = options.title or os.path.basename(os.path.dirname(os.path.abspath(options.seabed)))
-    figure = seabed_picture(frame, up_m, classes, title)
+    planned = read_plan(options.plan, origin)
+    if options.latlon:
+        frame = dataclasses.replace(frame, origin=origin)
+    figure = seabed_picture(frame, up_m, classes, title, planned)
     figure.savefig(options.out, pil_kwargs={"compress_level": 9})
     print(options.out)
     return 0
 
 
 def read_seabed(options):
-    """Frame, heights and classes of what was asked for, from `ensonify terrain grid`."""
+    """Frame, heights, classes and the world's origin of what was asked for, from `ensonify terrain grid`."""
     program = os.path.join(os.environ["ENSONIFY_BIN"], "ensonify-terrain")
     with tempfile.NamedTemporaryFile(prefix="ensonify-") as raw:
         words = [program, "grid", options.seabed, "--out", raw.name, "--posts", str(options.posts)]
@@ -57,11 +64,12 @@ def read_seabed(options):
     up_m = np.frombuffer(data, "<f4", count).reshape(shape)
     classes = np.frombuffer(data, np.uint8, count, 4 * count).reshape(shape)
     step = facts["spacing_m"]
-    return Frame(facts["west_m"] - step / 2, facts["south_m"] - step / 2, step, shape[1], shape[0]), up_m, classes
+    frame = Frame(facts["west_m"] - step / 2, facts["south_m"] - step / 2, step, shape[1], shape[0])
+    return frame, up_m, classes, (facts["latitude_deg"], facts["longitude_deg"])
 
 
-def seabed_picture(frame: Frame, up_m, classes, title: str):
-    """Depths; beside them the classes, if there is more than one."""
+def seabed_picture(frame: Frame, up_m, classes, title: str, planned: list):
+    """Depths with planned lines; beside them the classes, if there is more than one."""
     relief = Relief(up_m, frame.cell_m)
     several = np.unique(classes[np.isfinite(up_m)]).size > 1
     width, height = map_size_in(frame)
@@ -72,6 +80,7 @@ def seabed_picture(frame: Frame, up_m, classes, title: str):
     mappable = relief.draw(axes[0], frame, up_m)
     map_axes(axes[0], frame, f"{title}\nposts {frame.cell_m:g} m apart, slopes shaded x{relief.exaggeration:g}")
     depth_bar(figure, mappable, axes[0])
+    draw_plan(axes[0], planned)
     if several:
         draw_classes(axes[1], frame, up_m, classes)
     return figure

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ensonify_plot import geometry
+from ensonify_plot.pictures import entitle
 from ensonify_plot.received import ReceivedPing
 
 MOST_PINGS = 800  # across a picture; more are averaged in groups, in power
@@ -11,27 +12,27 @@ MOST_PINGS = 800  # across a picture; more are averaged in groups, in power
 
 @dataclass
 class Stack:
-    """Rows of power over time: row 0 is the earliest. `begin_s` and `end_s` are the image's edges."""
+    """Rows of power over time, or along the track: row 0 is the earliest. `begin` and `end`, s or m, are the image's edges."""
 
     rows: np.ndarray
-    begin_s: float
-    end_s: float
+    begin: float
+    end: float
     averaged: int  # pings in a row
 
 
-def stacked(t_s: list, lines: list) -> Stack:
-    """One line of power per ping (NaN where there is none) on rows of equal time; gaps between pings stay empty."""
+def stacked(along: list, lines: list) -> Stack:
+    """One line of power per ping (NaN where there is none) on rows of equal time, or of equal distance; gaps between pings stay empty."""
     size = -(-len(lines) // MOST_PINGS)
-    t_s = geometry.grouped(np.asarray(t_s, float), size)
+    along = geometry.grouped(np.asarray(along, float), size)
     lines = geometry.grouped(np.asarray(lines), size)
-    ping, begin_s, end_s = geometry.ping_of_rows(t_s, 2 * MOST_PINGS)
-    return Stack(np.where((ping >= 0)[:, None], lines[ping], np.nan), begin_s, end_s, size)
+    ping, begin, end = geometry.ping_of_rows(along, 2 * MOST_PINGS)
+    return Stack(np.where((ping >= 0)[:, None], lines[ping], np.nan), begin, end, size)
 
 
 def span_headline(figure, what: str, first: ReceivedPing, last: ReceivedPing, remarks: list) -> None:
-    """Two lines over a picture: what, which pings of which head when; with which settings, of the first ping."""
-    span = (f"pings {first.ping.ping} to {last.ping.ping}, t = {first.t_s:.3f} to {last.t_s:.3f} s")
-    figure.suptitle("\n".join([f"{what}: {first.head}, {span}", first.facts(), *remarks]), fontsize=9.5, x=0.02, ha="left")
+    """What, and of which head; below which pings when, with which settings (of the first ping), and remarks."""
+    span = f"pings {first.ping.ping} to {last.ping.ping}, t = {first.t_s:.3f} to {last.t_s:.3f} s"
+    entitle(figure, f"{what}: {first.head}", [f"{span}; {first.facts()}", *remarks])
 
 
 @dataclass
@@ -49,23 +50,34 @@ class Track:
         return Track(np.array([received.t_s for received in pings]), np.array([received.ping.ping for received in pings], float),
                      np.array([received.ping.pose_position_enu_m[0] for received in pings]) if reported else None)
 
-    def scale(self) -> tuple:
-        """(label, values at t_s), rising, for a second axis."""
-        if self.position_enu_m is not None and len(self.t_s) > 1:
-            steps_m = np.hypot(*np.diff(self.position_enu_m[:, :2], axis=0).T)
-            if (steps_m > 0).all():
-                return "along the track, by the head's estimate (m)", np.concatenate([[0.0], np.cumsum(steps_m)])
-        return "ping", self.ping
+    def distance_m(self) -> np.ndarray | None:
+        """Covered since the first ping, rising; None where it is not known, or where a head did not move."""
+        if self.position_enu_m is None or len(self.t_s) < 2:
+            return None
+        steps_m = np.hypot(*np.diff(self.position_enu_m[:, :2], axis=0).T)
+        return np.concatenate([[0.0], np.cumsum(steps_m)]) if (steps_m > 0).all() else None
+
+    def time_scale(self) -> tuple:
+        """(label, values) of the times of transmission."""
+        return "time of transmission (s)", self.t_s
+
+    def other_scale(self) -> tuple:
+        """(label, values at t_s), rising: what can stand opposite to the times."""
+        distance_m = self.distance_m()
+        return ("ping", self.ping) if distance_m is None else (ALONG, distance_m)
 
 
-def second_axis(axes, side: str, track: Track) -> None:
-    """A second scale opposite to the time axis; `side` is "right" or "top"."""
-    label, values = track.scale()
+ALONG = "along the track, by the head's estimate (m)"
+
+
+def second_axis(axes, side: str, main: tuple, other: tuple) -> None:
+    """A second scale opposite to the main one, both (label, values of the pings); `side` is "right" or "top"."""
+    (_, known), (label, values) = main, other
     if len(values) < 2:
         return
     upright = side == "right"
     axis = (axes.secondary_yaxis if upright else axes.secondary_xaxis)(
-        side, functions=(lambda t: extended(t, track.t_s, values), lambda value: extended(value, values, track.t_s)))
+        side, functions=(lambda t: extended(t, known, values), lambda value: extended(value, values, known)))
     axis.tick_params(labelsize=8)
     (axis.set_ylabel if upright else axis.set_xlabel)(label)
 

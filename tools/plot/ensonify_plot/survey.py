@@ -1,13 +1,15 @@
 """A record's survey as flat arrays: soundings, track, true seabed."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
 import ensonify
+from ensonify_plot import grid
 from ensonify_plot.truth import Seabed
 
 
 TRACK_NS = 100_000_000  # finer than this no picture shows a track
+WORKING = ("on_line", "pass", "keep", "orbit")  # states of a mission whose soundings are wanted; the others are ways between
 
 
 class UserError(Exception):
@@ -20,24 +22,39 @@ class Soundings:
 
     t_s: np.ndarray  # of transmission, sim time
     head: np.ndarray  # index into Survey.heads
+    line: np.ndarray  # index into Survey.lines; -1: on none
     ping: np.ndarray
     beam: np.ndarray
     beam_angle_rad: np.ndarray
     east_m: np.ndarray
     north_m: np.ndarray
     up_m: np.ndarray  # from chart datum
-    backscatter_db: np.ndarray
+    received_level_db: np.ndarray  # re 1 uPa, uncorrected
     tvu_m: np.ndarray  # predicted at 95 %; NaN: not given
     thu_m: np.ndarray
 
     def __len__(self) -> int:
         return len(self.t_s)
 
+    def chosen(self, which: np.ndarray) -> "Soundings":
+        """Those of a mask."""
+        return Soundings(**{each.name: getattr(self, each.name)[which] for each in fields(self)})
+
+
+@dataclass(frozen=True)
+class Line:
+    """A runline as it was run once."""
+
+    begin_s: float  # sim time
+    end_s: float
+    name: str  # the mission's; or its number, the first is 1
+
 
 @dataclass
 class Survey:
     """What a record says about a survey."""
 
+    file: str  # of the record
     soundings: Soundings
     heads: list  # topic names without the port
     ping_count: int
@@ -45,15 +62,33 @@ class Survey:
     track_t_s: np.ndarray
     track_east_m: np.ndarray
     track_north_m: np.ndarray
-    on_line_s: list  # (begin, end) of each runline, sim time; empty if the record does not state
+    lines: list  # in the order run; empty if the record does not state them
     seabed: Seabed
     origin: tuple | None  # latitude, longitude in degrees of the world's origin, None if the record does not state
     end_s: float = 0.0
     info: dict = field(default_factory=dict)
+    utc_start_ns: int | None = None
+    in_turns: int = 0  # accepted soundings that were left out because they are of turns and other ways
+
+    def frame(self, cell_m: float | None = None, latlon: bool = False) -> grid.Frame:
+        """Around the soundings, of the user's cells or of what the soundings can fill. Raises UserError."""
+        s = self.soundings
+        if len(s) == 0 and self.in_turns:
+            raise UserError(f"{self.file}: all {self.in_turns:,} accepted soundings are of turns and other ways; --turns takes them")
+        if len(s) == 0:
+            raise UserError(f"{self.file}: none of the {self.beam_count:,} beams of {self.ping_count:,} pings has an accepted sounding")
+        if latlon and self.origin is None:
+            raise UserError(f"--latlon: {self.file} does not state where the world is (no chart/1)")
+        if cell_m is None:
+            cell_m = grid.choose_cell_m(s.east_m, s.north_m)
+        if not cell_m > 0 or grid.cells_of(s.east_m, s.north_m, cell_m) > grid.MAX_CELLS:
+            raise UserError(f"--cell {cell_m:g}: must be positive and give at most {grid.MAX_CELLS:,} cells")
+        return grid.frame_around(s.east_m, s.north_m, cell_m, self.origin if latlon else None)
 
 
-def read_survey(record: ensonify.Record) -> Survey:
-    """Raises UserError if the record holds no soundings."""
+def read_survey(record: ensonify.Record, turns: bool = False) -> Survey:
+    """A record's survey; soundings of turns, run-ins and run-outs only if they are asked for, or if the record does not state the
+    mission. Raises UserError if the record holds no soundings."""
     topics = record.topics_of(ensonify.Soundings)
     if not topics:
         raise UserError(f"{record.file}: holds no soundings (no topic of type soundings/1 was recorded)")
@@ -65,11 +100,17 @@ def read_survey(record: ensonify.Record) -> Survey:
     heads = [topic.rsplit("/", 1)[0] for topic in topics]
     track = _track(record)
     ends = [part[1].stamp_ns for part in parts[-1:]] + [int(t * 1e9) for t in track[0][-1:]]
-    return Survey(_flattened(parts), heads, pings, beams, *track, _on_line(record), _seabed(record), _origin(record),
-                  max(ends, default=0) * 1e-9, record.info)
+    lines, working_s = _mission(record)
+    soundings = _flattened(parts, lines)
+    wanted = np.full(len(soundings), turns or not working_s)
+    for begin_s, end_s in working_s:
+        wanted |= (soundings.t_s >= begin_s) & (soundings.t_s <= end_s)
+    utc_start_ns = record.utc_start_ns if "utc_start_ns" in record.info else None
+    return Survey(record.file, soundings.chosen(wanted), heads, pings, beams, *track, lines, _seabed(record), _origin(record),
+                  max(ends, default=0) * 1e-9, record.info, utc_start_ns, int(np.count_nonzero(~wanted)))
 
 
-def _flattened(parts: list) -> Soundings:
+def _flattened(parts: list, lines: list) -> Soundings:
     """One array per quantity from all messages, without what the detector refused."""
 
     def whole(values, dtype):
@@ -88,8 +129,10 @@ def _flattened(parts: list) -> Soundings:
     def each(values, dtype):
         return np.repeat(np.array(values, dtype), lengths)[valid]
 
+    t_s = [message.stamp_ns * 1e-9 for message in messages]
     return Soundings(
-        t_s=each([message.stamp_ns * 1e-9 for message in messages], np.float64),
+        t_s=each(t_s, np.float64),
+        line=each([next((n for n, line in enumerate(lines) if line.begin_s <= t <= line.end_s), -1) for t in t_s], np.int32),
         head=each([head for head, _ in parts], np.int16),
         ping=each([message.ping for message in messages], np.int64),
         beam=whole([np.arange(length) for length in lengths], np.int32)[valid],
@@ -97,7 +140,7 @@ def _flattened(parts: list) -> Soundings:
         east_m=position[valid, 0],
         north_m=position[valid, 1],
         up_m=position[valid, 2],
-        backscatter_db=whole([message.backscatter_db for message in messages], np.float32)[valid],
+        received_level_db=whole([message.backscatter_db for message in messages], np.float32)[valid],
         tvu_m=of_soundings("tvu_m"),
         thu_m=of_soundings("thu_m"),
     )
@@ -114,18 +157,25 @@ def _track(record: ensonify.Record) -> tuple:
     return np.empty(0), np.empty(0), np.empty(0)
 
 
-def _on_line(record: ensonify.Record) -> list:
+def _mission(record: ensonify.Record) -> tuple:
+    """The lines as they were run, and (begin, end) of whatever was no way to somewhere, sim time."""
     topics = record.topics_of(ensonify.MissionState)
-    spans, line = [], None
+    lines, working_s, before, line = [], [], False, None
     for message in record.messages(*topics) if topics else []:
         state, t_s = message.content, message.content.stamp_ns * 1e-9
+        working = state.state in WORKING
+        if working and before:
+            working_s[-1][1] = t_s
+        elif working:
+            working_s.append([t_s, t_s])
+        before = working
         now = state.line if state.state == "on_line" else None
         if now is not None and now == line:
-            spans[-1][1] = t_s
+            lines[-1] = replace(lines[-1], end_s=t_s)
         elif now is not None:
-            spans.append([t_s, t_s])
+            lines.append(Line(t_s, t_s, state.line_name or str(now + 1)))
         line = now
-    return [tuple(span) for span in spans]
+    return lines, working_s
 
 
 def _seabed(record: ensonify.Record) -> Seabed:

@@ -3,8 +3,7 @@ import argparse
 import math
 
 import ensonify
-from ensonify_plot import angular_response, scanning, water_column, waterfall
-from ensonify_plot.coverage import coverage_picture
+from ensonify_plot import angular_response, coverage, grid, scanning, water_column, waterfall
 from ensonify_plot.forward_looking import forward_looking_picture
 from ensonify_plot.received import (Span, choose_ping, choose_topic, has_two_sides, heads_with_soundings, is_fan, is_single, of_heads,
                                      pings_in, process_of, soundings_of)
@@ -12,8 +11,10 @@ from ensonify_plot.level import Gain
 from ensonify_plot.lod import add_lod
 from ensonify_plot.navigation import navigation_picture
 from ensonify_plot.ping import Show, fan_picture, ping_picture
+from ensonify_plot.plan import add_plan, read_plan
 from ensonify_plot.results import open_record, save_picture
 from ensonify_plot.seabed import add_seabed
+from ensonify_plot.survey import read_survey
 
 GAIN_HELP = ("added to the received level for display: S,A for S log10 R + 2 A R (S in dB, A in dB/km, R slant range in m, held "
              "below 1 m); none; head: the head's own law without its offset; or auto: head, or ")
@@ -76,8 +77,14 @@ def _add_water_column(verbs) -> None:
 
 def _add_coverage(verbs) -> None:
     command = _verb(verbs, "coverage", plot_coverage,
-                    "An adaptive survey from above: depths (m) with the lines run, and the soundings of each cell.")
-    command.add_argument("--plan", metavar="FILE", help="lines of `ensonify plan lines --json` to draw above; default: none")
+                    "A survey from above: depths (m) with the lines run, and the soundings of each cell. Of an adaptive survey what its "
+                    "coverage process counted.")
+    command.add_argument("--cell", type=_number(0.01, 1e4), metavar="M", help="cell size in m; default: as of plot survey")
+    command.add_argument("--soundings", type=int, default=grid.MIN_COUNT, metavar="N",
+                         help=f"accepted soundings that a covered cell has at least; default: {grid.MIN_COUNT}")
+    command.add_argument("--turns", action="store_true", help="soundings of turns, run-ins and run-outs too; default: of lines alone")
+    command.add_argument("--latlon", action="store_true", help="latitude and longitude; default: metres from the origin")
+    add_plan(command)
 
 
 def _add_angular_response(verbs) -> None:
@@ -277,5 +284,11 @@ def plot_navigation(options) -> int:
 def plot_coverage(options) -> int:
     """`ensonify plot coverage`."""
     record = open_record(options.record)
-    save_picture(record, options.out, "coverage.png", coverage_picture(record, options.plan))
+    survey = read_survey(record, options.turns)
+    planned = read_plan(options.plan, survey.origin)
+    if topics := record.topics_of(ensonify.Coverage):
+        figure = coverage.adaptive_picture(record, topics[0], planned)
+    else:
+        figure = coverage.survey_picture(survey, survey.frame(options.cell, options.latlon), options.soundings, planned)
+    save_picture(record, options.out, "coverage.png", figure)
     return 0

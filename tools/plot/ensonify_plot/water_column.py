@@ -47,9 +47,11 @@ def lines_of(pings: list, beams: list, gain: Gain, cell_m: float, cells: int) ->
 def detections_of(record: ensonify.Record, pings: list, beams: list) -> tuple:
     """(time of transmission, slant range) of what was detected in the chosen beam of each ping."""
     topic = one_of_process(record, pings[0].topic, ensonify.Soundings)
+    if topic is None:
+        return tracked(record, pings)
     chosen = {received.ping.ping: (received, beam) for received, beam in zip(pings, beams)}
     found = []
-    for message in record.messages(topic) if topic else ():
+    for message in record.messages(topic):
         s = message.content
         if s.ping not in chosen:
             continue
@@ -58,6 +60,14 @@ def detections_of(record: ensonify.Record, pings: list, beams: list) -> tuple:
         for time_s in s.travel_time_s[entries & (s.valid == 1)]:
             found.append((received.t_s, float(time_s) * received.ping.sound_speed_mps / 2))
     return tuple(np.array(found).reshape(-1, 2).T)
+
+
+def tracked(record: ensonify.Record, pings: list) -> tuple:
+    """The same of a head that publishes no soundings but a bottom track, such as an echosounder."""
+    topic = one_of_process(record, pings[0].topic, ensonify.BottomTrack)
+    t_s = {received.ping.ping: received.t_s for received in pings}
+    tracks = (m.content for m in record.messages(topic)) if topic else ()
+    return tuple(np.array([(t_s[m.ping], m.altitude_m) for m in tracks if m.valid and m.ping in t_s]).reshape(-1, 2).T)
 
 
 def stack_picture(record: ensonify.Record, pings: list, from_vertical_deg: float, show: Show):
@@ -75,18 +85,19 @@ def stack_picture(record: ensonify.Record, pings: list, from_vertical_deg: float
     limits = limits_of(image, show.limits_db, PERCENTILES)
     figure = new_figure(11.5, 6.0)
     axes = figure.subplots()
-    mappable = axes.imshow(image.T, extent=(stack.begin_s, stack.end_s, reach_m, 0.0), aspect="auto", cmap=ECHOES,
+    mappable = axes.imshow(image.T, extent=(stack.begin, stack.end, reach_m, 0.0), aspect="auto", cmap=ECHOES,
                            vmin=limits.low_db, vmax=limits.high_db, interpolation="nearest")
     axes.set_facecolor(EMPTY)
     if len(t_s):
-        axes.plot(t_s, range_m, ".", color=FINDS, markersize=2, label=f"detections of this beam ({len(t_s)})")
+        axes.plot(t_s, range_m, ".", color=FINDS, markersize=2, label=f"detected ({len(t_s)})")
         axes.legend(loc="upper right", fontsize=7, markerscale=4)
-    axes.set(xlabel="time of transmission (s)", ylabel="slant range from the head (m)")
+    track = Track.of(pings)
+    axes.set(xlabel=track.time_scale()[0], ylabel="slant range from the head (m)")
     axes.tick_params(labelsize=8)
-    second_axis(axes, "top", Track.of(pings))
+    second_axis(axes, "top", track.time_scale(), track.other_scale())
     bar(figure, mappable, axes, gain, limits)
-    what = "straight down" if from_vertical_deg == 0 else f"at {from_vertical_deg:+g}° from straight down"
-    by = "by the measured attitude" if pings[0].vertical_rad() is not None else "by the head's down axis"
-    averaged = [f"{stack.averaged} pings averaged per column"] if stack.averaged > 1 else []
-    span_headline(figure, f"Water column {what} ({by})", pings[0], pings[-1], averaged)
+    what = "straight down" if from_vertical_deg == 0 else f"{from_vertical_deg:+g}° from straight down"
+    by = "straight down by the measured attitude" if pings[0].vertical_rad() is not None else "straight down by the head's down axis"
+    averaged = f"; {stack.averaged} pings averaged per column" if stack.averaged > 1 else ""
+    span_headline(figure, f"Water column {what}", pings[0], pings[-1], [by + averaged])
     return figure

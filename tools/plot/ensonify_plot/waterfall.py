@@ -8,7 +8,7 @@ from ensonify_plot.received import Span, choose_topic, has_two_sides, require_so
 from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
 from ensonify_plot.ping import EMPTY, FINDS, Show, bar
 from ensonify_plot.pictures import new_figure
-from ensonify_plot.stack import Track, second_axis, span_headline, stacked
+from ensonify_plot.stack import ALONG, Track, second_axis, span_headline, stacked
 from ensonify_plot.survey import UserError
 
 COPPER = LinearSegmentedColormap.from_list("copper", ["#000000", "#3a1d08", "#8a4b12", "#cf8a2c", "#f3c870", "#fff6dc"])
@@ -16,6 +16,8 @@ PERCENTILES = (2, 99.7)  # of the seabed
 WITH_COLUMN = (25, 99.7)  # of all, where nothing separates the water column from the seabed
 LEVELLED = Gain(30.0)  # a seabed cut by the pulse, where the head has no gain law
 CELLS = 480  # of a side
+WIDTH_IN = 9.0  # of both sides together
+LEAST_IN, MOST_IN = 2.0, 36.0  # along the track; beyond, a picture to scale is of no use
 
 
 def read(record: ensonify.Record, topic: str | None, numbers: Span, times: Span, ground: bool) -> tuple:
@@ -55,27 +57,34 @@ def lines_of(pings: list, altitudes_m: list, gain: Gain, cell_m: float, cells: i
 
 
 def waterfall_picture(pings: list, tracks: dict, ground: bool, show: Show):
-    """Time runs upwards, so that port is left and starboard right as on deck."""
+    """Runs upwards, so that port is left and starboard right as on deck: by distance, to scale, where the track is known, else by time."""
     gain = gain_for(show.gain, pings[0].ping, LEVELLED)
     known_m = [tracks[received.ping.ping].altitude_m if received.ping.ping in tracks else np.nan for received in pings]
     altitudes_m = known_m if ground else [0.0] * len(pings)
     reach_m = max(float(geometry.ground_range_m(received.end_m, altitude)) if np.isfinite(altitude) else 0.0
                   for received, altitude in zip(pings, altitudes_m))
     cell_m = reach_m / CELLS
-    stack = stacked([received.t_s for received in pings], lines_of(pings, altitudes_m, gain, cell_m, CELLS))
+    track = Track.of(pings)
+    distance_m = track.distance_m()
+    main, other = (track.time_scale(), track.other_scale()) if distance_m is None else ((ALONG, distance_m), track.time_scale())
+    stack = stacked(main[1], lines_of(pings, altitudes_m, gain, cell_m, CELLS))
     image = level_db(stack.rows)
     limits = colours(image, reach_m, 0.0 if ground else np.nanmax(known_m) if tracks else None, show)
-    figure = new_figure(10.5, 8.0)
+    high_in = WIDTH_IN * (stack.end - stack.begin) / (2 * reach_m)
+    to_scale = distance_m is not None and LEAST_IN <= high_in <= MOST_IN
+    figure = new_figure(WIDTH_IN + 1.5, (high_in if to_scale else 6.0) + 2.0)
     axes = figure.subplots()
-    mappable = axes.imshow(image, extent=(-reach_m, reach_m, stack.begin_s, stack.end_s), origin="lower", aspect="auto",
+    mappable = axes.imshow(image, extent=(-reach_m, reach_m, stack.begin, stack.end), origin="lower", aspect="equal" if to_scale else "auto",
                            cmap=COPPER, vmin=limits.low_db, vmax=limits.high_db, interpolation="nearest")
     axes.set_facecolor(EMPTY)
-    dress(axes, pings, ground)
+    dress(axes, ground, main, other)
     if tracks and not ground:
-        draw_bottom(axes, pings, known_m)
+        draw_bottom(axes, main[1], known_m)
     bar(figure, mappable, axes, gain, limits)
-    span_headline(figure, f"Sidescan waterfall, {'ground' if ground else 'slant'} range", pings[0], pings[-1],
-             remarks(pings, known_m, ground, stack.averaged))
+    notes = remarks(pings, known_m, ground, stack.averaged)
+    if distance_m is not None and not to_scale:
+        notes.append("along the track not to scale; fewer or more pings, --ping A:B, are")
+    span_headline(figure, f"Sidescan, {'ground' if ground else 'slant'} range", pings[0], pings[-1], notes)
     return figure
 
 
@@ -103,18 +112,17 @@ def remarks(pings: list, known_m: list, ground: bool, averaged: int) -> list:
     return ["; ".join(notes)] if notes else []
 
 
-def dress(axes, pings: list, ground: bool) -> None:
-    """Scales: range to both sides, time upwards, what was covered on the right."""
+def dress(axes, ground: bool, main: tuple, other: tuple) -> None:
+    """Scales: range to both sides; upwards the main one of (label, values of the pings), the other on the right."""
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
-    axes.set(xlabel=f"port     {'ground' if ground else 'slant'} range (m)     starboard", ylabel="time of transmission (s)")
+    axes.set(xlabel=f"port     {'ground' if ground else 'slant'} range (m)     starboard", ylabel=main[0])
     axes.tick_params(labelsize=8)
-    second_axis(axes, "right", Track.of(pings))
+    second_axis(axes, "right", main, other)
 
 
-def draw_bottom(axes, pings: list, altitude_m: list) -> None:
+def draw_bottom(axes, along: np.ndarray, altitude_m: list) -> None:
     """The first bottom as the instrument tracked it, on both sides."""
-    t_s = [received.t_s for received in pings]
     for side in (-1, 1):
-        axes.plot(side * np.array(altitude_m), t_s, color=FINDS, linewidth=0.8,
-                  label="first bottom by the instrument's bottom track" if side > 0 else None)
+        axes.plot(side * np.array(altitude_m), along, color=FINDS, linewidth=0.8,
+                  label="first bottom" if side > 0 else None)
     axes.legend(loc="upper right", fontsize=7)

@@ -6,6 +6,7 @@ import ensonify
 from ensonify import wire
 
 SPEED_MPS, PING_HZ, SOUND_SPEED_MPS = 2.0, 10, 1500.0
+UTC_START_NS = 1_748_779_200 * 10**9  # 2025-06-01T12:00:00Z
 
 
 def seabed_up_m(east_m, north_m):
@@ -55,14 +56,16 @@ def ping_of(soundings, range_m, samples, random):
                          range_m=60.0, sound_speed_mps=SOUND_SPEED_MPS)
 
 
-def write(file, lines=3, line_m=150.0, beams=64, spacing_m=35.0, noise_m=0.05, bias_m=0.02, every=50, leave_out=()):
-    """Lawnmower lines east and west; `leave_out` names types that the record does not hold."""
+def write(file, lines=3, line_m=150.0, beams=64, spacing_m=35.0, noise_m=0.05, bias_m=0.02, every=50, leave_out=(), turn_pings=0,
+          names=(), stated_share=1.0):
+    """Lawnmower lines east and west, as many pings behind each as a turn has, straight on and 1 m too deep; `names` of the lines; the
+    uncertainty stated is a share of the true one; `leave_out` names types that the record does not hold."""
     random = np.random.default_rng(1)
     angles = np.radians(np.linspace(-65, 65, beams))
     with open(file, "wb") as stream:
         writer = Writer(stream, chunk_size=1 << 20, compression=CompressionType.NONE)
         writer.start(profile="x-ensonify/1", library="test")
-        writer.add_metadata("ensonify", {"version": "0.1.0", "seed": "1", "utc_start_ns": "0"})
+        writer.add_metadata("ensonify", {"version": "0.1.0", "seed": "1", "utc_start_ns": str(UTC_START_NS)})
         channels = {}
 
         def put(topic, message, t_ns):
@@ -71,7 +74,7 @@ def write(file, lines=3, line_m=150.0, beams=64, spacing_m=35.0, noise_m=0.05, b
             if topic not in channels:
                 schema = writer.register_schema(message.TYPE, "jsonschema", b"{}")
                 channels[topic] = writer.register_channel(topic, "msgpack", schema)
-            writer.add_message(channels[topic], t_ns, wire.encode_inline(message.to_map()), t_ns, 0)
+            writer.add_message(channels[topic], UTC_START_NS + t_ns, wire.encode_inline(message.to_map()), UTC_START_NS + t_ns, 0)
 
         put("pager/chart", ensonify.Chart(origin_latitude_deg=54.3, origin_longitude_deg=10.2), 0)
         for tile in tiles(-80, -80, line_m + 80, lines * spacing_m + 80):
@@ -80,14 +83,17 @@ def write(file, lines=3, line_m=150.0, beams=64, spacing_m=35.0, noise_m=0.05, b
         for line in range(lines):
             eastward = line % 2 == 0
             heading = np.pi / 2 if eastward else -np.pi / 2
-            for n in range(pings_of_line):
+            for n in range(pings_of_line + turn_pings):
+                turning = n >= pings_of_line
                 t_ns = ping * 10**9 // PING_HZ
                 along = n * SPEED_MPS / PING_HZ
                 east = along if eastward else line_m - along
                 north = line * spacing_m
                 put("auv_nav/estimate", ensonify.Estimate(stamp_ns=t_ns, position_enu_m=(east, north, 0.0)), t_ns)
-                put("pilot/state", ensonify.MissionState(stamp_ns=t_ns, state="on_line", line=line), t_ns)
-                soundings, range_m = soundings_of(ping, t_ns, east, north, heading, angles, noise_m, bias_m, random)
+                put("pilot/state", ensonify.MissionState(stamp_ns=t_ns, state="turn" if turning else "on_line", line=line,
+                                                       line_name="" if turning or not names else names[line]), t_ns)
+                soundings, range_m = soundings_of(ping, t_ns, east, north, heading, angles, noise_m, bias_m - turning, random)
+                soundings.tvu_m *= np.float32(stated_share)
                 put("bow/soundings", soundings, t_ns)
                 if ping % every == 0:
                     put("bow/ping", ping_of(soundings, range_m, 1500, random), t_ns)

@@ -14,10 +14,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
 from ensonify_plot import angular_response, geometry, scanning, stack, water_column, waterfall  # noqa: E402
 from ensonify_plot.forward_looking import polar_panel, rectangular_panel  # noqa: E402
-from ensonify_plot.received import Span, received  # noqa: E402
+from ensonify_plot.received import Span, pings_in, received  # noqa: E402
 from ensonify_plot.level import Gain, level_db, limits_of  # noqa: E402
 from ensonify_plot.main import main  # noqa: E402
-from ensonify_plot.ping import fan_image  # noqa: E402
+from ensonify_plot.ping import Show, fan_image  # noqa: E402
 
 HAS_MCAP = importlib.util.find_spec("mcap") is not None
 if HAS_MCAP:
@@ -186,6 +186,27 @@ class Places(unittest.TestCase):
         image, (left, right, low, high) = polar_panel(scanning.assembled(turn), scanning.assembled(turn).power_upa2)
         self.assertAlmostEqual(low, -10.0, delta=0.1)
         self.assertAlmostEqual(high, 0.0, delta=0.1)
+
+    def test_a_waterfall_is_to_scale_where_the_track_is_known(self):
+        pings = [received("fish/ping", m) for _, m in made.sidescan(pings=200) if isinstance(m, ensonify.Ping)]
+        axes = waterfall.waterfall_picture(pings, {}, False, Show("auto")).axes[0]
+        self.assertEqual((axes.get_aspect(), axes.get_ylabel()), (1.0, stack.ALONG))
+        low, high = axes.get_ylim()
+        self.assertAlmostEqual(high - low, 200 * 2.0 / 10.0, delta=0.01)  # at 2 m/s and ten pings a second
+        for message in pings:  # a head that rests covers nothing
+            message.ping.pose_position_enu_m = np.zeros((1, 3))
+        axes = waterfall.waterfall_picture(pings, {}, False, Show("auto")).axes[0]
+        self.assertEqual((axes.get_aspect(), axes.get_ylabel()), ("auto", "time of transmission (s)"))
+
+    def test_a_bottom_track_scales_the_water_column(self):
+        with tempfile.TemporaryDirectory() as out:
+            record = pathlib.Path(out) / "fish.mcap"
+            made.write(record, made.sidescan(pings=20, altitude_m=12.0))
+            record = ensonify.Record(record)
+            pings = list(pings_in(record, "fish/ping", ALL, ALL))
+            t_s, range_m = water_column.detections_of(record, pings, [0] * 20)
+        np.testing.assert_allclose(t_s, np.arange(20) / 10, atol=1e-9)
+        np.testing.assert_allclose(range_m, 12.0 + 1.5 * np.sin(np.arange(20) / 40))
 
     def test_a_target_in_the_waterfall(self):
         pings, altitudes = [], []

@@ -17,9 +17,10 @@ from osgeo import gdal, osr
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
 from ensonify_plot import files, grid  # noqa: E402
-from ensonify_plot.main import coverage, main  # noqa: E402
-from ensonify_plot.pictures import hillshade  # noqa: E402
-from ensonify_plot.survey import read_survey  # noqa: E402
+from ensonify_plot.main import coverage, main, utc_texts  # noqa: E402
+from ensonify_plot.pictures import hillshade, in_minutes, round_minutes  # noqa: E402
+from ensonify_plot.plan import read_plan  # noqa: E402
+from ensonify_plot.survey import UserError, read_survey  # noqa: E402
 from ensonify_plot.truth import Seabed  # noqa: E402
 
 HAS_MCAP = importlib.util.find_spec("mcap") is not None
@@ -121,12 +122,86 @@ class OfARecord(unittest.TestCase):
         with open(self.root / "soundings.csv", newline="") as stream:
             rows = list(csv.DictReader(stream))
         self.assertEqual(len(rows), self.summary["soundings"])
-        self.assertEqual(list(rows[0]), ["t_s", "head", "ping", "beam", "east_m", "north_m", "depth_m", "backscatter_db", "tvu_m",
-                                         "thu_m"])
+        self.assertEqual(list(rows[0]), ["t_s", "utc", "line", "head", "ping", "beam", "latitude_deg", "longitude_deg", "east_m", "north_m",
+                                         "depth_m", "received_level_db", "tvu_m", "thu_m"])
         depths = np.array([float(row["depth_m"]) for row in rows])
         self.assertAlmostEqual(depths.mean(), self.summary["depth_m"]["mean"], places=3)
         self.assertEqual(rows[-1]["head"], "bow")
         self.assertEqual(int(rows[-1]["ping"]), self.pings - 1)
+
+    def test_the_csv_says_when_where_and_on_which_line(self):
+        with open(self.root / "soundings.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual((rows[0]["utc"], rows[0]["line"]), ("2025-06-01T12:00:00.000000Z", "1"))
+        self.assertEqual((rows[-1]["utc"], rows[-1]["line"]), ("2025-06-01T12:03:44.900000Z", "3"))
+        for row in rows[:: len(rows) // 50]:
+            # Metres from the origin, by the ellipsoid's radii of curvature there; within 300 m the plane errs by less than 20 mm.
+            sine = np.sin(np.radians(54.3))
+            across_m = 6378137.0 / np.sqrt(1 - 0.00669437999 * sine**2)
+            along_m = across_m * (1 - 0.00669437999) / (1 - 0.00669437999 * sine**2)
+            north_m = np.radians(float(row["latitude_deg"]) - 54.3) * along_m
+            east_m = np.radians(float(row["longitude_deg"]) - 10.2) * across_m * np.sqrt(1 - sine**2)
+            self.assertAlmostEqual(north_m, float(row["north_m"]), delta=0.02)
+            self.assertAlmostEqual(east_m, float(row["east_m"]), delta=0.02)
+
+    def test_utm_on_request(self):
+        with tempfile.TemporaryDirectory() as out:
+            self.assertEqual(run("survey", self.record, "--out", out, "--utm", "--latlon")[0], 0)
+            raster = gdal.Open(str(pathlib.Path(out) / "bathymetry.tif"))
+            up_m, count, _ = raster.ReadAsArray()
+            crs = osr.SpatialReference(raster.GetProjection())
+            self.assertEqual(crs.GetAuthorityCode(None), "32632")
+            west, cell_m, _, north, _, _ = raster.GetGeoTransform()
+            rows, cols = np.nonzero(count >= 5)
+            geodetic = files.transformed(crs, files.wgs84(), west + (cols + 0.5) * cell_m, north - (rows + 0.5) * cell_m)
+            east_m, north_m = files.transformed(files.wgs84(), files.world_crs((54.3, 10.2)), *geodetic)
+            self.assertLess(abs(np.median(up_m[rows, cols] - synthetic_record.seabed_up_m(east_m, north_m)) - BIAS_M), 0.01)
+
+    def test_soundings_of_turns_are_left_out_unless_asked_for(self):
+        with tempfile.TemporaryDirectory() as out:
+            record = pathlib.Path(out) / "turns.mcap"
+            synthetic_record.write(record, lines=2, line_m=60, turn_pings=100, names=("L01, north", "ré"), leave_out=("ping/1",))
+            code, printed, errors = run("survey", record)
+            self.assertEqual((code, errors), (0, ""))
+            lines = json.loads((pathlib.Path(out) / "summary.json").read_text())
+            self.assertAlmostEqual(lines["left_out_in_turns"], 0.99 * 200 * 64, delta=60)
+            self.assertAlmostEqual(lines["depth_against_truth"]["bias_m"], 0.02, delta=0.005)
+            self.assertIn("of turns left out", printed)
+            with open(pathlib.Path(out) / "soundings.csv", newline="", encoding="utf-8") as stream:
+                self.assertEqual({row["line"] for row in csv.DictReader(stream)}, {"L01, north", "ré"})
+            run("survey", record, "--turns")
+            everything = json.loads((pathlib.Path(out) / "summary.json").read_text())
+            self.assertEqual(everything["soundings"], lines["soundings"] + lines["left_out_in_turns"])
+            self.assertLess(everything["depth_against_truth"]["bias_m"], -0.1)
+            with open(pathlib.Path(out) / "soundings.csv", newline="", encoding="utf-8") as stream:
+                self.assertIn("", {row["line"] for row in csv.DictReader(stream)})
+
+    def test_truth_comes_before_claims_and_contradicts_them(self):
+        self.assertLess(self.printed.index("against the true seabed"), self.printed.index("as stated"))
+        self.assertIsNone(self.summary["warning"])
+        with tempfile.TemporaryDirectory() as out:
+            record = pathlib.Path(out) / "bold.mcap"
+            # True errors at 95 %: 0.5 m and more, inside 1a alone; a tenth of it is stated.
+            synthetic_record.write(record, lines=1, line_m=40, noise_m=0.2, stated_share=0.1, leave_out=("ping/1",))
+            printed = run("survey", record)[1]
+            summary = json.loads((pathlib.Path(out) / "summary.json").read_text())
+        self.assertEqual((summary["uncertainty"]["order"], summary["depth_against_truth"]["order"]), ("Special Order", "Order 1a"))
+        self.assertIn("warning: the soundings state Special Order, and their true errors keep Order 1a", printed)
+
+    def test_coverage_of_any_survey_with_a_plan_over_it(self):
+        with tempfile.TemporaryDirectory() as out:
+            plan = pathlib.Path(out) / "plan.json"
+            plan.write_text(json.dumps({"positions": "geodetic", "lines": [{"name": "", "places": [[54.3, 10.2], [54.3, 10.202]]}]}))
+            self.assertEqual(run("coverage", self.record, "--out", out, "--plan", plan, "--soundings", 5)[0], 0)
+            self.assertGreater((pathlib.Path(out) / "coverage.png").stat().st_size, 10000)
+            [line] = read_plan(str(plan), (54.3, 10.2))
+            np.testing.assert_allclose(line, [[0, 0], [130.2, 0]], atol=0.1)
+            with self.assertRaisesRegex(UserError, "has latitudes and longitudes"):
+                read_plan(str(plan), None)
+            plan.write_text("{}")
+            code, _, errors = run("coverage", self.record, "--plan", plan)
+            self.assertEqual(code, 2)
+            self.assertIn("cannot be read as a plan", errors)
 
     def test_json_is_the_summary(self):
         with tempfile.TemporaryDirectory() as out:
@@ -190,10 +265,29 @@ class Parts(unittest.TestCase):
     def test_numbers_are_written_as_text(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "x.csv"
+            self.assertEqual(utc_texts(None, np.array([1.0])), [""])
             values = np.array([0.0, -0.0004, -0.0006, 1234.5678, -7.0, np.nan])
             files.write_csv(str(path), [("a", values, 3), ("n", np.arange(6) * 11, 0), ("h", np.zeros(6, int), ["bow"])])
             self.assertEqual(path.read_text(), "a,n,h\n0.000,0,bow\n0.000,11,bow\n-0.001,22,bow\n1234.568,33,bow\n"
                                                "-7.000,44,bow\n,55,bow\n")
+
+    def test_texts_are_quoted_where_a_cell_must_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "x.csv"
+            texts = ["a b", 'say "é", twice', "two\nrows", ""]
+            files.write_csv(str(path), [("n", np.arange(4), 0), ("text", np.array([0, 1, 2, -1]), texts)])
+            with open(path, newline="", encoding="utf-8") as stream:
+                self.assertEqual([row["text"] for row in csv.DictReader(stream)], texts)
+
+    def test_utm_zones(self):
+        # Zone 32 reaches west to 3 degrees east between 56 and 64 degrees; on Svalbard there are 31, 33, 35 and 37 alone [DMA1989].
+        for place, code in (((54.3, 10.2), 32632), ((-33.9, 18.4), 32734), ((60.4, 5.3), 32632), ((60.4, 2.9), 32631), ((78.2, 15.6), 32633),
+                            ((78.2, 8.9), 32631), ((78.2, 9.1), 32633), ((0.0, -179.9), 32601), ((10.0, 180.0), 32601)):
+            self.assertEqual(files.utm_crs(*place).GetAuthorityCode(None), str(code), place)
+
+    def test_degrees_and_minutes_are_round(self):
+        self.assertEqual(in_minutes(round_minutes(54.2991, 54.3009), "NS"), ["54°17.95'N", "54°18.00'N", "54°18.05'N"])
+        self.assertEqual(in_minutes(round_minutes(-0.25, 0.25), "EW"), ["0°10'W", "0°00'E", "0°10'E"])
 
     def test_the_grid_means_and_counts(self):
         east, north, up = np.array([0.1, 0.4, 2.5]), np.array([0.2, 0.3, 1.5]), np.array([1.0, 3.0, 7.0])
