@@ -8,7 +8,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/printable.h"
-#include "components/runtime/version.h"
+#include "components/runtime/tool.h"
 #include "components/terrain/layers_source.h"
 #include "launch/check_ports.h"
 #include "launch/file/launch_file.h"
@@ -78,16 +78,11 @@ int check(const LaunchOptions& options, bool as_json) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify check: reads a launch file, its scenario and every configuration, and checks the wiring.");
   app.name("ensonify check");
-  app.set_version_flag("--version", kVersion);
   LaunchOptions options;
   bool as_json = false;
   add_options(app, options, true);
   app.add_flag("--json", as_json, "print problems and warnings as JSON");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   try {
     return check(options, as_json);
   } catch (const ExitError& error) {

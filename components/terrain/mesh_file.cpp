@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -32,6 +33,18 @@ void add_face(const std::vector<std::uint32_t>& corners, MeshFile& mesh) {
     const std::uint32_t a = corners[0], b = corners[i - 1], c = corners[i];
     if (a != b && b != c && c != a) mesh.triangle.push_back({a, b, c});
   }
+}
+
+/// One of its corners opens wider than rounding does.
+bool has_area(const MeshFile& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  constexpr double kRounding = 1e-12;  // sine
+  for (std::size_t k = 0; k < 3; ++k) {
+    const frames::Vec3& corner = mesh.vertex[triangle[k]];
+    const frames::Vec3 one = (mesh.vertex[triangle[(k + 1) % 3]] - corner).stableNormalized();
+    const frames::Vec3 other = (mesh.vertex[triangle[(k + 2) % 3]] - corner).stableNormalized();
+    if (one.cross(other).norm() > kRounding) return true;
+  }
+  return false;
 }
 
 /// "3", "3/1", "3//2" or "-1", which counts back from the last vertex, as a number from 0.
@@ -197,6 +210,8 @@ MeshFile read_mesh_file(const std::string& path) {
     if (!place.allFinite()) refuse(path, 1, "has a vertex that is not finite");
   }
   if (mesh.triangle.empty()) refuse(path, 1, "holds no triangle; allowed are meshes in OBJ or PLY");
+  if (std::none_of(mesh.triangle.begin(), mesh.triangle.end(), [&](const auto& t) { return has_area(mesh, t); }))
+    refuse(path, 1, "has no area: the corners of each of its triangles lie on one line");
   return mesh;
 }
 

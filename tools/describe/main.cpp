@@ -18,6 +18,7 @@
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/protocol.h"
+#include "components/runtime/tool.h"
 #include "launch/file/launch_file.h"
 #include "launch/process/run.h"
 #include "messages/schema.h"
@@ -298,8 +299,18 @@ std::optional<ParameterList> list_of_file(const std::string& name) {
                   (near.empty() ? "; `ensonify describe` lists them" : "; did you mean " + near + "?"));
 }
 
+/// A scenario that stands over another need not repeat its sections.
+std::string scenario_schema() {
+  Json schema = Json::parse(parameter_schema("Ensonify scenario", scenario_list()));
+  schema["if"]["not"]["required"] = Json::array({"include"});
+  schema["then"]["required"] = schema["required"];
+  schema["required"] = Json::array({"ensonify"});
+  return schema.dump(2) + "\n";
+}
+
 /// The parameters of a component or a file, as a schema for editors or a table for pages.
 std::string parameters_of_name(const std::string& name, bool as_schema) {
+  if (name == "scenario" && as_schema) return scenario_schema();
   if (name == "launch" && as_schema) return launch_schema(component_schemas());
   if (const auto list = list_of_file(name)) {
     return as_schema ? parameter_schema("Ensonify " + name, *list) : parameter_table(*list);
@@ -331,11 +342,7 @@ int main(int argc, char** argv) {
   auto* schema = app.add_flag("--schema", as_schema, "JSON Schema of the file or the parameters, for editors");
   app.add_flag("--table", as_table, "only the parameters, as a Markdown table")->excludes(yaml)->excludes(schema);
   app.add_flag("--reference", reference, "the page docs/manual/messages.md");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return exit_code_of([&] {
     const auto components = component_names();
     if (as_schema || as_table) {
