@@ -37,6 +37,8 @@ struct Lawnmower {
   }
 };
 
+constexpr std::size_t kLongestName = 200;  // of a line: it goes into every mission_state/1
+
 /// Kinds of steps, as they are before a file is read.
 const std::vector<MissionStep>& kinds_of_step() {
   static const std::vector<MissionStep> kKinds = {FollowLine{},
@@ -142,6 +144,9 @@ class Places {
 
   void place(const ConfigReader& from, FollowLine& line) const {
     for (Vec2& point : line.points_enu_m) place(from, "line", point);
+    if (line.name.size() > kLongestName) {
+      from.problem("name", fmt::format("has {} bytes; allowed: {}", line.name.size(), kLongestName));
+    }
     if (!from.good()) return;
     if (line.points_enu_m.size() < 2) from.problem("line", "has fewer than 2 places");
     for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {

@@ -98,6 +98,8 @@ TEST_CASE("wrong positions are reported with their distance, and swapped ones re
   CHECK(problems_of("  steps:\n    - line: [[465000, 5895000], [465100, 5895000]]\n")
             .find("465000 is outside [-100000, 100000]") != std::string::npos);
   CHECK(problems_of("  steps:\n    - line: [[0, .nan], [10, 0]]\n").find("line") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - {line: [[0, 0], [10, 0]], name: " + std::string(201, 'x') + "}\n")
+            .find("name: has 201 bytes; allowed: 200") != std::string::npos);
 }
 
 TEST_CASE("what cannot be run is reported before time starts") {

@@ -92,18 +92,25 @@ def vertical_rad(enu_from_head) -> float:
     return float(np.arctan2(starboard, down))
 
 
-def ping_of_rows(t_s: np.ndarray, most: int) -> tuple:
-    """(index of the ping in each row, -1 in a gap; first and last time) of an image with rows of equal time, `most` at most. A
-    ping stands in the rows nearest to it, up to one and a half of the median interval away."""
-    t_s = np.asarray(t_s, float)
-    if len(t_s) == 1:
-        return np.zeros(1, int), t_s[0] - 0.5, t_s[0] + 0.5
-    interval = float(np.median(np.diff(t_s)))
-    begin, end = t_s[0] - interval / 2, t_s[-1] + interval / 2
+def ping_of_rows(along: np.ndarray, most: int, t_s: np.ndarray | None = None) -> tuple:
+    """(index of the ping in each row, -1 in a gap; first and last place) of an image with rows of equal time or distance, `most` at most. A
+    ping stands in the rows nearest to it. Where pings are more than three of their median intervals apart, in time where `t_s` is given,
+    rows more than one and a half from both are a gap."""
+    along = np.asarray(along, float)
+    if len(along) == 1:
+        return np.zeros(1, int), along[0] - 0.5, along[0] + 0.5
+    steps = np.diff(along)
+    t_s = along if t_s is None else np.asarray(t_s, float)
+    interval = float(np.median(steps))
+    begin, end = along[0] - interval / 2, along[-1] + interval / 2
     rows = int(np.clip(round((end - begin) / interval), 1, most))
     centre = begin + (np.arange(rows) + 0.5) * (end - begin) / rows
-    ping = np.searchsorted((t_s[1:] + t_s[:-1]) / 2, centre)
-    return np.where(np.abs(t_s[ping] - centre) <= 1.5 * interval, ping, -1), begin, end
+    ping = np.searchsorted((along[1:] + along[:-1]) / 2, centre)
+    # Half way to its neighbours a ping stands everywhere, however fast the head went; across a gap in time it does not.
+    reach = np.where(np.diff(t_s) > 3 * np.median(np.diff(t_s)), 1.5 * interval, steps)
+    before, after = np.concatenate([[interval], reach]), np.concatenate([reach, [interval]])
+    off = centre - along[ping]
+    return np.where(np.where(off < 0, -off <= before[ping], off <= after[ping]), ping, -1), begin, end
 
 
 def grouped(values: np.ndarray, size: int) -> np.ndarray:

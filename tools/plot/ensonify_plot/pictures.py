@@ -1,4 +1,6 @@
 """Maps of a survey: depth with hillshade and track, the true seabed in the same colours, the difference."""
+import textwrap
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
@@ -150,8 +152,8 @@ def draw_track(axes, survey) -> None:
         part = (t_s >= line.begin_s) & (t_s <= line.end_s)
         if part.any():
             axes.plot(east[part], north[part], color="black", linewidth=1.0, label="runline" if number == 0 else None)
-            axes.annotate(line.name, (east[part][0], north[part][0]), fontsize=7, ha="center", va="center",
-                          bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "linewidth": 0.6})
+            axes.annotate(textwrap.shorten(line.name, 12, placeholder="…"), (east[part][0], north[part][0]), fontsize=7, ha="center", va="center",
+                          parse_math=False, bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "linewidth": 0.6})
     axes.legend(loc="upper right", fontsize=7, framealpha=0.9)
 
 

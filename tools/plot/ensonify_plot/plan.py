@@ -20,7 +20,9 @@ def read_plan(path: str | None, origin: tuple | None) -> list:
         return []
     try:
         plan = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-        lines = [np.array(line["places"], float).reshape(-1, 2) for line in plan["lines"]]
+        lines = [np.array(line["places"], float) for line in plan["lines"]]
+        if any(line.ndim != 2 or line.shape[1] != 2 or not np.isfinite(line).all() for line in lines):
+            raise ValueError("a line is not a list of places of two numbers")
         geodetic = plan.get("positions") == "geodetic"
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as fault:
         raise UserError(f"{path}: cannot be read as a plan ({fault}); allowed: what ensonify plan lines --json prints") from fault

@@ -20,12 +20,13 @@ class Stack:
     averaged: int  # pings in a row
 
 
-def stacked(along: list, lines: list) -> Stack:
-    """One line of power per ping (NaN where there is none) on rows of equal time, or of equal distance; gaps between pings stay empty."""
+def stacked(along: list, lines: list, t_s: list | None = None) -> Stack:
+    """One line of power per ping (NaN where there is none) on rows of equal time, or of equal distance; gaps between pings stay empty:
+    in time where `t_s` is given for pings along a distance."""
     size = -(-len(lines) // MOST_PINGS)
-    along = geometry.grouped(np.asarray(along, float), size)
+    along, t_s = (None if each is None else geometry.grouped(np.asarray(each, float), size) for each in (along, t_s))
     lines = geometry.grouped(np.asarray(lines), size)
-    ping, begin, end = geometry.ping_of_rows(along, 2 * MOST_PINGS)
+    ping, begin, end = geometry.ping_of_rows(along, 2 * MOST_PINGS, t_s)
     return Stack(np.where((ping >= 0)[:, None], lines[ping], np.nan), begin, end, size)
 
 

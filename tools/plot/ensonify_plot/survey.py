@@ -46,7 +46,7 @@ class Line:
     """A runline as it was run once."""
 
     begin_s: float  # sim time
-    end_s: float
+    end_s: float  # infinite where the record ends first
     name: str  # the mission's; or its number, the first is 1
 
 
@@ -104,9 +104,9 @@ def read_survey(record: ensonify.Record, turns: bool = False) -> Survey:
     soundings = _flattened(parts, lines)
     wanted = np.full(len(soundings), turns or not working_s)
     for begin_s, end_s in working_s:
-        wanted |= (soundings.t_s >= begin_s) & (soundings.t_s <= end_s)
+        wanted |= (soundings.t_s >= begin_s) & (soundings.t_s < end_s)
     utc_start_ns = record.utc_start_ns if "utc_start_ns" in record.info else None
-    return Survey(record.file, soundings.chosen(wanted), heads, pings, beams, *track, lines, _seabed(record), _origin(record),
+    return Survey(record.file, soundings.chosen(wanted), heads, pings, beams, *track, lines, _seabed(record), origin_of(record),
                   max(ends, default=0) * 1e-9, record.info, utc_start_ns, int(np.count_nonzero(~wanted)))
 
 
@@ -132,7 +132,7 @@ def _flattened(parts: list, lines: list) -> Soundings:
     t_s = [message.stamp_ns * 1e-9 for message in messages]
     return Soundings(
         t_s=each(t_s, np.float64),
-        line=each([next((n for n, line in enumerate(lines) if line.begin_s <= t <= line.end_s), -1) for t in t_s], np.int32),
+        line=each([next((n for n, line in enumerate(lines) if line.begin_s <= t < line.end_s), -1) for t in t_s], np.int32),
         head=each([head for head, _ in parts], np.int16),
         ping=each([message.ping for message in messages], np.int64),
         beam=whole([np.arange(length) for length in lengths], np.int32)[valid],
@@ -158,24 +158,24 @@ def _track(record: ensonify.Record) -> tuple:
 
 
 def _mission(record: ensonify.Record) -> tuple:
-    """The lines as they were run, and (begin, end) of whatever was no way to somewhere, sim time."""
-    topics = record.topics_of(ensonify.MissionState)
-    lines, working_s, before, line = [], [], False, None
-    for message in record.messages(*topics) if topics else []:
-        state, t_s = message.content, message.content.stamp_ns * 1e-9
-        working = state.state in WORKING
-        if working and before:
-            working_s[-1][1] = t_s
-        elif working:
-            working_s.append([t_s, t_s])
-        before = working
-        now = state.line if state.state == "on_line" else None
-        if now is not None and now == line:
-            lines[-1] = replace(lines[-1], end_s=t_s)
-        elif now is not None:
-            lines.append(Line(t_s, t_s, state.line_name or str(now + 1)))
-        line = now
-    return lines, working_s
+    """The lines as they were run, and (begin, end) of whatever was no way to somewhere, sim time; of all missions in the record. A state
+    lasts until the next message, the last one for ever."""
+    lines, working_s = [], []
+    for topic in record.topics_of(ensonify.MissionState):
+        working, line = False, None
+        for message in record.messages(topic):
+            state, t_s = message.content, message.content.stamp_ns * 1e-9
+            now = state.line if state.state == "on_line" else None
+            if working and state.state not in WORKING:
+                working_s[-1][1] = t_s
+            if line is not None and now != line:
+                lines[-1] = replace(lines[-1], end_s=t_s)
+            if state.state in WORKING and not working:
+                working_s.append([t_s, np.inf])
+            if now is not None and now != line:
+                lines.append(Line(t_s, np.inf, state.line_name or str(now + 1)))
+            working, line = state.state in WORKING, now
+    return sorted(lines, key=lambda line: line.begin_s), working_s
 
 
 def _seabed(record: ensonify.Record) -> Seabed:
@@ -183,7 +183,8 @@ def _seabed(record: ensonify.Record) -> Seabed:
     return Seabed([message.content for message in record.messages(*topics)] if topics else [])
 
 
-def _origin(record: ensonify.Record) -> tuple | None:
+def origin_of(record: ensonify.Record) -> tuple | None:
+    """Latitude and longitude of the world's origin, degrees; None if the record does not state it."""
     topics = record.topics_of(ensonify.Chart)
     for message in record.messages(*topics) if topics else []:
         return message.content.origin_latitude_deg, message.content.origin_longitude_deg

@@ -14,7 +14,7 @@ from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.plan import add_plan, read_plan
 from ensonify_plot.results import open_record, save_picture
 from ensonify_plot.seabed import add_seabed
-from ensonify_plot.survey import read_survey
+from ensonify_plot.survey import UserError, origin_of, read_survey
 
 GAIN_HELP = ("added to the received level for display: S,A for S log10 R + 2 A R (S in dB, A in dB/km, R slant range in m, held "
              "below 1 m); none; head: the head's own law without its offset; or auto: head, or ")
@@ -80,7 +80,7 @@ def _add_coverage(verbs) -> None:
                     "A survey from above: depths (m) with the lines run, and the soundings of each cell. Of an adaptive survey what its "
                     "coverage process counted.")
     command.add_argument("--cell", type=_number(0.01, 1e4), metavar="M", help="cell size in m; default: as of plot survey")
-    command.add_argument("--soundings", type=int, default=grid.MIN_COUNT, metavar="N",
+    command.add_argument("--soundings", type=_count, metavar="N",
                          help=f"accepted soundings that a covered cell has at least; default: {grid.MIN_COUNT}")
     command.add_argument("--turns", action="store_true", help="soundings of turns, run-ins and run-outs too; default: of lines alone")
     command.add_argument("--latlon", action="store_true", help="latitude and longitude; default: metres from the origin")
@@ -129,6 +129,12 @@ def _colours(command, gain: str) -> None:
                          help=f"{GAIN_HELP}{otherwise} if it has none; default: {gain}")
     command.add_argument("--db", nargs=2, type=_number(), metavar=("LOW", "HIGH"),
                          help="levels of the darkest and the brightest colour, in dB; default: percentiles, named in the picture")
+
+
+def _count(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text}: allowed: a whole number from 1 on")
+    return int(text)
 
 
 def _number(least: float = -math.inf, most: float = math.inf):
@@ -284,11 +290,14 @@ def plot_navigation(options) -> int:
 def plot_coverage(options) -> int:
     """`ensonify plot coverage`."""
     record = open_record(options.record)
-    survey = read_survey(record, options.turns)
-    planned = read_plan(options.plan, survey.origin)
     if topics := record.topics_of(ensonify.Coverage):
-        figure = coverage.adaptive_picture(record, topics[0], planned)
+        given = [name for name in ("cell", "soundings", "turns", "latlon") if getattr(options, name)]
+        if given:
+            raise UserError(f"--{given[0]}: {record.file} holds coverage/1, whose cells are those of its coverage process; allowed: --plan")
+        figure = coverage.adaptive_picture(record, topics[0], read_plan(options.plan, origin_of(record)))
     else:
-        figure = coverage.survey_picture(survey, survey.frame(options.cell, options.latlon), options.soundings, planned)
+        survey = read_survey(record, options.turns)
+        planned = read_plan(options.plan, survey.origin)
+        figure = coverage.survey_picture(survey, survey.frame(options.cell, options.latlon), options.soundings or grid.MIN_COUNT, planned)
     save_picture(record, options.out, "coverage.png", figure)
     return 0

@@ -67,7 +67,7 @@ def waterfall_picture(pings: list, tracks: dict, ground: bool, show: Show):
     track = Track.of(pings)
     distance_m = track.distance_m()
     main, other = (track.time_scale(), track.other_scale()) if distance_m is None else ((ALONG, distance_m), track.time_scale())
-    stack = stacked(main[1], lines_of(pings, altitudes_m, gain, cell_m, CELLS))
+    stack = stacked(main[1], lines_of(pings, altitudes_m, gain, cell_m, CELLS), track.t_s)
     image = level_db(stack.rows)
     limits = colours(image, reach_m, 0.0 if ground else np.nanmax(known_m) if tracks else None, show)
     high_in = WIDTH_IN * (stack.end - stack.begin) / (2 * reach_m)

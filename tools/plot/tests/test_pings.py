@@ -198,6 +198,13 @@ class Places(unittest.TestCase):
         axes = waterfall.waterfall_picture(pings, {}, False, Show("auto")).axes[0]
         self.assertEqual((axes.get_aspect(), axes.get_ylabel()), ("auto", "time of transmission (s)"))
 
+    def test_a_head_that_hardly_moves_leaves_no_gaps_along_its_way(self):
+        along = np.concatenate([np.arange(300) * 1e-3, 0.3 + np.arange(200) * 0.2])
+        ping, _, _ = geometry.ping_of_rows(along, 800, np.arange(500) / 10)
+        self.assertTrue((ping >= 0).all())
+        ping, _, _ = geometry.ping_of_rows(np.arange(10.0), 100, np.array([0, 1, 2, 3, 4, 50, 51, 52, 53, 54.0]))
+        self.assertTrue((ping >= 0).all())  # it stopped, and went on where it was
+
     def test_a_bottom_track_scales_the_water_column(self):
         with tempfile.TemporaryDirectory() as out:
             record = pathlib.Path(out) / "fish.mcap"

@@ -16,11 +16,12 @@ from osgeo import gdal, osr
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
+from ensonify.record import Recorded  # noqa: E402
 from ensonify_plot import files, grid  # noqa: E402
 from ensonify_plot.main import coverage, main, utc_texts  # noqa: E402
 from ensonify_plot.pictures import hillshade, in_minutes, round_minutes  # noqa: E402
 from ensonify_plot.plan import read_plan  # noqa: E402
-from ensonify_plot.survey import UserError, read_survey  # noqa: E402
+from ensonify_plot.survey import UserError, _mission, read_survey  # noqa: E402
 from ensonify_plot.truth import Seabed  # noqa: E402
 
 HAS_MCAP = importlib.util.find_spec("mcap") is not None
@@ -160,7 +161,7 @@ class OfARecord(unittest.TestCase):
     def test_soundings_of_turns_are_left_out_unless_asked_for(self):
         with tempfile.TemporaryDirectory() as out:
             record = pathlib.Path(out) / "turns.mcap"
-            synthetic_record.write(record, lines=2, line_m=60, turn_pings=100, names=("L01, north", "ré"), leave_out=("ping/1",))
+            synthetic_record.write(record, lines=2, line_m=60, turn_pings=100, names=("L01, $north^$ of it all", "ré"), leave_out=("ping/1",))
             code, printed, errors = run("survey", record)
             self.assertEqual((code, errors), (0, ""))
             lines = json.loads((pathlib.Path(out) / "summary.json").read_text())
@@ -168,13 +169,32 @@ class OfARecord(unittest.TestCase):
             self.assertAlmostEqual(lines["depth_against_truth"]["bias_m"], 0.02, delta=0.005)
             self.assertIn("of turns left out", printed)
             with open(pathlib.Path(out) / "soundings.csv", newline="", encoding="utf-8") as stream:
-                self.assertEqual({row["line"] for row in csv.DictReader(stream)}, {"L01, north", "ré"})
+                self.assertEqual({row["line"] for row in csv.DictReader(stream)}, {"L01, $north^$ of it all", "ré"})
             run("survey", record, "--turns")
             everything = json.loads((pathlib.Path(out) / "summary.json").read_text())
             self.assertEqual(everything["soundings"], lines["soundings"] + lines["left_out_in_turns"])
             self.assertLess(everything["depth_against_truth"]["bias_m"], -0.1)
             with open(pathlib.Path(out) / "soundings.csv", newline="", encoding="utf-8") as stream:
                 self.assertIn("", {row["line"] for row in csv.DictReader(stream)})
+
+    def test_each_vehicle_runs_its_own_mission(self):
+        def states(topic, *of_times):
+            return [Recorded(topic, 0, ensonify.MissionState(stamp_ns=int(t * 1e9), state=state, line=0, line_name=name))
+                    for t, state, name in of_times]
+
+        missions = {"a/mission": states("a", (0, "turn", ""), (1, "on_line", "A"), (2, "on_line", "A"), (3, "turn", "")),
+                    "b/mission": states("b", (0.5, "on_line", "B"), (2.5, "run_out", ""), (4, "on_line", "B"))}
+
+        class Both:
+            def topics_of(self, kind):
+                return list(missions)
+
+            def messages(self, topic):
+                return missions[topic]
+
+        lines, working_s = _mission(Both())
+        self.assertEqual([(line.name, line.begin_s, line.end_s) for line in lines], [("B", 0.5, 2.5), ("A", 1.0, 3.0), ("B", 4.0, np.inf)])
+        self.assertEqual(sorted(working_s), [[0.5, 2.5], [1.0, 3.0], [4.0, np.inf]])
 
     def test_truth_comes_before_claims_and_contradicts_them(self):
         self.assertLess(self.printed.index("against the true seabed"), self.printed.index("as stated"))
@@ -198,10 +218,13 @@ class OfARecord(unittest.TestCase):
             np.testing.assert_allclose(line, [[0, 0], [130.2, 0]], atol=0.1)
             with self.assertRaisesRegex(UserError, "has latitudes and longitudes"):
                 read_plan(str(plan), None)
-            plan.write_text("{}")
-            code, _, errors = run("coverage", self.record, "--plan", plan)
-            self.assertEqual(code, 2)
-            self.assertIn("cannot be read as a plan", errors)
+            for wrong in ({}, {"lines": [{"places": []}]}, {"lines": [{"places": [[1, 2, 3], [4, 5, 6]]}]}):
+                plan.write_text(json.dumps(wrong))
+                code, _, errors = run("coverage", self.record, "--plan", plan)
+                self.assertEqual(code, 2)
+                self.assertIn("cannot be read as a plan", errors)
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                main(["coverage", str(self.record), "--soundings", "0"])
 
     def test_json_is_the_summary(self):
         with tempfile.TemporaryDirectory() as out:
