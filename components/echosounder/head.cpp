@@ -24,22 +24,22 @@ double size_in_waves(const EchosounderConfig& c) {
 
 double range_resolution_m(const EchosounderConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }
 
-AperturePattern pattern_of(const EchosounderConfig& c) {
-  if (!c.effects.directivity) return [](const Eigen::Vector3f&, float) { return 1.0F; };
+array::Pattern pattern_of(const EchosounderConfig& c) {
+  array::Pattern pattern;
+  if (!c.effects.directivity) return pattern;
   const double size = size_in_waves(c);
   const bool round = circular(c);
-  const array::Face face(0.0, kBackLoss_db);
   const auto table = std::make_shared<array::PatternTable>(
       [=](double sine) { return round ? array::piston_amplitude(size, sine) : array::line_amplitude(size, sine); },
       0.5 * size);
-  const auto first_null = static_cast<float>(c.effects.side_lobes ? 2.0 : (round ? 1.2197 : 1.0) / size);
-  const auto along = [=](float sine) {
-    return std::abs(sine) < first_null ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
-  };
-  return [=](const Eigen::Vector3f& d, float) {
-    const auto weight = static_cast<float>(face.amplitude(static_cast<double>(d.z())));
-    return weight * (round ? along(d.head<2>().norm()) : along(d.x()) * along(d.y()));
-  };
+  const auto end = static_cast<float>(c.effects.side_lobes ? 2.0 : (round ? 1.2197 : 1.0) / size);
+  if (round) {
+    pattern.times(array::PistonFactor{table, end});
+  } else {
+    pattern.times(array::LineFactor{.table = table, .axis_head = Eigen::Vector3f::UnitX(), .end = end})
+        .times(array::LineFactor{.table = table, .axis_head = Eigen::Vector3f::UnitY(), .end = end});
+  }
+  return pattern.times(array::FaceFactor{.face = array::Face(0.0, kBackLoss_db)});
 }
 
 Apertures apertures_of(const EchosounderConfig& config) {

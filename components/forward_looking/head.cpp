@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "components/sonar/head_motion.h"
@@ -15,8 +16,9 @@ namespace {
 
 constexpr double kBackLoss_db = 40.0;
 
-array::PatternTable line_pattern(double length_in_waves) {
-  return {[=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves};
+std::shared_ptr<const array::PatternTable> line_pattern(double length_in_waves) {
+  return std::make_shared<array::PatternTable>(
+      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
 }
 
 /// cos^q is -3 dB at half the aperture.
@@ -62,7 +64,7 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
   array.frequency_hz = config.frequency_hz;
   array.elements = echo::element_line(line, wavelength_m(config));
   array.weights = {weights_of(line, config.effects.side_lobes)};
-  array.element = [&faces](const Eigen::Vector3f& direction) { return faces.element_amplitude(direction); };
+  array.element = faces.element;
   array.noise_share = faces.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
   array.seed = config.world.seed;
@@ -72,37 +74,28 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
 
 }  // namespace
 
-ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in_waves)
-    : directivity_(config.effects.directivity),
-      axis_head_(in_vertical_plane(config.tilt_rad)),
-      up_the_face_head_(in_vertical_plane(config.tilt_rad - 0.5 * std::numbers::pi)),
-      face_(0.0, kBackLoss_db),
-      cosine_power_(cosine_power(config.aperture_rad)),
-      transmit_vertical_(line_pattern(array::length_in_waves_for(config.transmit_vertical_rad))),
-      receive_vertical_(line_pattern(array::length_in_waves_for(config.receive_vertical_rad))),
-      element_(line_pattern(element_in_waves)) {}
-
-double ForwardFaces::transmitted_power(const Eigen::Vector3f& direction) const {
-  if (!directivity_) return 1.0;
-  const float u = direction.y(), across = std::pow(std::max(0.0F, (1.0F - u) * (1.0F + u)), cosine_power_);
-  const double face = face_.amplitude(static_cast<double>(axis_head_.dot(direction)));
-  return static_cast<double>(across) * face * face *
-         static_cast<double>(transmit_vertical_.power(static_cast<double>(up_the_face_head_.dot(direction))));
-}
-
-float ForwardFaces::element_amplitude(const Eigen::Vector3f& direction) const {
-  if (!directivity_) return 1.0F;
-  return element_.amplitude(static_cast<double>(direction.y())).real() *
-         receive_vertical_.amplitude(static_cast<double>(up_the_face_head_.dot(direction))).real() *
-         static_cast<float>(face_.amplitude(static_cast<double>(axis_head_.dot(direction))));
+ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in_waves) {
+  if (!config.effects.directivity) return;
+  const array::FaceFactor face{in_vertical_plane(config.tilt_rad), array::Face(0.0, kBackLoss_db)};
+  const Eigen::Vector3f up_the_face = in_vertical_plane(config.tilt_rad - 0.5 * std::numbers::pi);
+  const auto vertical = [&](double beamwidth_rad) {
+    return array::LineFactor{.table = line_pattern(array::length_in_waves_for(beamwidth_rad)),
+                             .axis_head = up_the_face};
+  };
+  transmit.times_power(array::CosineFactor{cosine_power(config.aperture_rad)})
+      .times_power(face)
+      .times_power(vertical(config.transmit_vertical_rad));
+  element.times(array::LineFactor{.table = line_pattern(element_in_waves), .axis_head = Eigen::Vector3f::UnitY()})
+      .times(vertical(config.receive_vertical_rad))
+      .times(face);
 }
 
 double ForwardFaces::noise_share() const {
   constexpr int kSteps = 3600;
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const double amplitude =
-        static_cast<double>(element_amplitude(in_vertical_plane(2.0 * std::numbers::pi * i / kSteps)));
+    const auto amplitude =
+        static_cast<double>(element.amplitude(in_vertical_plane(2.0 * std::numbers::pi * i / kSteps)));
     sum += amplitude * amplitude / kSteps;
   }
   return sum;
@@ -112,11 +105,10 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
     : config_(config),
       line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
-      transmitted_([this](const Eigen::Vector3f& direction, float) { return faces_.transmitted_power(direction); }),
       echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
-          [this](const Eigen::Vector3f& direction) { return faces_.transmitted_power(direction); }, kVolumeStep_rad)) {}
+          [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
 
 double ForwardLookingHead::near_field_m() const { return array::near_field_range_m(line_.line, line_.wavelength_m); }
 
@@ -140,7 +132,7 @@ ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent&
   const echo::Sampling& sampling = ranged.sampling;
   const SeaAcoustics& sea = echoes_.sea();
   head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
-  const Shot shot{poses_, seconds(event.transmit), settings.source_level_db, transmitted_};
+  const Shot shot{poses_, seconds(event.transmit), settings.source_level_db, {&faces_.transmit, 1}};
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;

@@ -8,8 +8,8 @@
 #include "components/sonar/array_echoes.h"
 #include "components/sonar/line_design.h"
 #include "components/sonar/sea_acoustics.h"
-#include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -20,24 +20,15 @@ namespace ensonify {
 /// In elevation both faces are uniform lines across the tilted axis. In azimuth the transmission falls as a power of
 /// the cosine, to -3 dB at the edges of the aperture, and each receive element is as long as its spacing. Behind the
 /// face both are 40 dB lower. With directivity switched off all are 1 in front and behind.
-class ForwardFaces {
- public:
+struct ForwardFaces {
   /// element_in_waves: length of a receive element.
   ForwardFaces(const ForwardLookingConfig& config, double element_in_waves);
 
-  /// Power of the transmission, 1 on its axis.
-  double transmitted_power(const Eigen::Vector3f& direction_head) const;
-  /// Amplitude of a receive element, with sign, 1 on its axis.
-  float element_amplitude(const Eigen::Vector3f& direction_head) const;
+  array::Pattern transmit;
+  array::Pattern element;  // of a receive element
+
   /// Isotropic noise that an element lets in, over what a point would: its pattern's mean around the receive line.
   double noise_share() const;
-
- private:
-  bool directivity_;
-  Eigen::Vector3f axis_head_, up_the_face_head_;
-  array::Face face_;
-  float cosine_power_;  // of the transmission in azimuth
-  array::PatternTable transmit_vertical_, receive_vertical_, element_;
 };
 
 /// The acoustics of a forward-looking head: what its beams receive. Uses the true motion, the actual mounting and the
@@ -80,7 +71,6 @@ class ForwardLookingHead {
   ForwardLookingConfig config_;
   LineDesign line_;
   ForwardFaces faces_;
-  TransmittedPower transmitted_;
   ArrayEchoes echoes_;
   std::vector<float> beam_angle_rad_;
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter

@@ -91,14 +91,14 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   sphere.position_enu_m = frames::enu_from_head(pose, R * direction);
   sphere.slowness_spm = static_cast<float>(1.0 / kSpeed_mps);
   sphere.scattered_upa2m2 = static_cast<float>(std::pow(10.0, 0.1 * (config.source_level_db + ts_db)) *
-                                               faces.transmitted_power(direction.cast<float>()) / R / R);
+                                               faces.transmit.power(direction.cast<float>()) / R / R);
   sphere.response = 1.0F;
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&pose, 1)});
   echo::Arrivals arrivals;
   echo::add_direct_echoes({config.frequency_hz, kAbsorption_dbpm}, pose.position_enu_m, std::span(&sphere, 1),
                           receivers, arrivals);
-  const std::vector<float> gain{faces.element_amplitude(arrivals[0].direction_head)};
+  const std::vector<float> gain{faces.element.amplitude(arrivals[0].direction_head)};
 
   const RangedPulse ranged = pulse_at(config.pulse, 30.0, kSpeed_mps);
   const echo::SampledPulse pulse(echo_pulse(config.pulse, ranged), ranged.sampling.period_s);

@@ -27,9 +27,9 @@ ReceiveLine receive_line(const MultibeamConfig& config) {
 }
 
 /// One edge of a wide sector.
-array::PatternTable edge_pattern() {
+std::shared_ptr<const array::PatternTable> edge_pattern() {
   const array::SectorBeam beam = array::sector_beam(1.0, 0.0, 1.0, SectorPattern::kRollOff);
-  return {beam.array, 1.0, beam.sin_steer};
+  return std::make_shared<array::PatternTable>(beam.array, 1.0, beam.sin_steer);
 }
 
 }  // namespace
@@ -54,28 +54,29 @@ ArrayDesign::ArrayDesign(const MultibeamConfig& config)
                        .area = {transmit_m / wave_m, receive_m / wave_m},
                        .transmit_null = array::first_null(transmit, wave_m),
                        .phase_centres_in_waves = apart_in_waves * frequency_hz / config.frequency_hz,
-                       .transmit = {transmit, wave_m}});
+                       .transmit = std::make_shared<array::PatternTable>(transmit, wave_m)});
   }
 }
 
 SectorPattern::SectorPattern(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector)
     : line_(design.sectors[sector].transmit),
       edge_(design.edge),
-      first_null_(config.effects.side_lobes ? 2.0 : design.sectors[sector].transmit_null),
-      behind_(config.effects.directivity ? static_cast<float>(std::pow(10.0, -0.05 * config.back_loss_db)) : 1.0F) {}
+      end_(static_cast<float>(config.effects.side_lobes ? 2.0 : design.sectors[sector].transmit_null)),
+      face_{.face = array::Face(0.0, config.effects.directivity ? config.back_loss_db : 0.0)} {}
 
-float SectorPattern::edge(double sine_inside) const {
-  if (sine_inside >= kEdgeReach) return 1.0F;
-  const float amplitude = sine_inside > -kEdgeReach ? edge_.amplitude(sine_inside).real() : 0.0F;
-  return amplitude * amplitude;
+void SectorPattern::steer(const SteeredSector& sector, array::Pattern& transmit) const {
+  transmit.clear();
+  transmit.times_power(array::LineFactor{.table = line_, .sin_steer = sector.sin_transmit, .end = end_})
+      .times_power(face_)
+      .times_power(array::EdgeFactor{edge_, sector.lower_sine, true, kEdgeReach})
+      .times_power(array::EdgeFactor{edge_, sector.upper_sine, false, kEdgeReach});
 }
 
-float SectorPattern::transmitted_power(const Eigen::Vector3f& direction, const SteeredSector& sector) const {
-  const double along = static_cast<double>(direction.x()) - sector.sin_transmit;
-  if (std::abs(along) > first_null_) return 0.0F;
-  const double across = static_cast<double>(direction.y());
-  const float front = element_amplitude(direction);
-  return line_.power(along) * front * front * edge(across - sector.lower_sine) * edge(sector.upper_sine - across);
+array::Pattern SectorPattern::element() const { return array::Pattern().times(face_); }
+
+double SectorPattern::noise_share() const {
+  const double behind = face_.face.amplitude(-1.0);
+  return 0.5 * (1.0 + behind * behind);
 }
 
 }  // namespace ensonify

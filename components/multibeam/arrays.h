@@ -1,11 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "components/multibeam/config.h"
 #include "components/multibeam/steering.h"
 #include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern.h"
 
 namespace ensonify {
 
@@ -28,7 +29,7 @@ struct SectorDesign {
   AreaLengths area;
   double transmit_null;           // sine
   double phase_centres_in_waves;  // from half to half of the receive line
-  array::PatternTable transmit;
+  std::shared_ptr<const array::PatternTable> transmit;
 };
 
 /// The arrays of a head, designed once. Both lines are as long as their shading asks for, to have the beam widths that
@@ -41,7 +42,7 @@ struct ArrayDesign {
   ReceiveLine receive;
   AreaLengths area;  // at the head's frequency
   std::vector<SectorDesign> sectors;
-  array::PatternTable edge;  // of a sector at sine 0, whose inside lies at positive sines
+  std::shared_ptr<const array::PatternTable> edge;  // of a sector at sine 0, whose inside lies at positive sines
 };
 
 /// Pattern of a sector's transmission, in the head's frame: the transmit line's beam along x; across-track everywhere
@@ -51,24 +52,19 @@ class SectorPattern {
   /// Sine over which an edge falls, from full to nothing; half way it is at -6 dB.
   static constexpr double kRollOff = 0.1;
 
-  /// The design must outlive the pattern.
   SectorPattern(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector);
 
-  /// Power, 1 on the axis, of a sector steered by sines and edges of the water as it is.
-  float transmitted_power(const Eigen::Vector3f& direction_head, const SteeredSector& sector) const;
-  /// Amplitude that an element of the receive line gives a direction.
-  float element_amplitude(const Eigen::Vector3f& direction_head) const {
-    return direction_head.z() < 0.0F ? behind_ : 1.0F;
-  }
+  /// Makes it the pattern of the transmission of a sector steered by sines and edges of the water as it is.
+  void steer(const SteeredSector& sector, array::Pattern& transmit) const;
+  /// Of an element of the receive line.
+  array::Pattern element() const;
   /// Power of isotropic noise in an element, over that of one that receives all around.
-  double noise_share() const { return 0.5 * (1.0 + static_cast<double>(behind_) * static_cast<double>(behind_)); }
+  double noise_share() const;
 
  private:
-  float edge(double sine_inside) const;
-
-  const array::PatternTable &line_, &edge_;
-  double first_null_;  // beyond it there is nothing, where side lobes are switched off
-  float behind_;
+  std::shared_ptr<const array::PatternTable> line_, edge_;
+  float end_;  // beyond this sine there is nothing, where side lobes are switched off
+  array::FaceFactor face_;
 };
 
 }  // namespace ensonify

@@ -63,7 +63,7 @@ ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, 
   array.frequency_hz = design.sectors[sector].frequency_hz;
   array.elements = echo::element_line(design.receive.whole, true_mps / array.frequency_hz);
   array.weights = weights_of(design.receive, config.effects.speckle);
-  array.element = [&pattern](const Eigen::Vector3f& direction) { return pattern.element_amplitude(direction); };
+  array.element = pattern.element();
   array.noise_share = pattern.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
   array.seed = config.world.seed;
@@ -113,11 +113,12 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
                                 .range_resolution_m = resolution_m,
                                 .fewest_rays = kFewestRays / arrays_.sectors.size()};
   // Steering moves the fan by a few degrees: the depths that it passes hardly change.
-  const SteeredSector unsteered = steer(config_, swath_rad, {}).sectors[sector_];
+  array::Pattern unsteered;
+  pattern_.steer(steer(config_, swath_rad, {}).sectors[sector_], unsteered);
   const double reach = kReach / arrays_.sectors[sector_].transmit_in_waves;
   const auto transmitted = [&](const Eigen::Vector3f& direction) {
     if (std::abs(static_cast<double>(direction.x())) > reach) return 0.0;
-    return static_cast<double>(pattern_.transmitted_power(direction, unsteered));
+    return unsteered.power(direction);
   };
   return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
           ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
@@ -137,13 +138,11 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   const SimTime sent = event.transmit + from_seconds(delay_s);
   head_poses(truth, config_.mounting.actual, sent, from_seconds(reception_s), memory.poses);
   aim(steering, memory.poses.front(), memory);
-  memory.power = [this, &memory](const Eigen::Vector3f& direction, float) {
-    return static_cast<double>(pattern_.transmitted_power(direction, memory.steered));
-  };
+  pattern_.steer(memory.steered, memory.transmit);
   const Shot shot{memory.poses,
                   seconds(sent),
                   settings.source_level_db,
-                  memory.power,
+                  {&memory.transmit, 1},
                   {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad}};
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =

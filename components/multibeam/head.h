@@ -35,7 +35,7 @@ class SectorEchoes {
     // Scratch.
     std::vector<frames::HeadPose> poses;  // from transmission on
     SteeredSector steered;                // in the water as it is
-    TransmittedPower power;
+    array::Pattern transmit;
     ShotMemory shot;
     std::vector<float> sin_beams;
     echo::Arrivals foreign;

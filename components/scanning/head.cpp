@@ -22,24 +22,19 @@ double tall_in_waves(const ScanningConfig& config) { return array::length_in_wav
 /// The transducer across its narrow beam, in wavelengths.
 LineDesign narrow_line(const ScanningConfig& config) { return {config.horizontal_beamwidth_rad, 1.0, config.shading}; }
 
-AperturePattern pattern_of(const ScanningConfig& config, const LineDesign& line) {
+array::Pattern pattern_of(const ScanningConfig& config, const LineDesign& line) {
   const double tall = tall_in_waves(config);
-  const auto across = std::make_shared<array::PatternTable>(line.pattern);
   const auto vertical =
       std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall);
   const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : line.first_null);
   const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
              sine = static_cast<float>(std::sin(config.tilt_rad));
   const Eigen::Vector3f axis(cosine, 0.0F, sine), up_the_face(sine, 0.0F, -cosine);
-  const bool directivity = config.effects.directivity;
-  const array::Face face(0.0, kBackLoss_db);
-  return [=](const Eigen::Vector3f& direction, float) {
-    if (std::abs(direction.y()) >= first_null) return 0.0F;
-    const float narrow = across->amplitude(static_cast<double>(direction.y())).real();
-    if (!directivity) return narrow;
-    return narrow * vertical->amplitude(static_cast<double>(up_the_face.dot(direction))).real() *
-           static_cast<float>(face.amplitude(static_cast<double>(axis.dot(direction))));
-  };
+  array::Pattern pattern;
+  pattern.times(array::LineFactor{.table = line.pattern, .axis_head = Eigen::Vector3f::UnitY(), .end = first_null});
+  if (!config.effects.directivity) return pattern;
+  return pattern.times(array::LineFactor{.table = vertical, .axis_head = up_the_face})
+      .times(array::FaceFactor{axis, array::Face(0.0, kBackLoss_db)});
 }
 
 double resolution_m(const ScanningConfig& config) {
@@ -75,7 +70,7 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
 
 }  // namespace
 
-AperturePattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
+array::Pattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
 
 ScanningHead::ScanningHead(const ScanningConfig& config) : ScanningHead(config, narrow_line(config)) {}
 

@@ -10,7 +10,7 @@
 namespace ensonify {
 
 /// The pattern of the transducer, in its own frame: x along its axis's projection onto the plane that it turns in.
-AperturePattern scanning_pattern(const ScanningConfig& config);
+array::Pattern scanning_pattern(const ScanningConfig& config);
 
 /// The acoustics of a mechanically scanned head: what its one transducer receives where it points. It stands still
 /// while it receives. Uses the true motion, the actual mounting and the true water.

@@ -114,11 +114,11 @@ TEST_CASE("a pole echoes in the ping that points at it, at its range") {
 TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe level") {
   ScanningConfig config = quiet();
   config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
-  const auto at = [&](const AperturePattern& pattern, double sine) {
+  const auto at = [&](const array::Pattern& pattern, double sine) {
     const Eigen::Vector3d direction(std::sqrt(1.0 - sine * sine), sine, 0.0);
-    return 20.0 * std::log10(std::abs(static_cast<double>(pattern(direction.cast<float>(), 1.0F))) + 1e-9);
+    return 20.0 * std::log10(std::abs(static_cast<double>(pattern.amplitude(direction.cast<float>(), 1.0F))) + 1e-9);
   };
-  const AperturePattern shaded = scanning_pattern(config);
+  const array::Pattern shaded = scanning_pattern(config);
   CHECK_THAT(at(shaded, std::sin(1.0 * kDeg)) - at(shaded, 0.0), WithinAbs(-3.01, 0.05));
   // Null 1.189 lambda / L off the axis, L that of a uniform line; the highest side lobe at -30.3 dB
   // (docs/physics/acoustics/arrays.md), and what the face takes there is less than 0.1 dB.
@@ -127,8 +127,8 @@ TEST_CASE("a shaded transducer keeps its -3 dB width and has the set side lobe l
   for (double u = 1.25; u < 5.0; u += 0.01) highest_db = std::max(highest_db, at(shaded, u * wave_over_length));
   CHECK_THAT(highest_db, WithinAbs(-30.3, 0.2));
   config.effects.side_lobes = false;
-  CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.25 * wave_over_length), 0.0F}, 1.0F) == 0.0F);
-  CHECK(scanning_pattern(config)({0.9F, static_cast<float>(1.1 * wave_over_length), 0.0F}, 1.0F) != 0.0F);
+  CHECK(scanning_pattern(config).amplitude({0.9F, static_cast<float>(1.25 * wave_over_length), 0.0F}, 1.0F) == 0.0F);
+  CHECK(scanning_pattern(config).amplitude({0.9F, static_cast<float>(1.1 * wave_over_length), 0.0F}, 1.0F) != 0.0F);
 }
 
 TEST_CASE("the mean level of a flat seabed is that of the area integral") {

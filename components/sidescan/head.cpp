@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -9,15 +10,14 @@
 #include "components/sonar/ranged_pulse.h"
 #include "kernels/acoustics/array/aperture.h"
 #include "kernels/acoustics/array/line.h"
-#include "kernels/acoustics/array/near_field.h"
 
 namespace ensonify {
 namespace {
 
 constexpr double kFarthest_rad = 1.75;  // of rays from the head's down axis: a little above the horizon
 constexpr double kReach = 8.0;          // sines in which rays are sent, in lambda / L of a uniform line as wide
-constexpr double kShadow = 1.0;      // the same, in sqrt(lambda / L): L / 2R where Fresnel's approximation ends is 0.81
-constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
+constexpr double kShadow = 1.0;  // the same, in sqrt(lambda / L): L / 2R where Fresnel's approximation ends is 0.81
+constexpr double kNothingBehind_db = std::numeric_limits<double>::infinity();
 
 double face_in_waves(const SidescanChannel& c) { return array::length_in_waves_for(c.vertical_beamwidth_rad); }
 
@@ -28,77 +28,52 @@ double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
 /// A side's line, in wavelengths.
 LineDesign line_of(const SidescanChannel& c) { return {c.horizontal_beamwidth_rad, 1.0, c.shading}; }
 
-/// Up the face, against the direction cosine along it.
-std::function<float(float)> face_pattern(double length_in_waves) {
-  const auto table = std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
-  return [=](float sine) { return table->amplitude(static_cast<double>(sine)).real(); };
+/// Along the track: the far field of the line as it is shaded, or the near field of a uniform one, focused so.
+array::Pattern along_track(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line,
+                           array::NearFieldFactor::Focus focus) {
+  const bool side_lobes = config.effects.side_lobes;
+  if (c.focus == Focus::kIdeal) {
+    const auto end = static_cast<float>(side_lobes ? 2.0 : line.first_null);
+    return array::Pattern().times(array::LineFactor{.table = line.pattern, .end = end});
+  }
+  const double wave_m = wavelength_m(config, c);
+  return array::Pattern().times(
+      array::NearFieldFactor{line.uniform_in_waves * wave_m, wave_m, focus, c.focus_m, side_lobes});
 }
 
-/// Amplitude along the track against the direction cosine and the range.
-using AlongTrack = std::function<float(float sine, float range_m)>;
-
-AlongTrack far_field_line(const LineDesign& line, bool side_lobes) {
-  const auto table = std::make_shared<array::PatternTable>(line.pattern);
-  const auto end = static_cast<float>(side_lobes ? 2.0 : line.first_null);
-  return [=](float sine, float) {
-    return std::abs(sine) < end ? table->amplitude(static_cast<double>(sine)).real() : 0.0F;
-  };
-}
-
-/// focus_m of a range. Without side lobes it ends where the geometric shadow of the line's ends does, and a null
-/// beyond.
-AlongTrack near_field_line(double length_in_waves, double wavelength_m, bool side_lobes,
-                           const std::function<double(double range_m)>& focus_m) {
-  const double length_m = length_in_waves * wavelength_m;
-  return [=](float sine, float range_m) {
-    const double u = static_cast<double>(sine), range = std::max(static_cast<double>(range_m), kNearest_m);
-    const double focus = focus_m(range);
-    const double shadow = 0.5 * length_m * std::abs(1.0 / range - 1.0 / focus);
-    if (!side_lobes && std::abs(u) > shadow + 1.0 / length_in_waves) return 0.0F;
-    return static_cast<float>(std::abs(array::near_field_line_amplitude(length_m, wavelength_m, u, range, focus)));
-  };
-}
-
-AlongTrack transmitting_line(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line) {
-  if (c.focus == Focus::kIdeal) return far_field_line(line, config.effects.side_lobes);
-  return near_field_line(line.uniform_in_waves, wavelength_m(config, c), config.effects.side_lobes,
-                         [](double) { return array::kFarAway_m; });
-}
-
-AlongTrack receiving_line(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line) {
-  if (c.focus == Focus::kIdeal) return far_field_line(line, config.effects.side_lobes);
-  return near_field_line(line.uniform_in_waves, wavelength_m(config, c), config.effects.side_lobes,
-                         [c](double range_m) {
-                           if (c.focus == Focus::kEcho) return range_m;
-                           return c.focus == Focus::kFixed ? c.focus_m : array::kFarAway_m;
-                         });
+array::NearFieldFactor::Focus received_focus(const SidescanChannel& c) {
+  using Focused = array::NearFieldFactor::Focus;
+  if (c.focus == Focus::kEcho) return Focused::kEcho;
+  return c.focus == Focus::kFixed ? Focused::kFixed : Focused::kOff;
 }
 
 /// Both sides of a head whose lines have this pattern.
-std::vector<AperturePattern> sides_of(const AlongTrack& along, const SidescanChannel& channel, const Effects& effects) {
-  const auto across = face_pattern(face_in_waves(channel));
-  const array::Face face(0.0, channel.back_loss_db);
+std::vector<array::Pattern> sides_of(const array::Pattern& along, const SidescanChannel& channel,
+                                     const Effects& effects) {
+  const double face_length = face_in_waves(channel);
+  const auto across = std::make_shared<array::PatternTable>(
+      [=](double sine) { return array::line_amplitude(face_length, sine); }, 0.5 * face_length);
   const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
   const auto sine = static_cast<float>(std::sin(channel.depression_rad));
-  std::vector<AperturePattern> sides;
+  std::vector<array::Pattern> sides;
   for (const float side : {-1.0F, 1.0F}) {
-    const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
+    array::Pattern& pattern = sides.emplace_back(along);
     if (!effects.directivity) {  // each side receives its own half of the water
-      sides.push_back([=](const Eigen::Vector3f& d, float r) { return side * d.y() > 0.0F ? along(d.x(), r) : 0.0F; });
+      pattern.times(array::FaceFactor{{0.0F, side, 0.0F}, array::Face(0.0, kNothingBehind_db)});
       continue;
     }
-    sides.push_back([=](const Eigen::Vector3f& d, float r) {
-      const double weight = face.amplitude(static_cast<double>(normal.dot(d)));
-      return along(d.x(), r) * across(up_the_face.dot(d)) * static_cast<float>(weight);
-    });
+    const Eigen::Vector3f normal(0.0F, side * cosine, sine), up_the_face(0.0F, -side * sine, cosine);
+    pattern.times(array::LineFactor{.table = across, .axis_head = up_the_face})
+        .times(array::FaceFactor{normal, array::Face(0.0, channel.back_loss_db)});
   }
   return sides;
 }
 
 AperturePatterns patterns_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
-  return {sides_of(transmitting_line(config, channel, line), channel, config.effects),
-          sides_of(receiving_line(config, channel, line), channel, config.effects)};
+  const auto sides = [&](array::NearFieldFactor::Focus focus) {
+    return sides_of(along_track(config, channel, line, focus), channel, config.effects);
+  };
+  return {sides(array::NearFieldFactor::Focus::kOff), sides(received_focus(channel))};
 }
 
 Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {

@@ -101,7 +101,7 @@ TEST_CASE("cross-talk has the level of source, isolation, spreading and our own 
   const auto sides = side_patterns(config, config.channels[0]);
   const auto sample = static_cast<std::size_t>((expected_s + 0.5 * kPulse_s) / pings[0].sample_period_s);
   for (const std::size_t side : {0U, 1U}) {
-    const double pattern_db = 20 * std::log10(std::abs(sides.receive[side](Eigen::Vector3f::UnitY(), 1e6F)));
+    const double pattern_db = 20 * std::log10(std::abs(sides.receive[side].amplitude(Eigen::Vector3f::UnitY(), 1e6F)));
     CHECK_THAT(20 * std::log10(pings[0].amplitude_upa(side, sample)),
                WithinAbs(220 - 60 - 20 * std::log10(kLever_m) + pattern_db, 0.01));
   }

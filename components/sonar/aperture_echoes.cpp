@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/water/noise.h"
@@ -13,7 +12,6 @@
 namespace ensonify {
 namespace {
 
-constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kPatchesPerLobe = 4.0;  // of seabed that answers as one point, across the lobe at the nearest range
 constexpr double kVolumeReach = 4.0;     // widths of the narrow lobe, to either side, in which the water is received
 
@@ -25,18 +23,6 @@ std::string stream_name(const Apertures& a, const char* what) {
   return fmt::format("{}/{:.0f}/{}", a.process, a.frequency_hz, what);
 }
 
-/// Of all apertures at once: the fringes between them, finer than any lobe, are averaged.
-TransmittedPower all_of(const std::vector<AperturePattern>& patterns) {
-  return [patterns](const Eigen::Vector3f& direction, float range_m) {
-    double power = 0.0;
-    for (const AperturePattern& pattern : patterns) {
-      const double amplitude = static_cast<double>(pattern(direction, range_m));
-      power += amplitude * amplitude;
-    }
-    return power;
-  };
-}
-
 }  // namespace
 
 ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
@@ -45,16 +31,15 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      transmitted_(all_of(apertures.patterns.transmit)),
       sea_(environment, apertures.frequency_hz, effects),
       scatterers_(patch_m(apertures), {apertures.seed, "seabed"}),
       distribution_(rays) {
   if (!sea_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
-  for (const AperturePattern& pattern : apertures_.patterns.receive) {
+  for (const array::Pattern& pattern : apertures_.patterns.receive) {
     const auto two_way = [&](const Eigen::Vector3f& direction) {
-      const double gain = static_cast<double>(pattern(direction, kFarField_m));
-      return transmitted_(direction, kFarField_m) * gain * gain;
+      const auto received = static_cast<double>(pattern.amplitude(direction));
+      return array::power(apertures_.patterns.transmit, direction) * received * received;
     };
     volume_directions_.push_back(
         echo::VolumeDirections::of(two_way, apertures.narrow_axis_head, -reach, reach, 0.1 * apertures.narrowest_rad));
@@ -65,7 +50,7 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
                                                         std::span<const frames::HeadPose> poses, trace::Scene& seabed,
                                                         Memory& memory) const {
   const PingEvent& event = emission.event;
-  const Shot shot{poses, seconds(event.transmit), emission.source_level_db, transmitted_};
+  const Shot shot{poses, seconds(event.transmit), emission.source_level_db, apertures_.patterns.transmit};
   const Insonified insonified = sea_.insonify(shot, seabed, distribution_, event.range_m, memory.shot);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.reception_s / emission.sample_period_s))};
@@ -87,15 +72,11 @@ ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission
 
 echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
                                       const frames::HeadPose& pose, std::vector<float>& gain) const {
-  const double half_speed_mps = 0.5 * sea_.sound_speed_mps(pose);
   const auto& patterns = apertures_.patterns.receive;
   gain.resize(patterns.size() * arrivals.size());
   for (std::size_t row = 0; row < patterns.size(); ++row) {
-    const auto one = [&](const echo::Arrival& arrival) {
-      return patterns[row](arrival.direction_head, static_cast<float>(half_speed_mps * arrival.time_s));
-    };
-    const auto whole = [](const Eigen::Vector3f&, const Eigen::Vector3f&) { return 1.0F; };
-    sea_.gains(one, arrivals, paired, whole, std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
+    sea_.gains(patterns[row], pose, arrivals, paired, nullptr,
+               std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
   }
   return {arrivals, gain};
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
+#include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
@@ -15,13 +15,9 @@
 
 namespace ensonify {
 
-/// Amplitude that a transducer gives a direction (unit vector, head frame) to or from a point at this range, besides
-/// spreading; 1 on its axis far away (range infinite).
-using AperturePattern = std::function<float(const Eigen::Vector3f& direction_head, float range_m)>;
-
 /// Patterns of transducers of one frequency, the same of each in the same place.
 struct AperturePatterns {
-  std::vector<AperturePattern> transmit, receive;
+  std::vector<array::Pattern> transmit, receive;
 };
 
 /// Transducers of one frequency that send at once and of which each receives for itself: both sides of a sidescan, the
@@ -85,7 +81,6 @@ class ApertureEchoes {
   Apertures apertures_;
   Effects effects_;
   random::Stream noise_, volume_;
-  TransmittedPower transmitted_;
   SeaAcoustics sea_;
   echo::Scatterers scatterers_;
   trace::RayDistribution distribution_;

@@ -31,7 +31,7 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
     const std::function<double(const Eigen::Vector3f& direction_head)>& transmitted, double step_rad) const {
   if (!sea_.water_scatters()) return {};
   const auto two_way = [&](const Eigen::Vector3f& direction) {
-    const double received = static_cast<double>(array_.element(direction));
+    const auto received = static_cast<double>(array_.element.amplitude(direction));
     return transmitted(direction) * received * received;
   };
   return echo::directions_of_cells(receiver_, two_way, step_rad);
@@ -40,13 +40,9 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse,
                            const ArrayReception& reception, Memory& memory) const {
-  const auto shared = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    return shared_->amplitude(static_cast<double>((a - b).dot(array_.elements.axis_head))).real();
-  };
   const auto gains = [&](const echo::Arrivals& arrivals, const echo::PairedArrivals& paired, std::vector<float>& gain) {
     gain.resize(arrivals.size());
-    sea_.gains([&](const echo::Arrival& arrival) { return array_.element(arrival.direction_head); }, arrivals, paired,
-               shared, gain);
+    sea_.gains(array_.element, shot.pose(), arrivals, paired, shared_ ? &*shared_ : nullptr, gain);
     return echo::EchoSet{arrivals, gain};
   };
   const std::array sets{gains(echoed.arrivals, echoed.paired, memory.gain),

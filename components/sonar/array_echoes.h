@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
-#include "kernels/acoustics/array/line.h"
+#include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
@@ -31,9 +31,9 @@ struct ReceiveArray {
   double frequency_hz = 0.0;
   echo::ElementLine elements;               // at the true speed of sound
   std::vector<std::vector<float>> weights;  // of the images that are wanted; the first is that of the whole line
-  std::function<float(const Eigen::Vector3f& direction_head)> element;  // amplitude that an element gives a direction
-  double noise_share = 1.0;             // isotropic noise that an element lets in, over what a point would
-  double electronic_noise_db = -200.0;  // of each element, as sound in the water, dB re 1 uPa^2/Hz
+  array::Pattern element;                   // of each
+  double noise_share = 1.0;                 // isotropic noise that an element lets in, over what a point would
+  double electronic_noise_db = -200.0;      // of each element, as sound in the water, dB re 1 uPa^2/Hz
   std::uint64_t seed = 1;
   std::string process,
       suffix;  // streams are PROCESS/noise, PROCESS/electronic and PROCESS/volume, each with the suffix
@@ -101,7 +101,7 @@ class ArrayEchoes {
   echo::LineReceiver receiver_;
   std::optional<echo::LineReceiver> power_receiver_;  // without speckle
   std::vector<std::vector<float>> power_weights_;     // of the whole line
-  std::optional<array::PatternTable> shared_;         // without speckle: of echo::power_gains
+  std::optional<echo::SharedByBeams> shared_;         // without speckle
 };
 
 }  // namespace ensonify

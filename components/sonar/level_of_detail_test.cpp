@@ -41,9 +41,9 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   SeaAcoustics sea(environment, 300e3, {.motion = false});
   const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
-  const TransmittedPower power = [](const auto&, float) { return 1.0; };
+  const array::Pattern all_around;
   ShotMemory memory;
-  sea.insonify({.poses = std::span(&pose, 1), .power = power}, tiles.scene(), distribution, 45.0, memory);
+  sea.insonify({.poses = std::span(&pose, 1), .transmit = {&all_around, 1}}, tiles.scene(), distribution, 45.0, memory);
   return {std::move(memory.traced.aimed.rays), std::move(memory.traced.hits)};
 }
 

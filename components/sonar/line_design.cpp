@@ -13,7 +13,7 @@ LineDesign::LineDesign(double half_power_rad, double at_wavelength_m, const arra
       uniform_in_waves(array::length_in_waves_for(half_power_rad)),
       effective_in_waves(array::effective_length_m(line) / at_wavelength_m),
       first_null(array::first_null(line, at_wavelength_m)),
-      pattern(line, at_wavelength_m) {}
+      pattern(std::make_shared<array::PatternTable>(line, at_wavelength_m)) {}
 
 void ParametersOf<array::Shading>::check(const ConfigReader& from, const array::Shading& shading) {
   const int least = array::least_nbar(shading.side_lobe_db);

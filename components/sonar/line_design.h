@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "components/config/parameters.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/shading.h"
@@ -16,7 +18,7 @@ struct LineDesign {
   double uniform_in_waves;    // length of the uniform line of the same width ...
   double effective_in_waves;  // ... and of the one that would see the same area
   double first_null;          // sine
-  array::PatternTable pattern;
+  std::shared_ptr<const array::PatternTable> pattern;
 };
 
 /// Shading of a head's line, within what array::shading_weights takes.

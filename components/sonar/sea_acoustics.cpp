@@ -2,25 +2,29 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "components/sonar/head_motion.h"
 
 namespace ensonify {
 namespace {
 
-constexpr float kFarField_m = std::numeric_limits<float>::infinity();
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
-constexpr std::size_t kRaysPerTask = 4096;
+constexpr std::size_t kRaysPerTask = 4096, kArrivalsPerTask = 4096;
 
 /// What rays hit.
 struct HitSums {
   int hits = 0, in_lobe = 0;
   double height_m = 0.0;  // sum of z
 };
+
+array::Directions part_of(const trace::VectorColumns<float>& directions, std::size_t first, std::size_t count) {
+  return array::Directions{directions.x, directions.y, directions.z}.part(first, count);
+}
 
 }  // namespace
 
@@ -85,9 +89,7 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
   memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
   echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
   if (effects_.multipath) {
-    const echo::MultipathHead head{
-        .source_level_db = sent_db(shot.source_level_db),
-        .transmit = [&shot](const Eigen::Vector3f& direction) { return shot.power(direction, kFarField_m); }};
+    const echo::MultipathHead head{.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
     echo::SurfaceMirror surface;
     surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
     surface.sound_speed_mps = sound_speed_mps(pose);
@@ -107,13 +109,17 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
   const HitSums sums = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), HitSums{},
       [&](const auto& range, HitSums so_far) {
+        std::array<double, kRaysPerTask> transmitted;
+        array::powers(shot.transmit, part_of(rays.direction_head, range.begin(), range.size()),
+                      std::span(hits.path_length_m).subspan(range.begin(), range.size()),
+                      std::span(transmitted).first(range.size()));
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           if (!hits.hit(i)) continue;
-          const double transmitted = shot.power(rays.direction_head[i], hits.path_length_m[i]);
+          const double power = transmitted[i - range.begin()];
           ++so_far.hits;
-          so_far.in_lobe += transmitted > kInLobe ? 1 : 0;
+          so_far.in_lobe += power > kInLobe ? 1 : 0;
           so_far.height_m += hits.position_enu_m.z[i];
-          memory.source_upa2m2[i] = static_cast<float>(source * transmitted);
+          memory.source_upa2m2[i] = static_cast<float>(source * power);
           memory.backscatter[i] =
               insonified.backscatter(contributors_[hits.contributor[i]].sediment, hits.sin_grazing[i]);
         }
@@ -128,6 +134,23 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
   echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
   echoed.absorption_dbpm =
       effects_.absorption ? environment_.absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
+}
+
+void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
+                         const echo::PairedArrivals& paired, const echo::SharedByBeams* shared,
+                         std::span<float> gains) const {
+  const double half_speed_mps = 0.5 * sound_speed_mps(pose);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, gains.size(), kArrivalsPerTask),
+      [&](const auto& range) {
+        std::array<float, kArrivalsPerTask> range_m;
+        for (std::size_t i = 0; i < range.size(); ++i)
+          range_m[i] = static_cast<float>(half_speed_mps * arrivals.time_s[range.begin() + i]);
+        pattern.amplitudes(part_of(arrivals.direction_head, range.begin(), range.size()),
+                           std::span(range_m).first(range.size()), gains.subspan(range.begin(), range.size()));
+      },
+      tbb::simple_partitioner());
+  if (!effects_.speckle) echo::power_gains(arrivals, paired, shared, gains);
 }
 
 void SeaAcoustics::add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,

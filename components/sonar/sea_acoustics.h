@@ -1,10 +1,7 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +10,7 @@
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
+#include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/interference.h"
 #include "kernels/acoustics/echo/multipath.h"
@@ -95,16 +93,12 @@ class WaterPaths {
 
 inline double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
 
-/// Power of a transmission in a direction (unit vector, head frame) as it is at this range, times the range squared; 1
-/// on its axis far away (range infinite). Called from several threads.
-using TransmittedPower = std::function<double(const Eigen::Vector3f& direction_head, float range_m)>;
-
 /// One transmission as it truly is.
 struct Shot {
   std::span<const frames::HeadPose> poses;  // of the head from transmission on, one per kTrackPeriod; at least one
   double transmit_s = 0.0;                  // sim time
   double source_level_db = 0.0;
-  const TransmittedPower& power;
+  std::span<const array::Pattern> transmit;  // of all transducers that send at once
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
 
   const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
@@ -181,19 +175,9 @@ class SeaAcoustics {
                           const echo::Sampling& sampling, std::vector<float>& mean_square_upa2) const;
 
   /// Gain of a receive pattern for each arrival: the pattern's amplitude, or with speckle switched off that of powers
-  /// (echo::power_gains).
-  template <class Pattern, class Shared>
-  void gains(const Pattern& pattern, const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
-             const Shared& shared, std::span<float> gains) const {
-    constexpr std::size_t kPerTask = 4096;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, gains.size(), kPerTask),
-        [&](const auto& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) gains[i] = pattern(arrivals[i]);
-        },
-        tbb::simple_partitioner());
-    if (!effects_.speckle) echo::power_gains(arrivals, paired, shared, gains);
-  }
+  /// (echo::power_gains, which see for `shared`).
+  void gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
+             const echo::PairedArrivals& paired, const echo::SharedByBeams* shared, std::span<float> gains) const;
 
  private:
   echo::ReceiverBand band(const Shot& shot, const Echoed& echoed) const {

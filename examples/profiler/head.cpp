@@ -14,13 +14,9 @@ constexpr double kStandsOut_db = 15.0;
 constexpr double kReach = 2.0;  // half-power widths from the axis beyond which nothing is sent: -48 dB one-way
 
 /// Amplitude of a Gaussian beam: half the power at half the width, no side lobes.
-AperturePattern gaussian_beam(double beamwidth_rad) {
+array::Pattern gaussian_beam(double beamwidth_rad) {
   const double half_power = std::sin(0.5 * beamwidth_rad);
-  const double fall = 0.5 * std::log(2.0) / (half_power * half_power);
-  return [fall](const Eigen::Vector3f& direction, float) {
-    const auto off_axis = static_cast<double>(direction.head<2>().squaredNorm());
-    return direction.z() > 0.0F ? static_cast<float>(std::exp(-fall * off_axis)) : 0.0F;
-  };
+  return array::Pattern().times(array::GaussianFactor{0.5 * std::log(2.0) / (half_power * half_power)});
 }
 
 double resolution_m(const ProfilerConfig& c) { return 0.5 * c.sound_speed_mps * c.pulse_length_s; }

@@ -13,7 +13,7 @@ namespace ensonify::physics {
 namespace {
 
 struct Inputs {
-  echo::MultipathHead head{220.0, [](const Eigen::Vector3f&) { return 1.0; }, 15.0};
+  echo::MultipathHead head{220.0, {}, 15.0};
   echo::SurfaceMirror surface;
   double frequency_hz = 300e3, absorption_dbpm = 0.05, cross_section_db = -40.0;
   double head_depth_m = 5.0, altitude_m = 20.0, ground_range_m = 20.0;
@@ -42,13 +42,17 @@ Verb::Row echoes_of(const Inputs& in) {
   one.response = {1.0F, 0.0F};
   const echo::Carrier carrier{in.frequency_hz, in.absorption_dbpm};
 
+  const array::Pattern all_around;
+  echo::MultipathHead head = in.head;
+  head.transmit = {&all_around, 1};
+
   echo::Arrivals direct;
   echo::add_direct_echoes(carrier, pose.position_enu_m, std::span(&one, 1), receivers, direct);
   Verb::Row row = together(direct);
   using Parts = echo::MultipathParts;
   for (const Parts& parts : {Parts{true, false, false}, Parts{false, true, false}, Parts{false, false, true}}) {
     echo::Arrivals echoes;
-    echo::add_multipath(carrier, in.head, in.surface, parts, pose, std::span(&one, 1), receivers, echoes);
+    echo::add_multipath(carrier, head, in.surface, parts, pose, std::span(&one, 1), receivers, echoes);
     for (const double value : together(echoes)) row.push_back(value);
   }
   return row;

@@ -102,7 +102,7 @@ ElementLine power_line(const ElementLine& line) {
   return {2 * line.elements - 1, line.spacing_in_waves, line.axis_head};
 }
 
-array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights) {
+SharedByBeams shared_by_beams(const ElementLine& line, std::span<const float> weights) {
   const double middle = 0.5 * static_cast<double>(weights.size() - 1);
   std::vector<double> squares;
   for (const float weight : weights) squares.push_back(static_cast<double>(weight) * static_cast<double>(weight));
@@ -115,7 +115,7 @@ array::PatternTable shared_by_beams(const ElementLine& line, std::span<const flo
     }
     return sum;
   };
-  return {pattern, std::max(line.spacing_in_waves * middle, 0.5)};
+  return {{pattern, std::max(line.spacing_in_waves * middle, 0.5)}, line.axis_head};
 }
 
 LineReceiver::LineReceiver(const ElementLine& line)

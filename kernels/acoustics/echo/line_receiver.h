@@ -9,6 +9,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/image.h"
+#include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/base/fft/transform.h"
 #include "kernels/base/random/stream.h"
@@ -64,10 +65,8 @@ std::vector<float> beam_weights(std::span<const double> weights, std::span<const
 std::vector<float> power_weights(std::span<const float> weights);
 ElementLine power_line(const ElementLine& line);
 
-/// Mean over beams, at all sines, of the product of their amplitudes in two directions over that of a square, by the
-/// difference of the directions' sines: the pattern of the squared weights. It is the part that beams share of the
-/// cross term of two coherent waves (power_gains), exact for the sum of all beams.
-array::PatternTable shared_by_beams(const ElementLine& line, std::span<const float> weights);
+/// What beams of these weights share of two directions, for power_gains: the pattern of the squared weights.
+SharedByBeams shared_by_beams(const ElementLine& line, std::span<const float> weights);
 
 /// Sound that is there without any arrival, as mean squares per sample. It is white before the receiver's filter
 /// (SampledPulse::response), so coloured in time as echoes are. Each of the three draws from its own stream, by (ping,

@@ -212,14 +212,9 @@ TEST_CASE("without speckle all beams together receive a pair's pressures, near o
     const double want = energy(form(line, {std::array{EchoSet{pressures}}, kPulse, kSampling, {}}, beams, weights),
                                [](std::complex<float> p) { return double(std::norm(p)); });
     const Arrivals powers{from_sine(0.2, 11e-3, 9.0), from_sine(0.2 + apart, 11e-3, 1.0)};
-    const array::PatternTable shared = shared_by_beams(line, weights);
+    const SharedByBeams shared = shared_by_beams(line, weights);
     std::vector<float> gain{1.0F, 1.0F};
-    power_gains(
-        powers, {0, 1},
-        [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-          return shared.amplitude(double(a.y() - b.y())).real();
-        },
-        gain);
+    power_gains(powers, {0, 1}, &shared, gain);
     const Image image = form(power_line(line), {std::array{EchoSet{powers, gain}}, kPulse.squared(), kSampling, {}},
                              beams, power_weights(weights));
     CHECK(energy(image, [](std::complex<float> p) { return double(p.real()); }) == Approx(want).epsilon(2e-3));

@@ -30,10 +30,13 @@ struct Paths {
   double source_upa2m2 = power_ratio(head.source_level_db);  // on the axis
   double bottom_mirror = std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
 
+  Eigen::Vector3f launch(const Vec3& target) const {
+    return (pose.enu_from_head.conjugate() * (target - pose.position_enu_m).normalized()).cast<float>();
+  }
+
   /// Mean-square pressure at 1 m that leaves towards a point or an image, uPa^2 m^2.
   double source_towards(const Vec3& target) const {
-    const Vec3 direction = pose.enu_from_head.conjugate() * (target - pose.position_enu_m).normalized();
-    return source_upa2m2 * head.transmit(direction.cast<float>());
+    return source_upa2m2 * array::power(head.transmit, launch(target));
   }
 
   /// The arrival that left a scatterer (or its image) at `from` with mean square `at_1m`, after `out_m` of path, with
@@ -58,25 +61,20 @@ struct Paths {
     return surface_reflection(surface, carrier.frequency_hz, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
   }
 
-  /// seabed - surface, then surface - seabed.
-  std::array<Arrival, 2> one_bounce(const Scatterer& scatterer) const {
-    const Vec3& place = scatterer.position_enu_m;
-    const Vec3 image = mirrored(place, surface.level_enu_m);
-    const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
-    const double V = reflection(pose.position_enu_m, image);
-    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
-    return {arrive(scatterer, scatterer.scattered_upa2m2, V, direct_m, image),
-            arrive(scatterer, insonified, V, bounced_m, place)};
-  }
+  /// Where a scatterer seems to be, from the head: seabed - surface, and the same in the other order.
+  Vec3 one_bounce(const Vec3& place) const { return mirrored(place, surface.level_enu_m); }
 
-  /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order.
-  std::array<Arrival, 2> second_bottom(const Scatterer& scatterer) const {
+  /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order:
+  /// mirrored at the surface and then at the seabed's level.
+  Vec3 second_bottom(const Vec3& place) const { return mirrored(mirrored(place, surface.level_enu_m), place.z()); }
+
+  /// Out directly and back from the image, and the other way round. `sent` leaves towards the image, uPa^2 m^2;
+  /// `mirror` is the amplitude that mirrors besides the surface reflect.
+  std::array<Arrival, 2> by_image(const Scatterer& scatterer, const Vec3& image, double mirror, double sent) const {
     const Vec3& place = scatterer.position_enu_m;
-    // Seen from the head, the scatterer mirrored at the surface and then at the seabed's level.
-    const Vec3 image = mirrored(mirrored(place, surface.level_enu_m), place.z());
     const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
-    const double V = reflection(pose.position_enu_m, image) * bottom_mirror;
-    const double insonified = source_towards(image) * scatterer.cross_section_m2 / (bounced_m * bounced_m);
+    const double V = reflection(pose.position_enu_m, image) * mirror;
+    const double insonified = sent * scatterer.cross_section_m2 / (bounced_m * bounced_m);
     return {arrive(scatterer, scatterer.scattered_upa2m2, V, direct_m, image),
             arrive(scatterer, insonified, V, bounced_m, place)};
   }
@@ -98,6 +96,30 @@ struct Paths {
   }
 };
 
+/// What leaves towards the images of some scatterers.
+class Sources {
+ public:
+  static constexpr std::size_t kMost = kPerTask;
+
+  template <class ImageOf>
+  void set(const Paths& paths, std::span<const Scatterer> scatterers, const ImageOf& image_of) {
+    const std::size_t count = scatterers.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f launch = paths.launch(image_of(scatterers[i].position_enu_m));
+      x_[i] = launch.x(), y_[i] = launch.y(), z_[i] = launch.z();
+    }
+    const auto first = [count](const std::array<float, kMost>& all) { return std::span(all).first(count); };
+    array::powers(paths.head.transmit, {first(x_), first(y_), first(z_)}, {}, std::span(power_).first(count));
+    source_upa2m2_ = paths.source_upa2m2;
+  }
+  double operator[](std::size_t i) const { return source_upa2m2_ * power_[i]; }
+
+ private:
+  std::array<float, kMost> x_, y_, z_;
+  std::array<double, kMost> power_;
+  double source_upa2m2_ = 0.0;
+};
+
 /// Of the surface on the way to any of the scatterers: waves leave most where it is hit at the lowest angle.
 double strongest_reflection(const Paths& paths, std::span<const Scatterer> scatterers) {
   double least_sine = 1.0;
@@ -117,8 +139,7 @@ double surface_reflection(const SurfaceMirror& surface, double frequency_hz, dou
          std::pow(10.0, -0.05 * surface.bounce_loss_db);
 }
 
-void power_gains(const Arrivals& arrivals, const PairedArrivals& paired,
-                 const std::function<float(const Eigen::Vector3f&, const Eigen::Vector3f&)>& shared,
+void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const SharedByBeams* shared,
                  std::span<float> gains) {
   const std::vector<float>& mean_square = arrivals.pressure_re_upa;
   const auto pair = [&](std::size_t i) {
@@ -126,7 +147,8 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired,
     const float g = gains[i], h = gains[j], p = mean_square[i], q = mean_square[j];
     gains[i] = g * g, gains[j] = h * h;
     if (!(p > 0.0F && q > 0.0F) || g == 0.0F || h == 0.0F) return;
-    const float both = shared(arrivals.direction_head[i], arrivals.direction_head[j]) * g * h;
+    const float common = shared ? (*shared)(arrivals.direction_head[i], arrivals.direction_head[j]) : 1.0F;
+    const float both = common * g * h;
     gains[i] += both * std::sqrt(q / p);
     gains[j] += both * std::sqrt(p / q);
   };
@@ -150,20 +172,29 @@ PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, 
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, each == 0 ? 0 : scatterers.size(), kPerTask),
       [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          std::size_t out = before + each * i;
-          if (scatterers[i].position_enu_m.z() >= level_m) {
+        const auto some = scatterers.subspan(range.begin(), range.size());
+        Sources bounced, second;
+        const auto one_bounce = [&](const Vec3& place) { return paths.one_bounce(place); };
+        const auto second_bottom = [&](const Vec3& place) { return paths.second_bottom(place); };
+        if (parts.one_bounce) bounced.set(paths, some, one_bounce);
+        if (parts.second_bottom) second.set(paths, some, second_bottom);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          const Vec3& place = some[i].position_enu_m;
+          std::size_t out = before + each * (range.begin() + i);
+          if (place.z() >= level_m) {
             for (std::size_t k = 0; k < each; ++k) arrivals.set(out + k, Arrival{});
             continue;
           }
           const auto add = [&](const std::array<Arrival, 2>& pair, trace::EchoPath path) {
             for (Arrival arrival : pair) {
-              arrival.contributor = trace::by_path(scatterers[i].contributor, path);
+              arrival.contributor = trace::by_path(some[i].contributor, path);
               arrivals.set(out++, arrival);
             }
           };
-          if (parts.one_bounce) add(paths.one_bounce(scatterers[i]), trace::EchoPath::kViaSurface);
-          if (parts.second_bottom) add(paths.second_bottom(scatterers[i]), trace::EchoPath::kViaBottom);
+          using Path = trace::EchoPath;
+          if (parts.one_bounce) add(paths.by_image(some[i], one_bounce(place), 1.0, bounced[i]), Path::kViaSurface);
+          if (parts.second_bottom)
+            add(paths.by_image(some[i], second_bottom(place), paths.bottom_mirror, second[i]), Path::kViaBottom);
         }
       },
       tbb::simple_partitioner());

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/arrival.h"
 
 namespace ensonify::echo {
@@ -16,9 +16,6 @@ struct SurfaceMirror {
   double rms_height_m = 0.0;        // of the waves: a coherent reflection has exp(-2 (k sigma sin(grazing))^2) left
 };
 
-/// A power pattern: 1 on its axis; the argument is a unit vector in the head's frame.
-using Pattern = std::function<double(const Eigen::Vector3f& direction_head)>;
-
 /// Which paths to add.
 struct MultipathParts {
   bool one_bounce = true;     // seabed - surface and surface - seabed
@@ -29,9 +26,9 @@ struct MultipathParts {
 /// Data of the head for the added paths. Poses are those of transmission; the receiver moves little in the
 /// time of a bounce, and its attitude at arrival is used.
 struct MultipathHead {
-  double source_level_db = 220.0;  // on the transmit axis
-  Pattern transmit;
-  double bottom_mirror_loss_db = 15.0;  // of a specular bounce off the seabed
+  double source_level_db = 220.0;            // on the transmit axis
+  std::span<const array::Pattern> transmit;  // of all transducers that send at once
+  double bottom_mirror_loss_db = 15.0;       // of a specular bounce off the seabed
 };
 
 /// Coherent amplitude of one reflection by the surface, with sign: what waves leave (kernels/acoustics) and bubbles let
@@ -46,12 +43,22 @@ struct PairedArrivals {
   std::size_t first = 0, pairs = 0;
 };
 
+/// Mean over the beams of a line, at all sines, of the product of their amplitudes in two directions over that of a
+/// square: the part that beams share of the cross term of two coherent waves. Exact for the sum of all beams.
+struct SharedByBeams {
+  array::PatternTable pattern;  // by the difference of the directions' sines
+  Eigen::Vector3f axis_head;    // along which sines are counted
+
+  float operator()(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const {
+    return pattern.amplitude(static_cast<double>((a - b).dot(axis_head))).real();
+  }
+};
+
 /// Makes power gains, for Sum::kMeanSquare, of the amplitude gains of as many arrivals: squares, and for pairs also
 /// what they have more because they add as pressures. With mean squares p and q and gains g and h that is
 /// 2 s g h sqrt(p q), half of it with each. `shared`, s, is the part of it that one receiver has, of two directions:
-/// 1 for an aperture, whose mean square becomes (g sqrt(p) + h sqrt(q))^2.
-void power_gains(const Arrivals& arrivals, const PairedArrivals& paired,
-                 const std::function<float(const Eigen::Vector3f&, const Eigen::Vector3f&)>& shared,
+/// 1 for an aperture (null), whose mean square becomes (g sqrt(p) + h sqrt(q))^2.
+void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const SharedByBeams* shared,
                  std::span<float> gains);
 
 /// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.

@@ -12,11 +12,18 @@ using frames::Vec3;
 constexpr double kSpeed = 1500.0, kAlpha = 0.05;
 static const Carrier kCarrier{100e3, kAlpha};
 
+/// Power 1 below, this much above.
+static array::Pattern face_down(double above) {
+  return array::Pattern().times_power(
+      array::FaceFactor{Eigen::Vector3f::UnitZ(), array::Face(0.0, -10.0 * std::log10(above))});
+}
+
 /// An omnidirectional head of 200 dB, `depth_m` below a surface at 1.5 m, at rest.
 struct Geometry {
   double depth_m, altitude_m;
   SurfaceMirror surface{1.5, kSpeed};
-  MultipathHead head{200.0, [](const Eigen::Vector3f&) { return 1.0; }, 12.0};
+  array::Pattern transmit;
+  MultipathHead head{200.0, {&transmit, 1}, 12.0};
   frames::HeadPose pose{{3.0, -2.0, 1.5 - depth_m}, frames::enu_from_ned()};
   Receivers receivers;
 
@@ -95,7 +102,7 @@ TEST_CASE("without speckle an aperture's pair is (sqrt(bT1 bR2) + sqrt(bT2 bR1))
   constexpr double kBelow = 0.81, kAbove = 0.09;
   for (const auto& [received_below, received_above] : {std::pair{kBelow, kAbove}, {1.0, 1.0}, {0.25, 0.0}}) {
     Geometry geometry(4.0, 20.0);
-    geometry.head.transmit = [](const Eigen::Vector3f& direction) { return direction.z() > 0 ? kBelow : kAbove; };
+    geometry.transmit = face_down(kAbove);
     Scatterer one = geometry.at(30.0);
     one.scattered_upa2m2 *= float(kBelow);  // what the rays carried
     Arrivals arrivals;
@@ -108,8 +115,7 @@ TEST_CASE("without speckle an aperture's pair is (sqrt(bT1 bR2) + sqrt(bT2 bR1))
     std::vector<float> gain;
     for (const Arrival& arrival : arrivals)
       gain.push_back(float(std::sqrt(arrival.direction_head.z() > 0 ? received_below : received_above)));
-    power_gains(
-        arrivals, paired, [](const auto&, const auto&) { return 1.0F; }, gain);
+    power_gains(arrivals, paired, nullptr, gain);
     const double R1 = std::hypot(30.0, 20.0), R2 = std::hypot(30.0, 28.0);
     const double one_path = std::pow(10.0, 20.0 - 4.0 - 0.1 * kAlpha * (R1 + R2)) / std::pow(R1 * R2, 2);
     const double pair = double(arrivals.pressure_re_upa[1] * gain[1]) + double(arrivals.pressure_re_upa[2] * gain[2]);
@@ -145,7 +151,7 @@ TEST_CASE("the echo of the surface is that of an image source") {
 TEST_CASE("paths leave and arrive where the patterns say") {
   // A head that sends downwards only: nothing goes to the surface first; what comes back from above is still received.
   Geometry geometry(4.0, 20.0);
-  geometry.head.transmit = [](const Eigen::Vector3f& direction) { return direction.z() > 0 ? 1.0 : 0.0; };
+  geometry.transmit = face_down(0.0);
   const auto ghosts = geometry.multipath(30.0, {true, false, true});
   CHECK(std::norm(ghosts[0].pressure_upa) > 0);
   CHECK(ghosts[1].pressure_upa == std::complex<float>{});

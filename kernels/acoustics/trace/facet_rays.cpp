@@ -17,6 +17,7 @@ constexpr double kMostRefraction_rad = 0.3;  // to search for it where straight 
 constexpr double kSpread_rad = 0.02;         // of what bending does to the directions of one object
 constexpr double kWithinFacet = 0.95;        // rays keep off its edges: which of two facets they hit there is rounding
 constexpr std::uint32_t kLevels = 10;        // of a facet's places: a million
+constexpr std::size_t kMostToFacets = 4;     // of all rays one in so many
 constexpr std::uint64_t kPlaces = 0x6661636574ULL;  // of the stream
 
 std::uint32_t facet_number(const terrain::Tile& tile, std::int32_t column, std::int32_t row, bool upper) {
@@ -121,8 +122,10 @@ const FacetTargets::Tile* tile_of(const FacetTargets& targets, std::uint32_t til
   return has && facet_m == static_cast<float>(at->tile->spacing_m) ? &*at : nullptr;
 }
 
-void gather(std::span<const Object> objects, const FacetView& view, const FacetDemand& demand,
-            std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) {
+}  // namespace
+
+void RayDistribution::gather_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
+                                    std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) const {
   facets.clear();
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const Object& object = objects[o];
@@ -130,7 +133,7 @@ void gather(std::span<const Object> objects, const FacetView& view, const FacetD
     const Vec3 off = view.head.enu_from_head.conjugate() * (object.box_enu_m.center() - view.head.position_enu_m);
     const double away_m = off.norm(),
                  radius_m = half_m + (view.refracted != nullptr ? kMostRefraction_rad * away_m : 0.0);
-    if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !demand.touches(off, radius_m)) continue;
+    if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !touches(probes, off, radius_m)) continue;
     const auto towards = Towards::make(view, object.box_enu_m);
     if (!towards) continue;
     take(object, targets);
@@ -142,7 +145,8 @@ void gather(std::span<const Object> objects, const FacetView& view, const FacetD
         if (!std::isfinite(sw.z() + se.z() + nw.z() + ne.z())) continue;
         for (const bool upper : {false, true}) {
           const std::array<Vec3, 3> corners{upper ? ne : sw, nw, se};
-          const double wanted = demand.rays({(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
+          const double wanted =
+              rays_to_facet(probes, {(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
           if (!(wanted > 0.0)) continue;
           const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
           facets.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
@@ -156,31 +160,29 @@ void gather(std::span<const Object> objects, const FacetView& view, const FacetD
   std::ranges::sort(targets.tiles, {}, &FacetTargets::Tile::number);
 }
 
-}  // namespace
-
-void aim_at_facets(const random::Stream& stream, std::span<const Object> objects, const FacetView& view,
-                   const FacetDemand& demand, FacetMemory& memory, FacetTargets& targets) {
+void RayDistribution::aim_at_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
+                                    FacetMemory& memory, FacetTargets& targets) const {
   memory.rays.clear();
   targets.facets.clear();
   targets.tiles.clear();
   targets.cells.clear();
-  gather(objects, view, demand, memory.facets, targets);
+  gather_facets(probes, objects, view, memory.facets, targets);
   double sum = 0.0;
   for (const FacetMemory::Facet& facet : memory.facets) sum += std::max(1.0, facet.wanted);
-  const double share = std::min(1.0, static_cast<double>(demand.most) / std::max(1.0, sum));
+  const double share = std::min(1.0, static_cast<double>(settings_.most_rays / kMostToFacets) / std::max(1.0, sum));
   std::optional<Towards> towards;
   std::size_t of = objects.size();
   for (const FacetMemory::Facet& facet : memory.facets) {
     if (facet.object != of) of = facet.object, towards = Towards::make(view, objects[of].box_enu_m);
     const double wanted = share * facet.wanted;
-    const auto random = stream.bits(kPlaces, facet.target.facet);
+    const auto random = stream_.bits(kPlaces, facet.target.facet);
     if (wanted < 1.0 && 0x1p-32 * random[0] >= wanted) continue;
     const auto count = static_cast<std::uint32_t>(std::ceil(wanted));
     FacetTargets::Facet target = facet.target;
     target.area_m2 /= static_cast<float>(wanted < 1.0 ? wanted : static_cast<double>(count));
     for (std::uint32_t k = 0; k < count; ++k) {
       const Vec3 direction = (*towards)(place_on(facet.corners_enu_m, random[1], k));
-      if (!demand.holds(direction)) continue;
+      if (!holds(probes, direction)) continue;
       memory.rays.push_back({direction.normalized().cast<float>(), 0.0F});
       targets.facets.push_back(target);
     }

@@ -20,8 +20,7 @@ constexpr int kFewestMainCells = 2;        // of a span
 constexpr std::size_t kCellsPerTask = 16;  // fixed, so the number of threads changes nothing
 constexpr double kWidest = 0.5;            // of a cell, in either coordinate: fill_cell() needs it below 0.6 rad
 
-constexpr double kRaysPerFacet = 10.0;    // at normal quality
-constexpr std::size_t kMostToFacets = 4;  // of all rays one in so many
+constexpr double kRaysPerFacet = 10.0;  // at normal quality
 
 // Of planes that rays aim at. Where a plane is as far from the seabed as a quarter of the head's height above it,
 // places wander on the seabed by a quarter of what the head moves.
@@ -257,12 +256,7 @@ void RayDistribution::fill(const frames::HeadPose& head, const Probes& probes, c
     const std::size_t i = k / columns(), j = k % columns();
     parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
   });
-  aim_at_facets(stream_, objects, {head, max_range_m, refracted},
-                {[&](const auto& corners) { return rays_to_facet(probes, corners); },
-                 [&](const Vec3& direction) { return holds(probes, direction); },
-                 [&](const Vec3& middle, double radius_m) { return touches(probes, middle, radius_m); },
-                 settings_.most_rays / kMostToFacets},
-                memory.facets, aimed.to_facets);
+  aim_at_facets(probes, objects, {head, max_range_m, refracted}, memory.facets, aimed.to_facets);
   if (memory.rays.size() < parts.size()) memory.rays.resize(parts.size());
 
   const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });

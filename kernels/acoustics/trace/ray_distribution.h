@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,17 +19,6 @@ struct FacetView {
   const frames::HeadPose& head;
   double max_range_m;
   const refraction::PathTable* refracted;
-};
-
-/// Demand of a transmission for rays to facets. Vectors are launch directions times distances, head frame.
-struct FacetDemand {
-  /// Number of rays that a facet with these corners needs; below 1 it has one with that probability.
-  std::function<double(const std::array<frames::Vec3, 3>& corners_head_m)> rays;
-  /// Whether a ray goes there at all.
-  std::function<bool(const frames::Vec3& direction_head_m)> holds;
-  /// Whether a ray may go to a ball; where it may not, objects cost nothing.
-  std::function<bool(const frames::Vec3& middle_head_m, double radius_m)> touches;
-  std::size_t most;  // rays: all facets give way by the same share; twice as many at the utmost, for they are whole
 };
 
 /// Targets of rays to facets, and the cells whose facets have such rays.
@@ -61,22 +49,6 @@ struct FacetMemory {
   Rays rays;
   std::vector<Facet> facets;
 };
-
-/// Rays to the facets of small objects.
-///
-/// Rays that are spread over directions miss what is small or seen edge-on. So each facet has rays of its own, to
-/// places that are spread over it and stay with it. Such a ray counts if its facet is the first that it hits, and
-/// stands for its share of the facet's area: it carries the solid angle area sin(grazing) / tube, as it then finds
-/// them. Rays that are spread over directions and hit a facet that has its own do not count: nothing is counted twice,
-/// and what lies behind stays hidden. Both are unbiased, so their sum is.
-///
-/// In refracting water the launch direction is that of the eigenray, exact at the corners of the object's box (distance
-/// and depth) and between them by straight lines of its difference to the straight direction. An object that no path
-/// reaches, or several with directions apart, is left to the other rays; so is one that is wider than its distance.
-///
-/// Chooses the rays to these objects, memory.rays.
-void aim_at_facets(const random::Stream& stream, std::span<const Object> objects, const FacetView& view,
-                   const FacetDemand& demand, FacetMemory& memory, FacetTargets& targets);
 
 /// When all rays have been traced, those to facets as the last: makes misses of hits that do not count, and gives the
 /// facets' rays what solid angle they carry. Throws std::invalid_argument unless there is one hit per ray.
@@ -240,9 +212,32 @@ class RayDistribution {
   }
   /// Sine and angle of a direction, the angle in the turn about the volume's middle.
   std::array<double, 2> coordinates_of(const Probes& probes, const frames::Vec3& direction_head) const;
+  // What a transmission asks of rays to facets. Vectors are launch directions times distances, head frame.
+  /// Number of rays that a facet with these corners needs; below 1 it has one with that probability.
   double rays_to_facet(const Probes& probes, const std::array<frames::Vec3, 3>& corners_head_m) const;
+  /// Whether a ray goes there at all.
   bool holds(const Probes& probes, const frames::Vec3& direction_head) const;
+  /// Whether a ray may go to a ball; where it may not, objects cost nothing.
   bool touches(const Probes& probes, const frames::Vec3& middle_head_m, double radius_m) const;
+  void gather_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
+                     std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) const;
+  /// Rays to the facets of small objects.
+  ///
+  /// Rays that are spread over directions miss what is small or seen edge-on. So each facet has rays of its own, to
+  /// places that are spread over it and stay with it. Such a ray counts if its facet is the first that it hits, and
+  /// stands for its share of the facet's area: it carries the solid angle area sin(grazing) / tube, as it then finds
+  /// them. Rays that are spread over directions and hit a facet that has its own do not count: nothing is counted
+  /// twice, and what lies behind stays hidden. Both are unbiased, so their sum is.
+  ///
+  /// In refracting water the launch direction is that of the eigenray, exact at the corners of the object's box
+  /// (distance and depth) and between them by straight lines of its difference to the straight direction. An object
+  /// that no path reaches, or several with directions apart, is left to the other rays; so is one that is wider than
+  /// its distance.
+  ///
+  /// Chooses the rays to these objects, memory.rays. Where they are too many all facets give way by the same share;
+  /// twice as many come at the utmost, for they are whole.
+  void aim_at_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view, FacetMemory& memory,
+                     FacetTargets& targets) const;
   static std::size_t cut(double share, std::span<Part> parts);
   void fill_part(std::size_t index, const View& view, Memory& memory) const;
   static void gather(Memory& memory, Rays& rays);

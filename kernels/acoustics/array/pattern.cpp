@@ -1,0 +1,198 @@
+#include "kernels/acoustics/array/pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace ensonify::array {
+namespace {
+
+constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
+constexpr std::size_t kRun = 256;    // directions whose numbers stay in the first cache
+
+float amplitude_of(const LineFactor& line, const Eigen::Vector3f& direction, float) {
+  const double sine = static_cast<double>(line.axis_head.dot(direction)) - line.sin_steer;
+  return std::abs(sine) < static_cast<double>(line.end) ? line.table->amplitude(sine).real() : 0.0F;
+}
+
+float amplitude_of(const PistonFactor& piston, const Eigen::Vector3f& direction, float) {
+  const float sine = direction.head<2>().norm();
+  return sine < piston.end ? piston.table->amplitude(static_cast<double>(sine)).real() : 0.0F;
+}
+
+float amplitude_of(const NearFieldFactor& line, const Eigen::Vector3f& direction, float range_m) {
+  using Focus = NearFieldFactor::Focus;
+  const double u = static_cast<double>(direction.x()), range = std::max(static_cast<double>(range_m), kNearest_m);
+  const double focus = line.focus == Focus::kEcho ? range : line.focus == Focus::kFixed ? line.focus_m : kFarAway_m;
+  const double shadow = 0.5 * line.length_m * std::abs(1.0 / range - 1.0 / focus);
+  if (!line.side_lobes && std::abs(u) > shadow + line.wavelength_m / line.length_m) return 0.0F;
+  return static_cast<float>(std::abs(near_field_line_amplitude(line.length_m, line.wavelength_m, u, range, focus)));
+}
+
+double face_of(const FaceFactor& face, const Eigen::Vector3f& direction) {
+  return face.face.amplitude(static_cast<double>(face.normal_head.dot(direction)));
+}
+
+float amplitude_of(const FaceFactor& face, const Eigen::Vector3f& direction, float) {
+  return static_cast<float>(face_of(face, direction));
+}
+
+float power_of(const CosineFactor& cosine, const Eigen::Vector3f& direction) {
+  const float u = direction.y();
+  return std::pow(std::max(0.0F, (1.0F - u) * (1.0F + u)), cosine.power);
+}
+
+float amplitude_of(const CosineFactor& cosine, const Eigen::Vector3f& direction, float) {
+  return std::sqrt(power_of(cosine, direction));
+}
+
+float amplitude_of(const EdgeFactor& edge, const Eigen::Vector3f& direction, float) {
+  const double across = static_cast<double>(direction.y());
+  const double inside = edge.inside_above ? across - edge.sine : edge.sine - across;
+  if (inside >= edge.reach) return 1.0F;
+  return inside > -edge.reach ? edge.table->amplitude(inside).real() : 0.0F;
+}
+
+float amplitude_of(const GaussianFactor& gaussian, const Eigen::Vector3f& direction, float) {
+  const auto off_axis = static_cast<double>(direction.head<2>().squaredNorm());
+  return direction.z() > 0.0F ? static_cast<float>(std::exp(-gaussian.fall * off_axis)) : 0.0F;
+}
+
+/// Square of a factor's amplitude; of a table, of all that it holds.
+template <class Factor>
+double power_factor(const Factor& factor, const Eigen::Vector3f& direction, float range_m) {
+  if constexpr (std::is_same_v<Factor, LineFactor>) {
+    const double sine = static_cast<double>(factor.axis_head.dot(direction)) - factor.sin_steer;
+    return std::abs(sine) < static_cast<double>(factor.end) ? static_cast<double>(factor.table->power(sine)) : 0.0;
+  } else if constexpr (std::is_same_v<Factor, FaceFactor>) {
+    const double face = face_of(factor, direction);
+    return face * face;
+  } else if constexpr (std::is_same_v<Factor, CosineFactor>) {
+    return static_cast<double>(power_of(factor, direction));
+  } else {
+    const auto amplitude = static_cast<double>(amplitude_of(factor, direction, range_m));
+    return amplitude * amplitude;
+  }
+}
+
+void check(const Directions& directions, std::span<const float> range_m, std::size_t out) {
+  const std::size_t count = directions.size();
+  const bool fits = directions.y.size() == count && directions.z.size() == count && out == count &&
+                    (range_m.empty() || range_m.size() == count);
+  if (!fits) throw std::invalid_argument("a pattern needs one direction, one range or none, and room for each number");
+}
+
+float range_of(std::span<const float> range_m, std::size_t i) { return range_m.empty() ? kFarField_m : range_m[i]; }
+
+/// Multiplies by the factors' amplitudes.
+void multiply(std::span<const Pattern::Factor> factors, const Directions& directions, std::span<const float> range_m,
+              std::span<float> amplitude) {
+  for (const Pattern::Factor& one : factors) {
+    std::visit(
+        [&](const auto& factor) {
+          for (std::size_t i = 0; i < amplitude.size(); ++i)
+            amplitude[i] *= amplitude_of(factor, directions[i], range_of(range_m, i));
+        },
+        one);
+  }
+}
+
+void multiply_powers(std::span<const Pattern::Factor> factors, const Directions& directions,
+                     std::span<const float> range_m, std::span<double> power) {
+  for (const Pattern::Factor& one : factors) {
+    std::visit(
+        [&](const auto& factor) {
+          for (std::size_t i = 0; i < power.size(); ++i)
+            power[i] *= power_factor(factor, directions[i], range_of(range_m, i));
+        },
+        one);
+  }
+}
+
+/// Calls with runs of directions and their ranges.
+template <class Work>
+void for_runs(const Directions& directions, std::span<const float> range_m, const Work& work) {
+  for (std::size_t first = 0; first < directions.size(); first += kRun) {
+    const std::size_t count = std::min(kRun, directions.size() - first);
+    work(first, count, directions.part(first, count), range_m.empty() ? range_m : range_m.subspan(first, count));
+  }
+}
+
+}  // namespace
+
+Pattern& Pattern::times(Factor factor) {
+  amplitude_factors_.push_back(std::move(factor));
+  return *this;
+}
+
+Pattern& Pattern::times_power(Factor factor) {
+  power_factors_.push_back(std::move(factor));
+  return *this;
+}
+
+void Pattern::clear() {
+  amplitude_factors_.clear();
+  power_factors_.clear();
+}
+
+void Pattern::amplitudes(const Directions& directions, std::span<const float> range_m,
+                         std::span<float> amplitude) const {
+  check(directions, range_m, amplitude.size());
+  std::ranges::fill(amplitude, 1.0F);
+  for_runs(directions, range_m, [&](std::size_t first, std::size_t count, const Directions& of, auto ranges) {
+    const auto out = amplitude.subspan(first, count);
+    multiply(amplitude_factors_, of, ranges, out);
+    if (power_factors_.empty()) return;
+    std::array<double, kRun> power;
+    std::fill_n(power.begin(), count, 1.0);
+    multiply_powers(power_factors_, of, ranges, std::span(power).first(count));
+    for (std::size_t i = 0; i < count; ++i) out[i] *= static_cast<float>(std::sqrt(power[i]));
+  });
+}
+
+void Pattern::powers(const Directions& directions, std::span<const float> range_m, std::span<double> power) const {
+  check(directions, range_m, power.size());
+  for_runs(directions, range_m, [&](std::size_t first, std::size_t count, const Directions& of, auto ranges) {
+    std::array<float, kRun> amplitude;
+    std::fill_n(amplitude.begin(), count, 1.0F);
+    multiply(amplitude_factors_, of, ranges, std::span(amplitude).first(count));
+    const auto out = power.subspan(first, count);
+    for (std::size_t i = 0; i < count; ++i)
+      out[i] = static_cast<double>(amplitude[i]) * static_cast<double>(amplitude[i]);
+    multiply_powers(power_factors_, of, ranges, out);
+  });
+}
+
+float Pattern::amplitude(const Eigen::Vector3f& d, float range_m) const {
+  float amplitude = 1.0F;
+  amplitudes({{&d.x(), 1}, {&d.y(), 1}, {&d.z(), 1}}, {&range_m, 1}, {&amplitude, 1});
+  return amplitude;
+}
+
+double Pattern::power(const Eigen::Vector3f& d, float range_m) const {
+  double power = 1.0;
+  powers({{&d.x(), 1}, {&d.y(), 1}, {&d.z(), 1}}, {&range_m, 1}, {&power, 1});
+  return power;
+}
+
+void powers(std::span<const Pattern> patterns, const Directions& directions, std::span<const float> range_m,
+            std::span<double> power) {
+  check(directions, range_m, power.size());
+  std::ranges::fill(power, 0.0);
+  for_runs(directions, range_m, [&](std::size_t first, std::size_t count, const Directions& of, auto ranges) {
+    std::array<double, kRun> one;
+    for (const Pattern& pattern : patterns) {
+      pattern.powers(of, ranges, std::span(one).first(count));
+      for (std::size_t i = 0; i < count; ++i) power[first + i] += one[i];
+    }
+  });
+}
+
+double power(std::span<const Pattern> patterns, const Eigen::Vector3f& direction_head, float range_m) {
+  double sum = 0.0;
+  for (const Pattern& pattern : patterns) sum += pattern.power(direction_head, range_m);
+  return sum;
+}
+
+}  // namespace ensonify::array
