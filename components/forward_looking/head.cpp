@@ -117,10 +117,11 @@ void ForwardLookingHead::prepare(const HeadSettings& settings) {
   if (design_ && design_->ranged == ranged) return;
   const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
   design_.emplace(PingDesign{
-      ranged, ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-                         echo::Scatterers(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
-                         trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
-                                                {config_.world.seed, config_.process + "/rays"}))});
+      ranged,
+      ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
+                 echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                 trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
+                                        {config_.world.seed, config_.process + "/rays"}))});
 }
 
 ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
@@ -136,8 +137,8 @@ ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent&
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;
-  const Insonified insonified = sea.insonify(shot, seabed, design_->array.rays, reach_m, shot_);
-  const Echoed echoed = sea.echoes(shot, insonified, array.scatterers, shot_);
+  const Insonified insonified = sea.insonify(shot, seabed, array.rays, array.cells, reach_m, shot_);
+  const Echoed echoed = sea.echoes(shot, insonified, shot_);
   foreign_.clear();
   sea.add_interference(shot, echoed, event.interfering, array.pulse, foreign_);
   point_beams(true_mps, known_sound_speed_mps);

@@ -122,7 +122,7 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
   };
   return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
           ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::Scatterers(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                     echo::SpeckleCells(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
                      trace::RayDistribution(volume_of(config_, arrays_, sector_, swath_rad), rays,
                                             {config_.world.seed, config_.process + "/rays" + suffix_of(sector_)})),
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};
@@ -148,8 +148,9 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   const double window_s =
       sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);
   const double reach_m = 0.5 * echoes_.sea().sound_speed_mps(shot.pose()) * window_s;
-  const Insonified insonified = echoes_.sea().insonify(shot, seabed, design.array.rays, reach_m, memory.shot);
-  return {shot, echoes_.sea().echoes(shot, insonified, design.array.scatterers, memory.shot), sampling, design};
+  const Insonified insonified =
+      echoes_.sea().insonify(shot, seabed, design.array.rays, design.array.cells, reach_m, memory.shot);
+  return {shot, echoes_.sea().echoes(shot, insonified, memory.shot), sampling, design};
 }
 
 void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all,

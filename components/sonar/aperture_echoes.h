@@ -8,7 +8,7 @@
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
@@ -82,7 +82,7 @@ class ApertureEchoes {
   Effects effects_;
   random::Stream noise_, volume_;
   SeaAcoustics sea_;
-  echo::Scatterers scatterers_;
+  echo::SpeckleCells cells_;
   trace::RayDistribution distribution_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
 };

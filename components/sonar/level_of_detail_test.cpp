@@ -43,8 +43,10 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
   const array::Pattern all_around;
   ShotMemory memory;
-  sea.insonify({.poses = std::span(&pose, 1), .transmit = {&all_around, 1}}, tiles.scene(), distribution, 45.0, memory);
-  return {std::move(memory.traced.aimed.rays), std::move(memory.traced.hits)};
+  const Shot shot{.poses = std::span(&pose, 1), .transmit = {&all_around, 1}, .rays_per_batch = 1U << 20};
+  sea.insonify(shot, tiles.scene(), distribution, echo::SpeckleCells(0.05, {1, "seabed"}), 45.0, memory);
+  REQUIRE(memory.plan.rays() < shot.rays_per_batch);
+  return {std::move(memory.batch.rays), std::move(memory.batch.hits)};
 }
 
 bool same(const Traced& a, std::size_t i, const Traced& b, std::size_t j) {

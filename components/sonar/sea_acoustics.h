@@ -16,6 +16,7 @@
 #include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/acoustics/trace/scene.h"
@@ -70,18 +71,20 @@ class WaterPaths {
     seabed.adapt(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
   }
 
-  /// trace::Scene::trace through this water. `table` becomes that of the paths from this head.
-  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
-             trace::Hits& hits, refraction::PathTable& table) const {
-    const auto range_m = static_cast<float>(max_range_m);
-    if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
-    seabed.tabulate(profile_, head, depth_m(head), range_m, table);
-    seabed.trace(head, rays, range_m, hits, table);
+  /// The table of the paths from this head, in memory of the caller's; null where paths are straight.
+  const refraction::PathTable* tabulate(const trace::Scene& seabed, const frames::HeadPose& head, double max_range_m,
+                                        refraction::PathTable& memory) const {
+    if (!refracted_) return nullptr;
+    seabed.tabulate(profile_, head, depth_m(head), static_cast<float>(max_range_m), memory);
+    return &memory;
   }
 
-  /// The table that a trace filled; null where paths are straight.
-  const refraction::PathTable* refracted(const refraction::PathTable& table) const {
-    return refracted_ ? &table : nullptr;
+  /// trace::Scene::trace through this water, of which `refracted` is the table.
+  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
+             const refraction::PathTable* refracted, trace::Hits& hits) const {
+    const auto range_m = static_cast<float>(max_range_m);
+    if (!refracted) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
+    seabed.trace(head, rays, range_m, hits, *refracted);
   }
 
  private:
@@ -100,15 +103,26 @@ struct Shot {
   double source_level_db = 0.0;
   std::span<const array::Pattern> transmit;  // of all transducers that send at once
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
+  /// So many rays are in memory at a time; a multiple of 16. No more depends on it than the rounding of the mean depth.
+  std::size_t rays_per_batch = 65'536;
 
   const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
 };
 
-/// Seabed that a shot insonified: rays, and the first facet that each hits.
+/// What rays hit.
+struct HitSums {
+  int hits = 0, in_lobe = 0;
+  double height_m = 0.0;  // sum of z
+
+  HitSums operator+(const HitSums& other) const {
+    return {hits + other.hits, in_lobe + other.in_lobe, height_m + other.height_m};
+  }
+};
+
+/// Seabed that a shot insonified.
 struct Insonified {
-  const trace::Rays& rays;
-  const trace::Hits& hits;
-  const seabed::ClassTables& backscatter;  // of its facets
+  const echo::Scatterers& scatterers;
+  HitSums sums;
 };
 
 /// Echoes of a shot, and what was found on the way. Amplitudes are pressures, or with speckle switched off mean
@@ -130,11 +144,15 @@ struct Echoed {
 
 /// Memory of the stages of a shot, sized by the first ones of a range. Results lie in it until it is used again.
 struct ShotMemory {
-  trace::RayDistribution::Traced traced;
+  trace::RayDistribution::Plan plan;
   refraction::PathTable paths;
   Environment::FacetLaws facet_laws;
+  // Of a batch.
+  trace::RayDistribution::Batch batch;
   std::vector<float> source_upa2m2, backscatter;
-  echo::Scatterers::Memory scatterers;
+  // Of all.
+  echo::SpeckleCells::Accumulator insonified;
+  echo::Scatterers scatterers;
   echo::Receivers receivers;
   echo::Arrivals arrivals;
 };
@@ -149,15 +167,14 @@ class SeaAcoustics {
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
-  /// First stage: rays as the seabed asks for them (trace::RayDistribution), and what they hit within a slant range.
-  /// The seabed's mesh becomes that of this shot.
+  /// First stage: rays as the seabed asks for them (trace::RayDistribution), planned once; then batch by batch what
+  /// they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one point. The
+  /// seabed's mesh becomes that of this shot.
   Insonified insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
-                      double range_m, ShotMemory& memory) const;
+                      const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const;
 
-  /// Second stage: echoes of the seabed and those by way of the surface. `scatterers` are the patches of seabed that
-  /// answer as one point.
-  Echoed echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
-                ShotMemory& memory) const;
+  /// Second stage: echoes of the seabed and those by way of the surface.
+  Echoed echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const;
 
   /// Appends what this receiver's filter lets through of another transmission's echoes ...
   void add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
@@ -184,7 +201,7 @@ class SeaAcoustics {
     return {frequency_hz_, sound_speed_mps(shot.pose()), echoed.absorption_dbpm, sum()};
   }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
-  void weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const;
+  HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const;
   double sent_db(double source_level_db) const;
 
   Environment environment_;

@@ -88,10 +88,15 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution,
-                trace::RayDistribution::Traced& traced) {
+struct Traced {
+  trace::RayDistribution::Plan plan;
+  trace::RayDistribution::Batch all;
+};
+
+void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution, Traced& traced) {
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) { seabed.trace(kHead, rays, kMaxRange, hits); };
-  distribution.trace(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced);
+  distribution.aim(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced.plan);
+  distribution.trace(traced.plan, 0, traced.plan.rays(), trace, traced.all);
 }
 
 /// Probes, distribution and trace over Embree alone with the same rays made beforehand, in turns: 1 is as fast.
@@ -101,8 +106,8 @@ void distributed_over_embree(benchmark::State& state) {
   const trace::EmbreeAlone alone(tile());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2),
                                       {0.01 * static_cast<double>(state.range(0)), 0.075}, {1, "rays"});
-  trace::RayDistribution::Traced traced;
-  const trace::Rays& rays = traced.aimed.rays;
+  Traced traced;
+  const trace::Rays& rays = traced.all.rays;
   std::vector<double> ratios;
   const auto whole = [&] { trace_rays(seabed_scene, distribution, traced); };
   whole();
@@ -131,10 +136,10 @@ void rock_over_none(benchmark::State& state) {
   auto with = scene();
   with.insert({9, 9}, rock());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2), {1.0, 0.075}, {1, "rays"});
-  trace::RayDistribution::Traced traced;
+  Traced traced;
   const auto ping = [&](const trace::Scene& of) {
     trace_rays(of, distribution, traced);
-    return static_cast<double>(traced.aimed.rays.size());
+    return static_cast<double>(traced.plan.rays());
   };
   std::vector<double> ratios;
   for (auto _ : state) {

@@ -251,11 +251,13 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
     for (std::uint64_t draw = 0; draw < 3; ++draw) {
       RayDistribution distribution(volume, {.quality = RaySettings::kPreview, .range_resolution_m = 0.02},
                                    {draw, "rays"});
-      RayDistribution::Traced traced;
+      RayDistribution::Plan plan;
+      RayDistribution::Batch all;
       const auto trace = [&](const Rays& rays, Hits& hit) { scene.trace(head, rays, kFar_m, hit); };
-      distribution.trace(head, {}, scene.objects(), kFar_m, nullptr, trace, traced);
-      hits = traced.hits;
-      CHECK_THAT(10.0 * std::log10(power(traced.aimed.rays) / wanted), WithinAbs(0.0, most_db));
+      distribution.aim(head, {}, scene.objects(), kFar_m, nullptr, trace, plan);
+      distribution.trace(plan, 0, plan.rays(), trace, all);
+      hits = all.hits;
+      CHECK_THAT(10.0 * std::log10(power(all.rays) / wanted), WithinAbs(0.0, most_db));
     }
   }
 }
