@@ -105,13 +105,12 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, const ArrayDesign& des
       sector_(sector),
       pattern_(config, design, sector),
       echoes_(array_of(config, design, sector, pattern_),
-              Environment(config.world, design.sectors[sector].frequency_hz), config.effects) {}
+              Environment(config.world, design.sectors[sector].frequency_hz), config.effects, config.quality) {}
 
 SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double swath_rad) const {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
-  const trace::RaySettings rays{.quality = config_.quality,
-                                .range_resolution_m = resolution_m,
-                                .fewest_rays = kFewestRays / arrays_.sectors.size()};
+  trace::RaySettings rays = config_.quality.ray_settings(resolution_m);
+  rays.fewest_rays = kFewestRays / arrays_.sectors.size();
   // Steering moves the fan by a few degrees: the depths that it passes hardly change.
   array::Pattern unsteered;
   pattern_.steer(steer(config_, swath_rad, {}).sectors[sector_], unsteered);
@@ -122,7 +121,7 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
   };
   return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
           ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::SpeckleCells(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
                      trace::RayDistribution(volume_of(config_, arrays_, sector_, swath_rad), rays,
                                             {config_.world.seed, config_.process + "/rays" + suffix_of(sector_)})),
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};

@@ -26,12 +26,12 @@ std::string stream_name(const Apertures& a, const char* what) {
 }  // namespace
 
 ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                               const trace::RayDistribution& rays)
+                               const Quality& quality, const trace::RayDistribution& rays)
     : apertures_(apertures),
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      sea_(environment, apertures.frequency_hz, effects),
+      sea_(environment, apertures.frequency_hz, effects, quality),
       cells_(patch_m(apertures), {apertures.seed, "seabed"}),
       distribution_(rays) {
   if (!sea_.water_scatters()) return;

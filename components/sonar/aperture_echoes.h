@@ -49,7 +49,7 @@ class ApertureEchoes {
  public:
   /// `rays` are those of its transmissions.
   ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                 const trace::RayDistribution& rays);
+                 const Quality& quality, const trace::RayDistribution& rays);
 
   /// Memory of the caller: results lie in it until it is used again.
   struct Memory {

@@ -68,7 +68,8 @@ struct ArrayReception {
 /// surface, water column, other transmissions, and noise at the elements. The twin of ApertureEchoes.
 class ArrayEchoes {
  public:
-  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects);
+  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
+              const Quality& quality);
 
   const SeaAcoustics& sea() const { return sea_; }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "components/sonar/head_motion.h"
+#include "kernels/acoustics/echo/eigenray_echoes.h"
 
 namespace ensonify {
 namespace {
@@ -45,11 +46,13 @@ std::string no_echo_reason(const TraceSummary& trace_summary) {
       *trace_summary.altitude_m);
 }
 
-SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects)
+SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects,
+                           const Quality& quality)
     : environment_(environment),
       frequency_hz_(frequency_hz),
       effects_(effects),
-      paths_(environment.profile(), effects.refraction) {}
+      exact_(quality.reference),
+      paths_(environment.profile(), effects.refraction, exact_) {}
 
 Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
                                   const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const {
@@ -94,7 +97,12 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
   memory.arrivals.clear();
   memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
-  echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
+  if (exact_ && paths_.refracted()) {
+    echo::add_eigenray_echoes(carrier, environment_.profile(), pose.position_enu_m, found, memory.receivers,
+                              memory.arrivals);
+  } else {
+    echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
+  }
   if (effects_.multipath) {
     const echo::MultipathHead head{.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
     echo::SurfaceMirror surface;

@@ -10,6 +10,7 @@
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
+#include "components/sonar/quality.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/interference.h"
@@ -53,8 +54,11 @@ std::string no_echo_reason(const TraceSummary& trace_summary);
 /// refraction is switched off. Depths of the profile count from z = 0.
 class WaterPaths {
  public:
-  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction)
-      : profile_(profile), refracted_(refraction && profile.knots().size() > 1) {}
+  /// exact: each path is followed from the head, none is taken from a table.
+  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction, bool exact)
+      : profile_(profile), refracted_(refraction && profile.knots().size() > 1), exact_(exact) {}
+
+  bool refracted() const { return refracted_; }
 
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
@@ -75,7 +79,11 @@ class WaterPaths {
   const refraction::PathTable* tabulate(const trace::Scene& seabed, const frames::HeadPose& head, double max_range_m,
                                         refraction::PathTable& memory) const {
     if (!refracted_) return nullptr;
-    seabed.tabulate(profile_, head, depth_m(head), static_cast<float>(max_range_m), memory);
+    if (exact_) {
+      memory.build(profile_, depth_m(head), depth_m(head));
+    } else {
+      seabed.tabulate(profile_, head, depth_m(head), static_cast<float>(max_range_m), memory);
+    }
     return &memory;
   }
 
@@ -91,7 +99,7 @@ class WaterPaths {
   static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
 
   refraction::SoundSpeedProfile profile_;
-  bool refracted_;
+  bool refracted_, exact_;
 };
 
 inline double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
@@ -161,7 +169,8 @@ struct ShotMemory {
 /// water. What a head makes of it by its receive patterns, and the noise, are the head's.
 class SeaAcoustics {
  public:
-  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects);
+  /// Of `quality` only whether it is the reference counts here: rays and cells are the caller's.
+  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects, const Quality& quality);
 
   const Environment& environment() const { return environment_; }
   /// The true one, at the head.
@@ -207,6 +216,7 @@ class SeaAcoustics {
   Environment environment_;
   double frequency_hz_;
   Effects effects_;
+  bool exact_;
   WaterPaths paths_;
   trace::Contributors contributors_;
 };
