@@ -84,7 +84,8 @@ EchosounderHead::EchosounderHead(const EchosounderConfig& config)
       bottom_(bottom_of(config)) {}
 
 EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                          const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+                                                          const frames::PoseHistory& vehicle,
+                                                          const trace::Scene& seabed) {
   Emission emission;
   emission.event = event;
   emission.source_level_db = settings.source_level_db;

@@ -131,7 +131,7 @@ void ForwardLookingHead::prepare(const HeadSettings& settings) {
 ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
                                                                 double known_sound_speed_mps,
                                                                 const frames::PoseHistory& truth,
-                                                                trace::Scene& seabed) {
+                                                                const trace::Scene& seabed) {
   prepare(settings);
   const auto& [ranged, array] = *design_;
   const echo::Sampling& sampling = ranged.sampling;
@@ -141,7 +141,8 @@ ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent&
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;
-  const Insonified insonified = sea.insonify(shot, seabed, array.rays, array.cells, reach_m, shot_);
+  const trace::Mesh mesh = sea.mesh(shot, seabed, array.rays, reach_m);
+  const Insonified insonified = sea.insonify(shot, mesh, array.rays, array.cells, reach_m, shot_);
   const Echoed echoed = sea.echoes(shot, insonified, shot_);
   foreign_.clear();
   sea.add_interference(shot, echoed, event.interfering, array.pulse, foreign_);

@@ -128,8 +128,8 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
 }
 
 SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design,
-                                      const Steering& steering, const frames::PoseHistory& truth, trace::Scene& seabed,
-                                      Memory& memory) const {
+                                      const Steering& steering, const frames::PoseHistory& truth,
+                                      const trace::Scene& seabed, Memory& memory) const {
   const double delay_s = arrays_.sectors[sector_].delay_s;
   const echo::Sampling sampling{-delay_s, 1.0 / config_.sample_rate_hz,
                                 config_.samples(event.range_m, settings.pulse_length_s)};
@@ -147,8 +147,9 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   const double window_s =
       sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);
   const double reach_m = 0.5 * echoes_.sea().sound_speed_mps(shot.pose()) * window_s;
+  const trace::Mesh mesh = echoes_.sea().mesh(shot, seabed, design.array.rays, reach_m);
   const Insonified insonified =
-      echoes_.sea().insonify(shot, seabed, design.array.rays, design.array.cells, reach_m, memory.shot);
+      echoes_.sea().insonify(shot, mesh, design.array.rays, design.array.cells, reach_m, memory.shot);
   return {shot, echoes_.sea().echoes(shot, insonified, memory.shot), sampling, design};
 }
 
@@ -197,7 +198,7 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config), d
 }
 
 void MultibeamHead::receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                   const frames::PoseHistory& truth, trace::Scene& seabed, Ping& ping) {
+                                   const frames::PoseHistory& truth, const trace::Scene& seabed, Ping& ping) {
   if (!ping.amplitude_upa || ping.amplitude_upa.use_count() > 1)
     ping.amplitude_upa = std::make_shared<std::vector<float>>();
   const auto samples = static_cast<std::size_t>(config_.samples(event.range_m, settings.pulse_length_s));

@@ -83,7 +83,7 @@ ScanningHead::ScanningHead(const ScanningConfig& config, const LineDesign& line)
 
 ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
                                                     double known_sound_speed_mps, const frames::PoseHistory& truth,
-                                                    trace::Scene& seabed) {
+                                                    const trace::Scene& seabed) {
   Scan scan = config_.scan;
   scan.width_rad = settings.swath_rad;
   const double angle_rad = scan_angle_rad(scan, event.ping);

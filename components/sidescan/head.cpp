@@ -133,7 +133,7 @@ SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& 
       pulse_(channel.pulse(channel.pulse_length_s)) {}
 
 SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                    const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+                                                    const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
   if (pulse_length_s_ != settings.pulse_length_s) {
     pulse_length_s_ = settings.pulse_length_s;
     pulse_ = channel_.pulse(pulse_length_s_);

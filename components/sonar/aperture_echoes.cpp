@@ -47,11 +47,12 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
 }
 
 ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
-                                                        std::span<const frames::HeadPose> poses, trace::Scene& seabed,
-                                                        Memory& memory) const {
+                                                        std::span<const frames::HeadPose> poses,
+                                                        const trace::Scene& seabed, Memory& memory) const {
   const PingEvent& event = emission.event;
   const Shot shot{poses, seconds(event.transmit), emission.source_level_db, apertures_.patterns.transmit};
-  const Insonified insonified = sea_.insonify(shot, seabed, distribution_, cells_, event.range_m, memory.shot);
+  const trace::Mesh mesh = sea_.mesh(shot, seabed, distribution_, event.range_m);
+  const Insonified insonified = sea_.insonify(shot, mesh, distribution_, cells_, event.range_m, memory.shot);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.reception_s / emission.sample_period_s))};
   const echo::SampledPulse sampled(pulse, sampling.period_s);

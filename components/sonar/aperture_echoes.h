@@ -67,9 +67,9 @@ class ApertureEchoes {
   };
 
   /// All stages of a ping, a function of the emission, the poses and the tiles. `poses` are where the head truly is
-  /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
+  /// from transmission on, one per kTrackPeriod.
   Received receive_echoes(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
-                          trace::Scene& seabed, Memory& memory) const;
+                          const trace::Scene& seabed, Memory& memory) const;
 
  private:
   echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,

@@ -23,7 +23,7 @@ TEST_CASE("a shot insonifies the same scatterers in batches of any size, in memo
   ShotMemory whole_memory;
   const auto insonify = [&](std::size_t size, ShotMemory& memory) {
     const Shot shot{.poses = std::span(&pose, 1), .transmit = {&all_around, 1}, .rays_per_batch = size};
-    return sea.insonify(shot, tiles.scene(), distribution, cells, 60.0, memory);
+    return sea.insonify(shot, sea.mesh(shot, tiles.scene(), distribution, 60.0), distribution, cells, 60.0, memory);
   };
   const Insonified whole = insonify(1U << 20, whole_memory);
   REQUIRE(whole_memory.plan.rays() > 8192);

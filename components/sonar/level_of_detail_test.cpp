@@ -44,7 +44,8 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   const array::Pattern all_around;
   ShotMemory memory;
   const Shot shot{.poses = std::span(&pose, 1), .transmit = {&all_around, 1}, .rays_per_batch = 1U << 20};
-  sea.insonify(shot, tiles.scene(), distribution, echo::SpeckleCells(0.05, {1, "seabed"}), 45.0, memory);
+  sea.insonify(shot, sea.mesh(shot, tiles.scene(), distribution, 45.0), distribution,
+               echo::SpeckleCells(0.05, {1, "seabed"}), 45.0, memory);
   REQUIRE(memory.plan.rays() < shot.rays_per_batch);
   return {std::move(memory.batch.rays), std::move(memory.batch.hits)};
 }

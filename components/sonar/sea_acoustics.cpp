@@ -54,10 +54,10 @@ SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, 
       exact_(quality.reference),
       paths_(environment.profile(), effects.refraction, exact_) {}
 
-Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
-                                  const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const {
+Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
+                                  const trace::RayDistribution& distribution, const echo::SpeckleCells& cells,
+                                  double range_m, ShotMemory& memory) const {
   const frames::HeadPose& pose = shot.pose();
-  paths_.adapt(seabed, pose, distribution.volume(shot.steer), range_m);
   const refraction::PathTable* refracted = paths_.tabulate(seabed, pose, range_m, memory.paths);
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
     paths_.trace(seabed, pose, rays, range_m, refracted, hits);

@@ -63,20 +63,19 @@ class WaterPaths {
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
 
-  /// Makes the seabed as a transmission needs it that sends rays into this volume from this pose: fine where it points,
-  /// and its coordinates near the head.
-  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::TransmitVolume& volume,
-             double max_range_m) const {
-    seabed.centre_near(head.position_enu_m.head<2>());
-    if (!seabed.detail().enabled) return;
-    const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
-    const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
-    const lod::Water water = refracted_ ? trace::water_above(profile_, depth_m(head), deepest_m) : lod::Water{};
-    seabed.adapt(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
+  /// The seabed as a transmission needs it that sends rays into this volume from this pose: fine where it points.
+  trace::Mesh mesh(const trace::Scene& seabed, const frames::HeadPose& head, const trace::TransmitVolume& volume,
+                   double max_range_m) const {
+    lod::Water water;
+    if (refracted_ && seabed.detail().enabled) {
+      const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
+      water = trace::water_above(profile_, depth_m(head), heights ? -heights->lowest_m : depth_m(head));
+    }
+    return seabed.adapted(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
   }
 
   /// The table of the paths from this head, in memory of the caller's; null where paths are straight.
-  const refraction::PathTable* tabulate(const trace::Scene& seabed, const frames::HeadPose& head, double max_range_m,
+  const refraction::PathTable* tabulate(const trace::Mesh& seabed, const frames::HeadPose& head, double max_range_m,
                                         refraction::PathTable& memory) const {
     if (!refracted_) return nullptr;
     if (exact_) {
@@ -87,8 +86,8 @@ class WaterPaths {
     return &memory;
   }
 
-  /// trace::Scene::trace through this water, of which `refracted` is the table.
-  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
+  /// trace::Mesh::trace through this water, of which `refracted` is the table.
+  void trace(const trace::Mesh& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
              const refraction::PathTable* refracted, trace::Hits& hits) const {
     const auto range_m = static_cast<float>(max_range_m);
     if (!refracted) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
@@ -176,10 +175,15 @@ class SeaAcoustics {
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
+  /// The seabed's mesh for a shot. The next shot's may be made while this one's is in use.
+  trace::Mesh mesh(const Shot& shot, const trace::Scene& seabed, const trace::RayDistribution& distribution,
+                   double range_m) const {
+    return paths_.mesh(seabed, shot.pose(), distribution.volume(shot.steer), range_m);
+  }
+
   /// First stage: rays as the seabed asks for them (trace::RayDistribution), planned once; then batch by batch what
-  /// they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one point. The
-  /// seabed's mesh becomes that of this shot.
-  Insonified insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
+  /// they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one point.
+  Insonified insonify(const Shot& shot, const trace::Mesh& seabed, const trace::RayDistribution& distribution,
                       const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const;
 
   /// Second stage: echoes of the seabed and those by way of the surface.

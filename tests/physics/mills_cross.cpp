@@ -24,12 +24,13 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
   trace::RayDistribution distribution(trace::mills_cross_volume(length_in_waves(), length_in_waves(), half_swath_rad),
                                       {.quality = quality, .range_resolution_m = resolution_m}, {1, "rays"});
   const auto reach_m = static_cast<float>(range_m);
+  const trace::Mesh mesh = seabed.adapted();
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
-    seabed.trace(head, rays, reach_m, hits, kSpeed_mps);
+    mesh.trace(head, rays, reach_m, hits, kSpeed_mps);
   };
   trace::RayDistribution::Plan plan;
   trace::RayDistribution::Batch all;
-  distribution.aim(head, {}, seabed.objects(), reach_m, nullptr, trace, plan);
+  distribution.aim(head, {}, mesh.objects(), reach_m, nullptr, trace, plan);
   distribution.trace(plan, 0, plan.rays(), trace, all);
   const trace::Rays& rays = all.rays;
   const trace::Hits& hits = all.hits;

@@ -72,7 +72,7 @@ struct Ping {
       weights = {echo::beam_weights(split.negative, array.weights), echo::beam_weights(split.positive, array.weights)};
     receivers.set({0, 1, std::span(&kHead, 1)});
   }
-  void trace() { scene.trace(kHead, rays, kMaxRange_m, hits); }
+  void trace() { scene.adapted().trace(kHead, rays, kMaxRange_m, hits); }
   void scatter() {
     backscatter.resize(hits.size());
     const auto normal = static_cast<float>(seabed::lambert_backscatter(-25, 1.0));

@@ -46,7 +46,7 @@ trace::Scene scene() {
 void check() {
   const auto rays = fan(1024);
   trace::Hits hits;
-  scene().trace(kHead, rays, kMaxRange, hits);
+  scene().adapted().trace(kHead, rays, kMaxRange, hits);
   const trace::EmbreeAlone alone(tile());
   auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
   alone.trace(packets, kMaxRange);
@@ -70,7 +70,7 @@ void trace_fan(benchmark::State& state) {
   const auto rays = fan(static_cast<int>(state.range(0)));
   const auto seabed_scene = scene();
   trace::Hits hits;
-  for (auto _ : state) seabed_scene.trace(kHead, rays, kMaxRange, hits);
+  for (auto _ : state) seabed_scene.adapted().trace(kHead, rays, kMaxRange, hits);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
@@ -94,7 +94,9 @@ struct Traced {
 };
 
 void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution, Traced& traced) {
-  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) { seabed.trace(kHead, rays, kMaxRange, hits); };
+  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
+    seabed.adapted().trace(kHead, rays, kMaxRange, hits);
+  };
   distribution.aim(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced.plan);
   distribution.trace(traced.plan, 0, traced.plan.rays(), trace, traced.all);
 }
@@ -188,10 +190,10 @@ void refracted_over_straight(benchmark::State& state) {
   trace::Hits refracted, straight;
   std::vector<double> ratios;
   for (auto _ : state) {
-    const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
+    const double floor = ticks_of([&] { seabed_scene.adapted().trace(kHigh, rays, kFar, straight); });
     ratios.push_back(ticks_of([&] {
-                       seabed_scene.tabulate(water, kHigh, 1.0, kFar, paths);
-                       seabed_scene.trace(kHigh, rays, kFar, refracted, paths);
+                       seabed_scene.adapted().tabulate(water, kHigh, 1.0, kFar, paths);
+                       seabed_scene.adapted().trace(kHigh, rays, kFar, refracted, paths);
                      }) /
                      floor);
   }

@@ -13,7 +13,7 @@
 
 namespace ensonify::trace {
 
-/// From where rays go to facets, and how far. `refracted` is what Scene::tabulate made for this head; null: paths are
+/// From where rays go to facets, and how far. `refracted` is what Mesh::tabulate made for this head; null: paths are
 /// straight.
 struct FacetView {
   const frames::HeadPose& head;
@@ -104,7 +104,7 @@ struct RaySettings {
 /// the volume whatever the density, all together carry its solid angle exactly, and the same pose over the same tiles
 /// has the same rays.
 ///
-/// Small things that probes may miss come as objects (Scene::objects()). Each of their facets in the volume has rays of
+/// Small things that probes may miss come as objects (Mesh::objects()). Each of their facets in the volume has rays of
 /// its own (FacetRays): 16 at normal quality, at least one in the main lobe, and more where it is larger than
 /// what is resolved.
 ///
@@ -155,7 +155,7 @@ class RayDistribution {
     Hits probe_hits_;
   };
   /// Plans the rays for what probes hit within max_range_m, and for the objects' facets. trace(rays, hits) finds what
-  /// rays hit. Through bent water `refracted` is what Scene::tabulate made for this head. Throws std::invalid_argument
+  /// rays hit. Through bent water `refracted` is what Mesh::tabulate made for this head. Throws std::invalid_argument
   /// unless there is one hit per probe.
   template <class Trace>
   void aim(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,

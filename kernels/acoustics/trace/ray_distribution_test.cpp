@@ -173,7 +173,7 @@ TEST_CASE("batches in any order have the rays and hits of the whole, and none is
   scene.insert({9, 9}, sample_tile({.origin_enu_m = {-2, 8}, .spacing_m = 0.25, .cells = 8}, {0, 0},
                                    [](double, double) { return -17.0; }));  // facets with rays of their own
   const RayDistribution distribution(mills_cross(), {RaySettings::kPreview, 0.075}, {1, "rays"});
-  const auto trace = [&](const Rays& rays, Hits& hits) { scene.trace(kHead, rays, kFar_m, hits); };
+  const auto trace = [&](const Rays& rays, Hits& hits) { scene.adapted().trace(kHead, rays, kFar_m, hits); };
   RayDistribution::Plan plan;
   RayDistribution::Batch all, batch;
   distribution.aim(kHead, {}, scene.objects(), kFar_m, nullptr, trace, plan);

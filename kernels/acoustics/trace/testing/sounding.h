@@ -33,7 +33,8 @@ struct Sounding {
 inline Sounding trace_rays(const Scene& scene, const RayDistribution& distribution, const frames::HeadPose& head,
                            std::span<const Object> objects, const refraction::PathTable* water = nullptr) {
   const auto trace = [&](const Rays& rays, Hits& hits) {
-    water != nullptr ? scene.trace(head, rays, kFar_m, hits, *water) : scene.trace(head, rays, kFar_m, hits);
+    water != nullptr ? scene.adapted().trace(head, rays, kFar_m, hits, *water)
+                     : scene.adapted().trace(head, rays, kFar_m, hits);
   };
   RayDistribution::Plan plan;
   RayDistribution::Batch all;
