@@ -31,7 +31,7 @@ array::Pattern pattern_of(const EchosounderConfig& c) {
   const bool round = circular(c);
   const auto table = std::make_shared<array::PatternTable>(
       [=](double sine) { return round ? array::piston_amplitude(size, sine) : array::line_amplitude(size, sine); },
-      0.5 * size);
+      0.5 * size, c.quality.pattern_error());
   const auto end = static_cast<float>(c.effects.side_lobes ? 2.0 : (round ? 1.2197 : 1.0) / size);
   if (round) {
     pattern.times(array::PistonFactor{table, end});
@@ -63,7 +63,7 @@ trace::RayDistribution rays_of(const EchosounderConfig& c) {
   const trace::TransmitVolume volume{trace::TransmitVolume::Axis::kForward,
                                      {-1.0, 1.0, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
                                      {-kWidest_rad, kWidest_rad, -null_rad, null_rad, c.beamwidth_rad}};
-  return {volume, {c.quality, range_resolution_m(c)}, {c.world.seed, c.process + "/rays"}};
+  return {volume, c.quality.ray_settings(range_resolution_m(c)), {c.world.seed, c.process + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
@@ -79,11 +79,13 @@ detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
 
 EchosounderHead::EchosounderHead(const EchosounderConfig& config)
     : config_(config),
-      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, rays_of(config)),
+      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, config.quality,
+              rays_of(config)),
       bottom_(bottom_of(config)) {}
 
 EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                          const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+                                                          const frames::PoseHistory& vehicle,
+                                                          const trace::Scene& seabed) {
   Emission emission;
   emission.event = event;
   emission.source_level_db = settings.source_level_db;

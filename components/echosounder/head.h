@@ -23,7 +23,7 @@ class EchosounderHead {
   };
   /// A function of shot, settings, poses and tiles, and for the bottom of the pings before. `vehicle` has a pose.
   Received receive_echoes(const PingEvent& event, const HeadSettings& settings, const frames::PoseHistory& vehicle,
-                          trace::Scene& seabed);
+                          const trace::Scene& seabed);
 
  private:
   EchosounderConfig config_;

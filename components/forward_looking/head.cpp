@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kBackLoss_db = 40.0;
 
-std::shared_ptr<const array::PatternTable> line_pattern(double length_in_waves) {
+std::shared_ptr<const array::PatternTable> line_pattern(double length_in_waves, double error) {
   return std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves);
+      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves, error);
 }
 
 /// cos^q is -3 dB at half the aperture.
@@ -76,16 +76,18 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
 
 ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in_waves) {
   if (!config.effects.directivity) return;
+  const double error = config.quality.pattern_error();
   const array::FaceFactor face{in_vertical_plane(config.tilt_rad), array::Face(0.0, kBackLoss_db)};
   const Eigen::Vector3f up_the_face = in_vertical_plane(config.tilt_rad - 0.5 * std::numbers::pi);
   const auto vertical = [&](double beamwidth_rad) {
-    return array::LineFactor{.table = line_pattern(array::length_in_waves_for(beamwidth_rad)),
+    return array::LineFactor{.table = line_pattern(array::length_in_waves_for(beamwidth_rad), error),
                              .axis_head = up_the_face};
   };
   transmit.times_power(array::CosineFactor{cosine_power(config.aperture_rad)})
       .times_power(face)
       .times_power(vertical(config.transmit_vertical_rad));
-  element.times(array::LineFactor{.table = line_pattern(element_in_waves), .axis_head = Eigen::Vector3f::UnitY()})
+  element
+      .times(array::LineFactor{.table = line_pattern(element_in_waves, error), .axis_head = Eigen::Vector3f::UnitY()})
       .times(vertical(config.receive_vertical_rad))
       .times(face);
 }
@@ -103,9 +105,11 @@ double ForwardFaces::noise_share() const {
 
 ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
     : config_(config),
-      line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading),
+      line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
+            config.quality.pattern_error()),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
-      echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects),
+      echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects,
+              config.quality),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
           [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
@@ -117,16 +121,17 @@ void ForwardLookingHead::prepare(const HeadSettings& settings) {
   if (design_ && design_->ranged == ranged) return;
   const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
   design_.emplace(PingDesign{
-      ranged, ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-                         echo::Scatterers(patch_m(0.5 * resolution_m, config_.quality), {config_.world.seed, "seabed"}),
-                         trace::RayDistribution(volume_of(config_), {config_.quality, resolution_m},
-                                                {config_.world.seed, config_.process + "/rays"}))});
+      ranged,
+      ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
+                 echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
+                 trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m),
+                                        {config_.world.seed, config_.process + "/rays"}))});
 }
 
 ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
                                                                 double known_sound_speed_mps,
                                                                 const frames::PoseHistory& truth,
-                                                                trace::Scene& seabed) {
+                                                                const trace::Scene& seabed) {
   prepare(settings);
   const auto& [ranged, array] = *design_;
   const echo::Sampling& sampling = ranged.sampling;
@@ -136,8 +141,9 @@ ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent&
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;
-  const Insonified insonified = sea.insonify(shot, seabed, design_->array.rays, reach_m, shot_);
-  const Echoed echoed = sea.echoes(shot, insonified, array.scatterers, shot_);
+  const trace::Mesh mesh = sea.mesh(shot, seabed, array.rays, reach_m);
+  const Insonified insonified = sea.insonify(shot, mesh, array.rays, array.cells, reach_m, shot_);
+  const Echoed echoed = sea.echoes(shot, insonified, shot_);
   foreign_.clear();
   sea.add_interference(shot, echoed, event.interfering, array.pulse, foreign_);
   point_beams(true_mps, known_sound_speed_mps);

@@ -46,7 +46,7 @@ class ForwardLookingHead {
   /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
   /// receives, and the tiles.
   Received receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
-                          const frames::PoseHistory& truth, trace::Scene& seabed);
+                          const frames::PoseHistory& truth, const trace::Scene& seabed);
 
   RangedPulse pulse_for(const HeadSettings& settings) const {
     return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);

@@ -96,8 +96,7 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&pose, 1)});
   echo::Arrivals arrivals;
-  echo::add_direct_echoes({config.frequency_hz, kAbsorption_dbpm}, pose.position_enu_m, std::span(&sphere, 1),
-                          receivers, arrivals);
+  echo::add_direct_echoes({config.frequency_hz, kAbsorption_dbpm}, pose.position_enu_m, {sphere}, receivers, arrivals);
   const std::vector<float> gain{faces.element.amplitude(arrivals[0].direction_head)};
 
   const RangedPulse ranged = pulse_at(config.pulse, 30.0, kSpeed_mps);

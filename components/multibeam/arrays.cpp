@@ -27,9 +27,9 @@ ReceiveLine receive_line(const MultibeamConfig& config) {
 }
 
 /// One edge of a wide sector.
-std::shared_ptr<const array::PatternTable> edge_pattern() {
+std::shared_ptr<const array::PatternTable> edge_pattern(double error) {
   const array::SectorBeam beam = array::sector_beam(1.0, 0.0, 1.0, SectorPattern::kRollOff);
-  return std::make_shared<array::PatternTable>(beam.array, 1.0, beam.sin_steer);
+  return std::make_shared<array::PatternTable>(beam.array, 1.0, beam.sin_steer, error);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ ArrayDesign::ArrayDesign(const MultibeamConfig& config)
     : transmit(array::line_array_of_width(config.transmit_beamwidth_rad, wavelength_m(config, config.frequency_hz),
                                           config.transmit_shading)),
       receive(receive_line(config)),
-      edge(edge_pattern()) {
+      edge(edge_pattern(config.quality.pattern_error())) {
   const double transmit_m = array::effective_length_m(transmit), receive_m = array::effective_length_m(receive.whole);
   area = {transmit_m / receive.wavelength_m, receive_m / receive.wavelength_m};
   const double sent_in_waves = array::length_in_waves_for(config.transmit_beamwidth_rad);
@@ -46,15 +46,16 @@ ArrayDesign::ArrayDesign(const MultibeamConfig& config)
   const double apart_in_waves = receive.halves.baseline_m / receive.wavelength_m;
   for (const auto& sector : config.all_sectors()) {
     const double frequency_hz = sector.frequency_hz, wave_m = wavelength_m(config, frequency_hz);
-    sectors.push_back({.frequency_hz = frequency_hz,
-                       .delay_s = sector.delay_s,
-                       .wavelength_m = wave_m,
-                       .transmit_in_waves = sent_in_waves * frequency_hz / config.frequency_hz,
-                       .receive_in_waves = received_in_waves * frequency_hz / config.frequency_hz,
-                       .area = {transmit_m / wave_m, receive_m / wave_m},
-                       .transmit_null = array::first_null(transmit, wave_m),
-                       .phase_centres_in_waves = apart_in_waves * frequency_hz / config.frequency_hz,
-                       .transmit = std::make_shared<array::PatternTable>(transmit, wave_m)});
+    sectors.push_back(
+        {.frequency_hz = frequency_hz,
+         .delay_s = sector.delay_s,
+         .wavelength_m = wave_m,
+         .transmit_in_waves = sent_in_waves * frequency_hz / config.frequency_hz,
+         .receive_in_waves = received_in_waves * frequency_hz / config.frequency_hz,
+         .area = {transmit_m / wave_m, receive_m / wave_m},
+         .transmit_null = array::first_null(transmit, wave_m),
+         .phase_centres_in_waves = apart_in_waves * frequency_hz / config.frequency_hz,
+         .transmit = std::make_shared<array::PatternTable>(transmit, wave_m, 0.0, config.quality.pattern_error())});
   }
 }
 

@@ -105,13 +105,12 @@ SectorEchoes::SectorEchoes(const MultibeamConfig& config, const ArrayDesign& des
       sector_(sector),
       pattern_(config, design, sector),
       echoes_(array_of(config, design, sector, pattern_),
-              Environment(config.world, design.sectors[sector].frequency_hz), config.effects) {}
+              Environment(config.world, design.sectors[sector].frequency_hz), config.effects, config.quality) {}
 
 SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double swath_rad) const {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
-  const trace::RaySettings rays{.quality = config_.quality,
-                                .range_resolution_m = resolution_m,
-                                .fewest_rays = kFewestRays / arrays_.sectors.size()};
+  trace::RaySettings rays = config_.quality.ray_settings(resolution_m);
+  rays.fewest_rays = kFewestRays / arrays_.sectors.size();
   // Steering moves the fan by a few degrees: the depths that it passes hardly change.
   array::Pattern unsteered;
   pattern_.steer(steer(config_, swath_rad, {}).sectors[sector_], unsteered);
@@ -122,15 +121,15 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
   };
   return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
           ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::Scatterers(patch_m(resolution_m, config_.quality), {config_.world.seed, "seabed"}),
+                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
                      trace::RayDistribution(volume_of(config_, arrays_, sector_, swath_rad), rays,
                                             {config_.world.seed, config_.process + "/rays" + suffix_of(sector_)})),
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};
 }
 
 SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design,
-                                      const Steering& steering, const frames::PoseHistory& truth, trace::Scene& seabed,
-                                      Memory& memory) const {
+                                      const Steering& steering, const frames::PoseHistory& truth,
+                                      const trace::Scene& seabed, Memory& memory) const {
   const double delay_s = arrays_.sectors[sector_].delay_s;
   const echo::Sampling sampling{-delay_s, 1.0 / config_.sample_rate_hz,
                                 config_.samples(event.range_m, settings.pulse_length_s)};
@@ -148,8 +147,10 @@ SectorEchoes::Sent SectorEchoes::send(const PingEvent& event, const HeadSettings
   const double window_s =
       sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);
   const double reach_m = 0.5 * echoes_.sea().sound_speed_mps(shot.pose()) * window_s;
-  const Insonified insonified = echoes_.sea().insonify(shot, seabed, design.array.rays, reach_m, memory.shot);
-  return {shot, echoes_.sea().echoes(shot, insonified, design.array.scatterers, memory.shot), sampling, design};
+  const trace::Mesh mesh = echoes_.sea().mesh(shot, seabed, design.array.rays, reach_m);
+  const Insonified insonified =
+      echoes_.sea().insonify(shot, mesh, design.array.rays, design.array.cells, reach_m, memory.shot);
+  return {shot, echoes_.sea().echoes(shot, insonified, memory.shot), sampling, design};
 }
 
 void SectorEchoes::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all,
@@ -197,7 +198,7 @@ MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config), d
 }
 
 void MultibeamHead::receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                                   const frames::PoseHistory& truth, trace::Scene& seabed, Ping& ping) {
+                                   const frames::PoseHistory& truth, const trace::Scene& seabed, Ping& ping) {
   if (!ping.amplitude_upa || ping.amplitude_upa.use_count() > 1)
     ping.amplitude_upa = std::make_shared<std::vector<float>>();
   const auto samples = static_cast<std::size_t>(config_.samples(event.range_m, settings.pulse_length_s));

@@ -60,7 +60,7 @@ class SectorEchoes {
   /// Transmission: rays from the true pose when it is sent, echoes at the true poses at reception. The design is that
   /// of the settings. `truth` has a pose.
   Sent send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design, const Steering& steering,
-            const frames::PoseHistory& truth, trace::Scene& seabed, Memory& memory) const;
+            const frames::PoseHistory& truth, const trace::Scene& seabed, Memory& memory) const;
   /// Beams of the sector, in memory.beams.images, when all sectors of the ping have sent; with noise at the array's
   /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
   void beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all, Memory& memory) const;
@@ -104,7 +104,7 @@ class MultibeamHead {
   };
   /// Fills a ping: a function of shot, settings, steering, poses and tiles. `truth` has a pose.
   void receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                      const frames::PoseHistory& truth, trace::Scene& seabed, Ping& ping);
+                      const frames::PoseHistory& truth, const trace::Scene& seabed, Ping& ping);
 
   /// A ping as a message, without a track; amplitudes without a converter are shared with it. The phase costs time and
   /// is left out unless asked for, or without speckle, when there is none.

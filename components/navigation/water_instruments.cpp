@@ -134,11 +134,10 @@ void SeabedBelow::connect(Ports& ports, bool optional) {
 std::optional<double> SeabedBelow::distance_m(const frames::HeadPose& from, const frames::Vec3& direction,
                                               double longest_m) {
   if (tiles_.scene().empty()) return std::nullopt;
-  tiles_.scene().centre_near(from.position_enu_m.head<2>());
-  tiles_.scene().adapt(std::array{view_along(from, direction, longest_m)});
+  const trace::Mesh mesh = tiles_.scene().adapted(std::array{view_along(from, direction, longest_m)});
   const trace::Rays ray{{direction.cast<float>(), 0.0F}};
   trace::Hits hit;
-  tiles_.scene().trace(from, ray, static_cast<float>(longest_m), hit);
+  mesh.trace(from, ray, static_cast<float>(longest_m), hit);
   if (!hit.hit(0)) return std::nullopt;
   return hit.range_m[0];
 }

@@ -20,12 +20,14 @@ constexpr double kReach = 6.0;  // sines to either side that rays go to, in lamb
 double tall_in_waves(const ScanningConfig& config) { return array::length_in_waves_for(config.vertical_beamwidth_rad); }
 
 /// The transducer across its narrow beam, in wavelengths.
-LineDesign narrow_line(const ScanningConfig& config) { return {config.horizontal_beamwidth_rad, 1.0, config.shading}; }
+LineDesign narrow_line(const ScanningConfig& config) {
+  return {config.horizontal_beamwidth_rad, 1.0, config.shading, config.quality.pattern_error()};
+}
 
 array::Pattern pattern_of(const ScanningConfig& config, const LineDesign& line) {
   const double tall = tall_in_waves(config);
-  const auto vertical =
-      std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall);
+  const auto vertical = std::make_shared<array::PatternTable>(
+      [=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall, config.quality.pattern_error());
   const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : line.first_null);
   const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
              sine = static_cast<float>(std::sin(config.tilt_rad));
@@ -65,7 +67,7 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
                  2.0 * array::half_power_half_width(tall)};
   volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return {volume, {config.quality, resolution_m(config)}, {config.world.seed, config.process + "/rays"}};
+  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world.seed, config.process + "/rays"}};
 }
 
 }  // namespace
@@ -77,11 +79,11 @@ ScanningHead::ScanningHead(const ScanningConfig& config) : ScanningHead(config, 
 ScanningHead::ScanningHead(const ScanningConfig& config, const LineDesign& line)
     : config_(config),
       echoes_(apertures_of(config, line), Environment(config.world, config.frequency_hz), config.effects,
-              rays_of(config, line)) {}
+              config.quality, rays_of(config, line)) {}
 
 ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
                                                     double known_sound_speed_mps, const frames::PoseHistory& truth,
-                                                    trace::Scene& seabed) {
+                                                    const trace::Scene& seabed) {
   Scan scan = config_.scan;
   scan.width_rad = settings.swath_rad;
   const double angle_rad = scan_angle_rad(scan, event.ping);

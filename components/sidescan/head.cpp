@@ -26,7 +26,9 @@ double wavelength_m(const SidescanConfig& config, const SidescanChannel& c) {
 }
 
 /// A side's line, in wavelengths.
-LineDesign line_of(const SidescanChannel& c) { return {c.horizontal_beamwidth_rad, 1.0, c.shading}; }
+LineDesign line_of(const SidescanConfig& config, const SidescanChannel& c) {
+  return {c.horizontal_beamwidth_rad, 1.0, c.shading, config.quality.pattern_error()};
+}
 
 /// Along the track: the far field of the line as it is shaded, or the near field of a uniform one, focused so.
 array::Pattern along_track(const SidescanConfig& config, const SidescanChannel& c, const LineDesign& line,
@@ -48,17 +50,18 @@ array::NearFieldFactor::Focus received_focus(const SidescanChannel& c) {
 }
 
 /// Both sides of a head whose lines have this pattern.
-std::vector<array::Pattern> sides_of(const array::Pattern& along, const SidescanChannel& channel,
-                                     const Effects& effects) {
+std::vector<array::Pattern> sides_of(const array::Pattern& along, const SidescanConfig& config,
+                                     const SidescanChannel& channel) {
   const double face_length = face_in_waves(channel);
-  const auto across = std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(face_length, sine); }, 0.5 * face_length);
+  const auto across =
+      std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(face_length, sine); },
+                                            0.5 * face_length, config.quality.pattern_error());
   const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
   const auto sine = static_cast<float>(std::sin(channel.depression_rad));
   std::vector<array::Pattern> sides;
   for (const float side : {-1.0F, 1.0F}) {
     array::Pattern& pattern = sides.emplace_back(along);
-    if (!effects.directivity) {  // each side receives its own half of the water
+    if (!config.effects.directivity) {  // each side receives its own half of the water
       pattern.times(array::FaceFactor{{0.0F, side, 0.0F}, array::Face(0.0, kNothingBehind_db)});
       continue;
     }
@@ -71,7 +74,7 @@ std::vector<array::Pattern> sides_of(const array::Pattern& along, const Sidescan
 
 AperturePatterns patterns_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
   const auto sides = [&](array::NearFieldFactor::Focus focus) {
-    return sides_of(along_track(config, channel, line, focus), channel, config.effects);
+    return sides_of(along_track(config, channel, line, focus), config, channel);
   };
   return {sides(array::NearFieldFactor::Focus::kOff), sides(received_focus(channel))};
 }
@@ -100,7 +103,7 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
       {-kFarthest_rad, kFarthest_rad, -kFarthest_rad, kFarthest_rad, channel.vertical_beamwidth_rad}};
   // Below the head a cell of directions holds few ranges, and what few rays leave of their level would be a stripe
   // along the track. Those to places of the world leave it at other ranges in each ping.
-  trace::RaySettings rays{config.quality, channel.resolution_m(config.sound_speed_mps)};
+  trace::RaySettings rays = config.quality.ray_settings(channel.resolution_m(config.sound_speed_mps));
   rays.fewest_in_main_cell = trace::RaySettings::kToPlaces;
   return {volume, rays, {config.world.seed, config.process + "/" + channel.name + "/rays"}};
 }
@@ -114,23 +117,23 @@ detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
 }  // namespace
 
 AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChannel& channel) {
-  return patterns_of(config, channel, line_of(channel));
+  return patterns_of(config, channel, line_of(config, channel));
 }
 
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)
-    : SidescanHead(config, channel, line_of(channel)) {}
+    : SidescanHead(config, channel, line_of(config, channel)) {}
 
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line)
     : config_(config),
       channel_(channel),
       echoes_(apertures_of(config, channel, line), Environment(config.world, channel.frequency_hz), config.effects,
-              rays_of(config, channel, line)),
+              config.quality, rays_of(config, channel, line)),
       bottom_(bottom_of(config)),
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}
 
 SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                    const frames::PoseHistory& vehicle, trace::Scene& seabed) {
+                                                    const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
   if (pulse_length_s_ != settings.pulse_length_s) {
     pulse_length_s_ = settings.pulse_length_s;
     pulse_ = channel_.pulse(pulse_length_s_);

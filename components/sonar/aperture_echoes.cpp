@@ -26,13 +26,13 @@ std::string stream_name(const Apertures& a, const char* what) {
 }  // namespace
 
 ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                               const trace::RayDistribution& rays)
+                               const Quality& quality, const trace::RayDistribution& rays)
     : apertures_(apertures),
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      sea_(environment, apertures.frequency_hz, effects),
-      scatterers_(patch_m(apertures), {apertures.seed, "seabed"}),
+      sea_(environment, apertures.frequency_hz, effects, quality),
+      cells_(patch_m(apertures), {apertures.seed, "seabed"}),
       distribution_(rays) {
   if (!sea_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
@@ -47,15 +47,16 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
 }
 
 ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
-                                                        std::span<const frames::HeadPose> poses, trace::Scene& seabed,
-                                                        Memory& memory) const {
+                                                        std::span<const frames::HeadPose> poses,
+                                                        const trace::Scene& seabed, Memory& memory) const {
   const PingEvent& event = emission.event;
   const Shot shot{poses, seconds(event.transmit), emission.source_level_db, apertures_.patterns.transmit};
-  const Insonified insonified = sea_.insonify(shot, seabed, distribution_, event.range_m, memory.shot);
+  const trace::Mesh mesh = sea_.mesh(shot, seabed, distribution_, event.range_m);
+  const Insonified insonified = sea_.insonify(shot, mesh, distribution_, cells_, event.range_m, memory.shot);
   const echo::Sampling sampling{0.0, emission.sample_period_s,
                                 static_cast<int>(std::ceil(emission.reception_s / emission.sample_period_s))};
   const echo::SampledPulse sampled(pulse, sampling.period_s);
-  const Echoed echoed = sea_.echoes(shot, insonified, scatterers_, memory.shot);
+  const Echoed echoed = sea_.echoes(shot, insonified, memory.shot);
   memory.foreign.clear();
   sea_.add_interference(shot, echoed, event.interfering, pulse, memory.foreign);
   const std::array sets{weighed(echoed.arrivals, echoed.paired, shot.pose(), memory.gain),

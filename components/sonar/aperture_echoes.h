@@ -8,7 +8,7 @@
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
@@ -49,7 +49,7 @@ class ApertureEchoes {
  public:
   /// `rays` are those of its transmissions.
   ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                 const trace::RayDistribution& rays);
+                 const Quality& quality, const trace::RayDistribution& rays);
 
   /// Memory of the caller: results lie in it until it is used again.
   struct Memory {
@@ -67,9 +67,9 @@ class ApertureEchoes {
   };
 
   /// All stages of a ping, a function of the emission, the poses and the tiles. `poses` are where the head truly is
-  /// from transmission on, one per kTrackPeriod. The seabed's mesh becomes that of this transmission.
+  /// from transmission on, one per kTrackPeriod.
   Received receive_echoes(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
-                          trace::Scene& seabed, Memory& memory) const;
+                          const trace::Scene& seabed, Memory& memory) const;
 
  private:
   echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
@@ -82,7 +82,7 @@ class ApertureEchoes {
   Effects effects_;
   random::Stream noise_, volume_;
   SeaAcoustics sea_;
-  echo::Scatterers scatterers_;
+  echo::SpeckleCells cells_;
   trace::RayDistribution distribution_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
 };

@@ -13,10 +13,11 @@ random::Stream stream_of(const ReceiveArray& array, const char* what) {
 
 }  // namespace
 
-ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects)
+ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
+                         const Quality& quality)
     : array_(array),
       effects_(effects),
-      sea_(environment, array.frequency_hz, effects),
+      sea_(environment, array.frequency_hz, effects, quality),
       ambient_(stream_of(array, "noise")),
       electronic_(stream_of(array, "electronic")),
       volume_(stream_of(array, "volume")),

@@ -12,7 +12,7 @@
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
@@ -41,17 +41,17 @@ struct ReceiveArray {
 
 /// Pulse and sampling of some pings, and what follows from them.
 struct ArrayPulse {
-  ArrayPulse(const echo::Pulse& of_a_point, double sample_period_s, const echo::Scatterers& patches,
+  ArrayPulse(const echo::Pulse& of_a_point, double sample_period_s, const echo::SpeckleCells& patches,
              const trace::RayDistribution& distribution)
       : pulse(of_a_point),
         sampled(of_a_point, sample_period_s),
         squared(sampled.squared()),
-        scatterers(patches),
+        cells(patches),
         rays(distribution) {}
 
   echo::Pulse pulse;
   echo::SampledPulse sampled, squared;
-  echo::Scatterers scatterers;
+  echo::SpeckleCells cells;
   trace::RayDistribution rays;
 };
 
@@ -68,7 +68,8 @@ struct ArrayReception {
 /// surface, water column, other transmissions, and noise at the elements. The twin of ApertureEchoes.
 class ArrayEchoes {
  public:
-  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects);
+  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
+              const Quality& quality);
 
   const SeaAcoustics& sea() const { return sea_; }
 

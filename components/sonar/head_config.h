@@ -6,6 +6,7 @@
 #include "components/config/parameters.h"
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
+#include "components/sonar/quality.h"
 #include "components/sonar/samples.h"
 #include "components/sonar/settings.h"
 #include "kernels/acoustics/echo/pulse.h"
@@ -103,7 +104,7 @@ struct HeadParameters {
   double gain_absorption_dbpm = 0.0;  // A,
   double gain_offset_db = 0.0;        // O
   Converter converter;
-  double quality = 1.0;  // of the rays (trace::RaySettings)
+  Quality quality;
   trace::LevelOfDetail lod{.enabled = true};
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it receives
@@ -122,8 +123,10 @@ struct HeadParameters {
           "A: the operator's absorption", self.gain_absorption_dbpm);
     visit("gain_offset_db", "dB", in(kOffset_db.least, kOffset_db.most), "O", self.gain_offset_db);
     visit("converter", "of amplitudes into counts", self.converter);
-    visit("quality", "", in(0.05, 10),
-          "of rays: 0.25 is a preview, 1 gives 12 to a resolution cell, 4 is to compare with", self.quality);
+    visit("quality", "", any(),
+          "rays, 0.05 to 10: 0.25 is a preview, 1 gives 12 to a resolution cell; or reference, exact and slow, to "
+          "compare with",
+          self.quality);
     visit("lod", "level of detail of the seabed", self.lod);
     visit("trigger", "of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);

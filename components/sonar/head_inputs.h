@@ -43,7 +43,6 @@ class HeadInputs {
   const frames::PoseHistory& estimate() const { return estimate_; }
   /// Errors that the newest estimate states; nothing where it does not state.
   const std::optional<uncertainty::Navigation>& navigation_errors() const { return navigation_errors_; }
-  trace::Scene& seabed() { return tiles_.scene(); }
   const trace::Scene& seabed() const { return tiles_.scene(); }
   const HeadMounting& mounting() const { return mounting_; }
   /// Assumed: of the probe, or what the head starts with.

@@ -38,13 +38,16 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   world.water.profile = profile;
   world.seabed.sediments[0] = seabed::Lambert{-25.0};
   const Environment environment(world, 300e3);
-  SeaAcoustics sea(environment, 300e3, {.motion = false});
+  SeaAcoustics sea(environment, 300e3, {.motion = false}, {});
   const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
   const array::Pattern all_around;
   ShotMemory memory;
-  sea.insonify({.poses = std::span(&pose, 1), .transmit = {&all_around, 1}}, tiles.scene(), distribution, 45.0, memory);
-  return {std::move(memory.traced.aimed.rays), std::move(memory.traced.hits)};
+  const Shot shot{.poses = std::span(&pose, 1), .transmit = {&all_around, 1}, .rays_per_batch = 1U << 20};
+  sea.insonify(shot, sea.mesh(shot, tiles.scene(), distribution, 45.0), distribution,
+               echo::SpeckleCells(0.05, {1, "seabed"}), 45.0, memory);
+  REQUIRE(memory.plan.rays() < shot.rays_per_batch);
+  return {std::move(memory.batch.rays), std::move(memory.batch.hits)};
 }
 
 bool same(const Traced& a, std::size_t i, const Traced& b, std::size_t j) {

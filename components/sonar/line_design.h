@@ -11,7 +11,8 @@ namespace ensonify {
 /// A line of a head as it is built: as long as its shading asks for to have a half-power width at a wavelength.
 /// Designed once; with a wavelength of 1 its lengths are in wavelengths.
 struct LineDesign {
-  LineDesign(double half_power_rad, double at_wavelength_m, const array::Shading& shading);
+  /// pattern_error: of its table (array::PatternTable).
+  LineDesign(double half_power_rad, double at_wavelength_m, const array::Shading& shading, double pattern_error);
 
   double wavelength_m;
   array::LineArray line;

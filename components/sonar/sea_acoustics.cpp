@@ -9,18 +9,13 @@
 #include <cmath>
 
 #include "components/sonar/head_motion.h"
+#include "kernels/acoustics/echo/eigenray_echoes.h"
 
 namespace ensonify {
 namespace {
 
 constexpr double kInLobe = 0.1;  // -10 dB of the transmission
 constexpr std::size_t kRaysPerTask = 4096, kArrivalsPerTask = 4096;
-
-/// What rays hit.
-struct HitSums {
-  int hits = 0, in_lobe = 0;
-  double height_m = 0.0;  // sum of z
-};
 
 array::Directions part_of(const trace::VectorColumns<float>& directions, std::size_t first, std::size_t count) {
   return array::Directions{directions.x, directions.y, directions.z}.part(first, count);
@@ -51,24 +46,36 @@ std::string no_echo_reason(const TraceSummary& trace_summary) {
       *trace_summary.altitude_m);
 }
 
-SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects)
+SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects,
+                           const Quality& quality)
     : environment_(environment),
       frequency_hz_(frequency_hz),
       effects_(effects),
-      paths_(environment.profile(), effects.refraction) {}
+      exact_(quality.reference),
+      paths_(environment.profile(), effects.refraction, exact_) {}
 
-Insonified SeaAcoustics::insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
+Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
+                                  const trace::RayDistribution& distribution, const echo::SpeckleCells& cells,
                                   double range_m, ShotMemory& memory) const {
   const frames::HeadPose& pose = shot.pose();
-  paths_.adapt(seabed, pose, distribution.volume(shot.steer), range_m);
-  distribution.trace(
-      pose, shot.steer, seabed.objects(), static_cast<float>(range_m), paths_.refracted(memory.paths),
-      [&](const trace::Rays& rays, trace::Hits& hits) {
-        paths_.trace(seabed, pose, rays, range_m, hits, memory.paths);
-      },
-      memory.traced);
-  return {memory.traced.aimed.rays, memory.traced.hits,
-          environment_.backscatter(seabed.facet_mean_square_slope(), memory.facet_laws)};
+  const refraction::PathTable* refracted = paths_.tabulate(seabed, pose, range_m, memory.paths);
+  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
+    paths_.trace(seabed, pose, rays, range_m, refracted, hits);
+  };
+  distribution.aim(pose, shot.steer, seabed.objects(), static_cast<float>(range_m), refracted, trace, memory.plan);
+
+  const seabed::ClassTables& backscatter =
+      environment_.backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);
+  HitSums sums;
+  memory.insonified.clear();
+  for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
+    distribution.trace(memory.plan, first, shot.rays_per_batch, trace, memory.batch);
+    sums = sums + weigh(shot, backscatter, memory);
+    cells.add({pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2, memory.backscatter},
+              memory.insonified);
+  }
+  echo::SpeckleCells::gather(memory.insonified, memory.scatterers);
+  return {memory.scatterers, sums};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
@@ -76,18 +83,26 @@ double SeaAcoustics::sent_db(double source_level_db) const {
   return source_level_db - 2.0 * environment_.bubble_loss_db();
 }
 
-Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
-                            ShotMemory& memory) const {
+Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
+  const auto& [found, sums] = insonified;
+  const frames::HeadPose& pose = shot.pose();
+  const double head_depth_m = -pose.position_enu_m.z();
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
   Echoed echoed{.arrivals = memory.arrivals, .contributors = contributors_, .receivers = memory.receivers};
-  weigh(shot, insonified, memory, echoed);
-  const frames::HeadPose& pose = shot.pose();
+  echoed.rays_that_hit = sums.hits;
+  echoed.rays_in_lobe = sums.in_lobe;
+  echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
+  echoed.absorption_dbpm =
+      effects_.absorption ? environment_.absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
-  const auto found = scatterers.find({pose, insonified.rays, insonified.hits, memory.source_upa2m2, memory.backscatter},
-                                     memory.scatterers);
   memory.arrivals.clear();
   memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
-  echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
+  if (exact_ && paths_.refracted()) {
+    echo::add_eigenray_echoes(carrier, environment_.profile(), pose.position_enu_m, found, memory.receivers,
+                              memory.arrivals);
+  } else {
+    echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
+  }
   if (effects_.multipath) {
     const echo::MultipathHead head{.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
     echo::SurfaceMirror surface;
@@ -99,14 +114,14 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, cons
   return echoed;
 }
 
-/// What rays carry to what they hit, and how strongly that scatters.
-void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const {
-  const trace::Rays& rays = insonified.rays;
-  const trace::Hits& hits = insonified.hits;
+/// What the rays of a batch carry to what they hit, and how strongly that scatters.
+HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const {
+  const trace::Rays& rays = memory.batch.rays;
+  const trace::Hits& hits = memory.batch.hits;
   const double source = power_of(sent_db(shot.source_level_db));
   memory.source_upa2m2.resize(rays.size());
   memory.backscatter.resize(rays.size());
-  const HitSums sums = tbb::parallel_deterministic_reduce(
+  return tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), HitSums{},
       [&](const auto& range, HitSums so_far) {
         std::array<double, kRaysPerTask> transmitted;
@@ -120,20 +135,11 @@ void SeaAcoustics::weigh(const Shot& shot, const Insonified& insonified, ShotMem
           so_far.in_lobe += power > kInLobe ? 1 : 0;
           so_far.height_m += hits.position_enu_m.z[i];
           memory.source_upa2m2[i] = static_cast<float>(source * power);
-          memory.backscatter[i] =
-              insonified.backscatter(contributors_[hits.contributor[i]].sediment, hits.sin_grazing[i]);
+          memory.backscatter[i] = backscatter(contributors_[hits.contributor[i]].sediment, hits.sin_grazing[i]);
         }
         return so_far;
       },
-      [](const HitSums& a, const HitSums& b) {
-        return HitSums{a.hits + b.hits, a.in_lobe + b.in_lobe, a.height_m + b.height_m};
-      });
-  const double head_depth_m = -shot.pose().position_enu_m.z();
-  echoed.rays_that_hit = sums.hits;
-  echoed.rays_in_lobe = sums.in_lobe;
-  echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
-  echoed.absorption_dbpm =
-      effects_.absorption ? environment_.absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
+      [](const HitSums& a, const HitSums& b) { return a + b; });
 }
 
 void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,

@@ -10,12 +10,14 @@
 #include "components/runtime/sim_time.h"
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
+#include "components/sonar/quality.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/interference.h"
 #include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/acoustics/trace/scene.h"
@@ -52,43 +54,51 @@ std::string no_echo_reason(const TraceSummary& trace_summary);
 /// refraction is switched off. Depths of the profile count from z = 0.
 class WaterPaths {
  public:
-  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction)
-      : profile_(profile), refracted_(refraction && profile.knots().size() > 1) {}
+  /// exact: each path is followed from the head, none is taken from a table.
+  WaterPaths(const refraction::SoundSpeedProfile& profile, bool refraction, bool exact)
+      : profile_(profile), refracted_(refraction && profile.knots().size() > 1), exact_(exact) {}
+
+  bool refracted() const { return refracted_; }
 
   /// The speed of sound at the head, m/s.
   double sound_speed_mps(const frames::HeadPose& head) const { return profile_.speed_mps(depth_m(head)); }
 
-  /// Makes the seabed as a transmission needs it that sends rays into this volume from this pose: fine where it points,
-  /// and its coordinates near the head.
-  void adapt(trace::Scene& seabed, const frames::HeadPose& head, const trace::TransmitVolume& volume,
-             double max_range_m) const {
-    seabed.centre_near(head.position_enu_m.head<2>());
-    if (!seabed.detail().enabled) return;
-    const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
-    const double deepest_m = heights ? -heights->lowest_m : depth_m(head);
-    const lod::Water water = refracted_ ? trace::water_above(profile_, depth_m(head), deepest_m) : lod::Water{};
-    seabed.adapt(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
+  /// The seabed as a transmission needs it that sends rays into this volume from this pose: fine where it points.
+  trace::Mesh mesh(const trace::Scene& seabed, const frames::HeadPose& head, const trace::TransmitVolume& volume,
+                   double max_range_m) const {
+    lod::Water water;
+    if (refracted_ && seabed.detail().enabled) {
+      const auto heights = seabed.heights_near(head.position_enu_m.head<2>(), max_range_m);
+      water = trace::water_above(profile_, depth_m(head), heights ? -heights->lowest_m : depth_m(head));
+    }
+    return seabed.adapted(trace::views_of(volume, head, max_range_m, water, seabed.detail().side_lobes));
   }
 
-  /// trace::Scene::trace through this water. `table` becomes that of the paths from this head.
-  void trace(const trace::Scene& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
-             trace::Hits& hits, refraction::PathTable& table) const {
+  /// The table of the paths from this head, in memory of the caller's; null where paths are straight.
+  const refraction::PathTable* tabulate(const trace::Mesh& seabed, const frames::HeadPose& head, double max_range_m,
+                                        refraction::PathTable& memory) const {
+    if (!refracted_) return nullptr;
+    if (exact_) {
+      memory.build(profile_, depth_m(head), depth_m(head));
+    } else {
+      seabed.tabulate(profile_, head, depth_m(head), static_cast<float>(max_range_m), memory);
+    }
+    return &memory;
+  }
+
+  /// trace::Mesh::trace through this water, of which `refracted` is the table.
+  void trace(const trace::Mesh& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
+             const refraction::PathTable* refracted, trace::Hits& hits) const {
     const auto range_m = static_cast<float>(max_range_m);
-    if (!refracted_) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
-    seabed.tabulate(profile_, head, depth_m(head), range_m, table);
-    seabed.trace(head, rays, range_m, hits, table);
-  }
-
-  /// The table that a trace filled; null where paths are straight.
-  const refraction::PathTable* refracted(const refraction::PathTable& table) const {
-    return refracted_ ? &table : nullptr;
+    if (!refracted) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
+    seabed.trace(head, rays, range_m, hits, *refracted);
   }
 
  private:
   static double depth_m(const frames::HeadPose& head) { return -head.position_enu_m.z(); }
 
   refraction::SoundSpeedProfile profile_;
-  bool refracted_;
+  bool refracted_, exact_;
 };
 
 inline double power_of(double level_db) { return std::pow(10.0, 0.1 * level_db); }
@@ -100,15 +110,26 @@ struct Shot {
   double source_level_db = 0.0;
   std::span<const array::Pattern> transmit;  // of all transducers that send at once
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
+  /// So many rays are in memory at a time; a multiple of 16. No more depends on it than the rounding of the mean depth.
+  std::size_t rays_per_batch = 65'536;
 
   const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
 };
 
-/// Seabed that a shot insonified: rays, and the first facet that each hits.
+/// What rays hit.
+struct HitSums {
+  int hits = 0, in_lobe = 0;
+  double height_m = 0.0;  // sum of z
+
+  HitSums operator+(const HitSums& other) const {
+    return {hits + other.hits, in_lobe + other.in_lobe, height_m + other.height_m};
+  }
+};
+
+/// Seabed that a shot insonified.
 struct Insonified {
-  const trace::Rays& rays;
-  const trace::Hits& hits;
-  const seabed::ClassTables& backscatter;  // of its facets
+  const echo::Scatterers& scatterers;
+  HitSums sums;
 };
 
 /// Echoes of a shot, and what was found on the way. Amplitudes are pressures, or with speckle switched off mean
@@ -130,11 +151,15 @@ struct Echoed {
 
 /// Memory of the stages of a shot, sized by the first ones of a range. Results lie in it until it is used again.
 struct ShotMemory {
-  trace::RayDistribution::Traced traced;
+  trace::RayDistribution::Plan plan;
   refraction::PathTable paths;
   Environment::FacetLaws facet_laws;
+  // Of a batch.
+  trace::RayDistribution::Batch batch;
   std::vector<float> source_upa2m2, backscatter;
-  echo::Scatterers::Memory scatterers;
+  // Of all.
+  echo::SpeckleCells::Accumulator insonified;
+  echo::Scatterers scatterers;
   echo::Receivers receivers;
   echo::Arrivals arrivals;
 };
@@ -143,21 +168,26 @@ struct ShotMemory {
 /// water. What a head makes of it by its receive patterns, and the noise, are the head's.
 class SeaAcoustics {
  public:
-  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects);
+  /// Of `quality` only whether it is the reference counts here: rays and cells are the caller's.
+  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects, const Quality& quality);
 
   const Environment& environment() const { return environment_; }
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
-  /// First stage: rays as the seabed asks for them (trace::RayDistribution), and what they hit within a slant range.
-  /// The seabed's mesh becomes that of this shot.
-  Insonified insonify(const Shot& shot, trace::Scene& seabed, const trace::RayDistribution& distribution,
-                      double range_m, ShotMemory& memory) const;
+  /// The seabed's mesh for a shot. The next shot's may be made while this one's is in use.
+  trace::Mesh mesh(const Shot& shot, const trace::Scene& seabed, const trace::RayDistribution& distribution,
+                   double range_m) const {
+    return paths_.mesh(seabed, shot.pose(), distribution.volume(shot.steer), range_m);
+  }
 
-  /// Second stage: echoes of the seabed and those by way of the surface. `scatterers` are the patches of seabed that
-  /// answer as one point.
-  Echoed echoes(const Shot& shot, const Insonified& insonified, const echo::Scatterers& scatterers,
-                ShotMemory& memory) const;
+  /// First stage: rays as the seabed asks for them (trace::RayDistribution), planned once; then batch by batch what
+  /// they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one point.
+  Insonified insonify(const Shot& shot, const trace::Mesh& seabed, const trace::RayDistribution& distribution,
+                      const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const;
+
+  /// Second stage: echoes of the seabed and those by way of the surface.
+  Echoed echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const;
 
   /// Appends what this receiver's filter lets through of another transmission's echoes ...
   void add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
@@ -184,12 +214,13 @@ class SeaAcoustics {
     return {frequency_hz_, sound_speed_mps(shot.pose()), echoed.absorption_dbpm, sum()};
   }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
-  void weigh(const Shot& shot, const Insonified& insonified, ShotMemory& memory, Echoed& echoed) const;
+  HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const;
   double sent_db(double source_level_db) const;
 
   Environment environment_;
   double frequency_hz_;
   Effects effects_;
+  bool exact_;
   WaterPaths paths_;
   trace::Contributors contributors_;
 };

@@ -48,8 +48,8 @@ Echo echo_of(const End& source, const Vec3& point_enu_m, const End& receiver) {
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&receiver.pose, 1)});
   echo::Arrivals arrivals;
-  echo::add_direct_echoes({300e3, 0.07, echo::Sum::kMeanSquare}, source.pose.position_enu_m, std::span(&point, 1),
-                          receivers, arrivals);
+  echo::add_direct_echoes({300e3, 0.07, echo::Sum::kMeanSquare}, source.pose.position_enu_m, {point}, receivers,
+                          arrivals);
   const double received = array::line_power(receiver.waves, double(arrivals[0].direction_head.x()));
   return {arrivals[0].time_s, db(double(arrivals[0].pressure_upa.real()) * received)};
 }

@@ -6,6 +6,7 @@
 
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/testing/found.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/seabed/table.h"
 #include "tests/physics/area_integral.h"
@@ -23,13 +24,16 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
   trace::RayDistribution distribution(trace::mills_cross_volume(length_in_waves(), length_in_waves(), half_swath_rad),
                                       {.quality = quality, .range_resolution_m = resolution_m}, {1, "rays"});
   const auto reach_m = static_cast<float>(range_m);
+  const trace::Mesh mesh = seabed.adapted();
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
-    seabed.trace(head, rays, reach_m, hits, kSpeed_mps);
+    mesh.trace(head, rays, reach_m, hits, kSpeed_mps);
   };
-  trace::RayDistribution::Traced traced;
-  distribution.trace(head, {}, seabed.objects(), reach_m, nullptr, trace, traced);
-  const trace::Rays& rays = traced.aimed.rays;
-  const trace::Hits& hits = traced.hits;
+  trace::RayDistribution::Plan plan;
+  trace::RayDistribution::Batch all;
+  distribution.aim(head, {}, mesh.objects(), reach_m, nullptr, trace, plan);
+  distribution.trace(plan, 0, plan.rays(), trace, all);
+  const trace::Rays& rays = all.rays;
+  const trace::Hits& hits = all.hits;
 
   const seabed::BackscatterTable table(backscatter);
   std::vector<float> source, cross_section;
@@ -38,13 +42,12 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
     source.push_back(static_cast<float>(std::pow(10.0, 0.1 * source_level_db) * pattern));
     cross_section.push_back(hits[i].hit() ? table(hits[i].sin_grazing) : 0.0F);
   }
-  echo::Scatterers scatterers(0.5 * resolution_m, {1, "seabed"});
-  echo::Scatterers::Memory patches;
+  echo::SpeckleCells cells(0.5 * resolution_m, {1, "seabed"});
   echo::Receivers receivers;
   receivers.set({0.0, 1.0, std::span(&head, 1)});
   echo::Arrivals arrivals;
   echo::add_direct_echoes({300e3, absorption_dbpm, echo::Sum::kMeanSquare}, head.position_enu_m,
-                          scatterers.find({head, rays, hits, source, cross_section}, patches), receivers, arrivals);
+                          echo::scatterers_of(cells, {head, rays, hits, source, cross_section}), receivers, arrivals);
 
   const echo::ElementLine line{elements, spacing_in_waves};
   const std::vector<std::vector<float>> weights{

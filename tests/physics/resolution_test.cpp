@@ -26,7 +26,7 @@ std::vector<double> receive(const std::vector<Vec3>& points_enu_m, double forwar
                             double period_s) {
   const double waves = array::length_in_waves_for(kWidth_rad);
   const frames::HeadPose head{{0.0, forward_m, 0.0}, frames::enu_from_ned()};
-  std::vector<echo::Scatterer> points;
+  echo::Scatterers points;
   for (const Vec3& place : points_enu_m) {
     const Vec3 offset = place - head.position_enu_m;
     echo::Scatterer point;

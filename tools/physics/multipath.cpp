@@ -47,12 +47,12 @@ Verb::Row echoes_of(const Inputs& in) {
   head.transmit = {&all_around, 1};
 
   echo::Arrivals direct;
-  echo::add_direct_echoes(carrier, pose.position_enu_m, std::span(&one, 1), receivers, direct);
+  echo::add_direct_echoes(carrier, pose.position_enu_m, {one}, receivers, direct);
   Verb::Row row = together(direct);
   using Parts = echo::MultipathParts;
   for (const Parts& parts : {Parts{true, false, false}, Parts{false, true, false}, Parts{false, false, true}}) {
     echo::Arrivals echoes;
-    echo::add_multipath(carrier, head, in.surface, parts, pose, std::span(&one, 1), receivers, echoes);
+    echo::add_multipath(carrier, head, in.surface, parts, pose, {one}, receivers, echoes);
     for (const double value : together(echoes)) row.push_back(value);
   }
   return row;

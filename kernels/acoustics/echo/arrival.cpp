@@ -71,7 +71,7 @@ std::complex<float> echo_pressure(const Carrier& carrier, double mean_square_upa
   return amplitude * turned;
 }
 
-void add_direct_echoes(const Carrier& carrier, const Vec3& source_enu_m, std::span<const Scatterer> scatterers,
+void add_direct_echoes(const Carrier& carrier, const Vec3& source_enu_m, const Scatterers& scatterers,
                        const Receivers& receivers, Arrivals& arrivals) {
   const std::size_t before = arrivals.size();
   arrivals.resize(before + scatterers.size());

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "kernels/acoustics/echo/image.h"
+#include "kernels/acoustics/echo/partition.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/pose.h"
 
 namespace ensonify::echo {
@@ -104,7 +106,7 @@ struct Carrier {
 /// Direction: the ray's own at the head, turned as the straight line is. Mean square: what the scatterer sends back,
 /// over the tube's area on the way back (reciprocity), with absorption both ways. Phase: -2 pi f t and that of the
 /// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0.
-void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, std::span<const Scatterer> scatterers,
+void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, const Scatterers& scatterers,
                        const Receivers& receivers, Arrivals& arrivals);
 
 /// The pressure of an echo of this mean square, arriving at this time from a scatterer of this response.

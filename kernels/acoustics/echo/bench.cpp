@@ -16,6 +16,7 @@
 #include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/seabed/backscatter.h"
 #include "tests/support/fan.h"
@@ -44,9 +45,9 @@ struct Ping {
   trace::Rays rays;
   std::vector<float> source, backscatter, sin_beams;
   trace::Hits hits;
-  echo::Scatterers scatterers{0.075, {1, "seabed"}};
-  echo::Scatterers::Memory patches;
-  std::span<const echo::Scatterer> found;
+  echo::SpeckleCells cells{0.075, {1, "seabed"}};
+  echo::SpeckleCells::Accumulator sum;
+  echo::Scatterers found;
   echo::Receivers receivers;
   echo::Arrivals arrivals;
   echo::LineReceiver receiver{echo::element_line(receive_array(), kWave_m)};
@@ -71,12 +72,14 @@ struct Ping {
       weights = {echo::beam_weights(split.negative, array.weights), echo::beam_weights(split.positive, array.weights)};
     receivers.set({0, 1, std::span(&kHead, 1)});
   }
-  void trace() { scene.trace(kHead, rays, kMaxRange_m, hits); }
+  void trace() { scene.adapted().trace(kHead, rays, kMaxRange_m, hits); }
   void scatter() {
     backscatter.resize(hits.size());
     const auto normal = static_cast<float>(seabed::lambert_backscatter(-25, 1.0));
     for (std::size_t i = 0; i < hits.size(); ++i) backscatter[i] = normal * hits[i].sin_grazing * hits[i].sin_grazing;
-    found = scatterers.find({kHead, rays, hits, source, backscatter}, patches);
+    sum.clear();
+    cells.add({kHead, rays, hits, source, backscatter}, sum);
+    echo::SpeckleCells::gather(sum, found);
   }
   void arrive() {
     arrivals.clear();

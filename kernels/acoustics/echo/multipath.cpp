@@ -102,10 +102,10 @@ class Sources {
   static constexpr std::size_t kMost = kPerTask;
 
   template <class ImageOf>
-  void set(const Paths& paths, std::span<const Scatterer> scatterers, const ImageOf& image_of) {
-    const std::size_t count = scatterers.size();
+  void set(const Paths& paths, const Scatterers& scatterers, std::size_t begin, std::size_t count,
+           const ImageOf& image_of) {
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f launch = paths.launch(image_of(scatterers[i].position_enu_m));
+      const Eigen::Vector3f launch = paths.launch(image_of(scatterers.position_enu_m[begin + i]));
       x_[i] = launch.x(), y_[i] = launch.y(), z_[i] = launch.z();
     }
     const auto first = [count](const std::array<float, kMost>& all) { return std::span(all).first(count); };
@@ -121,10 +121,10 @@ class Sources {
 };
 
 /// Of the surface on the way to any of the scatterers: waves leave most where it is hit at the lowest angle.
-double strongest_reflection(const Paths& paths, std::span<const Scatterer> scatterers) {
+double strongest_reflection(const Paths& paths, const Scatterers& scatterers) {
   double least_sine = 1.0;
-  for (const Scatterer& scatterer : scatterers) {
-    const Vec3 leg = mirrored(scatterer.position_enu_m, paths.surface.level_enu_m) - paths.pose.position_enu_m;
+  for (std::size_t i = 0; i < scatterers.size(); ++i) {
+    const Vec3 leg = mirrored(scatterers.position_enu_m[i], paths.surface.level_enu_m) - paths.pose.position_enu_m;
     least_sine = std::min(least_sine, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
   }
   return std::abs(surface_reflection(paths.surface, paths.carrier.frequency_hz, least_sine));
@@ -160,8 +160,8 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const S
 }
 
 PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                             const MultipathParts& parts, const frames::HeadPose& pose,
-                             std::span<const Scatterer> scatterers, const Receivers& receivers, Arrivals& arrivals) {
+                             const MultipathParts& parts, const frames::HeadPose& pose, const Scatterers& scatterers,
+                             const Receivers& receivers, Arrivals& arrivals) {
   const double level_m = surface.level_enu_m;
   if (pose.position_enu_m.z() >= level_m) return {};
   const Paths paths{carrier, head, surface, pose, receivers};
@@ -172,14 +172,14 @@ PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, 
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, each == 0 ? 0 : scatterers.size(), kPerTask),
       [&](const auto& range) {
-        const auto some = scatterers.subspan(range.begin(), range.size());
         Sources bounced, second;
         const auto one_bounce = [&](const Vec3& place) { return paths.one_bounce(place); };
         const auto second_bottom = [&](const Vec3& place) { return paths.second_bottom(place); };
-        if (parts.one_bounce) bounced.set(paths, some, one_bounce);
-        if (parts.second_bottom) second.set(paths, some, second_bottom);
-        for (std::size_t i = 0; i < some.size(); ++i) {
-          const Vec3& place = some[i].position_enu_m;
+        if (parts.one_bounce) bounced.set(paths, scatterers, range.begin(), range.size(), one_bounce);
+        if (parts.second_bottom) second.set(paths, scatterers, range.begin(), range.size(), second_bottom);
+        for (std::size_t i = 0; i < range.size(); ++i) {
+          const Scatterer one = scatterers[range.begin() + i];
+          const Vec3& place = one.position_enu_m;
           std::size_t out = before + each * (range.begin() + i);
           if (place.z() >= level_m) {
             for (std::size_t k = 0; k < each; ++k) arrivals.set(out + k, Arrival{});
@@ -187,14 +187,14 @@ PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, 
           }
           const auto add = [&](const std::array<Arrival, 2>& pair, trace::EchoPath path) {
             for (Arrival arrival : pair) {
-              arrival.contributor = trace::by_path(some[i].contributor, path);
+              arrival.contributor = trace::by_path(one.contributor, path);
               arrivals.set(out++, arrival);
             }
           };
           using Path = trace::EchoPath;
-          if (parts.one_bounce) add(paths.by_image(some[i], one_bounce(place), 1.0, bounced[i]), Path::kViaSurface);
+          if (parts.one_bounce) add(paths.by_image(one, one_bounce(place), 1.0, bounced[i]), Path::kViaSurface);
           if (parts.second_bottom)
-            add(paths.by_image(some[i], second_bottom(place), paths.bottom_mirror, second[i]), Path::kViaBottom);
+            add(paths.by_image(one, second_bottom(place), paths.bottom_mirror, second[i]), Path::kViaBottom);
         }
       },
       tbb::simple_partitioner());

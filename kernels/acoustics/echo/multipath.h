@@ -78,7 +78,7 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const S
 /// leave less than 1e-5 of the amplitude on every way to them (-100 dB: then it costs nothing). Returns which arrivals
 /// are pairs: with Sum::kMeanSquare their gains need power_gains.
 PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
-                             const MultipathParts& parts, const frames::HeadPose& pose,
-                             std::span<const Scatterer> scatterers, const Receivers& receivers, Arrivals& arrivals);
+                             const MultipathParts& parts, const frames::HeadPose& pose, const Scatterers& scatterers,
+                             const Receivers& receivers, Arrivals& arrivals);
 
 }  // namespace ensonify::echo

@@ -45,7 +45,7 @@ struct Geometry {
   Arrivals multipath(double ground_m, const MultipathParts& parts) const {
     const Scatterer one = at(ground_m);
     Arrivals arrivals;
-    add_multipath(kCarrier, head, surface, parts, pose, std::span(&one, 1), receivers, arrivals);
+    add_multipath(kCarrier, head, surface, parts, pose, {one}, receivers, arrivals);
     return arrivals;
   }
 };
@@ -57,8 +57,7 @@ TEST_CASE("an echo's contributor says by which path it came") {
   Scatterer one = geometry.at(30.0);
   one.contributor = trace::sediment_contributor(9);
   Arrivals arrivals;
-  add_multipath(kCarrier, geometry.head, geometry.surface, {}, geometry.pose, std::span(&one, 1), geometry.receivers,
-                arrivals);
+  add_multipath(kCarrier, geometry.head, geometry.surface, {}, geometry.pose, {one}, geometry.receivers, arrivals);
   REQUIRE(arrivals.size() == 5);
   const trace::Contributors table;
   using Path = trace::EchoPath;
@@ -89,7 +88,7 @@ TEST_CASE("an oblique ghost arrives after R1 + R2 from above and below, added as
   // The direct echo's phase, later by the longer way and turned over by the surface.
   Arrivals direct;
   const Scatterer one = geometry.at(x);
-  add_direct_echoes(kCarrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, direct);
+  add_direct_echoes(kCarrier, geometry.pose.position_enu_m, {one}, geometry.receivers, direct);
   const auto turn = std::polar(1.0, -2 * std::numbers::pi * 100e3 * (ghosts[0].time_s - direct[0].time_s));
   const auto ratio = std::complex<double>(ghosts[0].pressure_upa) / std::complex<double>(direct[0].pressure_upa);
   CHECK(std::abs(std::arg(-ratio / turn)) < 1e-3);
@@ -106,9 +105,9 @@ TEST_CASE("without speckle an aperture's pair is (sqrt(bT1 bR2) + sqrt(bT2 bR1))
     Scatterer one = geometry.at(30.0);
     one.scattered_upa2m2 *= float(kBelow);  // what the rays carried
     Arrivals arrivals;
-    add_direct_echoes(carrier, geometry.pose.position_enu_m, std::span(&one, 1), geometry.receivers, arrivals);
+    add_direct_echoes(carrier, geometry.pose.position_enu_m, {one}, geometry.receivers, arrivals);
     const PairedArrivals paired = add_multipath(carrier, geometry.head, geometry.surface, {true, false, false},
-                                                geometry.pose, std::span(&one, 1), geometry.receivers, arrivals);
+                                                geometry.pose, {one}, geometry.receivers, arrivals);
     REQUIRE(arrivals.size() == 3);
     CHECK(paired.first == 1);
     CHECK(paired.pairs == 1);

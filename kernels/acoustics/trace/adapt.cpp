@@ -32,7 +32,8 @@ void Scene::Impl::adapt(std::span<const lod::View> wanted) {
   views.assign(wanted.begin(), wanted.end());
   const auto choose_in = [&](auto& tile) {
     Entry& entry = tile.second;
-    is_small(entry.tile) ? entry.cover.choose_all(entry.hierarchy) : entry.cover.choose(entry.hierarchy, views);
+    const lod::Hierarchy& hierarchy = entry.ground->hierarchy;
+    is_small(entry.ground->tile) ? entry.cover.choose_all(hierarchy) : entry.cover.choose(hierarchy, views);
   };
   tbb::parallel_invoke([&] { tbb::parallel_for_each(irregular, [&](auto& one) { one.second.choose(views); }); },
                        [&] { tbb::parallel_for_each(tiles, choose_in); });
@@ -43,18 +44,28 @@ void Scene::Impl::adapt(std::span<const lod::View> wanted) {
 void Scene::Impl::show() {
   ++adaptations;
   use(wanted());
-  std::vector<const Part*> shown, in_view;
+  std::vector<std::shared_ptr<const Part>> shown;
+  std::vector<const Part*> in_view;
   for (const CachedPart& cached : parts) {
     if (cached.used != adaptations) continue;
-    shown.push_back(cached.part.get());
+    shown.push_back(cached.part);
     if (is_in_view(cached.key.leaf)) in_view.push_back(cached.part.get());
   }
   for (auto& [number, one] : irregular) {
     const auto pieces = one.show(device, origin_enu_m);
     shown.insert(shown.end(), pieces.begin(), pieces.end());
   }
-  tbb::parallel_invoke([&] { mesh.assign(device, shown); },
-                       [&] { tbb::parallel_for_each(in_view, [](const Part* part) { part->scene(); }); });
+  std::shared_ptr<const Mesh::Content> content;
+  const auto make = [&] {
+    std::vector<std::shared_ptr<const Ground>> grounds;
+    for (const auto& [key, entry] : tiles) {
+      if (!entry.objects.empty()) grounds.push_back(entry.ground);
+    }
+    content = std::shared_ptr<const Mesh::Content>(
+        new Mesh::Content{origin_enu_m, PartTree(device, std::move(shown)), extents(), objects, std::move(grounds)});
+  };
+  tbb::parallel_invoke(make, [&] { tbb::parallel_for_each(in_view, [](const Part* part) { part->scene(); }); });
+  mesh.content_ = std::move(content);
   forget();
   stale = false;
 }
@@ -86,8 +97,8 @@ void Scene::Impl::use(const std::vector<PartKey>& keys) {
       all.push_back(std::move(*old++));
     } else {
       const Entry& entry = tiles.at(key.tile);
-      const Shown shown{&entry.tile, entry.number, &entry.hierarchy, key.leaf, key.rim};
-      all.push_back({key, std::make_unique<BlockPart>(device, shown, origin_enu_m)});
+      const Shown shown{entry.ground, entry.number, key.leaf, key.rim};
+      all.push_back({key, std::make_shared<BlockPart>(device, shown, origin_enu_m)});
     }
     all.back().used = adaptations;
   }
@@ -105,7 +116,8 @@ void Scene::Impl::forget() {
   };  // in pings
   std::size_t paged = 0, held = 0, fine = 0;
   for (const auto& [key, entry] : tiles)
-    paged += 2 * static_cast<std::size_t>(entry.tile.columns - 1) * static_cast<std::size_t>(entry.tile.rows - 1);
+    paged += 2 * static_cast<std::size_t>(entry.ground->tile.columns - 1) *
+             static_cast<std::size_t>(entry.ground->tile.rows - 1);
   std::map<std::uint64_t, std::size_t> spare;  // triangles of coarse blocks by age
   for (CachedPart& cached : parts) {
     if (cached.triangles == 0) cached.triangles = cached.part->triangles();
@@ -119,14 +131,14 @@ void Scene::Impl::forget() {
     if (held * kShareHeld > paged) break;
     oldest = pings;
   }
-  std::vector<std::unique_ptr<BlockPart>> given_up;
+  std::vector<std::shared_ptr<BlockPart>> given_up;
   std::erase_if(parts, [&](CachedPart& cached) {
     const std::uint64_t pings = cached.key.leaf.level > 0 ? oldest : fine_stay ? kFinePings : 0;
     if (age(cached) == 0 || (cached.triangles > 0 && age(cached) <= pings)) return false;
     given_up.push_back(std::move(cached.part));
     return true;
   });
-  tbb::parallel_for_each(given_up, [](std::unique_ptr<BlockPart>& part) { part.reset(); });
+  tbb::parallel_for_each(given_up, [](std::shared_ptr<BlockPart>& part) { part.reset(); });
 }
 
 /// A block is as coarse as a view asks for, or coarser where none intersects it.
@@ -135,12 +147,12 @@ bool Scene::Impl::is_in_view(const lod::Leaf& leaf) const {
 }
 
 lod::Neighbours Scene::Impl::neighbours_of(const terrain::TileKey& key) const {
-  const terrain::Tile& tile = tiles.at(key).tile;
+  const terrain::Tile& tile = tiles.at(key).ground->tile;
   const auto beside = [&](std::int32_t east, std::int32_t north) -> const lod::Cover* {
     const auto other = tiles.find({key.east + east, key.north + north});
     if (other == tiles.end()) return nullptr;
     const bool before = east + north < 0;
-    const terrain::Tile& neighbour = other->second.tile;
+    const terrain::Tile& neighbour = other->second.ground->tile;
     return continues(before ? neighbour : tile, before ? tile : neighbour, east != 0) ? &other->second.cover : nullptr;
   };
   return {beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)};
@@ -148,7 +160,7 @@ lod::Neighbours Scene::Impl::neighbours_of(const terrain::TileKey& key) const {
 
 void Scene::Impl::change() {
   stale = true;
-  mesh.assign(device, {});
+  mesh = {};
 }
 
 void Scene::Impl::change(const terrain::TileKey& key) {
@@ -158,7 +170,7 @@ void Scene::Impl::change(const terrain::TileKey& key) {
 
 void Scene::Impl::show_all() {
   if (detail.enabled) return;
-  for (auto& [key, entry] : tiles) entry.cover.choose_all(entry.hierarchy);
+  for (auto& [key, entry] : tiles) entry.cover.choose_all(entry.ground->hierarchy);
   for (auto& [number, one] : irregular) one.choose_all();
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   show();  // a tree of many grids is always built the same way

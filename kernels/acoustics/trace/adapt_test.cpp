@@ -1,4 +1,5 @@
 #include <tbb/global_control.h>
+#include <tbb/parallel_invoke.h>
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -69,7 +70,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
   std::size_t lost = 0, aimed = 0;
   for (int ping = 0; ping < 8; ++ping) {
     const HeadPose head = pose(ping);
-    scene.adapt(views_at(head, kRange));
+    const Mesh mesh = scene.adapted(views_at(head, kRange));
     Rays rays;
     for (std::uint64_t i = 0; i < 250'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
@@ -83,7 +84,7 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
       rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
     }
     Hits hits;
-    scene.trace(head, rays, 500.0F, hits);
+    mesh.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
     for (const Hit hit : hits) lost += hit.hit() ? 0U : 1U;
   }
@@ -93,42 +94,55 @@ TEST_CASE("no ray is lost between blocks, of one level or of two") {
 
 TEST_CASE("the mesh of a ping does not depend on the way to it") {
   Scene wandering = scene_of({.enabled = true}), fresh = scene_of({.enabled = true}, true);
-  for (int ping : {9, 0, 11, 3, 4}) wandering.adapt(views_at(pose(ping), kRange));
+  for (int ping : {9, 0, 11, 3, 4}) wandering.adapted(views_at(pose(ping), kRange));
   CHECK(wandering.remove({2, 2}));
   wandering.insert({2, 2}, terrain::sample_tile(kGrid, {2, 2}, rough));
-  wandering.adapt(views_at(pose(5), kRange));
-  fresh.adapt(views_at(pose(5), kRange));
   const auto rays = rays_of(5, 100'000, Lobes::kAll);
   Hits a, b;
-  wandering.trace(pose(5), rays, kRange, a);
-  fresh.trace(pose(5), rays, kRange, b);
+  wandering.adapted(views_at(pose(5), kRange)).trace(pose(5), rays, kRange, a);
+  fresh.adapted(views_at(pose(5), kRange)).trace(pose(5), rays, kRange, b);
   CHECK(differences(a, b) == 0);
 }
 
-TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
+TEST_CASE("a mesh stays as it is while its scene is adapted to the next ping, and loses all its tiles") {
   Scene scene = scene_of({.enabled = true});
-  Hits hits;
-  const auto rays = rays_of(0, 100, Lobes::kMain);
-  scene.trace(pose(0), rays, kRange, hits);
-  CHECK_FALSE(hits[0].hit());
-  scene.adapt(views_at(pose(0), kRange));
+  const auto rays = rays_of(2, 20'000, Lobes::kAll);
+  const Mesh mesh = scene.adapted(views_at(pose(2), kRange));
+  Hits before, meanwhile, after;
+  mesh.trace(pose(2), rays, kRange, before);
+  tbb::parallel_invoke([&] { mesh.trace(pose(2), rays, kRange, meanwhile); },
+                       [&] { scene.adapted(views_at(pose(9), kRange)); });
+  for (int tile = 0; tile < 9; ++tile) CHECK(scene.remove({tile % 3, tile / 3}));
+  scene = Scene({0, 0});
+  mesh.trace(pose(2), rays, kRange, after);
+  CHECK(before[0].hit());
+  CHECK(differences(before, meanwhile) == 0);
+  CHECK(differences(before, after) == 0);
+  Mesh().trace(pose(2), rays, kRange, after);
+  CHECK_FALSE(after[0].hit());
+}
+
+TEST_CASE("parts out of view are dropped after a while; none exist before an adaptation") {
+  const Scene scene = scene_of({.enabled = true});
+  CHECK(scene.triangles() == 0);
+  scene.adapted(views_at(pose(0), kRange));
   const std::size_t triangles = scene.triangles();
   CHECK(triangles > 50'000);
   CHECK(triangles < 9UL * 2 * 512 * 512 / 8);
   for (int i = 0; i < 20; ++i) {  // away and back
     HeadPose away = pose(0);
     away.position_enu_m.x() += 500.0 + i;
-    scene.adapt(views_at(away, kRange));
+    scene.adapted(views_at(away, kRange));
   }
   CHECK(scene.triangles() < triangles / 8);  // coarse ones stay
-  scene.adapt(views_at(pose(0), kRange));
+  scene.adapted(views_at(pose(0), kRange));
   CHECK(scene.triangles() >= triangles);
 }
 
 TEST_CASE("what no view intersects is built when a ray hits it, by any number of threads") {
   Scene scene = scene_of({.enabled = true}), other = scene_of({.enabled = true});
   const HeadPose head = pose(0);
-  for (Scene* one : {&scene, &other}) one->adapt(views_at(head, kRange));
+  const Mesh mesh = scene.adapted(views_at(head, kRange)), another = other.adapted(views_at(head, kRange));
   const std::size_t in_view = scene.triangles();
   const random::Stream draws(17, "beyond");
   Rays rays;
@@ -138,14 +152,14 @@ TEST_CASE("what no view intersects is built when a ray hits it, by any number of
     rays.push_back({(head.enu_from_head.conjugate() * to.normalized()).cast<float>(), 1.0F});
   }
   Hits first, again, alone;
-  scene.trace(head, rays, 500.0F, first);
+  mesh.trace(head, rays, 500.0F, first);
   const std::size_t with_others = scene.triangles();
   CHECK(with_others > in_view + 1000);
-  scene.trace(head, rays, 500.0F, again);
+  mesh.trace(head, rays, 500.0F, again);
   CHECK(scene.triangles() == with_others);
   CHECK(differences(first, again) == 0);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  other.trace(head, rays, 500.0F, alone);
+  another.trace(head, rays, 500.0F, alone);
   CHECK(differences(first, alone) == 0);
   CHECK(other.triangles() == with_others);
 }
@@ -175,10 +189,10 @@ TEST_CASE("50 m above posts of 0.1 m, held parts of a swath are 1/50 of the page
     for (int ping = 0; ping < 10; ++ping) {
       const HeadPose head{{0.4 * ping * std::sin(heading), 0.4 * ping * std::cos(heading), -1.0},
                           enu_from_body(frames::Attitude{heading, 0, 0})};
-      scene.adapt(views_of(kFan, head, 130.0, {}, 2));
+      scene.adapted(views_of(kFan, head, 130.0, {}, 2));
       CAPTURE(heading, ping, scene.triangles());
       CHECK(50 * scene.triangles() <= paged);
     }
-    for (int i = 0; i < 5; ++i) scene.adapt(std::array{lod::View{.frustum = {.max_range_m = 1.0 + i}}});
+    for (int i = 0; i < 5; ++i) scene.adapted(std::array{lod::View{.frustum = {.max_range_m = 1.0 + i}}});
   }
 }

@@ -56,7 +56,8 @@ std::size_t cell_of(const std::vector<double>& edges, double at) {
 
 }  // namespace
 
-bool RayDistribution::aim_at_places(Part& part, const View& view, std::vector<Ray>& rays) const {
+RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const Place& view,
+                                                         std::vector<Ray>* rays) const {
   const bool forward = volume_.axis == TransmitVolume::Axis::kForward;
   const double low = part.low_sine, high = part.high_sine, below_m = part.need.plane_m;
   const Vec2 from(std::cos(part.low_rad), std::sin(part.low_rad)), to(std::cos(part.high_rad), std::sin(part.high_rad));
@@ -68,7 +69,7 @@ bool RayDistribution::aim_at_places(Part& part, const View& view, std::vector<Ra
   auto footprint = footprint_of({direction(low, from), direction(low, middle), direction(low, to), direction(high, to),
                                  direction(high, middle), direction(high, from)},
                                 below_m);
-  if (!footprint) return false;
+  if (!footprint) return {};
   const double phi_m = footprint->along_phi_m.norm();
   const GroundLattice lattice(footprint->along_phi_m, phi_m / part.along_angle,
                               footprint->area_m2 / phi_m / part.along_sine);
@@ -80,6 +81,7 @@ bool RayDistribution::aim_at_places(Part& part, const View& view, std::vector<Ra
   const Vec3 first = head_from_enu.leftCols<2>() * lattice.first_axis_enu(),
              second = head_from_enu.leftCols<2>() * lattice.second_axis_enu(), down = -below_m * head_from_enu.col(2);
   const double block_m3 = below_m * lattice.block_m2();
+  ToPlaces to_places;
   lattice.within(stream_, footprint->outline_m, footprint->bulge_m, [&](double first_m, double second_m, double share) {
     const Vec3 there = (first_m - head_m.x()) * first + (second_m - head_m.y()) * second + down;
     const double along = forward ? there.x() : there.z(), side = there.y(), zero = forward ? there.z() : there.x();
@@ -87,10 +89,11 @@ bool RayDistribution::aim_at_places(Part& part, const View& view, std::vector<Ra
     const double away_m = there.norm();
     if (along < low * away_m || along >= high * away_m) return;
     const double per_m = 1.0 / away_m, solid_angle_sr = block_m3 * share * per_m * per_m * per_m;  // below dA / away^3
-    rays.push_back({(per_m * there).cast<float>(), static_cast<float>(solid_angle_sr)});
-    part.to_places_sr += solid_angle_sr;
+    if (rays) rays->push_back({(per_m * there).cast<float>(), static_cast<float>(solid_angle_sr)});
+    to_places.solid_angle_sr += solid_angle_sr;
+    ++to_places.rays;
   });
-  return !rays.empty();
+  return to_places;
 }
 
 std::array<double, 2> RayDistribution::coordinates_of(const Probes& probes, const Vec3& direction_head) const {

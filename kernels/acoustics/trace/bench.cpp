@@ -46,7 +46,7 @@ trace::Scene scene() {
 void check() {
   const auto rays = fan(1024);
   trace::Hits hits;
-  scene().trace(kHead, rays, kMaxRange, hits);
+  scene().adapted().trace(kHead, rays, kMaxRange, hits);
   const trace::EmbreeAlone alone(tile());
   auto packets = trace::EmbreeAlone::packets_of(kHead, rays);
   alone.trace(packets, kMaxRange);
@@ -70,7 +70,7 @@ void trace_fan(benchmark::State& state) {
   const auto rays = fan(static_cast<int>(state.range(0)));
   const auto seabed_scene = scene();
   trace::Hits hits;
-  for (auto _ : state) seabed_scene.trace(kHead, rays, kMaxRange, hits);
+  for (auto _ : state) seabed_scene.adapted().trace(kHead, rays, kMaxRange, hits);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
@@ -88,10 +88,17 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution,
-                trace::RayDistribution::Traced& traced) {
-  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) { seabed.trace(kHead, rays, kMaxRange, hits); };
-  distribution.trace(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced);
+struct Traced {
+  trace::RayDistribution::Plan plan;
+  trace::RayDistribution::Batch all;
+};
+
+void trace_rays(const trace::Scene& seabed, const trace::RayDistribution& distribution, Traced& traced) {
+  const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
+    seabed.adapted().trace(kHead, rays, kMaxRange, hits);
+  };
+  distribution.aim(kHead, {}, seabed.objects(), kMaxRange, nullptr, trace, traced.plan);
+  distribution.trace(traced.plan, 0, traced.plan.rays(), trace, traced.all);
 }
 
 /// Probes, distribution and trace over Embree alone with the same rays made beforehand, in turns: 1 is as fast.
@@ -101,8 +108,8 @@ void distributed_over_embree(benchmark::State& state) {
   const trace::EmbreeAlone alone(tile());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2),
                                       {0.01 * static_cast<double>(state.range(0)), 0.075}, {1, "rays"});
-  trace::RayDistribution::Traced traced;
-  const trace::Rays& rays = traced.aimed.rays;
+  Traced traced;
+  const trace::Rays& rays = traced.all.rays;
   std::vector<double> ratios;
   const auto whole = [&] { trace_rays(seabed_scene, distribution, traced); };
   whole();
@@ -131,10 +138,10 @@ void rock_over_none(benchmark::State& state) {
   auto with = scene();
   with.insert({9, 9}, rock());
   trace::RayDistribution distribution(trace::mills_cross_volume(50, 50, 1.2), {1.0, 0.075}, {1, "rays"});
-  trace::RayDistribution::Traced traced;
+  Traced traced;
   const auto ping = [&](const trace::Scene& of) {
     trace_rays(of, distribution, traced);
-    return static_cast<double>(traced.aimed.rays.size());
+    return static_cast<double>(traced.plan.rays());
   };
   std::vector<double> ratios;
   for (auto _ : state) {
@@ -183,10 +190,10 @@ void refracted_over_straight(benchmark::State& state) {
   trace::Hits refracted, straight;
   std::vector<double> ratios;
   for (auto _ : state) {
-    const double floor = ticks_of([&] { seabed_scene.trace(kHigh, rays, kFar, straight); });
+    const double floor = ticks_of([&] { seabed_scene.adapted().trace(kHigh, rays, kFar, straight); });
     ratios.push_back(ticks_of([&] {
-                       seabed_scene.tabulate(water, kHigh, 1.0, kFar, paths);
-                       seabed_scene.trace(kHigh, rays, kFar, refracted, paths);
+                       seabed_scene.adapted().tabulate(water, kHigh, 1.0, kFar, paths);
+                       seabed_scene.adapted().trace(kHigh, rays, kFar, refracted, paths);
                      }) /
                      floor);
   }

@@ -189,22 +189,22 @@ void RayDistribution::aim_at_facets(const Probes& probes, std::span<const Object
   }
 }
 
-void settle(const FacetTargets& targets, Rays& rays, Hits& hits) {
-  if (rays.size() != hits.size() || hits.size() < targets.facets.size()) {
-    throw std::invalid_argument("there must be one hit per ray");
-  }
-  const std::size_t first = hits.size() - targets.facets.size();
+void RayDistribution::settle(const Plan& plan, Batch& batch) {
+  const FacetTargets& targets = plan.to_facets_;
+  Rays& rays = batch.rays;
+  Hits& hits = batch.hits;
+  if (rays.size() != hits.size()) throw std::invalid_argument("there must be one hit per ray");
   if (targets.tiles.empty()) return;
+  const std::size_t spread = std::min(rays.size(), plan.spread_ - std::min(plan.spread_, batch.first_));
   const auto facet_hit = [&](std::size_t i, const terrain::Tile& tile) {
     return facet_at(tile, hits.position_enu_m[i]);
   };
-  for (std::size_t i = 0; i < first; ++i) {
+  for (std::size_t i = 0; i < spread; ++i) {
     const FacetTargets::Tile* of = tile_of(targets, hits.tile[i], hits.facet_m[i]);
     if (of && targets.cells[of->first_cell + facet_hit(i, *of->tile) / 2]) hits.set(i, Hit{});
   }
-  for (std::size_t k = 0; k < targets.facets.size(); ++k) {
-    const std::size_t i = first + k;
-    const FacetTargets::Facet& target = targets.facets[k];
+  for (std::size_t i = spread; i < rays.size(); ++i) {
+    const FacetTargets::Facet& target = targets.facets[batch.first_ + i - plan.spread_];
     const FacetTargets::Tile* of = tile_of(targets, hits.tile[i], hits.facet_m[i]);
     const bool counts =
         of && hits.tile[i] == target.tile && facet_hit(i, *of->tile) == target.facet && hits.tube_m2[i] > 0.0F;

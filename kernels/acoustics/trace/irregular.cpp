@@ -73,18 +73,18 @@ std::vector<Eigen::Vector3f> places_of(const TriangleMesh& mesh, const Vec2& ori
 
 }  // namespace
 
-TrianglePart::TrianglePart(const Device& device, std::vector<Triangle> triangles,
-                           std::span<const Eigen::Vector3f> places_m, const Common& common)
-    : Part(device.get(), bounds_of(triangles, places_m), common.number, common.facet_m),
+TrianglePart::TrianglePart(const Device& device, std::vector<Triangle> triangles, Places places_m, const Common& common)
+    : Part(device.get(), bounds_of(triangles, *places_m), common.number, common.facet_m),
       triangles_(std::move(triangles)),
-      places_m_(places_m),
+      places_m_(std::move(places_m)),
       sediment_(common.sediment) {}
 
 Part::Content TrianglePart::content() const {
   Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  static_assert(sizeof(places_m_[0]) == 3 * sizeof(float));
-  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, places_m_.data(), 0,
-                             sizeof(places_m_[0]), places_m_.size() - 1);
+  const std::vector<Eigen::Vector3f>& places = *places_m_;
+  static_assert(sizeof(places[0]) == 3 * sizeof(float));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, places.data(), 0,
+                             sizeof(places[0]), places.size() - 1);
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles_.data(), 0,
                              sizeof(Triangle), triangles_.size());
   return {std::move(geometry), triangles_.size()};
@@ -124,26 +124,27 @@ void Irregular::want(std::span<const Triangle> triangles, std::span<const std::u
   for (std::size_t i = 0; i < triangles.size(); ++i) clusters_[cluster_of_[sources[i]]].wanted.push_back(triangles[i]);
 }
 
-std::vector<const Part*> Irregular::show(const Device& device, const Vec2& origin_enu_m) {
-  if (places_m_.empty()) places_m_ = places_of(hierarchy_.mesh, origin_enu_m);
+std::vector<std::shared_ptr<const Part>> Irregular::show(const Device& device, const Vec2& origin_enu_m) {
+  if (!places_m_)
+    places_m_ = std::make_shared<const std::vector<Eigen::Vector3f>>(places_of(hierarchy_.mesh, origin_enu_m));
   tbb::parallel_for_each(clusters_, [&](Cluster& cluster) {
     if (cluster.wanted.empty()) {
       cluster.part.reset();
     } else if (!cluster.part || cluster.part->shown() != cluster.wanted) {
-      cluster.part = std::make_unique<TrianglePart>(device, cluster.wanted, places_m_, common_);
+      cluster.part = std::make_shared<TrianglePart>(device, cluster.wanted, places_m_, common_);
       cluster.part->scene();
     }
   });
-  std::vector<const Part*> parts;
+  std::vector<std::shared_ptr<const Part>> parts;
   for (const Cluster& cluster : clusters_) {
-    if (cluster.part) parts.push_back(cluster.part.get());
+    if (cluster.part) parts.push_back(cluster.part);
   }
   return parts;
 }
 
 void Irregular::forget() {
   for (Cluster& cluster : clusters_) cluster.part.reset();
-  places_m_.clear();
+  places_m_.reset();
 }
 
 std::size_t Irregular::triangles() const {

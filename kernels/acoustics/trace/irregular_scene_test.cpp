@@ -105,7 +105,7 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
   std::size_t behind = 0, aimed = 0;
   for (int ping = 0; ping < 6; ++ping) {
     const HeadPose head = pose(ping);
-    scene.adapt(views_at(head, kRange_m));
+    const Mesh mesh = scene.adapted(views_at(head, kRange_m));
     Rays rays;
     for (std::uint64_t i = 0; i < 400'000; ++i) {
       const auto k = static_cast<std::uint64_t>(ping);
@@ -122,7 +122,7 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
         rays.push_back({along.cast<float>(), 1.0F});
     }
     Hits hits;
-    scene.trace(head, rays, 500.0F, hits);
+    mesh.trace(head, rays, 500.0F, hits);
     aimed += rays.size();
     // Nothing else is farther north than the wall stands out: what is hit there came through it.
     for (const Hit hit : hits) behind += !hit.hit() || hit.position_enu_m.y() > 0.5 ? 1U : 0U;
@@ -133,20 +133,18 @@ TEST_CASE("no ray that a view allows is lost through a wall, whatever is refined
 
 TEST_CASE("a ping's mesh among irregular meshes depends on neither history nor threads") {
   Scene wandering = scene_of({.enabled = true}), fresh = scene_of({.enabled = true}, true);
-  for (const int ping : {5, 0, 3}) wandering.adapt(views_at(pose(ping), kRange_m));
+  for (const int ping : {5, 0, 3}) wandering.adapted(views_at(pose(ping), kRange_m));
   CHECK(wandering.remove(0));
   CHECK_FALSE(wandering.remove(0));
-  wandering.adapt(views_at(pose(1), kRange_m));
+  wandering.adapted(views_at(pose(1), kRange_m));
   wandering.insert(0, wall());
   wandering.centre_near({5000.0, 0.0});
   wandering.centre_near({0.0, 0.0});
-  wandering.adapt(views_at(pose(2), kRange_m));
   const auto rays = rays_of(2, 50'000, Lobes::kAll);
   Hits a, b;
-  wandering.trace(pose(2), rays, kRange_m, a);
+  wandering.adapted(views_at(pose(2), kRange_m)).trace(pose(2), rays, kRange_m, a);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  fresh.adapt(views_at(pose(2), kRange_m));
-  fresh.trace(pose(2), rays, kRange_m, b);
+  fresh.adapted(views_at(pose(2), kRange_m)).trace(pose(2), rays, kRange_m, b);
   CHECK(differences(a, b) == 0);
   CHECK(wandering.triangles() == fresh.triangles());
 }
@@ -164,8 +162,7 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
     ahead.frustum.max_range_m = 100.0;
     Hits hits;
     scene.insert(7, wall());
-    scene.adapt(std::array{ahead});
-    scene.trace(head, north, 100.0F, hits);
+    scene.adapted(std::array{ahead}).trace(head, north, 100.0F, hits);
     REQUIRE(hits[0].hit());
     // Half the section's depth and four deviations of a pile.
     CHECK_THAT(hits[0].range_m, WithinAbs(20.0, 0.215 + 0.06));
@@ -174,8 +171,7 @@ TEST_CASE("an added wall is hit, a removed one is not, with and without level of
     CHECK_THAT(scene.heights_near({0.0, -20.0}, 30.0)->highest_m, WithinAbs(0.0, 1e-5));
     CHECK_FALSE(scene.heights_near({0.0, -20.0}, 10.0).has_value());
     CHECK(scene.remove(7));
-    scene.adapt(std::array{ahead});
-    scene.trace(head, north, 100.0F, hits);
+    scene.adapted(std::array{ahead}).trace(head, north, 100.0F, hits);
     CHECK_FALSE(hits[0].hit());
   }
 }
@@ -184,7 +180,7 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
   Scene scene = scene_of({.enabled = true});
   std::map<std::uint8_t, double> all_sum, some_sum;
   Hits hits;
-  const auto add_power = [&](const Scene& seen, const HeadPose& head, const Rays& rays,
+  const auto add_power = [&](const Mesh& seen, const HeadPose& head, const Rays& rays,
                              std::map<std::uint8_t, double>& sum) {
     seen.trace(head, rays, kRange_m, hits);
     for (const Hit hit : hits) {  // of a ray by Lambert's law: solid angle over range squared and sine of grazing
@@ -193,10 +189,9 @@ TEST_CASE("side lobe levels of wall and reef are the whole meshes' within 0.1 dB
     }
   };
   for (int ping = 0; ping < 6; ++ping) {
-    scene.adapt(views_at(pose(ping), kRange_m));
     const auto rays = rays_of(ping, 100'000, Lobes::kSide);
-    add_power(full(), pose(ping), rays, all_sum);
-    add_power(scene, pose(ping), rays, some_sum);
+    add_power(full().adapted(), pose(ping), rays, all_sum);
+    add_power(scene.adapted(views_at(pose(ping), kRange_m)), pose(ping), rays, some_sum);
   }
   for (const std::uint8_t sediment : {kSteel, std::uint8_t{7}}) {
     INFO(int{sediment});
@@ -245,17 +240,20 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
       at_ball.push_back({Vec3(beside * std::cos(phi), beside * std::sin(phi), u).cast<float>(),
                          static_cast<float>(4.0 * half * half / kRays)});
     }
-    scene.trace(head, at_ball, kFar_m, hits);
+    const Mesh mesh = scene.adapted();
+    mesh.trace(head, at_ball, kFar_m, hits);
     const double wanted = power(at_ball);
     REQUIRE(wanted > 0.0);
     for (std::uint64_t draw = 0; draw < 3; ++draw) {
       RayDistribution distribution(volume, {.quality = RaySettings::kPreview, .range_resolution_m = 0.02},
                                    {draw, "rays"});
-      RayDistribution::Traced traced;
-      const auto trace = [&](const Rays& rays, Hits& hit) { scene.trace(head, rays, kFar_m, hit); };
-      distribution.trace(head, {}, scene.objects(), kFar_m, nullptr, trace, traced);
-      hits = traced.hits;
-      CHECK_THAT(10.0 * std::log10(power(traced.aimed.rays) / wanted), WithinAbs(0.0, most_db));
+      RayDistribution::Plan plan;
+      RayDistribution::Batch all;
+      const auto trace = [&](const Rays& rays, Hits& hit) { mesh.trace(head, rays, kFar_m, hit); };
+      distribution.aim(head, {}, scene.objects(), kFar_m, nullptr, trace, plan);
+      distribution.trace(plan, 0, plan.rays(), trace, all);
+      hits = all.hits;
+      CHECK_THAT(10.0 * std::log10(power(all.rays) / wanted), WithinAbs(0.0, most_db));
     }
   }
 }
@@ -263,7 +261,7 @@ TEST_CASE("a mesh smaller than the probes' spacing has the level of rays at it a
 TEST_CASE("far fewer triangles are held than a mesh has") {
   Scene scene = scene_of({.enabled = true});
   const auto triangles = [&](const HeadPose& head) {
-    scene.adapt(views_at(head, kRange_m));
+    scene.adapted(views_at(head, kRange_m));
     return scene.triangles();
   };
   // No view holds the wall or the reef: what is left of both, and of the tile.

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "kernels/acoustics/trace/mesh.h"
+#include "kernels/acoustics/trace/parts.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/mesh/progressive/cut.h"
 #include "kernels/mesh/progressive/testing/meshes.h"

@@ -1,164 +1,87 @@
-#include "kernels/acoustics/trace/mesh.h"
-
-#include <tbb/task_arena.h>
+// Straight rays against a mesh; refracted.cpp has bent ones.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <exception>
-#include <new>
-#include <stdexcept>
-#include <utility>
 
-#include "kernels/mesh/lod/cover.h"
+#include "kernels/acoustics/trace/packet.h"
+#include "kernels/acoustics/trace/scene_impl.h"
 
 namespace ensonify::trace {
 namespace {
 
-/// Around all posts under the leaf, as the patch has them.
-RTCBounds bounds_of(const Shown& shown, const terrain::Vec2& origin_enu_m) {
-  const auto [low, high] = shown.hierarchy->box_enu_m(shown.leaf.block);
-  const auto lower = [](double value) { return static_cast<float>(value) - kPartSlack_m; };
-  const auto upper = [](double value) { return static_cast<float>(value) + kPartSlack_m; };
-  return {lower(low.x() - origin_enu_m.x()),  lower(low.y() - origin_enu_m.y()),  lower(low.z()),  0.0F,
-          upper(high.x() - origin_enu_m.x()), upper(high.y() - origin_enu_m.y()), upper(high.z()), 0.0F};
+using frames::Vec3;
+
+Hit hit_of(const Packet& packet, std::size_t lane, const Vec3& head_enu_m, float slowness_spm) {
+  const Part& part = *packet.part_hit[lane];
+  const Vec3 direction(packet.rays.ray.dir_x[lane], packet.rays.ray.dir_y[lane], packet.rays.ray.dir_z[lane]);
+  const Vec3 normal = packet.normal(lane);
+  const double cosine = normal.dot(direction);
+  Hit hit;
+  hit.position_enu_m = head_enu_m + static_cast<double>(packet.rays.ray.tfar[lane]) * direction;
+  hit.normal_enu = (cosine > 0.0 ? Vec3(-normal) : normal).cast<float>();
+  hit.arrival_enu = direction.cast<float>();
+  hit.range_m = packet.rays.ray.tfar[lane];
+  hit.travel_time_s = hit.range_m * slowness_spm;
+  hit.path_length_m = hit.range_m;
+  hit.tube_m2 = hit.range_m * hit.range_m;
+  hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(cosine)));
+  hit.facet_m = part.facet_m();
+  hit.tile = part.number();
+  hit.contributor = sediment_contributor(part.sediment_at(hit.position_enu_m.head<2>()));
+  return hit;
 }
-
-/// What Embree hands to callbacks. It is C: no exception may pass through it.
-struct Query : RTCIntersectContext {
-  std::exception_ptr failure;
-};
-
-float facet_of(const Shown& shown) { return static_cast<float>(std::ldexp(shown.tile->spacing_m, shown.leaf.level)); }
 
 }  // namespace
 
-Device new_device() {
-  // Embree's memory of a small scene in few pieces.
-  Device device(rtcNewDevice("isa=avx2,set_affinity=0,alloc_thread_block_size=8192"));
-  if (!device) throw std::runtime_error("Embree cannot start (it needs a processor with AVX2)");
-  return device;
+std::span<const Object> Mesh::objects() const {
+  return content_ ? std::span<const Object>(*content_->objects) : std::span<const Object>{};
 }
 
-void check(RTCDevice device, const char* fault) {
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error(fault);
+std::span<const double> Mesh::facet_mean_square_slope() const {
+  return facet_mean_square_slope_ ? std::span<const double>(*facet_mean_square_slope_) : std::span<const double>{};
 }
 
-struct Part::Built {
-  EmbreeScene scene;
-  std::size_t triangles;
-};
-
-Part::Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m)
-    : device_(device), bounds_(bounds), number_(number), facet_m_(facet_m) {}
-
-Part::~Part() { delete built_.load(); }
-
-RTCScene Part::scene() const {
-  const Built* built = built_.load(std::memory_order_acquire);
-  return (built != nullptr ? built : build())->scene.get();
-}
-
-std::size_t Part::triangles() const {
-  const Built* built = built_.load(std::memory_order_acquire);
-  return built != nullptr ? built->triangles : 0;
-}
-
-const Part::Built* Part::build() const {
-  const Content made = content();
-  rtcCommitGeometry(made.geometry.get());
-  auto one = std::make_unique<Built>(Built{EmbreeScene(rtcNewScene(device_)), made.triangles});
-  rtcSetSceneFlags(one->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(one->scene.get(), made.geometry.get());
-  // Isolated: a thread that waits here must not take up other rays, for it may be in the middle of some.
-  tbb::this_task_arena::isolate([&] { rtcCommitScene(one->scene.get()); });
-  check(device_, "Embree could not build a part of the seabed");
-  const Built* kept = nullptr;
-  return built_.compare_exchange_strong(kept, one.get()) ? one.release() : kept;
-}
-
-void* Part::new_buffer(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t element_bytes,
-                       std::size_t count) const {
-  void* buffer = rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, element_bytes, count);
-  if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::bad_alloc();
-  return buffer;
-}
-
-BlockPart::BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m)
-    : Part(device.get(), bounds_of(shown, origin_enu_m), shown.number, facet_of(shown)),
-      shown_(shown),
-      origin_enu_m_(origin_enu_m) {}
-
-std::uint8_t BlockPart::sediment_at(const terrain::Vec2& place_enu_m) const {
-  return terrain::sediment_at(*shown_.tile, place_enu_m);
-}
-
-Part::Content BlockPart::content() const {
-  const lod::Patch patch = lod::patch_of(*shown_.tile, *shown_.hierarchy, shown_.leaf, shown_.rim, origin_enu_m_);
-  Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_GRID));
-  static_assert(sizeof(patch.vertices_m[0]) == 3 * sizeof(float));
-  void* vertices =
-      new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), patch.vertices_m.size());
-  std::memcpy(vertices, patch.vertices_m.data()->data(), patch.vertices_m.size() * 3 * sizeof(float));
-  void* grids = new_buffer(geometry, RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, sizeof(RTCGrid), patch.grids.size());
-  std::ranges::transform(patch.grids, static_cast<RTCGrid*>(grids), [](const lod::Patch::Grid& grid) {
-    return RTCGrid{grid.first, grid.stride, grid.columns, grid.rows};
-  });
-  return {std::move(geometry), patch.triangles()};
-}
-
-void Mesh::assign(const Device& device, std::span<const Part* const> parts) {
-  parts_.assign(parts.begin(), parts.end());
-  scene_.reset();
-  if (parts_.empty()) return;
-  const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(parts_.size()));
-  rtcSetGeometryUserData(geometry.get(), parts_.data());
-  rtcSetGeometryBoundsFunction(geometry.get(), bound, nullptr);
-  rtcSetGeometryIntersectFunction(geometry.get(), enter);
-  rtcCommitGeometry(geometry.get());
-  EmbreeScene scene(rtcNewScene(device.get()));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcAttachGeometry(scene.get(), geometry.get());
-  rtcCommitScene(scene.get());
-  check(device.get(), "Embree could not build the tree over the parts of the seabed");
-  scene_ = std::move(scene);
-}
-
-void Mesh::intersect(const int* on, RTCRayHit16& rays) const {
-  if (!scene_) return;
-  Query query;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
-  rtcInitIntersectContext(&query);
-  rtcIntersect16(on, scene_.get(), &query, &rays);
-  if (query.failure) std::rethrow_exception(query.failure);
-}
-
-void Mesh::bound(const RTCBoundsFunctionArguments* of) {
-  *of->bounds_o = static_cast<const Part* const*>(of->geometryUserPtr)[of->primID]->bounds();
-}
-
-/// Embree asks with as many rays as it likes to trace together.
-void Mesh::enter(const RTCIntersectFunctionNArguments* of) {
-  auto& failure = static_cast<Query*>(of->context)->failure;
-  if (failure) return;
-  RTCScene scene = nullptr;
-  try {
-    scene = static_cast<const Part* const*>(of->geometryUserPtr)[of->primID]->scene();
-  } catch (...) {
-    failure = std::current_exception();
+void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits, double sound_speed_mps,
+                 std::uint32_t behind) const {
+  const auto slowness_spm = static_cast<float>(1.0 / sound_speed_mps);
+  hits.make_elements(rays.size());
+  if (!content_) {
+    for (std::size_t i = 0; i < hits.size(); ++i) hits.set(i, Hit{});
     return;
   }
-  of->context->instID[0] = of->primID;  // is written into what hits
-  if (of->N == 1) {
-    if (of->valid[0] != 0) rtcIntersect1(scene, of->context, reinterpret_cast<RTCRayHit*>(of->rayhit));
-  } else if (of->N == 4) {
-    rtcIntersect4(of->valid, scene, of->context, reinterpret_cast<RTCRayHit4*>(of->rayhit));
-  } else if (of->N == 8) {
-    rtcIntersect8(of->valid, scene, of->context, reinterpret_cast<RTCRayHit8*>(of->rayhit));
-  } else {
-    rtcIntersect16(of->valid, scene, of->context, reinterpret_cast<RTCRayHit16*>(of->rayhit));
-  }
-  of->context->instID[0] = RTC_INVALID_GEOMETRY_ID;
+  const PartTree& tree = content_->tree;
+  const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
+  const Vec3 start(head.position_enu_m.x() - content_->origin_enu_m.x(),
+                   head.position_enu_m.y() - content_->origin_enu_m.y(), head.position_enu_m.z());
+  const std::size_t packets = (rays.size() + kPacket - 1) / kPacket;
+  const auto trace_packet = [&](std::size_t index) {
+    const std::size_t first = index * kPacket;
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    Packet packet;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      packet.set(lane, start, enu_from_head * rays.direction_head[first + lane].cast<double>(), max_range_m);
+    }
+    for (std::size_t lane = count; lane < kPacket; ++lane) packet.switch_off(lane);
+    packet.intersect(tree);
+    if (behind != kNoise) {
+      float tfar_m[kPacket];
+      std::ranges::fill(tfar_m, max_range_m);
+      packet.pass(tree, behind, tfar_m, [&](std::size_t lane) {
+        return hit_of(packet, lane, head.position_enu_m, slowness_spm).contributor;
+      });
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      hits.set(first + lane, packet.part_hit[lane] ? hit_of(packet, lane, head.position_enu_m, slowness_spm) : Hit{});
+    }
+  };
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, packets, kChunk),
+      [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) trace_packet(i);
+      },
+      tbb::simple_partitioner());
 }
 
 }  // namespace ensonify::trace

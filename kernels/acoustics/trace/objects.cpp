@@ -80,14 +80,15 @@ std::vector<Object> objects_of(const terrain::Tile& tile) {
 }
 
 void Scene::Impl::gather_objects() {
-  objects.clear();
+  auto all = std::make_shared<std::vector<Object>>();
   for (const auto& [key, entry] : tiles) {
     for (Object object : entry.objects) {
-      object.tile = &entry.tile;
+      object.tile = &entry.ground->tile;
       object.number = entry.number;
-      objects.push_back(object);
+      all->push_back(object);
     }
   }
+  objects = std::move(all);
 }
 
 }  // namespace ensonify::trace

@@ -207,7 +207,7 @@ double db(double ratio) { return 10.0 * std::log10(ratio); }
 /// Warm water over cold, from the head 2 m deep down to 10 m.
 ensonify::refraction::PathTable summer(const Scene& scene, const HeadPose& head) {
   ensonify::refraction::PathTable paths;
-  scene.tabulate(ensonify::refraction::summer_thermocline(), head, 2.0, kFar_m, paths);
+  scene.adapted().tabulate(ensonify::refraction::summer_thermocline(), head, 2.0, kFar_m, paths);
   return paths;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/acoustics/trace/mesh.h"
+#include "kernels/acoustics/trace/parts.h"
 #include "kernels/base/frames/attitude.h"
 
 /// Code shared by straight and refracted rays. Private to this folder: it includes Embree.
@@ -44,7 +44,7 @@ struct Packet {
   }
 
   /// The nearest facet for each lane.
-  void intersect(const Mesh& mesh) {
+  void intersect(const PartTree& mesh) {
     mesh.intersect(on, rays);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) part_hit[lane] = &mesh.part(rays.hit.instID[0][lane]);
@@ -53,7 +53,7 @@ struct Packet {
 
   /// Lets the lanes that hit a facet of the contributor `behind` go on to the first that is of another.
   template <class ContributorAt>  // (lane): of what it hit
-  void pass(const Mesh& mesh, std::uint32_t behind, const float (&tfar_m)[kPacket],
+  void pass(const PartTree& mesh, std::uint32_t behind, const float (&tfar_m)[kPacket],
             const ContributorAt& contributor_at) {
     constexpr float kPassed_m = 1e-3F;
     alignas(64) int going[kPacket];

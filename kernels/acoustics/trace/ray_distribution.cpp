@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace ensonify::trace {
 namespace {
@@ -72,6 +73,16 @@ double plane_below(double head_z_m, double seen_z_m) {
 Eigen::Vector3f direction_of(TransmitVolume::Axis axis, float along, float side, float zero) {
   return axis == TransmitVolume::Axis::kForward ? Eigen::Vector3f(along, side, zero)
                                                 : Eigen::Vector3f(zero, side, along);
+}
+
+template <class Work>
+void for_parts(std::size_t first, std::size_t end, const Work& work) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(first, end, kCellsPerTask),
+      [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
+      },
+      tbb::simple_partitioner());
 }
 
 }  // namespace
@@ -236,31 +247,24 @@ std::size_t RayDistribution::cut(double share, std::span<Part> parts) {
   return rays;
 }
 
-void RayDistribution::fill(const frames::HeadPose& head, const Probes& probes, const Hits& probe_hits,
-                           std::span<const Object> objects, float max_range_m, const refraction::PathTable* refracted,
-                           Memory& memory, Aimed& aimed) const {
+void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float max_range_m,
+                                        const refraction::PathTable* refracted, Plan& plan) const {
+  const frames::HeadPose& head = plan.head_;
+  const Probes& probes = plan.probes_;
+  const Hits& probe_hits = plan.probe_hits_;
   if (probe_hits.size() != probes.rays.size()) throw std::invalid_argument("there must be one hit per probe");
-  const View view{head, head.enu_from_head.toRotationMatrix(), probes, probe_hits, max_range_m};
-  std::vector<Part>& parts = memory.parts;
-  const auto for_parts = [&](const auto& work) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, parts.size(), kCellsPerTask),
-        [&](const auto& range) {
-          for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
-        },
-        tbb::simple_partitioner());
-  };
+  const View view{{head, head.enu_from_head.toRotationMatrix()}, probes, probe_hits, max_range_m};
+  std::vector<Part>& parts = plan.parts_;
   const auto &sines = probes.sine_edges, &angles_rad = probes.angle_edges_rad;
   parts.resize((sines.size() - 1) * columns());
-  for_parts([&](std::size_t k) {
+  for_parts(0, parts.size(), [&](std::size_t k) {
     const std::size_t i = k / columns(), j = k % columns();
     parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
   });
-  aim_at_facets(probes, objects, {head, max_range_m, refracted}, memory.facets, aimed.to_facets);
-  if (memory.rays.size() < parts.size()) memory.rays.resize(parts.size());
+  aim_at_facets(probes, objects, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
 
   const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });
-  const auto most = static_cast<double>(settings_.most_rays - memory.facets.rays.size());
+  const auto most = static_cast<double>(settings_.most_rays - plan.facets_.rays.size());
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
   double share = 1.0;
   const auto draw = [&] {  // what falls within the cells varies by a per cent
@@ -268,51 +272,70 @@ void RayDistribution::fill(const frames::HeadPose& head, const Probes& probes, c
     for (; count > most; count = static_cast<double>(cut(share, parts))) share *= 0.999 * most / count;
     for (; count < kSpare * fewest; count = static_cast<double>(cut(share, parts)))
       share *= 1.001 * kSpare * fewest / count;
-    for_parts([&](std::size_t k) { fill_part(k, view, memory); });
-    count = 0.0;
-    for (std::size_t k = 0; k < parts.size(); ++k) count += static_cast<double>(memory.rays[k].size());
-    return count;
+    for_parts(0, parts.size(), [&](std::size_t k) { count_part(view, parts[k]); });
+    plan.spread_ = 0;
+    for (Part& part : parts) part.first_ray = std::exchange(plan.spread_, plan.spread_ + part.rays);
+    return static_cast<double>(plan.spread_);
   };
   for (double count = draw(); count > most || count < fewest; count = draw()) {
     share *= count > most ? 0.99 * most / count : 1.01 * fewest / count;
   }
-  aimed.share = share;
-  gather(memory, aimed.rays);
-}
-
-/// All rays, those to facets last. Those to places share the solid angle of their parts, as the lattices' edges leave a
-/// little more or less.
-void RayDistribution::gather(Memory& memory, Rays& rays) {
-  std::vector<Part>& parts = memory.parts;
+  plan.share_ = share;
+  // As the lattices' edges leave a little more or less.
   double places_sr = 0.0, parts_sr = 0.0;
   for (const Part& part : parts) {
     places_sr += part.to_places_sr;
     if (part.to_places_sr > 0.0) parts_sr += part.solid_angle_sr();
   }
-  const auto scale = static_cast<float>(parts_sr / places_sr);
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < parts.size(); count += memory.rays[k++].size()) parts[k].first_ray = count;
-  const Rays& to_facets = memory.facets.rays;
-  rays.make_elements(count + to_facets.size());
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
-    const float share = parts[k].to_places_sr > 0.0 ? scale : 1.0F;
-    for (std::size_t i = 0; i < memory.rays[k].size(); ++i) {
-      const Ray& ray = memory.rays[k][i];
-      rays.set(parts[k].first_ray + i, {ray.direction_head, share * ray.solid_angle_sr});
-    }
-  });
-  for (std::size_t k = 0; k < to_facets.size(); ++k) rays.set(count + k, to_facets[k]);
+  plan.places_scale_ = static_cast<float>(parts_sr / places_sr);
 }
 
-void RayDistribution::fill_part(std::size_t index, const View& view, Memory& memory) const {
-  Part& part = memory.parts[index];
-  std::vector<Ray>& rays = memory.rays[index];
+void RayDistribution::count_part(const Place& head, Part& part) const {
+  const bool to_places = part.need.plane_m > 0.0 && part.strata() >= kFewestToPlaces;
+  const ToPlaces found = to_places ? aim_at_places(part, head, nullptr) : ToPlaces{};
+  part.to_places_sr = found.solid_angle_sr;
+  part.rays = found.rays > 0 ? found.rays : part.strata();
+}
+
+void RayDistribution::fill(const Plan& plan, std::size_t first, std::size_t count, Batch& batch) const {
+  const std::vector<Part>& parts = plan.parts_;
+  const std::size_t end = std::min(plan.rays(), first + std::min(count, plan.rays())),
+                    spread_end = std::min(end, plan.spread_);
+  batch.first_ = first;
+  batch.rays.make_elements(end - std::min(first, end));
+  const auto after = [&](std::size_t ray) {  // the part that holds a ray
+    return static_cast<std::size_t>(std::ranges::upper_bound(parts, ray, {}, &Part::first_ray) - parts.begin());
+  };
+  if (first < spread_end) {
+    const std::size_t low = after(first) - 1, high = after(spread_end - 1);
+    if (batch.parts_.size() < high - low) batch.parts_.resize(high - low);
+    const Place head{plan.head_, plan.head_.enu_from_head.toRotationMatrix()};
+    for_parts(low, high, [&](std::size_t k) {
+      const Part& part = parts[k];
+      std::vector<Ray>& rays = batch.parts_[k - low];
+      fill_part(plan, k, head, rays);
+      const float scale = part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F;
+      const std::size_t from = std::max(first, part.first_ray), to = std::min(spread_end, part.first_ray + part.rays);
+      for (std::size_t i = from; i < to; ++i) {
+        const Ray& ray = rays[i - part.first_ray];
+        batch.rays.set(i - first, {ray.direction_head, scale * ray.solid_angle_sr});
+      }
+    });
+  }
+  for (std::size_t i = std::max(first, plan.spread_); i < end; ++i)
+    batch.rays.set(i - first, plan.facets_.rays[i - plan.spread_]);
+}
+
+void RayDistribution::fill_part(const Plan& plan, std::size_t index, const Place& head, std::vector<Ray>& rays) const {
+  const Part& part = plan.parts_[index];
   rays.clear();
-  part.to_places_sr = 0.0;
-  const std::size_t strata = std::size_t{part.along_sine} * part.along_angle;
+  const std::size_t strata = part.strata();
   if (rays.capacity() < 2 * strata) rays.reserve(4 * strata);  // the next pings need about as many: no memory for them
-  if (part.need.plane_m > 0.0 && strata >= kFewestToPlaces && aim_at_places(part, view, rays)) return;
-  fill_strata(part, index, rays);
+  if (part.to_places_sr > 0.0) {
+    aim_at_places(part, head, &rays);
+  } else {
+    fill_strata(part, index, rays);
+  }
 }
 
 void RayDistribution::fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const {

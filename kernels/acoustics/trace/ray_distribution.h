@@ -13,7 +13,7 @@
 
 namespace ensonify::trace {
 
-/// From where rays go to facets, and how far. `refracted` is what Scene::tabulate made for this head; null: paths are
+/// From where rays go to facets, and how far. `refracted` is what Mesh::tabulate made for this head; null: paths are
 /// straight.
 struct FacetView {
   const frames::HeadPose& head;
@@ -49,10 +49,6 @@ struct FacetMemory {
   Rays rays;
   std::vector<Facet> facets;
 };
-
-/// When all rays have been traced, those to facets as the last: makes misses of hits that do not count, and gives the
-/// facets' rays what solid angle they carry. Throws std::invalid_argument unless there is one hit per ray.
-void settle(const FacetTargets& targets, Rays& rays, Hits& hits);
 
 /// One of the two coordinates of a direction, and what the head does along it.
 struct Span {
@@ -108,7 +104,7 @@ struct RaySettings {
 /// the volume whatever the density, all together carry its solid angle exactly, and the same pose over the same tiles
 /// has the same rays.
 ///
-/// Small things that probes may miss come as objects (Scene::objects()). Each of their facets in the volume has rays of
+/// Small things that probes may miss come as objects (Mesh::objects()). Each of their facets in the volume has rays of
 /// its own (FacetRays): 16 at normal quality, at least one in the main lobe, and more where it is larger than
 /// what is resolved.
 ///
@@ -138,45 +134,58 @@ class RayDistribution {
   };
   void probe(const Steer& steer, Probes& probes) const;
 
-  /// Rays of a transmission: first those that are spread over directions, then those to facets.
-  struct Aimed {
-    Rays rays;
-    FacetTargets to_facets;
-    double share = 1.0;  // of the rays that the quality asks for; less where most_rays limits them, more where there
-                         // are fewest_rays
-  };
-  /// Scratch: its contents do not matter.
-  class Memory {
-    friend RayDistribution;
-    std::vector<Part> parts;
-    std::vector<std::vector<Ray>> rays;  // of each part
-    FacetMemory facets;
-  };
-  /// The rays for what the probes hit within max_range_m, and for the objects' facets. Neighbours follow each other,
-  /// as packets want it. Through bent water `refracted` is what Scene::tabulate made for this head. When they are
-  /// traced, settle(to_facets, rays, hits) is due: only then do those to facets carry a solid angle, and do hits that
-  /// do not count become misses. Throws std::invalid_argument unless there is one hit per probe.
-  void fill(const frames::HeadPose& head, const Probes& probes, const Hits& probe_hits, std::span<const Object> objects,
-            float max_range_m, const refraction::PathTable* refracted, Memory& memory, Aimed& aimed) const;
+  /// Rays of one transmission as they are planned: how many go where. First come those that are spread over directions,
+  /// then those to facets. Memory of the caller's.
+  class Plan {
+   public:
+    std::size_t rays() const { return spread_ + facets_.rays.size(); }
+    /// Of the rays that the quality asks for; less where most_rays limits them, more where there are fewest_rays.
+    double share() const { return share_; }
 
-  /// Memory of all of it, the caller's. Results lie in it: the rays and what they hit.
-  struct Traced {
-    Aimed aimed;
-    Hits hits;
-    // Scratch.
-    Probes probes;
-    Memory memory;
+   private:
+    friend RayDistribution;
+    frames::HeadPose head_;
+    std::vector<Part> parts_;
+    std::size_t spread_ = 0;     // rays over directions
+    float places_scale_ = 1.0F;  // of the solid angles of rays to places, which share that of their parts
+    double share_ = 1.0;
+    FacetTargets to_facets_;
+    FacetMemory facets_;
+    Probes probes_;
+    Hits probe_hits_;
   };
-  /// Probes, rays for what those hit, and what the rays hit, settled. trace(rays, hits) finds what rays hit; the table
-  /// `refracted` may be made in it.
+  /// Plans the rays for what probes hit within max_range_m, and for the objects' facets. trace(rays, hits) finds what
+  /// rays hit. Through bent water `refracted` is what Mesh::tabulate made for this head. Throws std::invalid_argument
+  /// unless there is one hit per probe.
   template <class Trace>
-  void trace(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,
-             const refraction::PathTable* refracted, const Trace& trace, Traced& traced) const {
-    probe(steer, traced.probes);
-    trace(traced.probes.rays, traced.hits);
-    fill(head, traced.probes, traced.hits, objects, max_range_m, refracted, traced.memory, traced.aimed);
-    trace(traced.aimed.rays, traced.hits);
-    settle(traced.aimed.to_facets, traced.aimed.rays, traced.hits);
+  void aim(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,
+           const refraction::PathTable* refracted, const Trace& trace, Plan& plan) const {
+    plan.head_ = head;
+    probe(steer, plan.probes_);
+    trace(plan.probes_.rays, plan.probe_hits_);
+    aim_beyond_probes(objects, max_range_m, refracted, plan);
+  }
+
+  /// Some of a plan's rays, and what they hit. Memory of the caller's.
+  class Batch {
+   public:
+    Rays rays;
+    Hits hits;
+
+   private:
+    friend RayDistribution;
+    std::size_t first_ = 0;                // of the plan's rays
+    std::vector<std::vector<Ray>> parts_;  // rays of each part
+  };
+  /// The rays from `first` on, at most `count`, traced: trace(rays, hits) finds what they hit. Only then do those to
+  /// facets carry a solid angle, and do hits that do not count become misses. A function of the plan: batches may be
+  /// traced in any order. Neighbours follow each other; batches that begin at multiples of 16 have the packets of the
+  /// whole. Throws std::invalid_argument unless there is one hit per ray.
+  template <class Trace>
+  void trace(const Plan& plan, std::size_t first, std::size_t count, const Trace& trace, Batch& batch) const {
+    fill(plan, first, count, batch);
+    trace(batch.rays, batch.hits);
+    settle(plan, batch);
   }
 
  private:
@@ -185,9 +194,11 @@ class RayDistribution {
     double rays = 1.0, sine_to_angle = 1.0;  // strata, and their number along u over that along phi
     double plane_m = 0.0;                    // how far below the head the plane lies that they aim at; 0: none
   };
-  struct View {
+  struct Place {  // of the head
     const frames::HeadPose& head;
     Eigen::Matrix3d enu_from_head;
+  };
+  struct View : Place {
     const Probes& probes;
     const Hits& hits;
     double max_range_m;
@@ -197,7 +208,8 @@ class RayDistribution {
     Need need;
     std::uint32_t along_sine = 1, along_angle = 1;  // strata
     double to_places_sr = 0.0;                      // that rays carry to places; 0: none aims at any
-    std::size_t first_ray = 0;                      // of its rays among all
+    std::size_t first_ray = 0, rays = 0;            // of its rays among all
+    std::size_t strata() const { return std::size_t{along_sine} * along_angle; }
     double solid_angle_sr() const { return (high_sine - low_sine) * (high_rad - low_rad); }
   };
   struct Corners;
@@ -239,11 +251,20 @@ class RayDistribution {
   void aim_at_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view, FacetMemory& memory,
                      FacetTargets& targets) const;
   static std::size_t cut(double share, std::span<Part> parts);
-  void fill_part(std::size_t index, const View& view, Memory& memory) const;
-  static void gather(Memory& memory, Rays& rays);
-  /// Rays to all places of the part's plane that lie in its directions; false where there are none, or where the plane
-  /// is seen too flat.
-  bool aim_at_places(Part& part, const View& view, std::vector<Ray>& rays) const;
+  void aim_beyond_probes(std::span<const Object> objects, float max_range_m, const refraction::PathTable* refracted,
+                         Plan& plan) const;
+  /// Counts the rays of a part, and what they carry to places.
+  void count_part(const Place& head, Part& part) const;
+  void fill_part(const Plan& plan, std::size_t index, const Place& head, std::vector<Ray>& rays) const;
+  void fill(const Plan& plan, std::size_t first, std::size_t count, Batch& batch) const;
+  static void settle(const Plan& plan, Batch& batch);
+  /// Of rays to all places of the part's plane that lie in its directions: their number and solid angle. None where the
+  /// plane is seen too flat. The rays are appended unless `rays` is null.
+  struct ToPlaces {
+    std::size_t rays = 0;
+    double solid_angle_sr = 0.0;
+  };
+  ToPlaces aim_at_places(const Part& part, const Place& head, std::vector<Ray>* rays) const;
   void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
 
   TransmitVolume volume_;

@@ -100,13 +100,15 @@ TEST_CASE("rays follow range cells, not beams") {
 TEST_CASE("a steered volume keeps its solid angles, but for what is beyond endfire") {
   const auto extent = [](double sine, double angle_rad) {
     RayDistribution distribution(mills_cross_volume(50, 50, 30 * kDegree), {RaySettings::kPreview}, {1, "rays"});
-    RayDistribution::Traced traced;
+    RayDistribution::Plan plan;
+    RayDistribution::Batch all;
     const auto nothing = [](const Rays& rays, Hits& hits) { hits.resize(rays.size()); };
-    distribution.trace(kHead, {sine, angle_rad}, {}, kFar_m, nullptr, nothing, traced);
+    distribution.aim(kHead, {sine, angle_rad}, {}, kFar_m, nullptr, nothing, plan);
+    distribution.trace(plan, 0, plan.rays(), nothing, all);
     struct {
       double solid_angle_sr = 0, least_sine = 1, most_sine = -1, least_rad = 4, most_rad = -4;
     } e;
-    for (const Ray& ray : traced.aimed.rays) {
+    for (const Ray& ray : all.rays) {
       REQUIRE_THAT(ray.direction_head.norm(), WithinAbs(1, 1e-6));
       e.solid_angle_sr += ray.solid_angle_sr;
       e.least_sine = std::min(e.least_sine, double(ray.direction_head.x()));
@@ -166,6 +168,37 @@ TEST_CASE("the same pose over the same tiles has the same rays, on any number of
   CHECK(one[77].direction_head != other[77].direction_head);
 }
 
+TEST_CASE("batches in any order have the rays and hits of the whole, and none is longer than asked for") {
+  Scene scene = scene_of([](double x, double y) { return -20 + std::sin(x) + std::cos(2 * y); }, 0.5, 200);
+  scene.insert({9, 9}, sample_tile({.origin_enu_m = {-2, 8}, .spacing_m = 0.25, .cells = 8}, {0, 0},
+                                   [](double, double) { return -17.0; }));  // facets with rays of their own
+  const RayDistribution distribution(mills_cross(), {RaySettings::kPreview, 0.075}, {1, "rays"});
+  const auto trace = [&](const Rays& rays, Hits& hits) { scene.adapted().trace(kHead, rays, kFar_m, hits); };
+  RayDistribution::Plan plan;
+  RayDistribution::Batch all, batch;
+  distribution.aim(kHead, {}, scene.objects(), kFar_m, nullptr, trace, plan);
+  distribution.trace(plan, 0, plan.rays(), trace, all);
+  REQUIRE(all.rays.size() == plan.rays());
+  for (const std::size_t size : {16U, 4096U, 10'000'000U}) {
+    std::size_t seen = 0;
+    for (std::size_t first = (plan.rays() - 1) / size * size + size; first > 0;) {  // from the end
+      first -= size;
+      distribution.trace(plan, first, size, trace, batch);
+      REQUIRE(batch.rays.size() <= size);
+      seen += batch.rays.size();
+      for (std::size_t i = 0; i < batch.rays.size(); ++i) {
+        REQUIRE(batch.rays[i].direction_head == all.rays[first + i].direction_head);
+        REQUIRE(batch.rays[i].solid_angle_sr == all.rays[first + i].solid_angle_sr);
+        REQUIRE(batch.hits[i].position_enu_m == all.hits[first + i].position_enu_m);
+        REQUIRE(batch.hits[i].range_m == all.hits[first + i].range_m);
+      }
+    }
+    CHECK(seen == plan.rays());
+  }
+  distribution.trace(plan, plan.rays(), 100, trace, batch);
+  CHECK(batch.rays.empty());
+}
+
 TEST_CASE("heads on the seabed, below it and above an edge have rays of finite direction") {
   const Scene scene = scene_of(flat, 0.5, 40);
   for (const double z : {-20.0, -20.0001, -19.999, -25.0, 5.0}) {
@@ -196,8 +229,11 @@ TEST_CASE("a volume that is none, and settings that cannot be, are refused") {
                     "the fewest rays times the quality must be at most half of the most");
   CHECK_THROWS_WITH(make(mills_cross(), {.most_rays = 100}), Catch::Contains("the limit of rays must be at least "));
   RayDistribution distribution(mills_cross(), {}, {1, "rays"});
-  RayDistribution::Traced traced;
+  RayDistribution::Plan plan;
   const auto none = [](const Rays&, Hits&) {};
-  CHECK_THROWS_WITH(distribution.trace(kHead, {}, {}, kFar_m, nullptr, none, traced),
-                    "there must be one hit per probe");
+  CHECK_THROWS_WITH(distribution.aim(kHead, {}, {}, kFar_m, nullptr, none, plan), "there must be one hit per probe");
+  const auto misses = [](const Rays& rays, Hits& hits) { hits.resize(rays.size()); };
+  distribution.aim(kHead, {}, {}, kFar_m, nullptr, misses, plan);
+  RayDistribution::Batch batch;
+  CHECK_THROWS_WITH(distribution.trace(plan, 0, 100, none, batch), "there must be one hit per ray");
 }

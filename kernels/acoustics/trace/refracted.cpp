@@ -117,17 +117,19 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
 
 }  // namespace
 
-void Scene::tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
-                     float max_range_m, refraction::PathTable& paths) const {
-  const auto heights = heights_near(head.position_enu_m.head<2>(), max_range_m);
+void Mesh::tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
+                    float max_range_m, refraction::PathTable& paths) const {
+  const auto heights =
+      content_ ? heights_near(content_->extents, head.position_enu_m.head<2>(), max_range_m) : std::nullopt;
   const double above = heights ? head.position_enu_m.z() - heights->highest_m - kMargin_m : 0.0;
   paths.build(profile, head_depth_m, head_depth_m + above);
 }
 
-void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
-                  const refraction::PathTable& paths, std::uint32_t behind) const {
+void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
+                 const refraction::PathTable& paths, std::uint32_t behind) const {
   hits.make_elements(rays.size());
-  const auto heights = heights_near(head.position_enu_m.head<2>(), max_range_m);
+  const auto heights =
+      content_ ? heights_near(content_->extents, head.position_enu_m.head<2>(), max_range_m) : std::nullopt;
   if (!heights) {
     for (std::size_t i = 0; i < hits.size(); ++i) hits.set(i, Hit{});
     return;
@@ -138,7 +140,8 @@ void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_rang
   const double source_slowness = paths.profile().slowness_spm(source_depth);
   const bool use_table = paths.level_m() <= band.top_m;
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
-  const Vec3 origin(impl_->origin_enu_m.x(), impl_->origin_enu_m.y(), 0.0);
+  const PartTree& tree = content_->tree;
+  const Vec3 origin(content_->origin_enu_m.x(), content_->origin_enu_m.y(), 0.0);
   const Vec3 start = head.position_enu_m - origin;
 
   const auto trace_packet = [&](std::size_t index) {
@@ -174,9 +177,9 @@ void Scene::trace(const frames::HeadPose& head, const Rays& rays, float max_rang
       }
       float tfar_m[kPacket] = {};
       for (std::size_t lane = 0; lane < kPacket; ++lane) tfar_m[lane] = packet.rays.ray.tfar[lane];
-      packet.intersect(impl_->mesh);
+      packet.intersect(tree);
       if (behind != kNoise) {
-        packet.pass(impl_->mesh, behind, tfar_m, [&](std::size_t lane) {
+        packet.pass(tree, behind, tfar_m, [&](std::size_t lane) {
           return hit_of(packet, lane, *lanes[lane], from[lane] + origin, head.position_enu_m).contributor;
         });
       }

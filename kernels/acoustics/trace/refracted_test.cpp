@@ -46,9 +46,9 @@ static double rolling(double x, double y) { return -77.0 + 2.4 * std::sin(0.1 * 
 static Hits trace(const Scene& scene, const SoundSpeedProfile& water, const Rays& rays, float range_m = 600,
                   const HeadPose& head = kHead) {
   PathTable paths;
-  scene.tabulate(water, head, -head.position_enu_m.z(), range_m, paths);
+  scene.adapted().tabulate(water, head, -head.position_enu_m.z(), range_m, paths);
   Hits hits;
-  scene.trace(head, rays, range_m, hits, paths);
+  scene.adapted().trace(head, rays, range_m, hits, paths);
   return hits;
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("in uniform water bent rays are straight rays") {
   const auto rays = rays_of_all_sides(9, 90, 2000);
   const auto refracted = trace(scene, SoundSpeedProfile::uniform(1480), rays);
   Hits straight;
-  scene.trace(kHead, rays, 600, straight, 1480);
+  scene.adapted().trace(kHead, rays, 600, straight, 1480);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     REQUIRE(refracted[i].hit() == straight[i].hit());
     if (!refracted[i].hit()) continue;
@@ -160,7 +160,7 @@ TEST_CASE("a table that reaches too deep costs time, not hits; no tiles, no hits
   PathTable paths;
   paths.build(water, 2, 79.5);
   Hits hits;
-  seabed(rolling).trace(kHead, rays, 600, hits, paths);
+  seabed(rolling).adapted().trace(kHead, rays, 600, hits, paths);
   const auto right = trace(seabed(rolling), water, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     REQUIRE(hits[i].travel_time_s == Approx(right[i].travel_time_s).epsilon(1e-6));
@@ -177,10 +177,10 @@ TEST_CASE("a bent ray continued behind a contributor hits what stands behind it"
   scene.insert({9, 9}, plate);
   const auto rays = rays_of_all_sides(30, 90, 300);
   PathTable paths;
-  scene.tabulate(water, kHead, 2, 600, paths);
+  scene.adapted().tabulate(water, kHead, 2, 600, paths);
   Hits first, behind;
-  scene.trace(kHead, rays, 600, first, paths);
-  scene.trace(kHead, rays, 600, behind, paths, sediment_contributor(7));
+  scene.adapted().trace(kHead, rays, 600, first, paths);
+  scene.adapted().trace(kHead, rays, 600, behind, paths, sediment_contributor(7));
   const auto alone = trace(seabed(flat80), water, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     REQUIRE(first[i].contributor == sediment_contributor(7));

@@ -154,7 +154,46 @@ struct LevelOfDetail {
   bool operator==(const LevelOfDetail&) const = default;
 };
 
-/// Seabed tiles, and irregular meshes that stand among them, to trace rays against.
+class Scene;
+
+/// The triangles of a ping, as Scene::adapted makes them: what rays are traced against. A value whose copies share the
+/// triangles. It stays as it is while its scene takes tiles in, gives some up or is adapted to the next ping.
+class Mesh {
+ public:
+  /// Nothing to hit.
+  Mesh() = default;
+
+  /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
+  /// and overwritten. sound_speed_mps gives the travel times, nothing else. Rays pass all facets of the contributor
+  /// `behind`, so that they hit what it hides; what lies within 1 mm of it along the ray is passed too.
+  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
+             double sound_speed_mps = 1500.0, std::uint32_t behind = kNoise) const;
+
+  /// The first facet that each ray hits on its refracted path, at most max_range_m long. A path takes one look-up in
+  /// the table down to the highest geometry within reach, and goes on from there leg by leg; a leg is hit as chords
+  /// that stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end. paths is what
+  /// `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path is followed
+  /// leg by leg from the head, right but slow.
+  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
+             const refraction::PathTable& paths, std::uint32_t behind = kNoise) const;
+
+  /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the
+  /// water surface gives where in the profile it is.
+  void tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
+                float max_range_m, refraction::PathTable& paths) const;
+
+  /// Of the scene, as they were.
+  std::span<const Object> objects() const;
+  std::span<const double> facet_mean_square_slope() const;
+
+ private:
+  friend Scene;
+  struct Content;
+  std::shared_ptr<const Content> content_;
+  std::shared_ptr<const std::vector<double>> facet_mean_square_slope_;
+};
+
+/// Seabed tiles, and irregular meshes that stand among them, of which meshes to trace rays against are made.
 ///
 /// A tile is cut into blocks; a block is one Embree scene of grid primitives (two triangles per cell), built when it is
 /// first needed, and the parts of a mesh stand under one tree. Blocks and tiles share the bits of their edges and the
@@ -162,8 +201,8 @@ struct LevelOfDetail {
 /// hole (NaN post) has no triangles. Embree computes in float, relative to `origin_enu_m`: keep it within 4 km of the
 /// tiles and the head, where a coordinate rounds by less than 0.13 mm. Positions of hits are double.
 ///
-/// The answer depends on the tiles, the pose, the rays and the views of the last adaptation; never on the order of
-/// insertion, on earlier adaptations or the number of threads.
+/// What a ray hits depends on the tiles, the pose, the rays and the views; never on the order of insertion, on earlier
+/// adaptations or the number of threads.
 class Scene {
  public:
   explicit Scene(const frames::Vec2& origin_enu_m, const LevelOfDetail& detail = {});
@@ -187,8 +226,6 @@ class Scene {
   /// Mean square of facets' slopes that a sediment's law counts too, by class (seabed::MeshedSediment): kept for
   /// those who ask how strongly hits scatter, the scene itself makes nothing of it. Empty: none is known.
   void set_facet_mean_square_slope(std::span<const double> by_class);
-  std::span<const double> facet_mean_square_slope() const;
-
   /// Omissions of an adaptation to views: tiles of less than 64 cells a side, and of tiles with holes the blocks of 16
   /// x 16 cells that are not whole or stand beside such, as far as they are there. In key order. Small tiles are always
   /// at full detail.
@@ -199,12 +236,13 @@ class Scene {
   /// whatever way it took.
   void centre_near(const frames::Vec2& place_enu_m);
 
-  /// Makes the mesh for these views: each block as fine as the finest view that intersects it asks for, coarsest
-  /// elsewhere, and irregular meshes likewise. A ray within a view of level 0 hits what it would hit with all tiles at
-  /// full detail, to the bit. With level of detail enabled there is no mesh before this, nor after a tile has come or
-  /// gone; without it nothing happens. Blocks that no view intersects are built when a ray comes to them. Those that
-  /// were seen lately are kept, coarse ones as long as no more than a fiftieth of the tiles' triangles is held.
-  void adapt(std::span<const lod::View> views);
+  /// The mesh for these views: each block as fine as the finest view that intersects it asks for, coarsest elsewhere,
+  /// and irregular meshes likewise. A ray within a view of level 0 hits what it would hit with all tiles at full
+  /// detail, to the bit. Without level of detail it is all of them, and no view is needed. Embree's coordinates are
+  /// centred near the first view's apex. Blocks that no view intersects are built when a ray comes to them. Those that
+  /// were seen lately are kept for the next mesh, coarse ones as long as no more than a fiftieth of the tiles'
+  /// triangles is held: memory, which changes no mesh. Threads may ask at once, while no tile comes or goes.
+  Mesh adapted(std::span<const lod::View> views = {}) const;
 
   const LevelOfDetail& detail() const;
   /// In memory, ready for rays.
@@ -215,25 +253,6 @@ class Scene {
   std::size_t size() const;
   bool contains(const terrain::TileKey& key) const;
   const frames::Vec2& origin_enu_m() const;
-
-  /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
-  /// and overwritten. sound_speed_mps gives the travel times, nothing else. Rays pass all facets of the contributor
-  /// `behind`, so that they hit what it hides; what lies within 1 mm of it along the ray is passed too.
-  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
-             double sound_speed_mps = 1500.0, std::uint32_t behind = kNoise) const;
-
-  /// The first facet that each ray hits on its refracted path, at most max_range_m long. A path takes one look-up in
-  /// the table down to the highest geometry within reach, and goes on from there leg by leg; a leg is hit as chords
-  /// that stay within 1 mm of its arc. Rays that turn, or go up and come back, are followed to their end. paths is what
-  /// `tabulate` made for this head; with a table that reaches deeper than the highest geometry every path is followed
-  /// leg by leg from the head, right but slow.
-  void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
-             const refraction::PathTable& paths, std::uint32_t behind = kNoise) const;
-
-  /// The table of paths from a head, down to the highest geometry within max_range_m of it. The head's depth below the
-  /// water surface gives where in the profile it is.
-  void tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
-                float max_range_m, refraction::PathTable& paths) const;
 
   /// Height by the tiles' own posts, whatever the mesh; empty over a hole or no tile.
   std::optional<double> height_m(const frames::Vec2& place_enu_m) const;

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
-#include "kernels/acoustics/trace/mesh.h"
+#include "kernels/acoustics/trace/parts.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/mesh/lod/cover.h"
 #include "kernels/mesh/progressive/cut.h"
@@ -24,10 +26,10 @@ class TrianglePart final : public Part {
     float facet_m = 0.0F;
     std::uint8_t sediment = 0;
   };
-  /// `places_m`: of all the mesh's vertices in Embree's frame, and room for one more, which Embree may read. They must
-  /// outlive the part.
-  TrianglePart(const Device& device, std::vector<progressive::Triangle> triangles,
-               std::span<const Eigen::Vector3f> places_m, const Common& common);
+  /// Of all the mesh's vertices in Embree's frame, and room for one more, which Embree may read.
+  using Places = std::shared_ptr<const std::vector<Eigen::Vector3f>>;
+  TrianglePart(const Device& device, std::vector<progressive::Triangle> triangles, Places places_m,
+               const Common& common);
 
   std::uint8_t sediment_at(const terrain::Vec2&) const override { return sediment_; }
   const std::vector<progressive::Triangle>& shown() const { return triangles_; }
@@ -36,7 +38,7 @@ class TrianglePart final : public Part {
   Content content() const override;
 
   std::vector<progressive::Triangle> triangles_;
-  std::span<const Eigen::Vector3f> places_m_;
+  Places places_m_;
   std::uint8_t sediment_;
 };
 
@@ -52,7 +54,7 @@ class Irregular {
   void choose_all();
 
   /// The parts of what has been chosen; those that are new are built.
-  std::vector<const Part*> show(const Device& device, const terrain::Vec2& origin_enu_m);
+  std::vector<std::shared_ptr<const Part>> show(const Device& device, const terrain::Vec2& origin_enu_m);
   /// Builds all anew when they are next shown: the origin has moved.
   void forget();
 
@@ -62,7 +64,7 @@ class Irregular {
  private:
   struct Cluster {
     std::vector<progressive::Triangle> wanted;
-    std::unique_ptr<TrianglePart> part;
+    std::shared_ptr<TrianglePart> part;
   };
   void want(std::span<const progressive::Triangle> triangles, std::span<const std::uint32_t> sources);
 
@@ -71,15 +73,14 @@ class Irregular {
   Eigen::AlignedBox3d box_enu_m_;
   double edge_m_ = 0.0;                    // mean
   std::vector<std::uint32_t> cluster_of_;  // by source triangle
-  std::vector<Eigen::Vector3f> places_m_;  // of vertices, in Embree's frame; empty while that is not known
+  TrianglePart::Places places_m_;          // null while Embree's frame is not known
   std::vector<Cluster> clusters_;
   progressive::Cut cut_;
 };
 
 struct Entry {
   std::uint32_t number;  // as Object has it
-  terrain::Tile tile;
-  lod::Hierarchy hierarchy;
+  std::shared_ptr<const Ground> ground;
   Heights heights;  // of the posts
   std::vector<Object> objects;
   lod::Cover cover;
@@ -99,9 +100,26 @@ struct PartKey {
 
 struct CachedPart {
   PartKey key;
-  std::unique_ptr<BlockPart> part;
+  std::shared_ptr<BlockPart> part;
   std::uint64_t used = 0;     // last, by number of adaptation
   std::size_t triangles = 0;  // as was known then
+};
+
+/// Where there is geometry.
+struct Extent {
+  frames::Vec2 south_west_enu_m, north_east_enu_m;
+  Heights heights;
+};
+
+/// Over what lies within a horizontal distance of a place; empty when there is nothing.
+std::optional<Heights> heights_near(std::span<const Extent> extents, const frames::Vec2& place_enu_m, double radius_m);
+
+struct Mesh::Content {
+  frames::Vec2 origin_enu_m;
+  PartTree tree;
+  std::vector<Extent> extents;  // of tiles and irregular meshes
+  std::shared_ptr<const std::vector<Object>> objects;
+  std::vector<std::shared_ptr<const Ground>> grounds;  // of the objects
 };
 
 struct Scene::Impl {
@@ -110,10 +128,11 @@ struct Scene::Impl {
   LevelOfDetail detail;
   std::map<terrain::TileKey, Entry> tiles;
   std::map<std::int64_t, Irregular> irregular;
-  std::uint32_t inserted = 0;                   // tiles and irregular meshes, ever
-  std::vector<Object> objects;                  // of all tiles
-  std::vector<double> facet_mean_square_slope;  // by class
+  std::uint32_t inserted = 0;  // tiles and irregular meshes, ever
+  std::shared_ptr<const std::vector<Object>> objects = std::make_shared<std::vector<Object>>();  // of all tiles
+  std::shared_ptr<const std::vector<double>> facet_mean_square_slope;  // by class; null: none is known
 
+  std::mutex adapting;           // one thread at a time, of what follows
   std::vector<lod::View> views;  // of the mesh ...
   bool stale = true;             // ... unless tiles have come or gone since
   std::uint64_t adaptations = 0;
@@ -121,6 +140,7 @@ struct Scene::Impl {
   Mesh mesh;
 
   void gather_objects();
+  void centre_near(const frames::Vec2& place_enu_m);
   void adapt(std::span<const lod::View> wanted);
   void show();
   /// Something comes or goes: there is no mesh until the next adaptation.
@@ -135,6 +155,7 @@ struct Scene::Impl {
   void use(const std::vector<PartKey>& keys);
   /// Gives up parts that no mesh needs soon.
   void forget();
+  std::vector<Extent> extents() const;
   /// By one of the views.
   bool is_in_view(const lod::Leaf& leaf) const;
 };

@@ -33,7 +33,7 @@ TEST_CASE("a flat seabed is hit at depth over cosine, at the right grazing angle
   scene.insert({0, 0}, tile_of({.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 256}, {0, 0}, flat));
   const Rays rays{towards({0, 0, -1}), towards({1, 0, -1}), towards({0, -1, -2}), towards({0, 0, 1})};
   Hits hits;
-  scene.trace(kLevel, rays, 100.0F, hits, 1480.0);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits, 1480.0);
   CHECK(hits[0].range_m == Approx(20));
   CHECK(hits[0].travel_time_s == Approx(20 / 1480.0));
   CHECK(hits[0].sin_grazing == Approx(1));
@@ -46,7 +46,7 @@ TEST_CASE("a flat seabed is hit at depth over cosine, at the right grazing angle
   CHECK((hits[2].position_enu_m - Vec3(0, -10, -20)).norm() < 1e-4);
   CHECK(hits[2].normal_enu.z() == Approx(1));
   CHECK_FALSE(hits[3].hit());
-  scene.trace(kLevel, rays, 19.0F, hits);
+  scene.adapted().trace(kLevel, rays, 19.0F, hits);
   CHECK_FALSE(hits[0].hit());
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("hits on a slope lie on the plane with its normal, also far from the o
     Rays rays;
     for (int i = 0; i < 100; ++i) rays.push_back(towards({std::sin(i), std::cos(1.7 * i), -1.0}));
     Hits hits;
-    scene.trace(head, rays, 100.0F, hits);
+    scene.adapted().trace(head, rays, 100.0F, hits);
     const Vec3 normal = Vec3(-0.1, 0.2, 1).normalized();
     for (const Hit& hit : hits) {
       REQUIRE(hit.hit());
@@ -85,7 +85,7 @@ TEST_CASE("no ray passes between neighbouring tiles") {
     rays.push_back(towards({along, 1e-7 * i, bumpy(along, 0.0)}));  // and about y = 0
   }
   Hits hits;
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits);
   for (const Hit& hit : hits) REQUIRE(hit.hit());
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a hole lets rays through its own four cells and no others") {
       rays.push_back(towards({x, y, -20}));
     }
   Hits hits;
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits);
   int missed = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     REQUIRE(hits[i].hit() == height_m(tile, places[i]).has_value());
@@ -118,10 +118,10 @@ TEST_CASE("an all-hole tile and an empty scene answer nothing") {
   Scene scene({0, 0});
   Hits hits;
   const Rays rays{towards({0, 0, -1})};
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits);
   CHECK_FALSE(hits[0].hit());
   scene.insert({0, 0}, tile);
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits);
   CHECK_FALSE(hits[0].hit());
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("threads, the order of insertion and removed tiles change no bit") {
   const auto trace_with = [&](const Scene& s, std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Hits hits;
-    s.trace(head, rays, 200.0F, hits);
+    s.adapted().trace(head, rays, 200.0F, hits);
     return hits;
   };
   const auto one = trace_with(scene, 1), two = trace_with(scene, 2), reordered = trace_with(other, 2);
@@ -174,7 +174,7 @@ TEST_CASE("the class of a hit is that of the seabed there") {
   scene.insert({0, 0}, tile);
   const Rays rays{towards({-1, 0, -20}), towards({1, 0, -20})};
   Hits hits;
-  scene.trace(kLevel, rays, 100.0F, hits);
+  scene.adapted().trace(kLevel, rays, 100.0F, hits);
   CHECK(hits[0].contributor == sediment_contributor(3));
   CHECK(hits[1].contributor == sediment_contributor(5));
 }
@@ -192,16 +192,16 @@ TEST_CASE("a ray continued behind a contributor hits what stands behind it") {
   add(9, [](double, double) { return -12.0; });
   const Rays rays{towards({0.1, 0.2, -1}), towards({1, 0, -1})};
   Hits first, behind, another;
-  scene.trace(kLevel, rays, 100.0F, first);
-  scene.trace(kLevel, rays, 100.0F, behind, 1500.0, sediment_contributor(7));
-  scene.trace(kLevel, rays, 100.0F, another, 1500.0, sediment_contributor(6));
+  scene.adapted().trace(kLevel, rays, 100.0F, first);
+  scene.adapted().trace(kLevel, rays, 100.0F, behind, 1500.0, sediment_contributor(7));
+  scene.adapted().trace(kLevel, rays, 100.0F, another, 1500.0, sediment_contributor(6));
   CHECK(first[0].contributor == sediment_contributor(7));
   CHECK(first[0].position_enu_m.z() == Approx(-10));
   CHECK(behind[0].contributor == sediment_contributor(0));
   CHECK(behind[0].position_enu_m.z() == Approx(-20));
   CHECK(behind[1].position_enu_m == first[1].position_enu_m);
   CHECK(another[0].position_enu_m == first[0].position_enu_m);
-  scene.trace(kLevel, rays, 15.0F, behind, 1500.0, sediment_contributor(7));
+  scene.adapted().trace(kLevel, rays, 15.0F, behind, 1500.0, sediment_contributor(7));
   CHECK_FALSE(behind[0].hit());  // the seabed lies beyond the range
 }
 

@@ -122,13 +122,13 @@ void adapt(benchmark::State& state) {
   int ping = 0;
   world.page({0, 0}, 170.0);
   const auto views = [&] { return trace::views_of(kFan, track.at(ping), 130.0, {}, 2); };
-  world.scene().adapt(views());
+  world.scene().adapted(views());
   Clocks clocks;
   double paged_over_held = std::numeric_limits<double>::infinity();
   for (auto _ : state) {
     ++ping;
     world.page(track.at(ping).position_enu_m.head<2>(), 170.0);
-    clocks.time(state, [&] { world.scene().adapt(views()); });
+    clocks.time(state, [&] { world.scene().adapted(views()); });
     paged_over_held =
         std::min(paged_over_held, world.paged_triangles() / static_cast<double>(world.scene().triangles()));
   }
@@ -185,7 +185,7 @@ Eigen::AlignedBox3d inside(Eigen::AlignedBox3d box, double by_m) {
 
 /// Every ray of the main lobe must hit what it hits with the whole mesh there, to the bit, and every other one
 /// something, but for those at the mesh's own edge.
-void check_rays(const Passed& passed, const trace::Scene& whole, const trace::Scene& scene,
+void check_rays(const Passed& passed, const trace::Mesh& whole, const trace::Mesh& scene,
                 const frames::HeadPose& head) {
   Eigen::AlignedBox3d box;
   for (const auto& vertex : passed.mesh.vertex_m) box.extend(passed.mesh.origin_enu_m + vertex.cast<double>());
@@ -217,16 +217,16 @@ void adapt_irregular(benchmark::State& state, const Passed& passed) {
   whole.insert(0, mesh);
   scene.insert(0, mesh);
   const auto views = [&](int ping) { return trace::views_of(kFan, passed.at(ping), passed.max_range_m, {}, 2); };
-  scene.adapt(views(0));  // its memory is there, as in all pings but a head's first
+  scene.adapted(views(0));  // its memory is there, as in all pings but a head's first
   Clocks clocks;
   double whole_over_held = std::numeric_limits<double>::infinity();
   int ping = 0;
   for (auto _ : state) {
     ++ping;
-    clocks.time(state, [&] { scene.adapt(views(ping)); });
+    clocks.time(state, [&] { scene.adapted(views(ping)); });
     whole_over_held =
         std::min(whole_over_held, static_cast<double>(whole.triangles()) / static_cast<double>(scene.triangles()));
-    if (ping % 30 == 0) check_rays(passed, whole, scene, passed.at(ping));
+    if (ping % 30 == 0) check_rays(passed, whole.adapted(), scene.adapted(views(ping)), passed.at(ping));
   }
   clocks.report(state);
   state.counters["triangles"] = static_cast<double>(passed.mesh.triangle.size());
@@ -251,8 +251,7 @@ void endless_over_small(benchmark::State& state) {
   const auto one = [&](World& world, const frames::HeadPose& head) {
     const std::clock_t start = std::clock();
     world.page(head.position_enu_m.head<2>(), 83.0);
-    world.scene().adapt(trace::views_of(kFan, head, 52.0, {}, 2));
-    world.scene().trace(head, rays, 52.0F, hits);
+    world.scene().adapted(trace::views_of(kFan, head, 52.0, {}, 2)).trace(head, rays, 52.0F, hits);
     return static_cast<double>(std::clock() - start);
   };
   for (auto _ : state) {
@@ -293,11 +292,11 @@ void check() {
   World world(51.0, true);
   world.page({0, 0}, 170.0);
   const frames::HeadPose head = Track{4.0, 5.0, 0.1}.at(3);
-  world.scene().adapt(trace::views_of(kFan, head, 130.0, {}, 2));
+  const trace::Mesh mesh = world.scene().adapted(trace::views_of(kFan, head, 130.0, {}, 2));
   trace::Rays rays;
   trace::Fan({.half_swath_rad = 1.13, .across = 1024}).fill({1, "rays"}, 0, rays);
   trace::Hits hits;
-  world.scene().trace(head, rays, 130.0F, hits);
+  mesh.trace(head, rays, 130.0F, hits);
   for (const trace::Hit& hit : hits) {
     if (hit.hit()) continue;
     std::fprintf(stderr, "a ray is lost\n");

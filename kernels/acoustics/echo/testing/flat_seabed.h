@@ -11,6 +11,7 @@
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/testing/found.h"
 #include "kernels/seabed/backscatter.h"
 #include "tests/support/fan.h"
 
@@ -49,13 +50,12 @@ struct Flat {
           float(std::pow(10, 0.1 * source_level_db) * array::line_power(transmit_waves, ray.direction_head.x())));
       backscatter.push_back(float(seabed::lambert_backscatter(-25, hit.sin_grazing)));
     }
-    Scatterers scatterers(0.01, {1, "seabed"});
-    Scatterers::Memory memory;
+    SpeckleCells cells(0.01, {1, "seabed"});
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     Arrivals arrivals;
     add_direct_echoes({300e3, absorption_dbpm, Sum::kMeanSquare}, {0, 0, 0},
-                      scatterers.find({pose, rays, hits, source, backscatter}, memory), receivers, arrivals);
+                      scatterers_of(cells, {pose, rays, hits, source, backscatter}), receivers, arrivals);
     return arrivals;
   }
 };

@@ -9,8 +9,8 @@
 
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/aperture.h"
-#include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/echo/testing/flat_seabed.h"
+#include "kernels/acoustics/echo/testing/found.h"
 
 /// Test support: speckle of a strip of flat seabed.
 namespace ensonify::echo {
@@ -62,13 +62,12 @@ struct Strip {
                                         double cell_m = 0.03) const {
     const frames::HeadPose pose{position_enu_m, frames::enu_from_ned()};
     const auto surface_hits = hits(pose);
-    Scatterers scatterers(cell_m, {seed, "seabed"});
+    SpeckleCells cells(cell_m, {seed, "seabed"});
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     Arrivals arrivals;
-    Scatterers::Memory memory;
     add_direct_echoes({kFrequency, 0.07}, position_enu_m,
-                      scatterers.find({pose, rays, surface_hits, source, backscatter}, memory), receivers, arrivals);
+                      scatterers_of(cells, {pose, rays, surface_hits, source, backscatter}), receivers, arrivals);
     TimeIndex index;
     Image image;
     const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);

@@ -55,30 +55,32 @@ struct Depths {
 };
 
 /// Differences of a ping between both scenes: rays of the main lobe, straight and in a summer's water, and rays in all
-/// directions. `scene` is left adapted to the water; `hits` are the straight main lobe's in it.
+/// directions. `hits` are the straight main lobe's in it.
 struct PingDifferences {
   std::size_t main_lobe = 0, all_round = 0;
   Hits hits;
 };
 
-inline PingDifferences ping_differences(const Scene& full, Scene& scene, const frames::HeadPose& head, float range_m,
-                                        const Rays& main_lobe, const Rays& all_round, const Depths& depths) {
+inline PingDifferences ping_differences(const Scene& full, const Scene& scene, const frames::HeadPose& head,
+                                        float range_m, const Rays& main_lobe, const Rays& all_round,
+                                        const Depths& depths) {
   PingDifferences found;
   Hits all, some;
-  scene.adapt(views_at(head, range_m));
-  full.trace(head, main_lobe, range_m, all);
-  scene.trace(head, main_lobe, range_m, found.hits);
+  const Mesh whole = full.adapted();
+  Mesh mesh = scene.adapted(views_at(head, range_m));
+  whole.trace(head, main_lobe, range_m, all);
+  mesh.trace(head, main_lobe, range_m, found.hits);
   found.main_lobe += differences(all, found.hits);
-  full.trace(head, all_round, range_m, all);
-  scene.trace(head, all_round, range_m, some);
+  whole.trace(head, all_round, range_m, all);
+  mesh.trace(head, all_round, range_m, some);
   found.all_round += differences(all, some);
 
   const auto summer = refraction::summer_thermocline();
   refraction::PathTable paths;
-  scene.tabulate(summer, head, depths.head_m, range_m, paths);
-  scene.adapt(views_at(head, range_m, water_above(summer, depths.head_m, depths.bottom_m)));
-  full.trace(head, main_lobe, range_m, all, paths);
-  scene.trace(head, main_lobe, range_m, some, paths);
+  mesh.tabulate(summer, head, depths.head_m, range_m, paths);
+  mesh = scene.adapted(views_at(head, range_m, water_above(summer, depths.head_m, depths.bottom_m)));
+  whole.trace(head, main_lobe, range_m, all, paths);
+  mesh.trace(head, main_lobe, range_m, some, paths);
   found.main_lobe += differences(all, some);
   return found;
 }

@@ -33,11 +33,14 @@ struct Sounding {
 inline Sounding trace_rays(const Scene& scene, const RayDistribution& distribution, const frames::HeadPose& head,
                            std::span<const Object> objects, const refraction::PathTable* water = nullptr) {
   const auto trace = [&](const Rays& rays, Hits& hits) {
-    water != nullptr ? scene.trace(head, rays, kFar_m, hits, *water) : scene.trace(head, rays, kFar_m, hits);
+    water != nullptr ? scene.adapted().trace(head, rays, kFar_m, hits, *water)
+                     : scene.adapted().trace(head, rays, kFar_m, hits);
   };
-  RayDistribution::Traced traced;
-  distribution.trace(head, {}, objects, kFar_m, water, trace, traced);
-  return {std::move(traced.aimed.rays), std::move(traced.hits), traced.aimed.share};
+  RayDistribution::Plan plan;
+  RayDistribution::Batch all;
+  distribution.aim(head, {}, objects, kFar_m, water, trace, plan);
+  distribution.trace(plan, 0, plan.rays(), trace, all);
+  return {std::move(all.rays), std::move(all.hits), plan.share()};
 }
 
 inline Sounding trace_ping(const Scene& scene, const RaySettings& settings, std::uint64_t seed = 1,

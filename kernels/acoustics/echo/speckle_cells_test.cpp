@@ -1,5 +1,3 @@
-#include "kernels/acoustics/echo/scatterer.h"
-
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "kernels/acoustics/echo/testing/found.h"
 #include "kernels/acoustics/echo/testing/strip.h"
 #include "kernels/base/testing/allocations.h"
 
@@ -83,10 +82,9 @@ TEST_CASE("the energy of all rays arrives, whatever the cells") {
     area += hits[i].range_m * hits[i].range_m * insonified;
   }
   for (const double cell_m : {0.003, 0.03, 0.5}) {
-    const Scatterers scatterers(cell_m, {1, "seabed"});
-    Scatterers::Memory memory;
+    const SpeckleCells cells(cell_m, {1, "seabed"});
     double sum = 0.0, cross_section = 0.0;
-    const auto found = scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory);
+    const auto found = scatterers_of(cells, {pose, strip().rays, hits, strip().source, strip().backscatter});
     for (const Scatterer& one : found) {
       sum += one.scattered_upa2m2;
       cross_section += one.cross_section_m2;
@@ -103,15 +101,14 @@ TEST_CASE("contributors survive merging, and share what their cell sends") {
   const auto one = strip().hits(pose);
   auto two = one;
   for (std::size_t i = 0; i < two.size(); i += 3) two.contributor[i] = trace::sediment_contributor(4);
-  const Scatterers scatterers(0.03, {1, "seabed"});
+  const SpeckleCells cells(0.03, {1, "seabed"});
   Receivers receivers;
   receivers.set({0, 1, std::span(&pose, 1)});
   const auto arrivals = [&](const trace::Hits& hits) {
-    Scatterers::Memory memory;
     Arrivals echoes;
     add_direct_echoes({kFrequency, 0.07}, {0, 0, 0},
-                      scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory),
-                      receivers, echoes);
+                      scatterers_of(cells, {pose, strip().rays, hits, strip().source, strip().backscatter}), receivers,
+                      echoes);
     return echoes;
   };
   const auto merged = arrivals(one), apart = arrivals(two);
@@ -136,12 +133,10 @@ TEST_CASE("contributors survive merging, and share what their cell sends") {
 TEST_CASE("responses are complex Gaussians of mean square 1") {
   const frames::HeadPose pose{};
   const auto hits = strip().hits(pose);
-  const Scatterers scatterers(0.02, {1, "seabed"});
-  Scatterers::Memory memory;
+  const SpeckleCells cells(0.02, {1, "seabed"});
   double n = 0, power = 0, square = 0;
   std::complex<double> sum;
-  for (const Scatterer& one :
-       scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory)) {
+  for (const Scatterer& one : scatterers_of(cells, {pose, strip().rays, hits, strip().source, strip().backscatter})) {
     n += 1;
     power += std::norm(one.response);
     square += std::norm(one.response) * std::norm(one.response);
@@ -156,20 +151,46 @@ TEST_CASE("responses are complex Gaussians of mean square 1") {
 TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
   const frames::HeadPose pose{};
   const auto hits = strip().hits(pose);
-  const Scatterers scatterers(0.03, {1, "seabed"});
-  Scatterers::Memory memory;
-  const auto places = [&](std::size_t threads) {
+  const SpeckleCells cells(0.03, {1, "seabed"});
+  SpeckleCells::Accumulator sum;
+  const auto ping = [&](std::size_t threads, Scatterers& found) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    std::vector<Vec3> all;
-    for (const Scatterer& one :
-         scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory)) {
-      all.push_back(one.position_enu_m);
-    }
-    return all;
+    sum.clear();
+    cells.add({pose, strip().rays, hits, strip().source, strip().backscatter}, sum);
+    SpeckleCells::gather(sum, found);
   };
-  CHECK(places(1) == places(2));
+  Scatterers one, two;
+  ping(1, one);
+  ping(2, two);
+  CHECK(one == two);
   const long before = allocations();
-  scatterers.find({pose, strip().rays, hits, strip().source, strip().backscatter}, memory);
+  ping(2, two);
   CHECK(allocations() - before == 0);
-  CHECK_THROWS_AS(Scatterers(0.0, {1, "seabed"}), std::invalid_argument);
+  CHECK_THROWS_AS(SpeckleCells(0.0, {1, "seabed"}), std::invalid_argument);
+}
+
+TEST_CASE("batches of rays make the scatterers of all rays at once, to the bit") {
+  const frames::HeadPose pose{};
+  auto hits = strip().hits(pose);
+  for (std::size_t i = 0; i < hits.size(); i += 3) hits.contributor[i] = trace::sediment_contributor(4);
+  const SpeckleCells cells(0.03, {1, "seabed"});
+  const Scatterers whole = scatterers_of(cells, {pose, strip().rays, hits, strip().source, strip().backscatter});
+  for (const std::size_t size : {1000U, 7777U}) {
+    SpeckleCells::Accumulator sum;
+    for (std::size_t first = 0; first < hits.size(); first += size) {
+      trace::Rays rays;
+      trace::Hits some;
+      const std::size_t end = std::min(hits.size(), first + size);
+      for (std::size_t i = first; i < end; ++i) rays.push_back(strip().rays[i]), some.push_back(hits[i]);
+      cells.add({pose, rays, some, std::span(strip().source).subspan(first, end - first),
+                 std::span(strip().backscatter).subspan(first, end - first)},
+                sum);
+    }
+    Scatterers found;
+    SpeckleCells::gather(sum, found);
+    CHECK(found == whole);
+    sum.clear();
+    SpeckleCells::gather(sum, found);
+    CHECK(found.empty());
+  }
 }

@@ -82,11 +82,16 @@ class Part {
 /// them.
 constexpr float kPartSlack_m = 1e-3F;
 
+/// A tile as a scene has it. Parts and meshes share it, so that it outlives the scene's use of it.
+struct Ground {
+  terrain::Tile tile;
+  lod::Hierarchy hierarchy;
+};
+
 /// Mesh of a block.
 struct Shown {
-  const terrain::Tile* tile = nullptr;
-  std::uint32_t number = 0;                   // of the tile, as Hit has it
-  const lod::Hierarchy* hierarchy = nullptr;  // of the tile
+  std::shared_ptr<const Ground> ground;
+  std::uint32_t number = 0;  // of the tile, as Hit has it
   lod::Leaf leaf;
   lod::Rim rim{};
 };
@@ -108,10 +113,12 @@ class BlockPart final : public Part {
 /// The parts that make the seabed of a ping, over which Embree keeps a tree of their bounds. A scene of its own holds
 /// all grids of a part: Embree builds a scene of grids as a whole, so in one scene of all parts nothing would stay.
 /// Rays enter a part as they are, without the transformation of an instance.
-class Mesh {
+class PartTree {
  public:
-  /// The parts must outlive the mesh or the next call.
-  void assign(const Device& device, std::span<const Part* const> parts);
+  PartTree() = default;
+  PartTree(const Device& device, std::vector<std::shared_ptr<const Part>> parts);
+  PartTree(const PartTree&) = delete;  // Embree knows where its parts are
+  PartTree& operator=(const PartTree&) = delete;
 
   /// The nearest facet for each lane of a packet that is on, by instance number. Throws what kept a part from being
   /// built when a ray came to it; the packet is then void.
@@ -123,7 +130,7 @@ class Mesh {
   static void bound(const RTCBoundsFunctionArguments* of);
   static void enter(const RTCIntersectFunctionNArguments* of);
 
-  std::vector<const Part*> parts_;
+  std::vector<std::shared_ptr<const Part>> parts_;
   EmbreeScene scene_;
 };
 

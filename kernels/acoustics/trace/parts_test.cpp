@@ -1,5 +1,5 @@
 // The parts of a mesh, and what becomes of a failure to build one.
-#include "kernels/acoustics/trace/mesh.h"
+#include "kernels/acoustics/trace/parts.h"
 
 #include <tbb/parallel_for.h>
 
@@ -52,11 +52,10 @@ Packet packet_at(double east_m) {
 
 TEST_CASE("a part that cannot be built throws to the ray's caller, and may be tried again") {
   const Device device = new_device();
-  Slab intact(device, 0.0F), planted(device, 10.0F);
+  const auto first = std::make_shared<Slab>(device, 0.0F), second = std::make_shared<Slab>(device, 10.0F);
+  Slab &intact = *first, &planted = *second;
   planted.memory = false;
-  const std::vector<const Part*> parts{&intact, &planted};
-  Mesh mesh;
-  mesh.assign(device, parts);
+  const PartTree mesh(device, {first, second});
 
   const auto all_hit = [&](double east_m, const Part& part) {
     Packet packet = packet_at(east_m);
