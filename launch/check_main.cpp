@@ -8,7 +8,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/printable.h"
-#include "components/runtime/version.h"
+#include "components/runtime/tool.h"
 #include "components/terrain/layers_source.h"
 #include "launch/check_ports.h"
 #include "launch/file/launch_file.h"
@@ -78,7 +78,7 @@ int check(const LaunchOptions& options, bool as_json) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify check: reads a launch file, its scenario and every configuration, and checks the wiring.");
   app.name("ensonify check");
-  app.set_version_flag("--version", kVersion);
+  add_version_flag(app);
   LaunchOptions options;
   bool as_json = false;
   add_options(app, options, true);

@@ -32,7 +32,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"check", "check a launch file, its configurations and its wiring without running it"},
     {"topic", "list, info, echo, hz and bw of the topics of a live run"},
     {"graph", "draw who talks to whom"},
-    {"clock", "status, pause, resume, step and rate of a live run"},
+    {"clock", "list of live runs; status, pause, resume, step and rate of one"},
     {"replay", "feed a record back"},
     {"record", "repair a record whose writer was killed"},
     {"compare", "say where two records differ"},

@@ -90,6 +90,18 @@ TEST_CASE("the next start clears the directories of dead runs and no others") {
   CHECK(remove_dead_runs(runtime.file("ensonify")) == 0);
 }
 
+TEST_CASE("a live run's name is refused to another, with who has it, and free when that has ended") {
+  const RuntimeFolder runtime;
+  {
+    const RunDir bay({"bay", "/x/demo.yaml", "/x/out", 0, 42});
+    const RunDir unnamed;
+    CHECK_THROWS_WITH(RunDir({"bay", "other.yaml", "", 0, 43}),
+                      Catch::Contains("--name: bay is the name of a live run (/x/demo.yaml, ") &&
+                          Catch::Contains("process 42"));
+  }
+  CHECK_NOTHROW(RunDir({"bay", "other.yaml", "", 0, 43}));
+}
+
 TEST_CASE("a second run cannot have an output folder that is in use") {
   const RuntimeFolder runtime;
   const std::string out = runtime.file("deep/out");

@@ -16,7 +16,6 @@
 #include <thread>
 
 #include "components/errors/exit_error.h"
-#include "components/runtime/run_finder.h"
 
 namespace ensonify::launcher {
 
@@ -64,6 +63,18 @@ int remove_dead(const std::string& folder) {
     }
   }
   return removed;
+}
+
+/// Names are of live runs: those of dead ones have gone.
+void refuse_second(const std::string& name, const std::string& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const AboutRun other = read_about(entry.path());
+    if (!name.empty() && other.name == name) {
+      throw UserError("--name: " + name + " is the name of a live run (" + other.text() +
+                      "); choose another, or end that one with `ensonify clock stop --run " + name + "`");
+    }
+  }
 }
 
 /// Held while folders are made or cleared, so that a folder without its lock yet is never taken for a dead one.
@@ -142,10 +153,11 @@ int remove_dead_runs(const std::string& folder) {
   return remove_dead(folder);
 }
 
-RunDir::RunDir() {
+RunDir::RunDir(const AboutRun& about) {
   const std::string folder = runs_folder();
   const FolderLock guard(folder);
   remove_dead(folder);
+  refuse_second(about.name, folder);
   std::string path = folder + "/run-XXXXXX";
   if (::mkdtemp(path.data()) == nullptr) {
     throw UserError(path + ": cannot be made: " + reason());
@@ -155,6 +167,7 @@ RunDir::RunDir() {
   if (lock_fd_ < 0) {
     throw UserError(file("lock") + ": cannot be locked: " + reason());
   }
+  write_about(path_, about);
 }
 
 RunDir::~RunDir() {

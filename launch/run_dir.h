@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "components/runtime/run_finder.h"
+
 namespace ensonify::launcher {
 
 /// A private folder (mode 0700) for one run's sockets: `$XDG_RUNTIME_DIR/ensonify/<id>`, or `/tmp/ensonify-<uid>/<id>`
@@ -13,8 +15,8 @@ namespace ensonify::launcher {
 /// those whose lock is free; so two runs at once never see each other.
 class RunDir {
  public:
-  /// Throws UserError when no safe folder can be made.
-  RunDir();
+  /// Throws UserError when no safe folder can be made, or when a live run has the same name.
+  explicit RunDir(const AboutRun& about = {});
   /// Removes the folder.
   ~RunDir();
   RunDir(const RunDir&) = delete;

@@ -10,7 +10,7 @@
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
 #include "components/errors/printable.h"
-#include "components/runtime/version.h"
+#include "components/runtime/tool.h"
 #include "launch/check_ports.h"
 #include "launch/commands.h"
 #include "launch/file/launch_file.h"
@@ -31,6 +31,7 @@ struct Options {
   bool json = false;
   bool quiet = false;
   std::string junit;
+  std::string name;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -38,7 +39,10 @@ void declare(CLI::App& app, Options& options) {
   auto* rate = app.add_option("--rate", options.rate, "sim seconds per wall second (default: as the launch file says)")
                    ->check(CLI::Range(1e-3, 1e6));
   app.add_flag("--free", options.free, "run as fast as possible")->excludes(rate);
-  app.add_flag("--in-process", options.in_process, "run everything in one process, one thread (debugging, sanitizers)");
+  auto* name = app.add_option("--name", options.name, "what tools call this run by (`ensonify topic list --run NAME`)")
+                   ->check(fault_of_run_name);
+  app.add_flag("--in-process", options.in_process, "run everything in one process, one thread (debugging, sanitizers)")
+      ->excludes(name);
   app.add_option("--junit", options.junit, "write expectations and process endings as JUnit XML to this file");
   app.add_flag("--json", options.json, "print the result as JSON on standard output");
   app.add_flag("--quiet,-q", options.quiet, "no progress, no summary");
@@ -131,7 +135,7 @@ int run(Options& options) {
     }
     report = run_in_process(launch);
   } else {
-    Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json);
+    Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json, options.name);
     report = supervisor.run();
   }
   write_text(out + "/run.json", json_text(report));
@@ -156,7 +160,7 @@ int run(Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify run: starts the processes of a launch file, watches over them and says how it went.");
   app.name("ensonify run");
-  app.set_version_flag("--version", kVersion);
+  add_version_flag(app);
   Options options;
   declare(app, options);
   try {

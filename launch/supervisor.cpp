@@ -1,11 +1,13 @@
 #include "launch/supervisor.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,17 @@ double elapsed_s(steady_clock::time_point from, steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+AboutRun about_run(const Launch& launch, const std::string& name) {
+  using std::chrono::seconds;
+  const auto now = std::chrono::duration_cast<seconds>(std::chrono::system_clock::now().time_since_epoch());
+  std::error_code error;  // a path that cannot be made absolute stays as it is
+  const auto whole = [&](const std::string& path) {
+    const std::string absolute = std::filesystem::absolute(path, error).lexically_normal().string();
+    return error ? path : absolute;
+  };
+  return {name, whole(launch.file), whole(launch.options.out), now.count(), ::getpid()};
+}
+
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
@@ -41,8 +54,10 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-Supervisor::Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet)
+Supervisor::Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet,
+                       const std::string& name)
     : launch_(launch),
+      run_dir_(about_run(launch, name)),
       guard_(run_dir_.path()),
       places_{program_folder, run_dir_.path(), launch.options.out},
       quiet_(quiet),
@@ -120,11 +135,14 @@ void Supervisor::start_clock() {
   }
 }
 
-/// For whoever starts external processes.
+/// For whoever asks the run's clock, watches its topics or starts external processes.
 void Supervisor::say_where() const {
+  if (quiet_) return;
+  const std::string name = LiveRun{run_dir_.path(), clock_endpoint_, read_about(run_dir_.path())}.id();
+  fmt::print(stderr, "ensonify run: tools reach this run by --run {0}: ensonify topic list --run {0}\n", name);
   const bool awaits = std::any_of(launch_.processes.begin(), launch_.processes.end(),
                                   [](const ProcessSpec& process) { return process.external; });
-  if (!awaits || quiet_) return;
+  if (!awaits) return;
   fmt::print(stderr, "ensonify run: external processes take part at {}{}\n", clock_endpoint_,
              keys_ ? " with the keys in " + run_dir_.file(bus::kKeysFile) : "");
 }

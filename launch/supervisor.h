@@ -19,7 +19,9 @@ namespace ensonify::launcher {
 /// ended, Ctrl-C) and five times a second asks the clock how far it is.
 class Supervisor {
  public:
-  Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet);
+  /// `name` is what tools may call the run by, or "".
+  Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet,
+             const std::string& name = "");
 
   /// Runs the launch to its end; nothing that it started is left. Throws UserError for what cannot be started.
   RunReport run();

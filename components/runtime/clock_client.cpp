@@ -76,7 +76,7 @@ RunRegistry ClockClient::registry() {
 
 void add_run_option(CLI::App& app, std::string& run) {
   app.add_option("--run", run,
-                 "a live run: its directory, the name of it, or its clock's endpoint (default: "
+                 "a live run: its name, its directory, the id of that, or its clock's endpoint (default: "
                  "$ENSONIFY_RUN, else the only live run)");
 }
 

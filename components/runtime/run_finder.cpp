@@ -10,12 +10,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
@@ -28,6 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEndpointFile = "clock.endpoint";
+constexpr const char* kAboutFile = "about.json";
+constexpr std::size_t kLongestName = 40;
 constexpr std::string_view kIpc = "ipc://";
 constexpr std::string_view kTcp = "tcp://";
 
@@ -111,6 +116,13 @@ std::string names_of(const std::vector<LiveRun>& runs) {
   return names;
 }
 
+/// A line for each run: name, launch file, age.
+std::string lines_of(const std::vector<LiveRun>& runs) {
+  std::string lines;
+  for (const LiveRun& run : runs) lines += "\n  " + run.id() + ": " + run.about.text();
+  return lines;
+}
+
 std::string hint(const std::string& folder) {
   const auto runs = live_runs(folder);
   return runs.empty() ? "no run is live; `ensonify run LAUNCH` starts one" : "live runs: " + names_of(runs);
@@ -119,16 +131,30 @@ std::string hint(const std::string& folder) {
 LiveRun only_live_run(const std::string& folder) {
   const auto runs = live_runs(folder);
   if (runs.size() == 1) return runs.front();
-  if (runs.size() > 1) throw UserError("several runs are live; name one with --run: " + names_of(runs));
+  if (runs.size() > 1) throw UserError("several runs are live; name one with --run NAME:" + lines_of(runs));
   throw UserError("no run is live under " + folder +
                   "; `ensonify run LAUNCH` starts one, --run DIR names one that is elsewhere");
 }
 
 std::string folder_of(const std::string& run, const std::string& folder) {
   if (run.find('/') != std::string::npos) return run;
-  std::error_code ignored;
-  if (fs::is_directory(fs::path(folder) / run, ignored)) return (fs::path(folder) / run).string();
+  for (const fs::path& directory : run_directories(folder)) {
+    if (directory.filename() == run || read_about(directory).name == run) return directory.string();
+  }
   throw UserError(run + ": there is no run of this name; " + hint(folder));
+}
+
+/// As a user would type it, where it is below the current folder.
+std::string short_path(const std::string& path) {
+  std::error_code error;
+  const std::string here = fs::current_path(error).string() + "/";
+  return path.starts_with(here) ? path.substr(here.size()) : path;
+}
+
+std::string age_text(std::int64_t seconds) {
+  if (seconds < 120) return std::to_string(std::max<std::int64_t>(seconds, 0)) + " s";
+  if (seconds < 7200) return std::to_string(seconds / 60) + " min";
+  return seconds < 172800 ? std::to_string(seconds / 3600) + " h" : std::to_string(seconds / 86400) + " d";
 }
 
 bool can_be_used(const std::string& folder) {
@@ -140,7 +166,46 @@ bool can_be_used(const std::string& folder) {
 
 }  // namespace
 
-std::string LiveRun::id() const { return fs::path(folder).filename().string(); }
+std::string AboutRun::text() const {
+  if (launch.empty()) return "of unknown launch";
+  const auto now = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
+  return short_path(launch) + ", " + age_text(now.count() - began_unix_s) + " old, process " + std::to_string(process);
+}
+
+void write_about(const std::string& folder, const AboutRun& about) {
+  const std::string file = (fs::path(folder) / kAboutFile).string();
+  std::ofstream stream(file);
+  stream << nlohmann::ordered_json{{"name", about.name},
+                                   {"launch", about.launch},
+                                   {"out", about.out},
+                                   {"began_unix_s", about.began_unix_s},
+                                   {"process", about.process}}
+                .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+         << '\n';
+  if (!stream.flush()) throw UserError(file + ": cannot be written: " + std::strerror(errno));
+}
+
+AboutRun read_about(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / kAboutFile);
+  const nlohmann::json read = nlohmann::json::parse(file, nullptr, false);
+  try {
+    return {read.at("name"), read.at("launch"), read.at("out"), read.at("began_unix_s"), read.at("process")};
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+std::string fault_of_run_name(const std::string& name) {
+  const bool letters = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+  });
+  if (name.empty() || name.size() > kLongestName || !letters || name.front() == '-' || name.front() == '.')
+    return "is no name of a run; allowed: 1 to " + std::to_string(kLongestName) +
+           " letters, digits, '-', '_' and '.', beginning with a letter, a digit or '_'";
+  return name.starts_with("run-") ? "is no name of a run: \"run-\" begins the ids of run directories" : "";
+}
+
+std::string LiveRun::id() const { return about.name.empty() ? fs::path(folder).filename().string() : about.name; }
 
 std::string runs_folder() {
   if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {
@@ -154,7 +219,7 @@ std::vector<LiveRun> live_runs(const std::string& folder) {
   std::vector<LiveRun> runs;
   for (const fs::path& run : run_directories(folder)) {
     const std::string endpoint = endpoint_in(run);
-    if (is_listening(endpoint)) runs.push_back({run.string(), endpoint});
+    if (is_listening(endpoint)) runs.push_back({run.string(), endpoint, read_about(run)});
   }
   return runs;
 }
@@ -171,10 +236,11 @@ LiveRun find_run(const std::string& run, const std::string& folder) {
   const char* from_environment = std::getenv("ENSONIFY_RUN");
   const std::string wanted = !run.empty() || from_environment == nullptr ? run : from_environment;
   if (wanted.empty()) return only_live_run(folder);
-  LiveRun found{"", wanted};
+  LiveRun found{"", wanted, {}};
   if (!wanted.starts_with(kIpc) && !wanted.starts_with(kTcp)) {
     found.folder = folder_of(wanted, folder);
     found.endpoint = endpoint_in(found.folder);
+    found.about = read_about(found.folder);
     if (found.endpoint.empty())
       throw UserError(wanted + ": is no run: it has ended, or its folder was removed; " + hint(folder));
   }

@@ -81,12 +81,36 @@ TEST_CASE("none, several and dead runs are distinguished, with advice") {
   const Listener clock_a(a);
   const std::string b = runs.make("run-b");
   const Listener clock_b(b);
-  CHECK_THROWS_WITH(find_run("", runs.path()), "several runs are live; name one with --run: run-a, run-b");
+  write_about(b, {"bay", "/launch/demo.yaml", "/out", 0, 7});
+  CHECK_THROWS_WITH(find_run("", runs.path()),
+                    Contains("several runs are live; name one with --run NAME:\n  run-a: of unknown launch\n"
+                             "  bay: /launch/demo.yaml, ") &&
+                        Contains(" d old, process 7"));
+  CHECK(find_run("bay", runs.path()).endpoint == "ipc://" + b + "/clock");
   CHECK(find_run("run-b", runs.path()).endpoint == "ipc://" + b + "/clock");
   CHECK(find_run(a, runs.path()).endpoint == "ipc://" + a + "/clock");
   CHECK(find_run("ipc://" + a + "/clock", runs.path()).endpoint == "ipc://" + a + "/clock");
-  CHECK_THROWS_WITH(find_run("run-c", runs.path()), "run-c: there is no run of this name; live runs: run-a, run-b");
+  CHECK_THROWS_WITH(find_run("run-c", runs.path()), "run-c: there is no run of this name; live runs: run-a, bay");
   CHECK_THROWS_AS(find_run("tcp://127.0.0.1:1", runs.path()), UserError);
+}
+
+TEST_CASE("a name of a run is short, plain, and no id of a directory") {
+  for (const char* good : {"a", "bay_1.2-x", "_", "9"}) CHECK(fault_of_run_name(good).empty());
+  for (const char* bad : {"", "-x", ".", "a b", "a/b", "run-1", "\xC3\xA4"}) CHECK_FALSE(fault_of_run_name(bad).empty());
+  CHECK(fault_of_run_name(std::string(40, 'x')).empty());
+  CHECK_FALSE(fault_of_run_name(std::string(41, 'x')).empty());
+}
+
+TEST_CASE("what a run says of itself is read as it was written, or not at all") {
+  const Runs runs;
+  const std::string run = runs.make("run-a");
+  CHECK(read_about(run).launch.empty());
+  write_about(run, {"bay", "launch/\xFF.yaml", "out", 12, 34});
+  CHECK(read_about(run).name == "bay");
+  CHECK(read_about(run).began_unix_s == 12);
+  std::ofstream(run + "/about.json") << R"({"name": 3})";
+  CHECK(read_about(run).name.empty());
+  CHECK_THROWS_AS(write_about(run + "/missing", {}), UserError);
 }
 
 TEST_CASE("the environment names a run, an argument overrules it") {

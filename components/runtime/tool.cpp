@@ -52,10 +52,15 @@ void ask_for_finite_numbers(CLI::App& app) {
 
 }  // namespace
 
+void add_version_flag(CLI::App& app) {
+  app.set_version_flag("--version", std::string("ensonify ") + kVersion, "print the version of Ensonify and exit");
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) add_version_flag(*verb);
+}
+
 bool interrupted() { return interrupts != 0; }
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
-  app.set_version_flag("--version", kVersion);
+  add_version_flag(app);
   ask_for_finite_numbers(app);
   try {
     app.parse(argc, argv);

@@ -2,6 +2,7 @@
 
 A box must end with exit code 0, or with N if its last line ends in `# exit N`. What a `text` box quotes must have been
 printed by the `sh` box before it, numbers aside. A box that ends in `&` starts a run; the next one begins when time runs.
+Another run is live all the while: the page's commands reach their own.
 """
 import json
 import os
@@ -12,6 +13,8 @@ import signal
 import subprocess
 import tempfile
 import unittest
+
+from live_run import LiveRun
 
 SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
 BIN = pathlib.Path(os.environ["ENSONIFY_BUILD"]) / "bin"
@@ -31,10 +34,12 @@ def shape(line):
 
 class Tutorial(unittest.TestCase):
     def setUp(self):
+        self.other = LiveRun()
+        self.enterContext(self.other)
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="ens-"))
         self.work = self.folder / "work"
         self.work.mkdir()
-        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.folder),
+        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.other.folder),
                             "PATH": f"{BIN}:/usr/bin:{os.environ['PATH']}"}
         self.environment.pop("ENSONIFY_RUN", None)
         self.live = None
@@ -55,24 +60,22 @@ class Tutorial(unittest.TestCase):
         return code, printed.read_text(), shell.pid
 
     def _runs(self):
-        return list((self.folder / "ensonify").glob("run-*"))
+        """Directories of the page's runs."""
+        return [run for run in (self.other.folder / "ensonify").glob("run-*") if run != self.other.directory()]
 
-    def _await_time(self, group):
-        """Returns when the run just started says that its time runs. Tools find this run and no other from now on."""
+    def _await_time(self, group, name):
+        """Returns when the run just started says that its time runs."""
         self.live = group
         while True:
             os.killpg(group, 0)  # ProcessLookupError: it has ended
-            for run in self._runs():
-                self.environment["ENSONIFY_RUN"] = str(run)
-                code, out, _ = self._shell("ensonify clock status --json")
-                if code == 0 and json.loads(out)["state"] == "running":
-                    return
+            code, out, _ = self._shell(f"ensonify clock status --json --run {name}")
+            if code == 0 and json.loads(out)["state"] == "running":
+                return
 
     def _await_end(self):
         """Returns when the run that a box stopped has cleared up."""
         while self._runs():
-            self._shell("! ensonify clock status")
-        del self.environment["ENSONIFY_RUN"]
+            self._shell("ensonify clock list")
         self.live = None
 
     def test_every_box(self):
@@ -86,7 +89,7 @@ class Tutorial(unittest.TestCase):
                 self.assertEqual(code, int(wanted[1]) if wanted else 0, f"{where}:\n{content}\n{printed}")
                 boxes_run += 1
                 if content.endswith("&\n"):
-                    self._await_time(group)
+                    self._await_time(group, re.search(r"--name (\S+)", content)[1])
                 elif "ensonify clock stop" in content:
                     self._await_end()
             elif language == "text":

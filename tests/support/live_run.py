@@ -54,22 +54,24 @@ def tool(*words, env=None, run_folder=None):
 class LiveRun:
     """`ensonify run` of the stubs, paced; use it as a context manager. Leaving asks the run to stop, unless it has ended."""
 
-    def __init__(self, finish_s=1000.0, rate=1.0, tcp=False):
+    def __init__(self, finish_s=1000.0, rate=1.0, tcp=False, name=None, beside=None):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="ens-"))
+        self.runtime = beside.runtime if beside else self.folder  # runs of one runtime folder are seen together
         self.launch = self.folder / "stubs.yaml"
         text = LAUNCH.replace("FINISH", str(finish_s)).replace("TRANSPORT", "transport: tcp" if tcp else "transport: ipc")
         self.launch.write_text(text)
-        environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.folder)}
+        environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime)}
         self.process = subprocess.Popen(
-            [BIN / "ensonify-run", self.launch, "--rate", str(rate), "--quiet", "--out", self.folder / "out"],
+            [BIN / "ensonify-run", self.launch, "--rate", str(rate), "--quiet", "--out", self.folder / "out",
+             *(["--name", name] if name else [])],
             env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def __enter__(self):
         while self.process.poll() is None:
-            endpoint = next((self.folder / "ensonify").glob("run-*/clock.endpoint"), None)
-            if endpoint is None:
+            directory = self.directory()
+            if directory is None or not (directory / "clock.endpoint").exists():
                 continue
-            code, out, _ = self.tool("clock", "status", "--json", "--run", str(endpoint.parent))
+            code, out, _ = self.tool("clock", "status", "--json", "--run", str(directory))
             if code == 0 and json.loads(out)["state"] == "running":
                 return self
         error = self.process.stderr.read()
@@ -78,7 +80,7 @@ class LiveRun:
 
     def __exit__(self, *_):
         if self.process.poll() is None:
-            self.tool("clock", "stop")
+            self.tool("clock", "stop", "--run", str(self.directory()))
         try:
             self.process.wait(20)
         except subprocess.TimeoutExpired:
@@ -92,7 +94,7 @@ class LiveRun:
 
     def tool(self, *words, env=None):
         """A tool that sees this run only."""
-        return tool(*words, env=env, run_folder=self.folder)
+        return tool(*words, env=env, run_folder=self.runtime)
 
     def json(self, *words):
         """What a tool prints with --json; it must succeed."""
@@ -101,5 +103,11 @@ class LiveRun:
         return json.loads(out)
 
     def directory(self):
-        """The run directory."""
-        return next((self.folder / "ensonify").glob("run-*"))
+        """The run directory; None while there is none."""
+        for about in (self.runtime / "ensonify").glob("run-*/about.json"):
+            try:
+                if str(self.launch) in about.read_text():
+                    return about.parent
+            except FileNotFoundError:  # another run has just ended
+                continue
+        return None

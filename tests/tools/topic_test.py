@@ -127,14 +127,6 @@ class Topic(unittest.TestCase):
             self.assertEqual(self.run_.tool("topic", "list", "--run", run)[0], 0)
             self.assertEqual(self.run_.tool("topic", "list", env={"ENSONIFY_RUN": run})[0], 0)
 
-    def test_several_live_runs_need_a_choice(self):
-        with LiveRun() as other:
-            both = self.run_.folder / "ensonify" / "run-other"
-            shutil.copytree(other.directory(), both, ignore=lambda folder, names: set(names) - {"clock.endpoint"})
-            self.addCleanup(shutil.rmtree, both)
-            code, _, error = self.run_.tool("topic", "list")
-            self.assertEqual(code, 2)
-            self.assertIn("several runs are live; name one with --run: run-", error)
 
 
 class Endings(unittest.TestCase):

@@ -8,6 +8,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/clock_client.h"
+#include "components/runtime/run_finder.h"
 #include "components/runtime/tool.h"
 #include "tools/clock/status_text.h"
 
@@ -103,7 +104,25 @@ CLI::App* verb(CLI::App& app, Options& options, const std::string& name, const s
   return sub;
 }
 
+int list(const Options& options) {
+  auto all = nlohmann::ordered_json::array();
+  for (const LiveRun& run : live_runs(runs_folder())) {
+    all.push_back({{"run", run.id()},
+                   {"launch", run.about.launch},
+                   {"out", run.about.out},
+                   {"began_unix_s", run.about.began_unix_s},
+                   {"process", run.about.process},
+                   {"folder", run.folder},
+                   {"clock", run.endpoint}});
+    if (!options.json) fmt::print("{}: {}; results in {}\n", run.id(), run.about.text(), run.about.out);
+  }
+  if (options.json) fmt::print("{}\n", all.dump());
+  else if (all.empty()) fmt::print("no run is live\n");
+  return kExitOk;
+}
+
 int run(const CLI::App& app, const Options& options) {
+  if (app.get_subcommands().front()->get_name() == "list") return list(options);
   ClockClient clock(options.run);
   const auto rate = [&](double r, const std::string& done) {
     return request(clock, options, {{"kind", "rate"}, {"rate", r}}, done);
@@ -130,6 +149,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   verb(app, options, "status",
        "state, sim time, rate, and per participant: next event, cost, lateness, who it waits for");
+  app.add_subcommand("list", "live runs of this user: name, launch file, age, folder of results")
+      ->add_flag("--json", options.json, "as JSON, with folder and clock of each");
   verb(app, options, "pause", "no event after those granted already runs until resume or step");
   verb(app, options, "resume", "goes on after a pause, at the rate in force");
   CLI::App* step = verb(app, options, "step", "pauses, lets sim time advance by SECONDS, comes back when it has");

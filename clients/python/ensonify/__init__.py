@@ -4,7 +4,7 @@ from ensonify.messages import TYPES
 from ensonify.observer import Observer
 from ensonify.participant import In, Out, Participant, Received, Step
 from ensonify.record import Record
-from ensonify.runs import find_clock
+from ensonify.runs import LiveRun, find_clock, live_runs
 from ensonify.session import RunError
 from ensonify.wire import NEVER, DecodeError, Envelope
 

@@ -54,6 +54,8 @@ def parse(arguments) -> argparse.Namespace:
                         "point runs at a speed S in m/s over ground than the still water; default: 0:0")
     survey.add_argument("--json", action="store_true", help="print summary.json's content instead of text")
     add_verbs(verbs)
+    for command in (parser, *verbs.choices.values()):
+        command.add_argument("--version", action="version", version=f"ensonify {ensonify.__version__}")
     return parser.parse_args(arguments)
 
 
