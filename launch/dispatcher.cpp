@@ -30,11 +30,11 @@ struct Programs {
 const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"run", "start the processes of a launch file and watch over them"},
     {"check", "check a launch file, its configurations and its wiring without running it"},
-    {"topic", "list, info, echo, hz and bw of the topics of a live run"},
+    {"topic", "list, info, echo, hz and bw of the topics of a live run; pub publishes on one"},
     {"graph", "draw who talks to whom"},
     {"clock", "list of live runs; status, pause, resume, step and rate of one"},
     {"replay", "feed a record back"},
-    {"record", "repair a record whose writer was killed"},
+    {"record", "record a live run from outside; repair a record whose writer was killed"},
     {"compare", "say where two records differ"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,14 @@ struct Attachment {
   std::string media_type;
   std::string data;
 };
+
+/// Of the facts of a run those that a reader needs to repeat it (launch, scenario, version, seed), and what its processes
+/// declared of themselves.
+std::vector<Attachment> attachments_of(const std::map<std::string, std::string>& facts);
+
+/// Name of the metadata record of a record that an observer wrote: per topic `TOPIC/received` and `TOPIC/missed`, numbers
+/// of messages from the first received on.
+inline constexpr const char* kLiveName = "ensonify_live";
 
 /// One topic of the record.
 struct Channel {

@@ -157,10 +157,18 @@ void RecordWriter::end_early(const DataLost& cause) {
                  " bytes are kept, to the last whole chunk" + end);
 }
 
-void RecordWriter::close() {
+void RecordWriter::close() { close_with("", {}); }
+
+void RecordWriter::close_with(const std::string& metadata, const TextMap& map) {
   if (!file_.is_open()) return;
   if (!chunk_.empty()) end_chunk();
   try {
+    if (!metadata.empty()) {
+      ByteSink content;
+      content.text(metadata);
+      content.map(map);
+      put_record(Op::metadata, content);
+    }
     summary_.put(file_, chunks_start_);
   } catch (const DataLost& cause) {
     end_early(cause);

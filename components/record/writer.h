@@ -36,6 +36,8 @@ class RecordWriter {
 
   /// Writes the last chunk, the summary and the footer. Throws DataLost like write().
   void close();
+  /// The same with a metadata record behind the last chunk, for what is known at the end alone.
+  void close_with(const std::string& metadata, const TextMap& map);
 
   const std::filesystem::path& file() const { return file_.path(); }
   std::uint64_t message_count() const { return written_; }

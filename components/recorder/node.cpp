@@ -15,25 +15,6 @@ std::vector<std::string> patterns(const RecorderConfig& config) {
   return patterns;
 }
 
-/// The facts of the run that a reader needs to repeat it, and what its processes declared of themselves.
-std::vector<record::Attachment> attachments(const std::map<std::string, std::string>& facts) {
-  std::vector<record::Attachment> files;
-  for (const char* name : {"launch", "scenario"}) {
-    const auto fact = facts.find(name);
-    if (fact != facts.end()) files.push_back({std::string(name) + ".yaml", "application/yaml", fact->second});
-  }
-  for (const char* name : {"version", "seed"}) {
-    const auto fact = facts.find(name);
-    if (fact != facts.end()) files.push_back({name, "text/plain", fact->second});
-  }
-  std::string notes;
-  for (const auto& [name, value] : facts) {
-    if (name.find('/') != std::string::npos) notes += name + ": " + value + "\n";
-  }
-  if (!notes.empty()) files.push_back({"notes.yaml", "application/yaml", notes});
-  return files;
-}
-
 }  // namespace
 
 RecorderNode::RecorderNode(const Config& config, Ports& ports) : config_(config), ports_(ports), due_(kEventRate) {
@@ -48,7 +29,7 @@ record::RecordWriter& RecorderNode::open() {
     writer_.emplace(
         ports_.out_dir() / config_.file,
         record::RecordInfo{version == facts.end() ? "" : version->second, config_.seed, config_.start_unix_ns},
-        attachments(facts));
+        record::attachments_of(facts));
   } catch (const UserError& error) {
     throw UserError((config_.file_place.empty() ? "" : config_.file_place + ": file: ") + error.what());
   }

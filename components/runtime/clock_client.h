@@ -52,6 +52,7 @@ class ClockClient {
  public:
   /// Finds the run (run_finder.h). Throws UserError.
   explicit ClockClient(const std::string& run);
+  explicit ClockClient(const LiveRun& run);
 
   const std::string& endpoint() const { return endpoint_; }
   /// For sockets of one's own; nothing where the run needs none.
@@ -62,8 +63,6 @@ class ClockClient {
   RunRegistry registry();
 
  private:
-  explicit ClockClient(const LiveRun& run);
-
   std::string endpoint_;
   std::optional<bus::Keys> keys_;
   bus::ClockQuery query_;

@@ -29,8 +29,14 @@ std::map<std::string, std::string> process_places(const Launch& launch) {
 }
 
 std::map<std::string, std::string> facts_of(const Launch& launch) {
-  return {{"launch", launch.launch_text},
+  std::string externals;
+  for (const ProcessSpec& process : launch.processes) {
+    if (process.external) externals += (externals.empty() ? "" : " ") + process.name;
+  }
+  return {{"external", externals},
+          {"launch", launch.launch_text},
           {"scenario", launch.scenario.text},
+          {"start_utc", launch.scenario.header.start_utc},
           {"version", kVersion},
           {"seed", std::to_string(launch.scenario.header.seed)}};
 }

@@ -163,6 +163,6 @@ int main(int argc, char** argv) {
   verb(app, options, "free", "runs as fast as possible");
   verb(app, options, "stop", "ends the run in order, with exit code 0");
   CLI::App* get = verb(app, options, "get", "a fact fixed for the run, as text; without WHAT, the names of all facts");
-  get->add_option("WHAT", options.what, "launch, scenario, seed, start_utc, version, or a process's own");
+  get->add_option("WHAT", options.what, "launch, scenario, seed, start_utc, external, version, or a process's own");
   return tool_main(app, argc, argv, [&] { return run(app, options); });
 }

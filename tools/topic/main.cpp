@@ -20,6 +20,7 @@
 #include "messages/schema.h"
 #include "tools/topic/meter.h"
 #include "tools/topic/pretty.h"
+#include "tools/topic/publish.h"
 
 namespace ensonify::topic_tool {
 namespace {
@@ -34,6 +35,7 @@ struct Options {
   std::string field;                // echo: only this one
   bool full = false;                // echo --json: every element of every array
   std::uint64_t window = 1000;      // hz, bw: messages that the rates are taken over
+  Publication publication;          // pub
 };
 
 /// Time to leave, or nothing for never.
@@ -375,11 +377,29 @@ void add_verbs(CLI::App& app, Options& options) {
   }
 }
 
+void add_pub(CLI::App& app, Publication& publication) {
+  CLI::App* pub = app.add_subcommand(
+      "pub",
+      "publishes a message again and again, as a participant that the launch file declares `external: true`\n"
+      "and that has not joined. The run waits for it like for any participant, and it stays until the run ends: Ctrl-C\n"
+      "ends both. Example: ensonify topic pub agent/command guidance/1 speed_mps=1.5 heading_grid_rad=0.3");
+  add_run_option(*pub, publication.run);
+  pub->add_option("TOPIC", publication.topic, "PROCESS/PORT, such as agent/command")->required();
+  pub->add_option("TYPE", publication.type, "type of the message, such as guidance/1 (`ensonify describe --reference`)")
+      ->required();
+  pub->add_option("FIELD", publication.fields, "FIELD=VALUE, values as in YAML; other fields keep their defaults");
+  pub->add_option("--rate", publication.rate_hz, "messages per second of sim time")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  pub->add_option("--count,-n", publication.count, "publish so many (default: until the run ends)");
+}
+
 int run(const CLI::App& app, const Options& options) {
   const std::string name = app.get_subcommands().front()->get_name();
   if (name == "list") return list(options);
   if (name == "info") return info(options);
   if (name == "echo") return echo(options);
+  if (name == "pub") return publish(options.publication);
   return name == "hz" ? hz(options) : bw(options);
 }
 
@@ -389,7 +409,7 @@ int run(const CLI::App& app, const Options& options) {
 int main(int argc, char** argv) {
   using namespace ensonify::topic_tool;
   CLI::App app(
-      "Shows the topics of a live run. What is requested here can never slow the run: a slow reader loses\n"
+      "Shows the topics of a live run, or publishes on one. What is shown can never slow the run: a slow reader loses\n"
       "messages instead, and is shown how many. Nothing is kept for a late one either: it sees what is published from\n"
       "then on; what was said before, such as a chart, only a record holds. Facts fixed for the run (launch, "
       "scenario,\n"
@@ -401,5 +421,6 @@ int main(int argc, char** argv) {
   Options options;
   app.require_subcommand(1);
   add_verbs(app, options);
+  add_pub(app, options.publication);
   return ensonify::tool_main(app, argc, argv, [&] { return run(app, options); });
 }

@@ -7,6 +7,7 @@
 The file is mapped, not loaded: only what is asked for is touched. A truncated record is read to its last whole chunk.
 """
 import array
+import fnmatch
 import heapq
 import mmap
 import os
@@ -81,6 +82,7 @@ class Record:
         self._messages: dict = {}  # channel id -> log time, begin, end of the payload, one after another
         self.attachments: dict = {}  # name to bytes: the resolved launch and scenario
         self.info: dict = {}  # version, seed, utc_start_ns
+        self.missed: dict = {}  # of a record that an observer wrote: topic name to number of messages that it missed
         self.whole = False  # the record was closed in order
         try:
             self._index()
@@ -102,14 +104,15 @@ class Record:
         """Names of the topics of a type, in the order of the launch file."""
         return [channel.topic for _, channel in sorted(self._channels.items()) if channel.type == message_type.TYPE]
 
-    def messages(self, *topics: str, least_apart_ns: int = 0) -> Iterator[Recorded]:
-        """Messages of these topics (all of them if none is named), in the order of the record; with `least_apart_ns`, none
-        that is nearer than this to the last one of its topic."""
-        unknown = set(topics) - {channel.topic for channel in self._channels.values()}
+    def messages(self, *patterns: str, least_apart_ns: int = 0) -> Iterator[Recorded]:
+        """Messages of the topics that match ("*" and "bow/*" are patterns, as an Observer takes them; all topics if none is
+        named), in the order of the record; with `least_apart_ns`, none that is nearer than this to the last one of its topic."""
+        topics = [channel.topic for channel in self._channels.values()]
+        unknown = [pattern for pattern in patterns if not fnmatch.filter(topics, pattern)]
         if unknown:
-            known = ", ".join(channel.topic for channel in self._channels.values())
-            raise RunError(f"{self.file}: has no topic {', '.join(sorted(unknown))}; it has {known}", EXIT_BAD_INPUT)
-        chosen = [n for n, channel in self._channels.items() if not topics or channel.topic in topics]
+            raise RunError(f"{self.file}: has no topic {', '.join(unknown)}; it has {', '.join(topics)}", EXIT_BAD_INPUT)
+        chosen = [n for n, channel in self._channels.items()
+                  if not patterns or any(fnmatch.fnmatchcase(channel.topic, pattern) for pattern in patterns)]
         for begin, end, utc_ns, number in heapq.merge(*(self._places(n, least_apart_ns) for n in chosen)):
             channel = self._channels[number]
             content: Any = wire.decode_inline(self._data[begin:end])
@@ -151,8 +154,12 @@ class Record:
                 name, _ = cursor.text(), cursor.text()
                 self.attachments[name] = cursor.bytes(cursor.take("Q"))
             elif op == _METADATA:
-                if cursor.text() == "ensonify":
+                name = cursor.text()
+                if name == "ensonify":
                     self.info = cursor.map()
+                elif name == "ensonify_live":
+                    self.missed = {key.removesuffix("/missed"): int(number)
+                                   for key, number in cursor.map().items() if key.endswith("/missed")}
             elif op == _DATA_END:
                 self.whole = True
                 return

@@ -52,6 +52,9 @@ class Records(unittest.TestCase):
             self.assertEqual([p.content.ping for p in thinned], [0, 7, 14, 21, 28])
             self.assertEqual([m.content for m in record.messages("x/y")], [{"a": 1}])
             self.assertEqual(len(list(record.messages())), 31)
+            for patterns, number in ((("*",), 31), (("bow/*",), 30), (("*/y", "x/*"), 1), (("x/y", "bow/p?ng"), 31)):
+                self.assertEqual(len(list(record.messages(*patterns))), number, patterns)
+            self.assertEqual(record.missed, {})
             self.assertEqual(record.attachments["scenario.yaml"], b"seed: 1\n")
             self.assertEqual(record.notes(), {"bow/finest_beam_rad": 0.5})
             self.assertEqual(record.info["seed"], "1")
@@ -84,6 +87,8 @@ class Records(unittest.TestCase):
         self.write()
         with self.assertRaisesRegex(ensonify.RunError, "has no topic bow/pong; it has bow/ping, x/y"):
             list(ensonify.Record(self.file).messages("bow/pong"))
+        with self.assertRaisesRegex(ensonify.RunError, r"has no topic stern/\*; it has bow/ping, x/y"):
+            list(ensonify.Record(self.file).messages("bow/*", "stern/*"))
 
 
 if __name__ == "__main__":

@@ -26,11 +26,11 @@ struct Observer::Sockets {
   }
 };
 
-Observer::Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys)
+Observer::Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys, int queue)
     : sockets_(std::make_unique<Sockets>()) {
   zmq::socket_t& data = sockets_->data;
   if (keys) set_connected(data, *keys);
-  data.set(zmq::sockopt::rcvhwm, kQueue);
+  data.set(zmq::sockopt::rcvhwm, queue);
   data.set(zmq::sockopt::linger, 0);
   data.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
   const std::string watch = "inproc://observer-monitor";

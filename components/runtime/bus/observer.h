@@ -21,11 +21,12 @@ class Observer {
     std::string endpoint;  // of its publisher's live plane, from the registry
   };
 
-  /// Messages kept per publisher for an observer that does not keep up.
+  /// Messages kept per publisher for an observer that does not keep up, unless it says otherwise.
   static constexpr int kQueue = 8;
 
   /// Throws UserError for an endpoint that cannot be connected to.
-  explicit Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys = std::nullopt);
+  explicit Observer(const std::vector<Topic>& topics, const std::optional<Keys>& keys = std::nullopt,
+                    int queue = kQueue);
   ~Observer();
 
   /// The next message, or nothing once `until` has passed, a signal came or every publisher is gone. Throws
