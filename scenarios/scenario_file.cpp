@@ -1,8 +1,12 @@
 #include "scenarios/scenario_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
+#include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
 
 namespace ensonify {
@@ -22,7 +26,111 @@ struct Time {
   }
 };
 
+/// Keys of a section of which one is given, or those of one line together.
+struct Alternatives {
+  std::vector<std::string> sections;
+  std::vector<std::vector<std::string>> keys;
+};
+
+const std::array<Alternatives, 4>& alternatives() {
+  static const std::array<Alternatives, 4> all = {
+      {{{"water", "water.applied"}, {{"sound_speed_mps"}, {"profile"}, {"cast"}}},
+       {{"vertical.tide"}, {{"constant_m"}, {"mean_m", "constituents"}, {"gauge"}}},
+       {{"vertical"}, {{"geoid_above_ellipsoid_m"}, {"geoid_above_ellipsoid_grid"}}},
+       {{"vertical"}, {{"datum_above_geoid_m"}, {"datum_above_geoid_grid"}}}}};
+  return all;
+}
+
+bool holds(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Takes out of a section what `key` replaces.
+void make_room(ConfigNode& section, const std::string& path, const std::string& key) {
+  for (const Alternatives& set : alternatives()) {
+    const auto own = std::find_if(set.keys.begin(), set.keys.end(), [&](const auto& keys) { return holds(keys, key); });
+    if (own == set.keys.end() || !holds(set.sections, path)) continue;
+    const auto replaced = [&](const ConfigNode::Entry& entry) {
+      return !holds(*own, entry.key) && std::any_of(set.keys.begin(), set.keys.end(),
+                                                    [&](const auto& keys) { return holds(keys, entry.key); });
+    };
+    auto& entries = section.entries;
+    entries.erase(std::remove_if(entries.begin(), entries.end(), replaced), entries.end());
+  }
+}
+
+/// The section that a path such as "vertical.tide" names; null where there is none.
+ConfigNode* section_at(ConfigNode& root, std::string_view path) {
+  ConfigNode* node = &root;
+  while (node != nullptr && !path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    node = node->find(std::string(path.substr(0, dot)));
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return node;
+}
+
+/// Puts the sections of an including file over those of the file that it includes.
+void lay_over(ConfigNode& under, ConfigNode over) {
+  for (auto& entry : over.entries) {
+    ConfigNode* section = under.find(entry.key);
+    if (section == nullptr || !section->is_map() || !entry.value.is_map()) {
+      under.set(entry.key, std::move(entry.value));
+      continue;
+    }
+    for (auto& inner : entry.value.entries) {
+      make_room(*section, entry.key, inner.key);
+      section->set(inner.key, std::move(inner.value));
+    }
+  }
+  under.place = over.place;
+}
+
+ConfigNode taken(ConfigNode& root, const std::string& key) {
+  const auto entry =
+      std::find_if(root.entries.begin(), root.entries.end(), [&](const auto& e) { return e.key == key; });
+  if (entry == root.entries.end()) return {};
+  ConfigNode value = std::move(entry->value);
+  root.entries.erase(entry);
+  return value;
+}
+
+ConfigDocument load(const std::string& path, std::vector<std::string> open) {
+  ConfigDocument document = parse_config_file(path);
+  const ConfigNode include = taken(document.root, "include");
+  if (include.is_null()) return document;
+  const auto refuse = [&](const std::string& why) {
+    document.problems.push_back({include.place, "include", why});
+    return document;
+  };
+  if (!include.is_scalar()) return refuse("is not the file of a scenario");
+  const std::string under = find_data(include.scalar, {std::filesystem::path(path).parent_path().string()});
+  if (under.empty()) return refuse("\"" + include.scalar + "\": no such file");
+  open.push_back(std::filesystem::weakly_canonical(path).string());
+  if (holds(open, std::filesystem::weakly_canonical(under).string()))
+    return refuse("\"" + include.scalar + "\" includes itself, directly or through others");
+  ConfigDocument merged = load(under, open);
+  if (const ConfigNode* format = merged.root.find("ensonify"); format == nullptr || format->scalar != kScenarioFormat)
+    return refuse("\"" + include.scalar + "\" is no " + kScenarioFormat);
+  lay_over(merged.root, std::move(document.root));
+  merged.problems.insert(merged.problems.end(), document.problems.begin(), document.problems.end());
+  return merged;
+}
+
 }  // namespace
+
+ConfigDocument load_scenario(const std::string& path, const Overrides& overrides) {
+  ConfigDocument document = load(path, {});
+  for (const auto& [key, value] : overrides) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == std::string::npos) continue;
+    const std::string section = key.substr(0, dot);
+    if (ConfigNode* node = section_at(document.root, section)) make_room(*node, section, key.substr(dot + 1));
+  }
+  const auto problems = apply(overrides, document.root);
+  document.problems.insert(document.problems.end(), problems.begin(), problems.end());
+  return document;
+}
 
 ParameterList header_list() {
   return {parameters_of<Seed>().front(), section_info("time", "when the run starts", parameters_of<Time>())};

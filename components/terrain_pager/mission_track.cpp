@@ -338,7 +338,7 @@ const ConfigPlace& MissionPlaces::start(const std::string& vehicle) const {
 MissionPlaces mission_places(const std::string& scenario_file, const std::string& scenario_text) {
   MissionPlaces places{{scenario_file, 0, 0}, {}, {}};
   if (scenario_text.empty() || !std::filesystem::is_regular_file(scenario_file)) return places;
-  const ConfigNode file = parse_config_file(scenario_file).root;
+  const ConfigNode file = load_scenario(scenario_file).root;
   const ConfigNode run = parse_config(scenario_text, scenario_file).root;
   if (const ConfigNode* vehicles = file.find("vehicles"); vehicles != nullptr && run.find("vehicles") != nullptr) {
     for (const auto& vehicle : vehicles->entries) {

@@ -290,9 +290,7 @@ void read_scenario_file(ConfigReader& from, const Overrides& overrides, const Re
     return;
   }
   try {
-    scenario.document = parse_config_file(path);
-    const auto problems = apply(overrides, scenario.document.root);
-    scenario.document.problems.insert(scenario.document.problems.end(), problems.begin(), problems.end());
+    scenario.document = load_scenario(path, overrides);
     scenario.path = path;
     scenario.text = to_canonical_yaml(scenario.document.root);
     ConfigReader header(scenario.document);  // its problems are reported by who reads the world

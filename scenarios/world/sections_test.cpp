@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "scenarios/world/water.h"
+#include "scenarios/world/cast.h"
 
 namespace ensonify {
 namespace {
@@ -126,6 +126,16 @@ TEST_CASE("a cast is read by the names of its columns or by their numbers") {
   const Section by_map = section_of("water: {cast: {path: " + numbered.path + ", depth_m: 3, sound_speed_mps: 2}}");
   CHECK(by_map.problems.empty());
   CHECK(by_map.water.profile.samples.size() == 2);
+}
+
+TEST_CASE("two columns of numbers without names are depth and sound speed, whatever stands between them") {
+  for (const char* text : {"0.5,1501\n1.5,1500\n", "0.5  1501\r\n 1.5 1500\r\n", "# a title\n\n0.5;1501\n1.5;1500\n"}) {
+    const auto samples = read_cast(CastFile(text).path);
+    REQUIRE(samples.size() == 2);
+    CHECK(samples[1].depth_m == 1.5);
+    CHECK(samples[0].sound_speed_mps == 1501.0);
+  }
+  CHECK(CastFile("0.5 1501\nend\n").problems() == "c:2:1: depth_m: is \"end\", not a number in [0, 12000]");
 }
 
 TEST_CASE("mistakes in a cast have a line and a column") {

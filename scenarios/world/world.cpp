@@ -12,6 +12,7 @@
 
 #include "components/config/config_error.h"
 #include "components/config/config_node.h"
+#include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
 #include "components/errors/assert.h"
 #include "components/errors/nearest_name.h"
@@ -187,7 +188,7 @@ void check_whole(ConfigReader& from, const World& world) {
 ConfigPlace place_of_auto(const std::string& scenario_file) {
   const ConfigPlace file{scenario_file, 0, 0};
   if (!std::filesystem::is_regular_file(scenario_file)) return file;
-  const ConfigNode world = parse_config_file(scenario_file).root;
+  const ConfigNode world = load_scenario(scenario_file).root;
   const ConfigNode* mission = world.find("mission");
   const ConfigNode* wanted = mission != nullptr ? mission->find("auto") : nullptr;
   return wanted != nullptr ? wanted->place : file;
@@ -207,15 +208,17 @@ ParameterList site_list() {
 
 ParameterList scenario_list() {
   ParameterList list{format_info(kScenarioFormat)};
+  list.push_back(
+      file_info("include", "a scenario whose sections these stand over; what it has need not be given here", false));
   for (ParameterInfo& info : header_list()) list.push_back(std::move(info));
-  list.push_back(section_info("site", "the place of the world", site_list(), true));
+  list.push_back(section_info("site", "the place of the world", site_list()));
   list.push_back(section_info("water", "the water: sound speed, absorption, noise", water_list()));
   list.push_back(section_info("vertical", "water level, chart datum, geoid and ellipsoid", vertical_list()));
   list.push_back(section_info("current", "the current", current_list()));
-  list.push_back(section_info("seabed", "the seabed", seabed_list(), true));
+  list.push_back(section_info("seabed", "the seabed", seabed_list()));
   list.push_back(named_info("vehicles", "by names of your own", vehicle_list()));
   list.push_back(section_info("mission", "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
-                              mission_list(true), true));
+                              mission_list(true)));
   return list;
 }
 
@@ -247,6 +250,7 @@ World read_world(ConfigReader& from, const std::string& file) {
     world.vehicles.push_back(read_vehicle(name, vehicle));
   }
   world.seabed.layered.seed = world.seed;
+  world.seabed.layered.file = file;
   const bool placed = !world.site.origin_from_raster;
   world.mission = read_mission(from.section("mission"), placed ? std::optional(world.site.origin) : std::nullopt);
   if (vertical && from.good()) check_datums(*vertical, world);
@@ -255,11 +259,10 @@ World read_world(ConfigReader& from, const std::string& file) {
 }
 
 World read_world(const std::string& path, const Overrides& overrides) {
-  ConfigDocument document = parse_config_file(path);
-  const auto problems = apply(overrides, document.root);
-  document.problems.insert(document.problems.end(), problems.begin(), problems.end());
-  ConfigReader from(std::move(document));
-  World world = read_world(from, path);
+  const std::string found = find_data(path, {""});
+  const std::string& file = found.empty() ? path : found;
+  ConfigReader from(load_scenario(file, overrides));
+  World world = read_world(from, file);
   from.finish();
   return world;
 }

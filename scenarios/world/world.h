@@ -108,7 +108,7 @@ void check_heads(const ConfigReader& from, const Mission& mission, const Vehicle
 ParameterList scenario_list();
 ParameterList mission_file_list();
 
-/// Reads a scenario file. Throws ConfigError with every problem.
+/// Reads a scenario file: one from here, or the project's own (data_paths.h). Throws ConfigError with every problem.
 World read_world(const std::string& path, const Overrides& overrides = {});
 
 /// Reads an already parsed scenario; problems stay in the reader for its finish().

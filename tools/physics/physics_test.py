@@ -146,11 +146,17 @@ near(value("horizontal_m", "ray", "--until", "point", "--distance-m", "150"), 15
 assert rows("ray", "--depression-deg", "-30")[0]["horizontal_m"] == "nan"  # it goes up for good
 assert physics("ray", "--profile", "/none")[0] == 2, "a profile that is not there"
 with tempfile.NamedTemporaryFile("w", suffix=".csv") as cast:
-    cast.write("depth_m,speed_mps\n0,1500\n100,1500\n")
+    cast.write("depth_m,speed\n0,1500\n100,1500\n")
     cast.flush()
-    row = rows("ray", "--profile", cast.name, "--target-depth-m", "50")[0]
+    row = rows("ray", "--profile", cast.name, "--speed-column", "speed", "--target-depth-m", "50")[0]
     assert row["water"] == "profile", row
     near(float(row["path_length_m"]), 100, 1e-6)
+    refused(f"{cast.name}:1:1: needs columns for depth_m and sound_speed_mps", "ray", "--profile", cast.name)
+    cast.write("end of cast\n")
+    cast.flush()
+    refused(f"{cast.name}:4:1: depth_m: is \"end of cast\"", "ray", "--profile", cast.name, "--speed-column", "speed")
+row = rows("ray", "--profile", "scenarios/casts/mixed.csv", "--target-depth-m", "10")[0]  # by name, from anywhere
+assert float(row["path_length_m"]) > 10, row
 refused("--water profile: needs --profile and a file", "ray", "--water", "profile")
 
 # Generated seabed: one post alone is the same as in a sweep; a layer's own mistakes are the user's.

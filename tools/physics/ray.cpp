@@ -1,13 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <sstream>
 
+#include "components/config/data_paths.h"
 #include "kernels/water/refraction/path_table.h"
 #include "kernels/water/refraction/thermocline.h"
+#include "kernels/water/sound_speed.h"
+#include "scenarios/world/cast.h"
 #include "tools/physics/verb.h"
 
 namespace ensonify::physics {
@@ -37,24 +38,19 @@ struct Inputs {
   double distance_m = 100.0;
   double most_turns = 1;
   std::string profile;  // a file
+  CastColumns columns;
 };
 
-/// Lines of depth and speed, between commas, blanks or semicolons. Lines that do not begin with a number are titles.
-SoundSpeedProfile read_profile(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument("--profile: cannot read '" + path + "'");
+/// A cast as scenarios read it; where it has no speeds they follow from temperature and salinity by Mackenzie's law.
+SoundSpeedProfile read_profile(const std::string& path, const CastColumns& columns) {
+  const std::string found = find_data(path, {""});
   std::vector<Knot> knots;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    for (char& letter : line) letter = letter == ',' || letter == ';' ? ' ' : letter;
-    std::istringstream words(line);
-    Knot knot{};
-    if (!(words >> knot.depth_m)) continue;
-    if (!(words >> knot.speed_mps)) {
-      throw std::invalid_argument(path + ":" + std::to_string(number) + ": a depth without a speed");
-    }
-    knots.push_back(knot);
+  for (const WaterSample& sample : read_cast(found.empty() ? path : found, columns)) {
+    const double speed_mps = sample.sound_speed_mps ? *sample.sound_speed_mps
+                                                    : water::sound_speed_mps(water::SoundSpeedLaw::kMackenzie,
+                                                                             sample.temperature_degc.value_or(0.0),
+                                                                             sample.salinity_psu.value_or(0.0), sample.depth_m);
+    knots.push_back({sample.depth_m, speed_mps});
   }
   return SoundSpeedProfile(std::move(knots));
 }
@@ -62,7 +58,7 @@ SoundSpeedProfile read_profile(const std::string& path) {
 SoundSpeedProfile profile_of(const Inputs& in) {
   if (in.water == Water::kProfile) {
     if (in.profile.empty()) throw std::invalid_argument("--water profile: needs --profile and a file");
-    return read_profile(in.profile);
+    return read_profile(in.profile, in.columns);
   }
   if (in.water == Water::kThermocline) return refraction::summer_thermocline();
   constexpr double kDeep_m = 1000.0;
@@ -134,8 +130,15 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   verb.number("most_turns", in->most_turns, 0, 1000, "how often the path may turn on its way to a depth");
   verb.options()
       .add_option("--profile", in->profile,
-                  "file of the water: lines of depth in m and speed in m/s; chooses --water profile")
+                  "file of the water, a cast as scenarios take it; chooses --water profile")
       ->each([&verb](const std::string&) { verb.choose("water", "profile"); });
+  using Column = std::pair<const char*, std::string*>;
+  for (const auto& [name, column] : {Column{"--depth-column", &in->columns.depth_m},
+                                     {"--speed-column", &in->columns.sound_speed_mps},
+                                     {"--temperature-column", &in->columns.temperature_degc},
+                                     {"--salinity-column", &in->columns.salinity_psu}}) {
+    verb.options().add_option(name, *column, "what this column of the cast is called, or its number from 1")->capture_default_str();
+  }
   verb.results({"launch_deg", "horizontal_m", "depth_m", "arrival_deg", "travel_time_s", "path_length_m", "tube_m2",
                 "horizontal_per_rad_m", "turns", "turning_depth_m"},
                [in] { return row_of(*in); });

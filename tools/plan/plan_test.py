@@ -38,6 +38,18 @@ class Plan(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertLess(json.loads(adapted)["lines_count"], json.loads(fixed)["lines_count"])
 
+    def test_the_pages_own_command_works_from_anywhere(self):
+        page = (SOURCE / "docs/manual/planning.md").read_text()
+        command = next(line for line in page.splitlines() if line.startswith("    ensonify plan lines"))
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("mission/1", pathlib.Path(folder, "mission.yaml").read_text())
+        code, _, error = plan("lines", *AREA, "--scenario", "scenarios/slop/scenario.yaml")
+        self.assertEqual(code, 2)
+        self.assertIn("scenarios/slop/scenario.yaml", error)
+
     def test_speed(self):
         code, out, _ = plan("speed", "--depth", "37.5", "--feature", "1", "--pings", "3", "--json")
         self.assertEqual(code, 0)

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "components/config/config_node.h"
+#include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
 #include "components/terrain/layers_source.h"
 #include "components/terrain/source_of.h"
@@ -27,7 +28,8 @@ struct Options {
 
 /// What the tiles follow from; equal texts give equal tiles.
 std::string source_text(const Options& options) {
-  auto document = parse_config_file(options.scenario);
+  const std::string found = find_data(options.scenario, {""});
+  const ConfigDocument document = load_scenario(found.empty() ? options.scenario : found);
   return fmt::format(
              "# what these tiles were built from\nlsb_m: {}\ncells: {}\nraster_band: {}\nraster_crs: "
              "\"{}\"\nraster_nodata: {}\n",
