@@ -35,7 +35,7 @@ std::string ConfigProblem::text() const {
   if (place.line > 0) {
     text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
   }
-  return text + ": " + (key.empty() ? "" : key + ": ") + message;
+  return (text.empty() ? "" : text + ": ") + (key.empty() ? "" : key + ": ") + message;
 }
 
 ConfigError::ConfigError(std::vector<ConfigProblem> problems)

@@ -60,7 +60,7 @@ class Maker {
       try {
         if (layer.used) layers_.push_back(layer_of(layer));
       } catch (const std::invalid_argument& error) {
-        throw ConfigError({ConfigProblem{{"", 0, 0}, "seabed.layers." + layer.name, error.what()}});
+        throw ConfigError({ConfigProblem{{description_.file, 0, 0}, "seabed.layers." + layer.name, error.what()}});
       }
       count_by_name_[layer.name] = layers_.size();
     }

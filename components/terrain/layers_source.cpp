@@ -90,7 +90,7 @@ LayersSource::LayersSource(const Seabed& seabed, const frames::Geodetic& origin)
   probe();
   if (lowest_m_ >= 0.0) {
     throw ConfigError(
-        {ConfigProblem{{"", 0, 0},
+        {ConfigProblem{{seabed.layered.file, 0, 0},
                        "seabed.layers",
                        "make a seabed that is nowhere under water; a layer such as plane gives its depth"}});
   }

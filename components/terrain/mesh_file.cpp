@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -32,6 +33,14 @@ void add_face(const std::vector<std::uint32_t>& corners, MeshFile& mesh) {
     const std::uint32_t a = corners[0], b = corners[i - 1], c = corners[i];
     if (a != b && b != c && c != a) mesh.triangle.push_back({a, b, c});
   }
+}
+
+/// Its height over its longest side is more than rounding.
+bool has_area(const MeshFile& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  constexpr double kRounding = 1e-12;
+  const frames::Vec3 ab = mesh.vertex[triangle[1]] - mesh.vertex[triangle[0]];
+  const frames::Vec3 ac = mesh.vertex[triangle[2]] - mesh.vertex[triangle[0]];
+  return ab.cross(ac).norm() > kRounding * std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
 }
 
 /// "3", "3/1", "3//2" or "-1", which counts back from the last vertex, as a number from 0.
@@ -197,6 +206,8 @@ MeshFile read_mesh_file(const std::string& path) {
     if (!place.allFinite()) refuse(path, 1, "has a vertex that is not finite");
   }
   if (mesh.triangle.empty()) refuse(path, 1, "holds no triangle; allowed are meshes in OBJ or PLY");
+  if (std::none_of(mesh.triangle.begin(), mesh.triangle.end(), [&](const auto& t) { return has_area(mesh, t); }))
+    refuse(path, 1, "has no area: the corners of each of its triangles lie on one line");
   return mesh;
 }
 

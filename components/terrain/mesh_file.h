@@ -20,7 +20,7 @@ bool is_mesh_file(const std::string& path);
 
 /// Wavefront OBJ (its v and f lines; colours, normals, textures and groups are ignored) and PLY (ASCII or binary little
 /// endian; a vertex has x, y, z, a face a list of them). Faces of more than three corners become fans; those that have
-/// a corner twice are left out. Throws ConfigError with file, line and what is allowed.
+/// a corner twice are left out. A mesh without area is refused. Throws ConfigError with file, line and what is allowed.
 MeshFile read_mesh_file(const std::string& path);
 
 }  // namespace ensonify::source

@@ -98,4 +98,6 @@ TEST_CASE("what is no mesh is refused with place and cause") {
         ":1:1: has a face with a corner 7, of 1 vertices");
   CHECK(fault("h.ply", "ply\nformat ascii 1.0\n") == ":1:1: has no end_header");
   CHECK_THROWS_AS(read_mesh_file("no/such.obj"), ConfigError);
+  CHECK(fault("i.obj", "v 0 0 0\nv 1 1 1\nv 0.1 0.1 0.1\nv 1 1 1\nf 1 2 3\nf 1 2 4\n") ==
+        ":1:1: has no area: the corners of each of its triangles lie on one line");
 }

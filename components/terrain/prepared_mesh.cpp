@@ -89,6 +89,20 @@ progressive::Hierarchy strewn_over(const TerrainSource& ground, const SeabedMesh
   return progressive::copies_of(one, places_of(mesh, stream, ground));
 }
 
+/// From the axes of the file to x east, y north, z up.
+Eigen::Matrix3d upright(const SeabedMesh& mesh) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (mesh.up == SeabedMesh::Up::kY) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return turn;
+}
+
+/// Turned by its heading, then leaned over.
+Eigen::Matrix3d turn_of(const SeabedMesh& mesh) {
+  const frames::Vec3 hinge(-std::cos(mesh.tilt_heading_rad), std::sin(mesh.tilt_heading_rad), 0.0);
+  return Eigen::AngleAxisd(mesh.tilt_rad, hinge).toRotationMatrix() *
+         Eigen::AngleAxisd(-mesh.heading_rad, frames::Vec3::UnitZ()).toRotationMatrix() * upright(mesh);
+}
+
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kFormat = "ensonify: lod/1\n";
@@ -168,8 +182,12 @@ PlacedMesh placed_mesh(const SeabedMesh& mesh, std::uint64_t seed, const Terrain
   else one = {{hierarchy_of(progressive::mesh_of(mesh.bars)), "", 1.0}, true};
   progressive::Hierarchy& hierarchy = one.lod.hierarchy;
   const bool worth_preparing = !one.cached && hierarchy.mesh.vertex_m.size() > kAtOnce;
-  if (mesh.strewn) return {strewn_over(ground, mesh, stream, hierarchy), worth_preparing};
-  return {progressive::placed(std::move(hierarchy), mesh.position_enu_m, mesh.heading_rad), worth_preparing};
+  if (mesh.strewn) {
+    if (mesh.up != SeabedMesh::Up::kZ)
+      hierarchy = progressive::placed(std::move(hierarchy), frames::Vec3::Zero(), upright(mesh));
+    return {strewn_over(ground, mesh, stream, hierarchy), worth_preparing};
+  }
+  return {progressive::placed(std::move(hierarchy), mesh.position_enu_m, turn_of(mesh)), worth_preparing};
 }
 
 void write_lod_file(const std::string& path, const LodFile& lod) {

@@ -107,6 +107,19 @@ TEST_CASE("a mesh of a file stands where the scenario says, turned clockwise, ca
   CHECK(again.hierarchy.born == placed.hierarchy.born);
 }
 
+TEST_CASE("a mesh leans to where it is told, and a file's y axis may be up") {
+  const Ridge ridge;
+  SeabedMesh mesh{.name = "ridge", .file = ridge.path, .tilt_rad = 0.5 * kPi, .tilt_heading_rad = 0.5 * kPi};
+  const auto corner = [&] { return vertex(placed_mesh(mesh, 1, *slope()).hierarchy, 7); };
+  // 2 east, 4 north and 0.5 up in the file: fallen over to the east, what was up is east, what was east is down.
+  CHECK((corner() - frames::Vec3(0.5, 4.0, -2.0)).norm() < 1e-5);
+  mesh.tilt_rad = 0.0;
+  mesh.up = SeabedMesh::Up::kY;
+  CHECK((corner() - frames::Vec3(2.0, -0.5, 4.0)).norm() < 1e-5);
+  mesh.heading_rad = 0.5 * kPi;
+  CHECK((corner() - frames::Vec3(-0.5, -2.0, 4.0)).norm() < 1e-5);
+}
+
 TEST_CASE("only a file of more than 2000 vertices is worth preparing") {
   const Ridge ridge;
   SeabedMesh mesh{.name = "ridge", .file = ridge.path};

@@ -58,6 +58,12 @@ bool add_band(GDALDataset& dataset, void* data, GDALDataType type) {
   return dataset.AddBand(type, options.List()) == CE_None;
 }
 
+/// Width of a cell in units of its map; 0 where it has none.
+double cell_width(GDALDataset& dataset) {
+  double geotransform[6] = {};
+  return dataset.GetGeoTransform(geotransform) == CE_None ? std::hypot(geotransform[1], geotransform[4]) : 0.0;
+}
+
 }  // namespace
 
 std::string fill_holes(std::span<float> cells, int columns, int rows, double distance_cells, int smoothing) {
@@ -144,12 +150,20 @@ void RasterFile::open() {
 
 /// A BAG of variable resolution shows its overview, a few large cells; its refinements are read on the finest grid.
 void RasterFile::open_finest() {
-  const char* refined = dataset_->GetMetadataItem("HAS_SUPERGRIDS");
-  if (refined == nullptr || !EQUAL(refined, "TRUE")) return;
+  const char* refined = dataset_->GetMetadataItem("HAS_SUPERGRIDS");  // not of every GDAL
+  const char* finest = dataset_->GetMetadataItem("MIN_RESOLUTION_X");
+  if ((refined == nullptr || !EQUAL(refined, "TRUE")) && finest == nullptr) return;
   refined_ = true;
+  const double overview = cell_width(*dataset_);
   constexpr double kAny = 1e9;
   dataset_ = refinements(0.0, kAny, 0.0);
-  if (!dataset_) refuse(std::string("its refinements cannot be read: ") + CPLGetLastErrorMsg());
+  const std::string why = dataset_ ? "" : std::string(": ") + CPLGetLastErrorMsg();
+  const bool finer = finest == nullptr || CPLAtof(finest) >= 0.999 * overview || (dataset_ && cell_width(*dataset_) < overview);
+  if (!dataset_ || !finer) {
+    refuse("is of variable resolution, and GDAL here reads only its overview of " + number(overview) +
+           " m cells, not its refinements" + (finest != nullptr ? " of " + std::string(finest) + " m and more" : "") + why +
+           "; read it with a GDAL whose BAG driver has MODE=RESAMPLED_GRID, or resample it first");
+  }
 }
 
 /// The refinements of cells larger than `from_m` and no larger than `to_m`, on a grid of `cell_m` (0: of their finest),

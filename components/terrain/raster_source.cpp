@@ -242,6 +242,13 @@ void RasterSource::sample(const PostBlock& posts, std::span<float> height_m, std
   }
 }
 
+Vec2 RasterSource::place_of(int column, int row) const {
+  const std::scoped_lock lock(mutex_);
+  auto [x, y] = file_->map_of(column, row);
+  if (!enu_from_map_->Transform(1, &x, &y)) return {kNone, kNone};
+  return {x, y};
+}
+
 double RasterSource::height_m(const Vec2& place) const {
   const std::scoped_lock lock(mutex_);
   double x = place.x(), y = place.y();

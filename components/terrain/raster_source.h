@@ -35,6 +35,8 @@ class RasterSource : public TerrainSource {
   double cell_area_m2() const { return cell_area_m2_; }
   void sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const override;
   double height_m(const Vec2& place) const override;
+  /// The middle of a cell; NaN where the maps do not lead there.
+  Vec2 place_of(int column, int row) const;
 
  private:
   using Transformation = std::unique_ptr<OGRCoordinateTransformation, void (*)(OGRCoordinateTransformation*)>;

@@ -68,21 +68,27 @@ struct OfMesh {
     visit("sediment", "", in(0, 255), "class of all of it, one of seabed.sediments", self.sediment);
   }
 };
-struct Unit {
+struct OfFile {
   double unit_m = SeabedMesh{}.unit_m;
+  SeabedMesh::Up up = SeabedMesh{}.up;
 
   static void parameters(auto& self, auto&& visit) {
     visit("unit_m", "m", in(1e-6, 1e3), "metres in the file's unit", self.unit_m);
+    visit("up", "", one_of({{"y", SeabedMesh::Up::kY}, {"z", SeabedMesh::Up::kZ}}),
+          "axis of the file that points up; with y, its z points south", self.up);
   }
 };
 struct MeshPose {
   frames::Vec3 position_m = frames::Vec3::Zero();
-  double heading_rad = 0.0;
+  double heading_rad = 0.0, tilt_rad = 0.0, tilt_heading_rad = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
     // A file may have a map's coordinates.
     visit("position_m", "m", in(-1e7, 1e7), "of the file's origin, or the bars': east, north, up", self.position_m);
     visit("heading_deg", "deg", in(-360, 360), "of its y axis, clockwise from north", self.heading_rad);
+    visit("tilt_deg", "deg", in(0, 180), "angle by which it leans from the upright", self.tilt_rad);
+    visit("tilt_heading_deg", "deg", in(-360, 360), "direction to which it leans, clockwise from north",
+          self.tilt_heading_rad);
   }
 };
 
@@ -152,9 +158,10 @@ SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& s
   }
   if (way == "file") {
     from.required_path("file", mesh.file);
-    Unit unit;
-    read_parameters(from, unit);
-    mesh.unit_m = unit.unit_m;
+    OfFile file;
+    read_parameters(from, file);
+    mesh.unit_m = file.unit_m;
+    mesh.up = file.up;
   } else if (way == "bars") {
     mesh.bars = read_bars(from);
   } else {
@@ -169,6 +176,8 @@ SeabedMesh read_mesh(const std::string& name, ConfigReader from, const Seabed& s
   read_parameters(from, pose);
   mesh.position_enu_m = pose.position_m;
   mesh.heading_rad = pose.heading_rad;
+  mesh.tilt_rad = pose.tilt_rad;
+  mesh.tilt_heading_rad = pose.tilt_heading_rad;
   return mesh;
 }
 
@@ -179,8 +188,8 @@ ParameterList meshes_list() {
                 list = parameters_of<OfMesh>();
   bar.push_back(list_info("repeat", "a row; two of them: a grid", parameters_of<RepeatInFile>()));
   strewn.push_back(classes_info("on", "classes of the ground on which they stand; left out: all"));
-  list.push_back(file_info("file", "OBJ or PLY: x east, y north, z up", false));
-  for (const ParameterList& part : {parameters_of<Unit>(), parameters_of<MeshPose>()}) {
+  list.push_back(file_info("file", "OBJ or PLY: x east, y north, z up unless `up` says y", false));
+  for (const ParameterList& part : {parameters_of<OfFile>(), parameters_of<MeshPose>()}) {
     list.insert(list.end(), part.begin(), part.end());
   }
   list.push_back(section_info("sheet_pile_wall", "a quay wall of steel", parameters_of<Wall>()));

@@ -33,7 +33,7 @@ TEST_CASE("meshes of a seabed are read: of a file, or a wall of sheet piles") {
   sediments: {4: {lambert_mu_db: -12}}
   meshes:
     quay: {sheet_pile_wall: {from_m: [-50, 2], to_m: [50, 2], foot_depth_m: 14, profile_depth_m: 0.36}, sediment: 4}
-    hill: {file: /etc/hostname, unit_m: 0.001, position_m: [3, 4, -5], heading_deg: 90}
+    hill: {file: /etc/hostname, unit_m: 0.001, position_m: [3, 4, -5], heading_deg: 90, up: y, tilt_deg: 30, tilt_heading_deg: 180}
 )");
   REQUIRE(seabed.meshes.size() == 2);
   const SeabedMesh &quay = seabed.meshes[0], &hill = seabed.meshes[1];
@@ -48,6 +48,9 @@ TEST_CASE("meshes of a seabed are read: of a file, or a wall of sheet piles") {
   CHECK(hill.unit_m == 0.001);
   CHECK(hill.position_enu_m == frames::Vec3(3, 4, -5));
   CHECK(hill.heading_rad == Approx(std::numbers::pi / 2));
+  CHECK(hill.up == SeabedMesh::Up::kY);
+  CHECK(hill.tilt_rad == Approx(std::numbers::pi / 6));
+  CHECK(hill.tilt_heading_rad == Approx(std::numbers::pi));
 }
 
 TEST_CASE("meshes of bars, and copies of meshes, are read") {

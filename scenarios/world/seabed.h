@@ -37,6 +37,7 @@ struct RasterSeabed {
 /// A seabed generated from layers, from the bottom up.
 struct LayeredSeabed {
   std::uint64_t seed = 0;  // the scenario's
+  std::string file;        // the scenario's, for messages
   frames::Vec2 size_m{600.0, 600.0};
   frames::Vec2 centre_enu_m{0.0, 0.0};
   std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
@@ -62,6 +63,10 @@ struct SeabedMesh {
   double unit_m = 1.0;                                 // metres in the file's unit
   frames::Vec3 position_enu_m = frames::Vec3::Zero();  // of the file's origin, or the bars'
   double heading_rad = 0.0;                            // of its y axis, clockwise from north
+  enum class Up { kY, kZ };
+  Up up = Up::kZ;                 // axis of the file that points up; with y up its -z is the y of the line above
+  double tilt_rad = 0.0;          // of its upright from the vertical
+  double tilt_heading_rad = 0.0;  // towards which it leans, clockwise from north
   std::optional<progressive::SheetPileWall> wall;
   std::uint8_t sediment = 0;  // of all of it, one of Seabed::sediments
   std::vector<progressive::Bar> bars;

@@ -187,6 +187,23 @@ class Cases(Import):
         # Waves of 40 m lose half their power, those of 16 m all but 2^-(40/16)^2: 0.081 m are left of 0.707 m.
         self.assertLess(np.nanstd(heights), 0.09)
         self.assertAlmostEqual(report["sources"][0]["band"]["removed_below_cells"], 10, delta=0.1)
+        against = report["sources"][0]["posts_against_cells"]
+        self.assertAlmostEqual(against["rms_m"], math.sqrt(0.5) * (1 - 2 ** -6.25), delta=0.06)  # what was taken out
+        self.assertEqual(report["steps"]["rms_error_m"] < 1e-3, True)
+
+    def test_how_far_the_stored_seabed_lies_from_the_cells_is_told(self):
+        gentle = self.run_import(self.made(), name="gentle")[1]["sources"][0]["posts_against_cells"]
+        self.assertGreater(gentle["cells"], 0.95 * 120 * 150)
+        self.assertLess(gentle["largest_m"], 0.01)  # slopes of 0.03 over cells of 4 m bend by 2 m (4 m / 90 m)^2 / 8 at most
+        # A checkerboard of 1 m up and down: posts half a cell off all cells' middles are 0 everywhere.
+        board = self.made("board.tif", geotransform=(CORNER[0], 1.0, 0, CORNER[1], 0, -1.0),
+                          values=lambda x, y: -20 + np.where((np.floor(x) + np.floor(y)) % 2 == 0, 1.0, -1.0))
+        rough = self.run_import(board, name="board")[1]["sources"][0]["posts_against_cells"]
+        self.assertGreater(rough["largest_m"], 0.5)
+        self.assertLess(rough["rms_m"], 1.0)
+        self.assertGreater(rough["rms_m"], 0.2)
+        fine = self.run_import(board, "--spacing", 0.1, name="fine")[1]["sources"][0]["posts_against_cells"]
+        self.assertLess(fine["rms_m"], 0.3 * rough["rms_m"])
 
     @unittest.skipUnless(h5py, "h5py is absent")
     def test_a_bag_of_variable_resolution_whose_overview_is_two_by_two(self):
@@ -219,6 +236,15 @@ class Cases(Import):
         self.assertGreater(np.count_nonzero(both), 60 * 60)
         # a node of 8 m stands for 4 m to each side; the slope is 2 / 90 at most along north
         self.assertLess(np.abs(ours - gdals)[both].max(), 4 * 2 / 90 + 4 * 0.004 + 0.01)
+
+    def test_an_overview_whose_refinements_cannot_be_read_is_no_seabed(self):
+        overview = self.made("overview.tif", (CORNER[0], 50.0, 0, CORNER[1], 0, -50.0), (20, 20))
+        file = gdal.Open(str(overview), gdal.GA_Update)
+        file.SetMetadataItem("MIN_RESOLUTION_X", "0.5")  # as a BAG's, of a GDAL that says nothing of supergrids
+        file.FlushCache()
+        del file
+        self.refused(overview, causes=["overview.tif: is of variable resolution", "only its overview of 50 m cells",
+                                       "refinements of 0.5 m and more"])
 
     def test_a_mesh_in_millimetres_becomes_its_highest_surface(self):
         lines = [f"v {500 * i} {500 * j} {-20000 + 50 * i}" for j in range(21) for i in range(21)]

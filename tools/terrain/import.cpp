@@ -163,8 +163,9 @@ int import(const Words& words) {
   const HoleFacts holes = fill(mosaic, options.fill);
   const ClassPosts classes = classify(mosaic, options.sediment);
   const StepFacts steps = step_facts(mosaic, options.lsb_m > 0.0 ? options.lsb_m : step_m(mosaic));
-  const std::string report = report_json(files, mosaic, holes, classes, steps).dump(2) + "\n";
-  const std::string text = report_text(files, mosaic, holes, classes, steps);
+  const auto cells = cell_facts(files, mosaic, options, steps.lsb_m);
+  const std::string report = report_json(files, mosaic, holes, classes, steps, cells).dump(2) + "\n";
+  const std::string text = report_text(files, mosaic, holes, classes, steps, cells);
 
   tiles::TileSet set;
   set.folder = words.bake.folder;

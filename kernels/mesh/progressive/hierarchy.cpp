@@ -305,8 +305,12 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses) {
 }
 
 Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad) {
+  return placed(std::move(hierarchy), by_enu_m,
+                Eigen::AngleAxisd(-clockwise_rad, frames::Vec3::UnitZ()).toRotationMatrix());
+}
+
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, const Eigen::Matrix3d& turn) {
   TriangleMesh& mesh = hierarchy.mesh;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(-clockwise_rad, frames::Vec3::UnitZ()).toRotationMatrix();
   const frames::Vec3 origin_enu_m = turn * mesh.origin_enu_m + by_enu_m;
   for (Eigen::Vector3f& vertex : mesh.vertex_m) vertex = (turn * vertex.cast<double>()).cast<float>();
   mesh.origin_enu_m = origin_enu_m;

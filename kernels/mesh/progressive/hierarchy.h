@@ -94,6 +94,8 @@ Hierarchy hierarchy_of(TriangleMesh mesh, std::span<const Collapse> collapses);
 /// The same surface elsewhere: turned about the vertical through its origin, clockwise as seen from above, and moved.
 /// Vertices are rounded to float once more, boxes are those of the vertices as they then are.
 Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, double clockwise_rad);
+/// The same with any rotation about its origin.
+Hierarchy placed(Hierarchy hierarchy, const frames::Vec3& by_enu_m, const Eigen::Matrix3d& turn);
 
 /// Fault of a hierarchy that came from elsewhere; empty if nothing is wrong. Allowed is what hierarchy_of
 /// makes: a mesh without fault, numbers of things that are there, parents before children.

@@ -90,12 +90,23 @@ struct StepFacts {
 };
 StepFacts step_facts(const Mosaic& mosaic, double lsb_m);
 
+/// How far the seabed as it is stored lies from the cells of a file, at their middles: what resampling, smoothing, removed
+/// artefacts and steps do together. Of the file's kept_cells those that no better file decides and that posts surround.
+struct CellFacts {
+  std::int64_t cells = 0;
+  double largest_m = 0.0, rms_m = 0.0;
+};
+/// One for each file. Throws ConfigError for a raster of separations that cannot be read.
+std::vector<CellFacts> cell_facts(const std::vector<SurveyFile>& files, const Mosaic& mosaic,
+                                  const ImportOptions& options, double lsb_m);
+
 /// Everything that an import did and lost: sources, reference systems, resampling, areas, holes, artefacts, steps.
 nlohmann::ordered_json report_json(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
-                                   const ClassPosts& classes, const StepFacts& steps);
+                                   const ClassPosts& classes, const StepFacts& steps,
+                                   const std::vector<CellFacts>& cells);
 
 /// The same for people, some lines.
 std::string report_text(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
-                        const ClassPosts& classes, const StepFacts& steps);
+                        const ClassPosts& classes, const StepFacts& steps, const std::vector<CellFacts>& cells);
 
 }  // namespace ensonify::terrain_import

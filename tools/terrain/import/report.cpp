@@ -68,7 +68,7 @@ Json band_json(const SurveyFile& file, const Share& share) {
           {"spectrum", octaves}};
 }
 
-Json source_json(const SurveyFile& file, const Share& share) {
+Json source_json(const SurveyFile& file, const Share& share, const CellFacts& cells) {
   Json json = {{"file", file.raster->name()},
                {"band", file.options.band},
                {"crs", crs_of(file)},
@@ -97,6 +97,8 @@ Json source_json(const SurveyFile& file, const Share& share) {
                       {"cells", file.points->cells},
                       {"widest_spread_m", six(file.points->widest_spread_m)}};
   }
+  json["posts_against_cells"] = {
+      {"cells", cells.cells}, {"rms_m", six(cells.rms_m)}, {"largest_m", six(cells.largest_m)}};
   json["overlap"] = {{"posts", share.overlap},
                      {"mean_difference_m", six(share.overlap_mean_m)},
                      {"rms_difference_m", six(share.overlap_rms_m)}};
@@ -115,7 +117,7 @@ Json classes_json(const ClassPosts& classes, double post_m2) {
   return json;
 }
 
-std::string source_text(const SurveyFile& file, const Share& share) {
+std::string source_text(const SurveyFile& file, const Share& share, const CellFacts& cells) {
   const auto& raster = *file.raster;
   std::string text =
       fmt::format("{}: {} x {} cells of {:.4g} m, {}{}\n", raster.name(), raster.columns(), raster.rows(), share.cell_m,
@@ -137,6 +139,10 @@ std::string source_text(const SurveyFile& file, const Share& share) {
   if (share.without_datum > 0) line(fmt::format("{} posts are lost: no separation there", share.without_datum));
   line(fmt::format("{} surveyed, {} used, {} lost along its rims", area(share.surveyed_m2), area(share.used_m2),
                    area(lost_m2(share))));
+  if (cells.cells > 0) {
+    line(fmt::format("the stored seabed is off its cells by {:.2g} m rms, at most {:.2g} m ({} of {} cells compared)",
+                     cells.rms_m, cells.largest_m, cells.cells, file.known_cells));
+  }
   if (share.overlap > 0) {
     line(
         fmt::format("{} posts are known to earlier files too; here they are {:+.3f} m off on the average, {:.3f} m rms",
@@ -182,14 +188,14 @@ StepFacts step_facts(const Mosaic& mosaic, double lsb_m) {
 }
 
 Json report_json(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
-                 const ClassPosts& classes, const StepFacts& steps) {
+                 const ClassPosts& classes, const StepFacts& steps, const std::vector<CellFacts>& cells) {
   const double post_m2 = mosaic.tile().spacing_m * mosaic.tile().spacing_m;
   const auto origin = mosaic.origin();
   const auto posts_m2 = [&](std::int64_t posts) { return six(static_cast<double>(posts) * post_m2); };
   Json sources = Json::array();
   double start_m = 0.0;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    sources.push_back(source_json(files[i], mosaic.shares()[i]));
+    sources.push_back(source_json(files[i], mosaic.shares()[i], cells[i]));
     start_m = std::max(start_m, band_start_m(files[i], mosaic.shares()[i]));
   }
   return {
@@ -215,12 +221,12 @@ Json report_json(const std::vector<SurveyFile>& files, const Mosaic& mosaic, con
 }
 
 std::string report_text(const std::vector<SurveyFile>& files, const Mosaic& mosaic, const HoleFacts& holes,
-                        const ClassPosts& classes, const StepFacts& steps) {
+                        const ClassPosts& classes, const StepFacts& steps, const std::vector<CellFacts>& cells) {
   const auto& tile = mosaic.tile();
   const double post_m2 = tile.spacing_m * tile.spacing_m;
   const auto posts = [&](std::int64_t count) { return area(static_cast<double>(count) * post_m2); };
   std::string text;
-  for (std::size_t i = 0; i < files.size(); ++i) text += source_text(files[i], mosaic.shares()[i]);
+  for (std::size_t i = 0; i < files.size(); ++i) text += source_text(files[i], mosaic.shares()[i], cells[i]);
   text += fmt::format("origin {:.6f}, {:.6f} deg; {} x {} posts {} m apart, {:.2f} to {:.2f} m up\n",
                       mosaic.origin().latitude_deg, mosaic.origin().longitude_deg, tile.columns, tile.rows,
                       tile.spacing_m, mosaic.lowest_m(), mosaic.highest_m());
@@ -234,7 +240,7 @@ std::string report_text(const std::vector<SurveyFile>& files, const Mosaic& mosa
   text += "classes:";
   for (const auto& entry : classes_json(classes, post_m2))
     text += fmt::format(" {} on {}", entry["class"].get<int>(), area(entry["area_m2"].get<double>()));
-  text += fmt::format("\nsteps of {} m: off by {:.2g} m rms, at most {:.2g} m\n", steps.lsb_m, steps.rms_m,
+  text += fmt::format("\nsteps of {} m: posts rounded by {:.2g} m rms, at most {:.2g} m\n", steps.lsb_m, steps.rms_m,
                       steps.largest_m);
   return text;
 }

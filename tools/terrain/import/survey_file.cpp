@@ -166,6 +166,21 @@ void clean(const CleanOptions& options, survey_grid::Surface& surface, SurveyFil
   if (file.removed_below_cells > 0.0) survey_grid::remove_shorter_waves(surface, file.removed_below_cells);
 }
 
+/// Every nth cell along rows and columns, so that there are no more than are compared.
+std::vector<SurveyFile::Cell> some_of(const survey_grid::Surface& surface) {
+  const double cells = static_cast<double>(surface.columns) * surface.rows;
+  const int every = std::max(1, static_cast<int>(std::ceil(std::sqrt(cells / kComparedCells))));
+  std::vector<SurveyFile::Cell> kept;
+  for (int row = 0; row < surface.rows; row += every) {
+    for (int column = 0; column < surface.columns; column += every) {
+      const float height_m = surface.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.columns) +
+                                              static_cast<std::size_t>(column)];
+      if (!std::isnan(height_m)) kept.push_back({column, row, height_m});
+    }
+  }
+  return kept;
+}
+
 std::shared_ptr<source::RasterFile> opened(const source::RasterOptions& options) {
   auto raster = std::make_shared<source::RasterFile>(options);
   const double cells = static_cast<double>(raster->columns()) * raster->rows();
@@ -311,6 +326,7 @@ SurveyFile read_survey_file(const FileOptions& file, const ImportOptions& option
   survey.values = elevations_of(*raster, file, surface.height_m);
   survey.known_cells =
       std::count_if(surface.height_m.begin(), surface.height_m.end(), [](float h) { return !std::isnan(h); });
+  survey.kept_cells = some_of(surface);
   clean(options.clean, surface, survey);
   raster->hold(std::move(surface.height_m));
   return survey;

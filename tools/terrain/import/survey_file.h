@@ -154,6 +154,8 @@ struct CellGrid {
 
 /// Cells of one raster and posts of one tile set that are held in memory, some 20 bytes each.
 inline constexpr double kMostCells = 1e8;
+/// Cells of one raster that the stored seabed is compared with.
+inline constexpr double kComparedCells = 1e6;
 
 /// One file as elevations in its own cells, and what happened on the way.
 struct SurveyFile {
@@ -163,6 +165,12 @@ struct SurveyFile {
   std::optional<PointFacts> points;
   ValueFacts values;
   std::int64_t known_cells = 0;
+  /// Cells as the file has them, before anything is taken out of them: all, or as many of them evenly.
+  struct Cell {
+    std::int32_t column, row;
+    float height_m;
+  };
+  std::vector<Cell> kept_cells;
   std::vector<survey_grid::Spike> spikes;
   bool despiked = false;
   survey_grid::Stripes stripes;
