@@ -78,16 +78,11 @@ int check(const LaunchOptions& options, bool as_json) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify check: reads a launch file, its scenario and every configuration, and checks the wiring.");
   app.name("ensonify check");
-  add_version_flag(app);
   LaunchOptions options;
   bool as_json = false;
   add_options(app, options, true);
   app.add_flag("--json", as_json, "print problems and warnings as JSON");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   try {
     return check(options, as_json);
   } catch (const ExitError& error) {

@@ -95,9 +95,9 @@ TEST_CASE("a live run's name is refused to another, with who has it, and free wh
   {
     const RunDir bay({"bay", "/x/demo.yaml", "/x/out", 0, 42});
     const RunDir unnamed;
-    CHECK_THROWS_WITH(RunDir({"bay", "other.yaml", "", 0, 43}),
-                      Catch::Contains("--name: bay is the name of a live run (/x/demo.yaml, ") &&
-                          Catch::Contains("process 42"));
+    CHECK_THROWS_WITH(
+        RunDir({"bay", "other.yaml", "", 0, 43}),
+        Catch::Contains("--name: bay is the name of a live run (/x/demo.yaml, ") && Catch::Contains("process 42"));
   }
   CHECK_NOTHROW(RunDir({"bay", "other.yaml", "", 0, 43}));
 }

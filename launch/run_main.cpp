@@ -160,14 +160,9 @@ int run(Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("ensonify run: starts the processes of a launch file, watches over them and says how it went.");
   app.name("ensonify run");
-  add_version_flag(app);
   Options options;
   declare(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   try {
     return run(options);
   } catch (const ExitError& error) {

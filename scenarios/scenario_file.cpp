@@ -51,8 +51,8 @@ void make_room(ConfigNode& section, const std::string& path, const std::string& 
     const auto own = std::find_if(set.keys.begin(), set.keys.end(), [&](const auto& keys) { return holds(keys, key); });
     if (own == set.keys.end() || !holds(set.sections, path)) continue;
     const auto replaced = [&](const ConfigNode::Entry& entry) {
-      return !holds(*own, entry.key) && std::any_of(set.keys.begin(), set.keys.end(),
-                                                    [&](const auto& keys) { return holds(keys, entry.key); });
+      return !holds(*own, entry.key) &&
+             std::any_of(set.keys.begin(), set.keys.end(), [&](const auto& keys) { return holds(keys, entry.key); });
     };
     auto& entries = section.entries;
     entries.erase(std::remove_if(entries.begin(), entries.end(), replaced), entries.end());
@@ -99,19 +99,19 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
   ConfigDocument document = parse_config_file(path);
   const ConfigNode include = taken(document.root, "include");
   if (include.is_null()) return document;
-  const auto refuse = [&](const std::string& why) {
+  const auto refuse = [&](const std::string& why) {  // all else would follow from it
     document.problems.push_back({include.place, "include", why});
-    return document;
+    throw ConfigError(document.problems);
   };
-  if (!include.is_scalar()) return refuse("is not the file of a scenario");
+  if (!include.is_scalar()) refuse("is not the file of a scenario");
   const std::string under = find_data(include.scalar, {std::filesystem::path(path).parent_path().string()});
-  if (under.empty()) return refuse("\"" + include.scalar + "\": no such file");
+  if (under.empty()) refuse("\"" + include.scalar + "\": no such file");
   open.push_back(std::filesystem::weakly_canonical(path).string());
   if (holds(open, std::filesystem::weakly_canonical(under).string()))
-    return refuse("\"" + include.scalar + "\" includes itself, directly or through others");
+    refuse("\"" + include.scalar + "\" includes itself, directly or through others");
   ConfigDocument merged = load(under, open);
   if (const ConfigNode* format = merged.root.find("ensonify"); format == nullptr || format->scalar != kScenarioFormat)
-    return refuse("\"" + include.scalar + "\" is no " + kScenarioFormat);
+    refuse("\"" + include.scalar + "\" is no " + kScenarioFormat);
   lay_over(merged.root, std::move(document.root));
   merged.problems.insert(merged.problems.end(), document.problems.begin(), document.problems.end());
   return merged;

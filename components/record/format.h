@@ -58,12 +58,12 @@ struct Attachment {
   std::string data;
 };
 
-/// Of the facts of a run those that a reader needs to repeat it (launch, scenario, version, seed), and what its processes
-/// declared of themselves.
+/// Of the facts of a run those that a reader needs to repeat it (launch, scenario, version, seed), and what its
+/// processes declared of themselves.
 std::vector<Attachment> attachments_of(const std::map<std::string, std::string>& facts);
 
-/// Name of the metadata record of a record that an observer wrote: per topic `TOPIC/received` and `TOPIC/missed`, numbers
-/// of messages from the first received on.
+/// Name of the metadata record of a record that an observer wrote: per topic `TOPIC/received` and `TOPIC/missed`,
+/// numbers of messages from the first received on.
 inline constexpr const char* kLiveName = "ensonify_live";
 
 /// One topic of the record.

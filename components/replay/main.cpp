@@ -11,6 +11,7 @@
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
 #include "components/replay/node.h"
+#include "components/runtime/tool.h"
 #include "launch/process/run.h"
 
 namespace ensonify {
@@ -52,11 +53,7 @@ int replay_verb(int argc, char** argv) {
   CLI::Option* paced = app.add_option("--rate", rate, "sim seconds per second")->capture_default_str();
   app.add_flag("--free", free, "as fast as possible")->excludes(paced);
   app.add_option("--out", out, "folder of the run's log files")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return exit_code_of([&] {
     const std::string launch = find_data("launch/replay.yaml", {});
     if (launch.empty())

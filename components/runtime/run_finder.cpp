@@ -168,7 +168,8 @@ bool can_be_used(const std::string& folder) {
 
 std::string AboutRun::text() const {
   if (launch.empty()) return "of unknown launch";
-  const auto now = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
+  const auto now =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
   return short_path(launch) + ", " + age_text(now.count() - began_unix_s) + " old, process " + std::to_string(process);
 }
 

@@ -6,7 +6,8 @@
 
 namespace ensonify {
 
-/// What the launcher writes of a run into its directory, for whoever lists runs. Fields that are not known are empty or 0.
+/// What the launcher writes of a run into its directory, for whoever lists runs. Fields that are not known are empty or
+/// 0.
 struct AboutRun {
   std::string name;    // given with `ensonify run --name`
   std::string launch;  // its file, an absolute path
@@ -50,7 +51,8 @@ std::vector<LiveRun> live_runs(const std::string& folder);
 std::vector<std::string> dead_runs(const std::string& folder);
 
 /// A live run by its name, its directory, the id of that or its clock's endpoint (the folder is then ""); "" means
-/// $ENSONIFY_RUN, else the only live run. Throws UserError when there is none, several, or a dead one, and says what to do.
+/// $ENSONIFY_RUN, else the only live run. Throws UserError when there is none, several, or a dead one, and says what to
+/// do.
 LiveRun find_run(const std::string& run, const std::string& folder = runs_folder());
 
 }  // namespace ensonify

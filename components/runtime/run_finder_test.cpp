@@ -96,7 +96,8 @@ TEST_CASE("none, several and dead runs are distinguished, with advice") {
 
 TEST_CASE("a name of a run is short, plain, and no id of a directory") {
   for (const char* good : {"a", "bay_1.2-x", "_", "9"}) CHECK(fault_of_run_name(good).empty());
-  for (const char* bad : {"", "-x", ".", "a b", "a/b", "run-1", "\xC3\xA4"}) CHECK_FALSE(fault_of_run_name(bad).empty());
+  for (const char* bad : {"", "-x", ".", "a b", "a/b", "run-1", "\xC3\xA4"})
+    CHECK_FALSE(fault_of_run_name(bad).empty());
   CHECK(fault_of_run_name(std::string(40, 'x')).empty());
   CHECK_FALSE(fault_of_run_name(std::string(41, 'x')).empty());
 }

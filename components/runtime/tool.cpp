@@ -50,12 +50,12 @@ void ask_for_finite_numbers(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) ask_for_finite_numbers(*verb);
 }
 
-}  // namespace
-
 void add_version_flag(CLI::App& app) {
   app.set_version_flag("--version", std::string("ensonify ") + kVersion, "print the version of Ensonify and exit");
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) add_version_flag(*verb);
 }
+
+}  // namespace
 
 bool interrupted() { return interrupts != 0; }
 

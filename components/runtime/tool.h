@@ -9,11 +9,9 @@ class App;
 
 namespace ensonify {
 
-/// Adds `--version` to a program and to each of its verbs. All programs print the same: "ensonify 0.1.0".
-void add_version_flag(CLI::App& app);
-
-/// Reads the command line of any of our programs, with `--version`. An exit code when the program is to end here: 0
-/// after help, 2 for wrong arguments, which have been reported. NaN and infinities are wrong for every number.
+/// Reads the command line of any of our programs, with `--version` for it and each of its verbs, which all print the
+/// same: "ensonify 0.1.0". An exit code when the program is to end here: 0 after help, 2 for wrong arguments, which
+/// have been reported. NaN and infinities are wrong for every number.
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// main() of a tool: reads the command line, runs `body` and gives its exit code. What `body` throws becomes a text on

@@ -158,11 +158,12 @@ void RasterFile::open_finest() {
   constexpr double kAny = 1e9;
   dataset_ = refinements(0.0, kAny, 0.0);
   const std::string why = dataset_ ? "" : std::string(": ") + CPLGetLastErrorMsg();
-  const bool finer = finest == nullptr || CPLAtof(finest) >= 0.999 * overview || (dataset_ && cell_width(*dataset_) < overview);
+  const bool finer =
+      finest == nullptr || CPLAtof(finest) >= 0.999 * overview || (dataset_ && cell_width(*dataset_) < overview);
   if (!dataset_ || !finer) {
     refuse("is of variable resolution, and GDAL here reads only its overview of " + number(overview) +
-           " m cells, not its refinements" + (finest != nullptr ? " of " + std::string(finest) + " m and more" : "") + why +
-           "; read it with a GDAL whose BAG driver has MODE=RESAMPLED_GRID, or resample it first");
+           " m cells, not its refinements" + (finest != nullptr ? " of " + std::string(finest) + " m and more" : "") +
+           why + "; read it with a GDAL whose BAG driver has MODE=RESAMPLED_GRID, or resample it first");
   }
 }
 

@@ -16,8 +16,8 @@ std::vector<WireRule> wire_rules(const Launch& launch);
 /// Place of each process's stanza, for messages: "demo.yaml:12:3".
 std::map<std::string, std::string> process_places(const Launch& launch);
 
-/// Facts fixed for the run and kept for queries: "launch", "scenario", "version", "seed", "start_utc", "external" (names of the
-/// processes that somebody else starts, with spaces between).
+/// Facts fixed for the run and kept for queries: "launch", "scenario", "version", "seed", "start_utc", "external"
+/// (names of the processes that somebody else starts, with spaces between).
 std::map<std::string, std::string> facts_of(const Launch& launch);
 /// Adds what a process notes: "bow/finest_beam_rad".
 void add_notes(std::map<std::string, std::string>& facts, const Declaration& process);

@@ -25,10 +25,11 @@ struct CastColumns {
   bool operator==(const CastColumns&) const = default;
 };
 
-/// Reads a cast: text with commas, semicolons or tabs between the columns, or blanks where the first line has none of these.
-/// Lines that are empty or start with # or % are skipped, and no others. Two columns of numbers without a line of names are
-/// depth and sound speed. Throws ConfigError with places in that file: no such column, a value that is no number or outside
-/// the limits, depths that do not rise from line to line (several casts in one file, a probe hauled up again).
+/// Reads a cast: text with commas, semicolons or tabs between the columns, or blanks where the first line has none of
+/// these. Lines that are empty or start with # or % are skipped, and no others. Two columns of numbers without a line
+/// of names are depth and sound speed. Throws ConfigError with places in that file: no such column, a value that is no
+/// number or outside the limits, depths that do not rise from line to line (several casts in one file, a probe hauled
+/// up again).
 std::vector<WaterSample> read_cast(const std::string& path, const CastColumns& columns = {});
 
 }  // namespace ensonify

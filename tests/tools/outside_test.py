@@ -47,7 +47,7 @@ class Outside(unittest.TestCase):
         for words, said in ((("fish/command", "guidance/1"), "fish: is no external participant of this run; there are helm"),
                             (("nobody/command", "guidance/1"), "nobody: is no external participant of this run; there are helm"),
                             (("helm/command", "guidence/1"), "guidence/1: is no type of messages; did you mean guidance/1?"),
-                            (("helm/command", "guidance/1", "speed=1"), "guidance/1: has no field speed; did you mean speed_mps?"),
+                            (("helm/command", "guidance/1", "speed_mp=1"), "guidance/1: has no field speed_mp; did you mean speed_mps?"),
                             (("helm", "guidance/1"), "helm: is no topic of a participant; allowed: PROCESS/PORT")):
             code, _, error = self.tool("topic", "pub", *words)
             self.assertEqual(code, 2, error)

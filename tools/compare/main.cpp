@@ -6,6 +6,7 @@
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
 #include "components/record/compare.h"
+#include "components/runtime/tool.h"
 #include "launch/process/run.h"
 
 namespace {
@@ -79,11 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("--topic", topics, "compare these topics only: names or patterns such as bow/* (default: all)")
       ->allow_extra_args(false);
   app.add_flag("--json", json, "print the result as JSON; times in ns of sim time");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return exit_code_of([&] {
     record::RecordReader a(file_a);
     record::RecordReader b(file_b);

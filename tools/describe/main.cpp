@@ -18,6 +18,7 @@
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/protocol.h"
+#include "components/runtime/tool.h"
 #include "launch/file/launch_file.h"
 #include "launch/process/run.h"
 #include "messages/schema.h"
@@ -331,11 +332,7 @@ int main(int argc, char** argv) {
   auto* schema = app.add_flag("--schema", as_schema, "JSON Schema of the file or the parameters, for editors");
   app.add_flag("--table", as_table, "only the parameters, as a Markdown table")->excludes(yaml)->excludes(schema);
   app.add_flag("--reference", reference, "the page docs/manual/messages.md");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUserError;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return exit_code_of([&] {
     const auto components = component_names();
     if (as_schema || as_table) {

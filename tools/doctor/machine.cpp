@@ -139,7 +139,8 @@ RunsFolder facts_of(const std::string& path) {
 
 Finding live(const std::string& folder) {
   std::string names;
-  for (const LiveRun& run : live_runs(folder)) names += (names.empty() ? "" : ", ") + run.id() + " (" + run.about.text() + ")";
+  for (const LiveRun& run : live_runs(folder))
+    names += (names.empty() ? "" : ", ") + run.id() + " (" + run.about.text() + ")";
   return {"live runs", Level::kOk, names.empty() ? "none" : names, ""};
 }
 

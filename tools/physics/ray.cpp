@@ -46,10 +46,11 @@ SoundSpeedProfile read_profile(const std::string& path, const CastColumns& colum
   const std::string found = find_data(path, {""});
   std::vector<Knot> knots;
   for (const WaterSample& sample : read_cast(found.empty() ? path : found, columns)) {
-    const double speed_mps = sample.sound_speed_mps ? *sample.sound_speed_mps
-                                                    : water::sound_speed_mps(water::SoundSpeedLaw::kMackenzie,
-                                                                             sample.temperature_degc.value_or(0.0),
-                                                                             sample.salinity_psu.value_or(0.0), sample.depth_m);
+    const double speed_mps =
+        sample.sound_speed_mps
+            ? *sample.sound_speed_mps
+            : water::sound_speed_mps(water::SoundSpeedLaw::kMackenzie, sample.temperature_degc.value_or(0.0),
+                                     sample.salinity_psu.value_or(0.0), sample.depth_m);
     knots.push_back({sample.depth_m, speed_mps});
   }
   return SoundSpeedProfile(std::move(knots));
@@ -129,15 +130,16 @@ void add_ray(CLI::App& app, Verbs& verbs) {
   verb.number("distance_m", in->distance_m, 0, 1e5, "horizontal distance, for distance and point");
   verb.number("most_turns", in->most_turns, 0, 1000, "how often the path may turn on its way to a depth");
   verb.options()
-      .add_option("--profile", in->profile,
-                  "file of the water, a cast as scenarios take it; chooses --water profile")
+      .add_option("--profile", in->profile, "file of the water, a cast as scenarios take it; chooses --water profile")
       ->each([&verb](const std::string&) { verb.choose("water", "profile"); });
   using Column = std::pair<const char*, std::string*>;
   for (const auto& [name, column] : {Column{"--depth-column", &in->columns.depth_m},
                                      {"--speed-column", &in->columns.sound_speed_mps},
                                      {"--temperature-column", &in->columns.temperature_degc},
                                      {"--salinity-column", &in->columns.salinity_psu}}) {
-    verb.options().add_option(name, *column, "what this column of the cast is called, or its number from 1")->capture_default_str();
+    verb.options()
+        .add_option(name, *column, "what this column of the cast is called, or its number from 1")
+        ->capture_default_str();
   }
   verb.results({"launch_deg", "horizontal_m", "depth_m", "arrival_deg", "travel_time_s", "path_length_m", "tube_m2",
                 "horizontal_per_rad_m", "turns", "turning_depth_m"},

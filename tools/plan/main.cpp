@@ -136,7 +136,8 @@ Verb add_lines(CLI::App& parent) {
       "time, data and cost that they take.");
   app->add_option("--corner", o->corners, "corner of the area, east and north in world metres; three or more")
       ->required();
-  auto* scenario = app->add_option("--scenario", o->scenario, "scenario whose seabed gives the depths: a file, from here or the project's own");
+  auto* scenario = app->add_option("--scenario", o->scenario,
+                                   "scenario whose seabed gives the depths: a file, from here or the project's own");
   auto* depth = app->add_option("--depth", o->depth_m, "instead: one depth below chart datum, m");
   depth->check(CLI::Range(0.1, 11000.0));
   scenario->excludes(depth);

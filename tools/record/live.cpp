@@ -106,7 +106,8 @@ LiveRecord record_live(const LiveOptions& options) {
   while (!interrupted() && !result.run_ended && (!until || steady_clock::now() < *until)) {
     const auto soon = steady_clock::now() + kLookAfter;
     auto packet = observer.next(until ? std::min(soon, *until) : soon);
-    if (packet && topics.contains(static_cast<std::uint16_t>(packet->envelope.topic_id))) order.take(std::move(*packet));
+    if (packet && topics.contains(static_cast<std::uint16_t>(packet->envelope.topic_id)))
+      order.take(std::move(*packet));
     else result.run_ended = observer.ended();
   }
   order.finish();

@@ -20,9 +20,9 @@ struct Kept {
   std::uint64_t next_seq = 0;
 };
 
-/// Puts messages of several publishers, each in its own order, into the order of records: (t_sim, publisher, topic, seq).
-/// Holds those of the newest `hold` of sim time, by which one publisher may run ahead of another, but at most `most_bytes`.
-/// A message that comes behind its place is missed.
+/// Puts messages of several publishers, each in its own order, into the order of records: (t_sim, publisher, topic,
+/// seq). Holds those of the newest `hold` of sim time, by which one publisher may run ahead of another, but at most
+/// `most_bytes`. A message that comes behind its place is missed.
 class LiveOrder {
  public:
   using Write = std::function<void(const msg::Packet&)>;

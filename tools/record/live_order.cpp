@@ -20,7 +20,8 @@ void LiveOrder::take(msg::Packet packet) {
   held_bytes_ += packet.body.size();
   const Place place{envelope.t_sim_ns, envelope.publisher, envelope.topic_id, envelope.seq};
   held_.emplace(place, std::move(packet));
-  while (!held_.empty() && (held_bytes_ > most_bytes_ || std::get<0>(held_.begin()->first) < newest_ns_ - hold_.count()))
+  while (!held_.empty() &&
+         (held_bytes_ > most_bytes_ || std::get<0>(held_.begin()->first) < newest_ns_ - hold_.count()))
     write_first();
 }
 

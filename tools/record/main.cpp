@@ -78,9 +78,11 @@ int main(int argc, char** argv) {
   CLI::App* live = app.add_subcommand(
       "live",
       "Records a live run as an observer, which never slows it, from now on until the run ends, the time is over or\n"
-      "Ctrl-C. What it could not take is counted by the messages' numbers, printed and kept in the record. A record with\n"
+      "Ctrl-C. What it could not take is counted by the messages' numbers, printed and kept in the record. A record "
+      "with\n"
       "everything in it from the first message on is made by `ensonify run --record`.\n"
-      "Exit code: 0 nothing was missed, 2 no such run or topic, 5 messages were missed or the disk is full, 130 Ctrl-C.");
+      "Exit code: 0 nothing was missed, 2 no such run or topic, 5 messages were missed or the disk is full, 130 "
+      "Ctrl-C.");
   live->add_option("FILE", options.file, "the record, an MCAP file")->required();
   live->add_option("TOPIC", options.topics, "topics, or patterns such as 'bow/*' (default: all)");
   add_run_option(*live, options.run);

@@ -381,7 +381,8 @@ void add_pub(CLI::App& app, Publication& publication) {
   CLI::App* pub = app.add_subcommand(
       "pub",
       "publishes a message again and again, as a participant that the launch file declares `external: true`\n"
-      "and that has not joined. The run waits for it like for any participant, and it stays until the run ends: Ctrl-C\n"
+      "and that has not joined. The run waits for it like for any participant, and it stays until the run ends: "
+      "Ctrl-C\n"
       "ends both. Example: ensonify topic pub agent/command guidance/1 speed_mps=1.5 heading_grid_rad=0.3");
   add_run_option(*pub, publication.run);
   pub->add_option("TOPIC", publication.topic, "PROCESS/PORT, such as agent/command")->required();

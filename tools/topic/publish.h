@@ -23,9 +23,9 @@ struct Publication {
 /// keeps the type's default where it is received. Throws UserError, naming field, value and what is allowed.
 msg::Value message_of(const msg::TypeInfo& type, const std::vector<std::string>& assignments);
 
-/// Joins a run that still awaits this participant, which its launch file must declare `external`, publishes, and stays to
-/// the end of the run. `stamp_ns`, where the type has one and none is given, is the sim time of publishing.
-/// Returns the exit code; throws UserError for a participant, topic, type or field that cannot be.
+/// Joins a run that still awaits this participant, which its launch file must declare `external`, publishes, and stays
+/// to the end of the run. `stamp_ns`, where the type has one and none is given, is the sim time of publishing. Returns
+/// the exit code; throws UserError for a participant, topic, type or field that cannot be.
 int publish(const Publication& wanted);
 
 }  // namespace ensonify::topic_tool

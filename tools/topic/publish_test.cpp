@@ -35,7 +35,7 @@ TEST_CASE("a wrong field of a message says what is allowed") {
     }
     return "";
   };
-  CHECK(fault("speed=2") == "sample/1: has no field speed; did you mean speed_mps?");
+  CHECK(fault("speed_mp=2") == "sample/1: has no field speed_mp; did you mean speed_mps?");
   CHECK(fault("ping=1.5") == "ping: is 1.5; allowed: integer");
   CHECK(fault("speed_mps=fast") == "speed_mps: is \"fast\"; allowed: number");
   CHECK(fault("position_enu_m=[1, 2]") == "position_enu_m: is [1,2]; allowed: number x 3");

@@ -49,9 +49,9 @@ std::vector<CellFacts> cell_facts(const std::vector<SurveyFile>& files, const Mo
     if (!file.options.vertical.empty()) {
       FileOptions separations;
       separations.path = file.options.vertical;
-      datum.emplace(
-          std::make_shared<source::RasterFile>(raster_options(separations, options.origin.value_or(mosaic.origin()), {})),
-          mosaic.origin());
+      datum.emplace(std::make_shared<source::RasterFile>(
+                        raster_options(separations, options.origin.value_or(mosaic.origin()), {})),
+                    mosaic.origin());
     }
     double square = 0.0;
     for (const auto& [column, row, height_m] : file.kept_cells) {

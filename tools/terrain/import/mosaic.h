@@ -90,8 +90,9 @@ struct StepFacts {
 };
 StepFacts step_facts(const Mosaic& mosaic, double lsb_m);
 
-/// How far the seabed as it is stored lies from the cells of a file, at their middles: what resampling, smoothing, removed
-/// artefacts and steps do together. Of the file's kept_cells those that no better file decides and that posts surround.
+/// How far the seabed as it is stored lies from the cells of a file, at their middles: what resampling, smoothing,
+/// removed artefacts and steps do together. Of the file's kept_cells those that no better file decides and that posts
+/// surround.
 struct CellFacts {
   std::int64_t cells = 0;
   double largest_m = 0.0, rms_m = 0.0;

@@ -173,8 +173,9 @@ std::vector<SurveyFile::Cell> some_of(const survey_grid::Surface& surface) {
   std::vector<SurveyFile::Cell> kept;
   for (int row = 0; row < surface.rows; row += every) {
     for (int column = 0; column < surface.columns; column += every) {
-      const float height_m = surface.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.columns) +
-                                              static_cast<std::size_t>(column)];
+      const float height_m =
+          surface.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.columns) +
+                           static_cast<std::size_t>(column)];
       if (!std::isnan(height_m)) kept.push_back({column, row, height_m});
     }
   }
