@@ -40,7 +40,8 @@ bool has_area(const MeshFile& mesh, const std::array<std::uint32_t, 3>& triangle
   constexpr double kRounding = 1e-12;
   const frames::Vec3 ab = mesh.vertex[triangle[1]] - mesh.vertex[triangle[0]];
   const frames::Vec3 ac = mesh.vertex[triangle[2]] - mesh.vertex[triangle[0]];
-  return ab.cross(ac).norm() > kRounding * std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  const double longest = std::max({ab.stableNorm(), ac.stableNorm(), (ac - ab).stableNorm()});
+  return longest > 0.0 && (ab / longest).cross(ac / longest).norm() > kRounding;
 }
 
 /// "3", "3/1", "3//2" or "-1", which counts back from the last vertex, as a number from 0.
