@@ -35,13 +35,16 @@ void add_face(const std::vector<std::uint32_t>& corners, MeshFile& mesh) {
   }
 }
 
-/// Its height over its longest side is more than rounding.
+/// One of its corners opens wider than rounding does.
 bool has_area(const MeshFile& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  constexpr double kRounding = 1e-12;
-  const frames::Vec3 ab = mesh.vertex[triangle[1]] - mesh.vertex[triangle[0]];
-  const frames::Vec3 ac = mesh.vertex[triangle[2]] - mesh.vertex[triangle[0]];
-  const double longest = std::max({ab.stableNorm(), ac.stableNorm(), (ac - ab).stableNorm()});
-  return longest > 0.0 && (ab / longest).cross(ac / longest).norm() > kRounding;
+  constexpr double kRounding = 1e-12;  // sine
+  for (std::size_t k = 0; k < 3; ++k) {
+    const frames::Vec3& corner = mesh.vertex[triangle[k]];
+    const frames::Vec3 one = (mesh.vertex[triangle[(k + 1) % 3]] - corner).stableNormalized();
+    const frames::Vec3 other = (mesh.vertex[triangle[(k + 2) % 3]] - corner).stableNormalized();
+    if (one.cross(other).norm() > kRounding) return true;
+  }
+  return false;
 }
 
 /// "3", "3/1", "3//2" or "-1", which counts back from the last vertex, as a number from 0.
