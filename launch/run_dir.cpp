@@ -167,7 +167,14 @@ RunDir::RunDir(const AboutRun& about) {
   if (lock_fd_ < 0) {
     throw UserError(file("lock") + ": cannot be locked: " + reason());
   }
-  write_about(path_, about);
+  try {
+    write_about(path_, about);
+  } catch (...) {  // nobody else clears up what is not made yet
+    std::error_code error;
+    fs::remove_all(path_, error);
+    ::close(lock_fd_);
+    throw;
+  }
 }
 
 RunDir::~RunDir() {

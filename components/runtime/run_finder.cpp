@@ -183,7 +183,9 @@ void write_about(const std::string& folder, const AboutRun& about) {
                                    {"process", about.process}}
                 .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
          << '\n';
-  if (!stream.flush()) throw UserError(file + ": cannot be written: " + std::strerror(errno));
+  if (!stream.flush())
+    throw UserError(file + ": cannot be written: " + std::strerror(errno) +
+                    "; allowed: a folder with room, see XDG_RUNTIME_DIR");
 }
 
 AboutRun read_about(const std::string& folder) {

@@ -211,14 +211,14 @@ ParameterList scenario_list() {
   list.push_back(
       file_info("include", "a scenario whose sections these stand over; what it has need not be given here", false));
   for (ParameterInfo& info : header_list()) list.push_back(std::move(info));
-  list.push_back(section_info("site", "the place of the world", site_list()));
+  list.push_back(section_info("site", "the place of the world", site_list(), true));
   list.push_back(section_info("water", "the water: sound speed, absorption, noise", water_list()));
   list.push_back(section_info("vertical", "water level, chart datum, geoid and ellipsoid", vertical_list()));
   list.push_back(section_info("current", "the current", current_list()));
-  list.push_back(section_info("seabed", "the seabed", seabed_list()));
+  list.push_back(section_info("seabed", "the seabed", seabed_list(), true));
   list.push_back(named_info("vehicles", "by names of your own", vehicle_list()));
   list.push_back(section_info("mission", "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
-                              mission_list(true)));
+                              mission_list(true), true));
   return list;
 }
 

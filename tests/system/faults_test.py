@@ -232,7 +232,7 @@ class Records(SystemTest):
             self.environment["XDG_RUNTIME_DIR"] = str(small)
             result = self.run_launch(survey(seconds=1))
             self.assertEqual(result.code, 2, result.stderr)
-            self.assertRegex(result.stderr, "clock.endpoint.new: cannot be written: No space left on device; allowed")
+            self.assertRegex(result.stderr, "about.json: cannot be written: No space left on device; allowed")
         finally:
             subprocess.run(["umount", "-l", str(small)], check=True)
 

@@ -299,8 +299,18 @@ std::optional<ParameterList> list_of_file(const std::string& name) {
                   (near.empty() ? "; `ensonify describe` lists them" : "; did you mean " + near + "?"));
 }
 
+/// A scenario that stands over another need not repeat its sections.
+std::string scenario_schema() {
+  Json schema = Json::parse(parameter_schema("Ensonify scenario", scenario_list()));
+  schema["if"] = {{"not", {{"required", {"include"}}}}};
+  schema["then"] = {{"required", schema["required"]}};
+  schema["required"] = {"ensonify"};
+  return schema.dump(2) + "\n";
+}
+
 /// The parameters of a component or a file, as a schema for editors or a table for pages.
 std::string parameters_of_name(const std::string& name, bool as_schema) {
+  if (name == "scenario" && as_schema) return scenario_schema();
   if (name == "launch" && as_schema) return launch_schema(component_schemas());
   if (const auto list = list_of_file(name)) {
     return as_schema ? parameter_schema("Ensonify " + name, *list) : parameter_table(*list);

@@ -119,6 +119,7 @@ planted(scenario, bay, ["site", "latitude_deg"], 91, "site.latitude_deg", "maxim
 planted(scenario, bay, ["mission", "sped_mps"], 2, "mission", "'sped_mps' was unexpected")
 planted(scenario, bay, ["seabed", "kind"], "rasta", "seabed.kind", "is not one of ['layers', 'raster', 'tiles']")
 planted(scenario, bay, ["mission"], None, "", "'mission' is a required property")
+assert not problems(scenario, {"ensonify": "scenario/1", "include": "scenarios/bay/scenario.yaml", "water": {"cast": "x.csv"}})
 planted(scenario, bay, ["seabed", "sediments"], {"0": "medium sant"}, "seabed.sediments.0", "is not")
 
 manual = (SOURCE / "docs/manual/missions.md").read_text(encoding="utf-8")
