@@ -302,9 +302,9 @@ std::optional<ParameterList> list_of_file(const std::string& name) {
 /// A scenario that stands over another need not repeat its sections.
 std::string scenario_schema() {
   Json schema = Json::parse(parameter_schema("Ensonify scenario", scenario_list()));
-  schema["if"] = {{"not", {{"required", {"include"}}}}};
-  schema["then"] = {{"required", schema["required"]}};
-  schema["required"] = {"ensonify"};
+  schema["if"]["not"]["required"] = Json::array({"include"});
+  schema["then"]["required"] = schema["required"];
+  schema["required"] = Json::array({"ensonify"});
   return schema.dump(2) + "\n";
 }
 
