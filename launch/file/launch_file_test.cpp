@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "launch/file/tree.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -80,6 +81,17 @@ std::string replaced(std::string text, const std::string& old_part, const std::s
 }
 
 }  // namespace
+
+TEST_CASE("every section of a scenario can be set over it") {
+  for (const ParameterInfo& info : scenario_list())
+    CHECK(is_scenario_section(info.key) == (info.key != "ensonify" && info.key != "include"));
+  const Folder folder;
+  CHECK(folder.problems({.sets = {"vertical.tide.constant_m=1.2",
+                                  "current.profile=[{depth_m: 0, speed_mps: 0.1, "
+                                  "heading_deg: 90}]"}}) == "");
+  CHECK(folder.problems({.sets = {"vertical.tide.constant_m=high"}}) ==
+        "--set vertical.tide.constant_m: is \"high\", not a number in [-20, 20]");
+}
 
 TEST_CASE("a launch file is read with its processes in order, its wiring and its world") {
   const Folder folder;

@@ -195,7 +195,8 @@ class Loader {
   std::vector<std::string> open_;  // files being read, outermost first
 };
 
-const std::vector<std::string> kScenarioSections = {"site", "time", "seed", "water", "seabed", "vehicles", "mission"};
+const std::vector<std::string> kScenarioSections = {"site",    "time",   "seed",     "water",  "vertical",
+                                                    "current", "seabed", "vehicles", "mission"};
 
 }  // namespace
 

@@ -44,6 +44,15 @@ class Terrain(SystemTest):
         path.write_text(text, encoding="utf-8")
         return path
 
+    def test_a_seabed_above_the_water_is_refused_with_the_scenarios_name(self):
+        land = self.folder / "land.yaml"
+        land.write_text("ensonify: scenario/1\nsite: {latitude_deg: 50, longitude_deg: -4}\nvehicles: {boat: {}}\n"
+                        "seabed: {kind: layers, size_m: [40, 40], layers: {hill: {plane: {depth_m: -10}}}}\n"
+                        "mission: {speed_mps: 2, runlines: [{from_m: [0, -10], to_m: [0, 10]}]}\n")
+        done = terrain("sample", land, "--points", "-", text="0,0\n")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(f"{land}: seabed.layers: make a seabed that is nowhere under water", done.stderr)
+
     def test_a_survey_of_the_tiles_gives_the_pings_of_the_generator(self):
         launch = bay(3, topics="[bow/soundings]")
         plain = self.plain()
