@@ -41,6 +41,7 @@ def draw_all(demo, survey, ahead, around, aside):
     draw("ping", "ping", survey, "--ping", 45)
     draw("plot_fan", "fan", survey, "--ping", 45)
     draw("plot_water_column", "water-column", survey)
+    draw("sidescan", "waterfall", aside, "--ping", "370:592")
     draw("plot_waterfall", "waterfall", aside)
     draw("plot_waterfall_ground", "waterfall", aside, "--ground")
     draw("plot_angular_response", "angular-response", demo)
