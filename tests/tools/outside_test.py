@@ -52,8 +52,13 @@ class Outside(unittest.TestCase):
             code, _, error = self.tool("topic", "pub", *words)
             self.assertEqual(code, 2, error)
             self.assertIn(said, error)
-        code, _, error = self.tool("topic", "pub", "helm/command", "guidance/1", "speed_mps=1.5", "heading_grid_rad=0.25", "--rate", "2",
-                                   "--count", "3")
+        code, _, error = self.tool("topic", "pub", "helm/command", "guidance/1", "--count", "0")
+        self.assertEqual(code, 2, error)
+        self.assertIn("--count", error)
+        clock = json.loads(self.tool("clock", "list", "--json")[1])[0]["clock"]
+        self.assertTrue(clock.startswith("ipc://"), clock)
+        code, _, error = self.tool("topic", "pub", "--run", clock, "helm/command", "guidance/1", "speed_mps=1.5", "heading_grid_rad=0.25",
+                                   "--rate", "2", "--count", "3")
         self.assertEqual(code, 0, error)
         self.assertEqual(run.wait(20), 0, run.stderr.read())
         with ensonify.Record(self.folder / "x.mcap") as record:
