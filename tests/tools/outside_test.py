@@ -118,10 +118,12 @@ class Outside(unittest.TestCase):
                 live.send_signal(signal.SIGINT)
                 text, _ = live.communicate(timeout=20)
             self.assertEqual(live.returncode, 130)
-            self.assertIn("none missed; the run goes on", text)
+            self.assertIn("none missed between a topic's first and last; the run goes on", text)
             with ensonify.Record(self.folder / "live.mcap") as record:
                 self.assertTrue(record.whole)
                 self.assertEqual(sorted(record.topics()), ["auv/health", "auv/pose"])
+                for topic in record.topics():
+                    self.assertEqual(f"{topic}: nothing came\n" in text, not list(record.messages(topic)))
             code, _, error = run.tool("record", "live", str(self.folder / "other.mcap"), "auv/pos")
             self.assertEqual((code, error), (2, "ensonify record: auv/pos: names no topic of this run; `ensonify topic list` shows them\n"))
             self.assertFalse((self.folder / "other.mcap").exists())
