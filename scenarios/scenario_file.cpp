@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
@@ -32,12 +33,13 @@ struct Alternatives {
   std::vector<std::vector<std::string>> keys;
 };
 
-const std::array<Alternatives, 4>& alternatives() {
-  static const std::array<Alternatives, 4> all = {
+const std::array<Alternatives, 5>& alternatives() {
+  static const std::array<Alternatives, 5> all = {
       {{{"water", "water.applied"}, {{"sound_speed_mps"}, {"profile"}, {"cast"}}},
        {{"vertical.tide"}, {{"constant_m"}, {"mean_m", "constituents"}, {"gauge"}}},
        {{"vertical"}, {{"geoid_above_ellipsoid_m"}, {"geoid_above_ellipsoid_grid"}}},
-       {{"vertical"}, {{"datum_above_geoid_m"}, {"datum_above_geoid_grid"}}}}};
+       {{"vertical"}, {{"datum_above_geoid_m"}, {"datum_above_geoid_grid"}}},
+       {{"mission"}, {{"runlines"}, {"lawnmower"}, {"auto"}, {"adaptive"}, {"steps"}, {"file"}}}}};
   return all;
 }
 
@@ -86,10 +88,16 @@ void lay_over(ConfigNode& under, ConfigNode over) {
   under.place = over.place;
 }
 
-ConfigNode taken(ConfigNode& root, const std::string& key) {
+bool is_scenario(const ConfigNode& root) {
+  const ConfigNode* format = root.find("ensonify");
+  return format != nullptr && format->scalar == kScenarioFormat;
+}
+
+/// Nothing where there is no such key; one without a value is null.
+std::optional<ConfigNode> taken(ConfigNode& root, const std::string& key) {
   const auto entry =
       std::find_if(root.entries.begin(), root.entries.end(), [&](const auto& e) { return e.key == key; });
-  if (entry == root.entries.end()) return {};
+  if (entry == root.entries.end()) return std::nullopt;
   ConfigNode value = std::move(entry->value);
   root.entries.erase(entry);
   return value;
@@ -97,21 +105,22 @@ ConfigNode taken(ConfigNode& root, const std::string& key) {
 
 ConfigDocument load(const std::string& path, std::vector<std::string> open) {
   ConfigDocument document = parse_config_file(path);
-  const ConfigNode include = taken(document.root, "include");
-  if (include.is_null()) return document;
+  const std::optional<ConfigNode> include = taken(document.root, "include");
+  if (!include) return document;
   const auto refuse = [&](const std::string& why) {  // all else would follow from it
-    document.problems.push_back({include.place, "include", why});
+    document.problems.push_back({include->place, "include", why});
     throw ConfigError(document.problems);
   };
-  if (!include.is_scalar()) refuse("is not the file of a scenario");
-  const std::string under = find_data(include.scalar, {std::filesystem::path(path).parent_path().string()});
-  if (under.empty()) refuse("\"" + include.scalar + "\": no such file");
+  if (!is_scenario(document.root))
+    refuse(std::string("stands in a file that does not say \"ensonify: ") + kScenarioFormat + "\"");
+  if (!include->is_scalar()) refuse("is not the file of a scenario");
+  const std::string under = find_data(include->scalar, {std::filesystem::path(path).parent_path().string()});
+  if (under.empty()) refuse("\"" + include->scalar + "\": no such file");
   open.push_back(std::filesystem::weakly_canonical(path).string());
   if (holds(open, std::filesystem::weakly_canonical(under).string()))
-    refuse("\"" + include.scalar + "\" includes itself, directly or through others");
+    refuse("\"" + include->scalar + "\" includes itself, directly or through others");
   ConfigDocument merged = load(under, open);
-  if (const ConfigNode* format = merged.root.find("ensonify"); format == nullptr || format->scalar != kScenarioFormat)
-    refuse("\"" + include.scalar + "\" is no " + kScenarioFormat);
+  if (!is_scenario(merged.root)) refuse("\"" + include->scalar + "\" is no " + kScenarioFormat);
   lay_over(merged.root, std::move(document.root));
   merged.problems.insert(merged.problems.end(), document.problems.begin(), document.problems.end());
   return merged;
@@ -122,10 +131,11 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
 ConfigDocument load_scenario(const std::string& path, const Overrides& overrides) {
   ConfigDocument document = load(path, {});
   for (const auto& [key, value] : overrides) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == std::string::npos) continue;
-    const std::string section = key.substr(0, dot);
-    if (ConfigNode* node = section_at(document.root, section)) make_room(*node, section, key.substr(dot + 1));
+    for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1)) {
+      const std::string section = key.substr(0, dot);
+      const std::string inner = key.substr(dot + 1, key.find('.', dot + 1) - dot - 1);
+      if (ConfigNode* node = section_at(document.root, section)) make_room(*node, section, inner);
+    }
   }
   const auto problems = apply(overrides, document.root);
   document.problems.insert(document.problems.end(), problems.begin(), problems.end());

@@ -46,6 +46,17 @@ TEST_CASE("lines laid out by a rule stand where the rule does") {
   CHECK(places.step(2).line == 3);
 }
 
+TEST_CASE("a mission's own file is looked for beside the scenario that names it") {
+  const auto folder = std::filesystem::temp_directory_path() / "ensonify_mission_places";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "plan.yaml") << "ensonify: mission/1\nrunlines: [{from_m: [0, 0], to_m: [0, 9]}]\n";
+  std::ofstream(folder / "under.yaml") << "ensonify: scenario/1\nmission: {file: plan.yaml}\n";
+  const MissionPlaces places =
+      places_of("ensonify: scenario/1\ninclude: ensonify_mission_places/under.yaml\n", "mission: {file: plan.yaml}\n");
+  CHECK(places.step(0).file == (folder / "plan.yaml").string());
+  CHECK(places.step(0).line == 2);
+}
+
 TEST_CASE("what a launch has changed does not stand in the scenario's file") {
   std::string changed = kWorld;
   changed.replace(changed.find("9, 50"), 5, "9, 60");

@@ -249,7 +249,7 @@ const ConfigNode* in_force(const ConfigNode* of_file, const ConfigNode* in_run) 
 }
 
 /// The keys of a mission may stand in a file of their own.
-void find_steps(const ConfigNode& keys, const std::string& file, std::vector<ConfigPlace>& steps) {
+void find_steps(const ConfigNode& keys, std::vector<ConfigPlace>& steps) {
   for (const char* list : {"runlines", "steps"}) {
     const ConfigNode* found = keys.find(list);
     for (std::size_t i = 0; found != nullptr && i < found->items.size(); ++i) steps.push_back(found->items[i].place);
@@ -259,8 +259,8 @@ void find_steps(const ConfigNode& keys, const std::string& file, std::vector<Con
   }
   const ConfigNode* own = keys.find("file");
   if (!steps.empty() || own == nullptr || !own->is_scalar()) return;
-  const std::string path = find_data(own->scalar, {std::filesystem::path(file).parent_path().string()});
-  if (!path.empty()) find_steps(parse_config_file(path).root, path, steps);
+  const std::string path = find_data(own->scalar, {std::filesystem::path(own->place.file).parent_path().string()});
+  if (!path.empty()) find_steps(parse_config_file(path).root, steps);
 }
 
 }  // namespace
@@ -349,7 +349,7 @@ MissionPlaces mission_places(const std::string& scenario_file, const std::string
   }
   if (const ConfigNode* mission = in_force(file.find("mission"), run.find("mission"))) {
     places.mission = mission->place;
-    find_steps(*mission, scenario_file, places.steps);
+    find_steps(*mission, places.steps);
   }
   return places;
 }

@@ -86,6 +86,28 @@ TEST_CASE("a cast, a tide and a sediment are set over a scenario that has others
   CHECK(std::get<seabed::SedimentParameters>(rock) == *seabed::sediment_of("rock"));
 }
 
+TEST_CASE("a plan of a mission replaces the plan that it stands over, whatever their kinds") {
+  const Files files;
+  files.write("over.yaml",
+              "ensonify: scenario/1\ninclude: below/under.yaml\n"
+              "mission: {steps: [{line: [[0, 0], [0, 50]]}]}\n");
+  CHECK(files.problems("over.yaml") == "");
+  files.write("below/plan.yaml", "ensonify: mission/1\nrunlines: [{from_m: [0, -50], to_m: [0, 50]}]\n");
+  files.write("over.yaml", "ensonify: scenario/1\ninclude: below/under.yaml\nmission: {file: below/plan.yaml}\n");
+  CHECK(read_world(files.path("over.yaml")).mission.runlines.at(0).start_enu_m.y() == -50.0);
+}
+
+TEST_CASE("the keys of a cast may be set one by one over a scenario with another water") {
+  const Files files;
+  files.write("bare.csv", "0,1500\n30,1490\n");
+  Overrides cast = set("water.cast.path", files.path("bare.csv"));
+  cast.push_back(set("water.cast.depth_m", "1").front());
+  cast.push_back(set("water.cast.sound_speed_mps", "2").front());
+  const World world = read_world(files.path("below/under.yaml"), cast);
+  CHECK(world.water.profile.samples.size() == 2);
+  CHECK_FALSE(world.water.profile.sound_speed_mps.has_value());
+}
+
 TEST_CASE("mistakes have the place in the file that made them") {
   const Files files;
   files.write("over.yaml", "ensonify: scenario/1\ninclude: below/under.yaml\nwater: {salinity_psu: salty}\n");
@@ -97,6 +119,10 @@ TEST_CASE("mistakes have the place in the file that made them") {
   CHECK(files.problems("over.yaml").starts_with("over.yaml:2:10: include: \"below/none.yaml\": no such file"));
   files.write("over.yaml", "ensonify: scenario/1\ninclude: [a, b]\n");
   CHECK(files.problems("over.yaml").starts_with("over.yaml:2:10: include: is not the file of a scenario"));
+  files.write("over.yaml", "ensonify: scenario/1\ninclude:\n");
+  CHECK(files.problems("over.yaml").find("include: is not the file of a scenario") != std::string::npos);
+  files.write("over.yaml", "include: below/under.yaml\n");
+  CHECK(files.problems("over.yaml").find("does not say \"ensonify: scenario/1\"") != std::string::npos);
   files.write("over.yaml", "ensonify: scenario/1\ninclude: below/cast.yaml\n");
   files.write("below/cast.yaml", "ensonify: launch/1\n");
   CHECK(files.problems("over.yaml").starts_with("over.yaml:2:10: include: \"below/cast.yaml\" is no scenario/1"));

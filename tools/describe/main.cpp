@@ -299,12 +299,17 @@ std::optional<ParameterList> list_of_file(const std::string& name) {
                   (near.empty() ? "; `ensonify describe` lists them" : "; did you mean " + near + "?"));
 }
 
-/// A scenario that stands over another need not repeat its sections.
+/// A scenario that stands over another need not repeat its sections, nor what these must have.
 std::string scenario_schema() {
   Json schema = Json::parse(parameter_schema("Ensonify scenario", scenario_list()));
   schema["if"]["not"]["required"] = Json::array({"include"});
   schema["then"]["required"] = schema["required"];
   schema["required"] = Json::array({"ensonify"});
+  for (auto& [key, section] : schema["properties"].items()) {
+    if (!section.contains("required")) continue;
+    schema["then"]["properties"][key]["required"] = section["required"];
+    section.erase("required");
+  }
   return schema.dump(2) + "\n";
 }
 

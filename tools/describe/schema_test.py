@@ -120,6 +120,10 @@ planted(scenario, bay, ["mission", "sped_mps"], 2, "mission", "'sped_mps' was un
 planted(scenario, bay, ["seabed", "kind"], "rasta", "seabed.kind", "is not one of ['layers', 'raster', 'tiles']")
 planted(scenario, bay, ["mission"], None, "", "'mission' is a required property")
 assert not problems(scenario, {"ensonify": "scenario/1", "include": "scenarios/bay/scenario.yaml", "water": {"cast": "x.csv"}})
+planted(scenario, bay, ["seabed", "kind"], None, "seabed", "'kind' is a required property")
+page = (SOURCE / "scenarios/README.md").read_text(encoding="utf-8")
+overlay = texts(yaml.load(re.search(r"^```yaml\n(ensonify: scenario/1\ninclude: .*?)^```", page, re.MULTILINE | re.DOTALL)[1], Yaml12))
+assert not problems(scenario, overlay), problems(scenario, overlay)
 planted(scenario, bay, ["seabed", "sediments"], {"0": "medium sant"}, "seabed.sediments.0", "is not")
 
 manual = (SOURCE / "docs/manual/missions.md").read_text(encoding="utf-8")

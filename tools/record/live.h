@@ -16,7 +16,7 @@ namespace ensonify::record_tool {
 /// What came of one topic, and what did not, by its seq.
 struct Kept {
   std::uint64_t received = 0;
-  std::uint64_t missed = 0;  // after the first that came
+  std::uint64_t missed = 0;  // between the first and the last that came
   std::uint64_t next_seq = 0;
 };
 
@@ -45,7 +45,7 @@ class LiveOrder {
   std::size_t most_bytes_;
   std::size_t held_bytes_ = 0;
   std::map<Place, msg::Packet> held_;
-  std::int64_t written_to_ns_ = INT64_MIN;
+  Place written_to_{INT64_MIN, 0, 0, 0};
   std::int64_t newest_ns_ = INT64_MIN;
   std::map<std::string, Kept> kept_;
 };
@@ -63,7 +63,8 @@ struct LiveRecord {
 };
 
 /// Records a live run as an observer, from when it runs until it ends, the time is over or Ctrl-C comes. The run is not
-/// slowed; what is missed is counted in the result and in the record. Throws UserError and DataLost.
+/// slowed; what is missed is counted in the result and in the record, but for what follows the last message that came:
+/// of a topic of which nothing came it is not known whether there was any. Throws UserError and DataLost.
 LiveRecord record_live(const LiveOptions& options);
 
 }  // namespace ensonify::record_tool

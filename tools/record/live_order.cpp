@@ -11,14 +11,14 @@ void LiveOrder::take(msg::Packet packet) {
   Kept& kept = entry->second;
   if (!first && envelope.seq > kept.next_seq) kept.missed += envelope.seq - kept.next_seq;
   kept.next_seq = envelope.seq + 1;
-  if (envelope.t_sim_ns < written_to_ns_) {
+  const Place place{envelope.t_sim_ns, envelope.publisher, envelope.topic_id, envelope.seq};
+  if (place < written_to_) {
     ++kept.missed;
     return;
   }
   ++kept.received;
   newest_ns_ = std::max(newest_ns_, envelope.t_sim_ns);
   held_bytes_ += packet.body.size();
-  const Place place{envelope.t_sim_ns, envelope.publisher, envelope.topic_id, envelope.seq};
   held_.emplace(place, std::move(packet));
   while (!held_.empty() &&
          (held_bytes_ > most_bytes_ || std::get<0>(held_.begin()->first) < newest_ns_ - hold_.count()))
@@ -27,7 +27,7 @@ void LiveOrder::take(msg::Packet packet) {
 
 void LiveOrder::write_first() {
   const auto first = held_.begin();
-  written_to_ns_ = std::get<0>(first->first);
+  written_to_ = first->first;
   held_bytes_ -= first->second.body.size();
   write_(first->second);
   held_.erase(first);

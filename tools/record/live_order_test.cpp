@@ -57,6 +57,18 @@ TEST_CASE("what is missing in a topic's seq, and what comes too late, is counted
   CHECK(order.kept().at("b").missed == 1);
 }
 
+TEST_CASE("at one time too, what comes behind a later publisher's message is missed") {
+  Written written;
+  LiveOrder order(written.write(), 1_s, 1U << 20U);
+  order.take(packet("b", 1, 0, 0_s));
+  order.take(packet("b", 1, 1, 2_s));
+  order.take(packet("a", 0, 0, 0_s));
+  order.take(packet("c", 2, 0, 0_s));
+  order.finish();
+  CHECK(written.text == "b:0 c:0 b:1 ");
+  CHECK(order.kept().at("a").missed == 1);
+}
+
 TEST_CASE("memory is bounded: beyond it the oldest message is written at once") {
   Written written;
   LiveOrder order(written.write(), 5_s, 250);

@@ -42,6 +42,7 @@ int print_live(const record_tool::LiveOptions& options, const record_tool::LiveR
     received += kept.received;
     missed += kept.missed;
     topics[name] = {{"received", kept.received}, {"missed", kept.missed}};
+    if (kept.received == 0 && !json) fmt::print("{}: nothing came\n", name);
     if (kept.missed > 0 && !json) fmt::print("{}: {} messages, {} missed\n", name, kept.received, kept.missed);
   }
   if (json) {
@@ -52,9 +53,10 @@ int print_live(const record_tool::LiveOptions& options, const record_tool::LiveR
                                               {"topics", topics}}
                            .dump(2));
   } else {
-    fmt::print("{}: {} messages on {} topics, {}; {}\n", options.file, received, live.topics.size(),
-               missed == 0 ? std::string("none missed") : fmt::format("{} missed", missed),
-               live.run_ended ? "the run has ended" : "the run goes on");
+    fmt::print(
+        "{}: {} messages on {} topics, {}; {}\n", options.file, received, live.topics.size(),
+        missed == 0 ? std::string("none missed between a topic's first and last") : fmt::format("{} missed", missed),
+        live.run_ended ? "the run has ended" : "the run goes on");
   }
   return missed == 0 ? kExitOk : kExitDataLost;
 }
@@ -78,10 +80,11 @@ int main(int argc, char** argv) {
   CLI::App* live = app.add_subcommand(
       "live",
       "Records a live run as an observer, which never slows it, from now on until the run ends, the time is over or\n"
-      "Ctrl-C. What it could not take is counted by the messages' numbers, printed and kept in the record. A record "
-      "with\n"
+      "Ctrl-C. What it could not take is counted by the messages' numbers, printed and kept in the record. What was\n"
+      "published before the first or after the last message of a topic that came is not counted. A record with\n"
       "everything in it from the first message on is made by `ensonify run --record`.\n"
-      "Exit code: 0 nothing was missed, 2 no such run or topic, 5 messages were missed or the disk is full, 130 "
+      "Exit code: 0 nothing was missed in between, 2 no such run or topic, 5 messages were missed or the disk is full, "
+      "130 "
       "Ctrl-C.");
   live->add_option("FILE", options.file, "the record, an MCAP file")->required();
   live->add_option("TOPIC", options.topics, "topics, or patterns such as 'bow/*' (default: all)");

@@ -392,7 +392,8 @@ void add_pub(CLI::App& app, Publication& publication) {
   pub->add_option("--rate", publication.rate_hz, "messages per second of sim time")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  pub->add_option("--count,-n", publication.count, "publish so many (default: until the run ends)");
+  pub->add_option("--count,-n", publication.count, "publish so many (default: until the run ends)")
+      ->check(CLI::PositiveNumber);
 }
 
 int run(const CLI::App& app, const Options& options) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -11,7 +12,6 @@
 #include "components/errors/nearest_name.h"
 #include "components/runtime/clock_client.h"
 #include "components/runtime/participant.h"
-#include "components/runtime/run_finder.h"
 
 namespace ensonify::topic_tool {
 
@@ -164,6 +164,12 @@ Value message_of(const msg::TypeInfo& type, const std::vector<std::string>& assi
   return {std::move(map)};
 }
 
+std::string socket_folder(const LiveRun& run) {
+  constexpr std::string_view kIpc = "ipc://";
+  if (!run.endpoint.starts_with(kIpc)) return run.folder;
+  return std::filesystem::absolute(run.endpoint.substr(kIpc.size())).parent_path().string();
+}
+
 int publish(const Publication& wanted) {
   const auto [process, port] = process_and_port(wanted.topic);
   const msg::TypeInfo& type = known_type(wanted.type);
@@ -175,7 +181,7 @@ int publish(const Publication& wanted) {
   refuse_unless_awaited(clock, process);
   bus::Address address;
   address.tcp = run.endpoint.starts_with("tcp://");
-  address.run_dir = run.folder;
+  address.run_dir = socket_folder(run);
   address.keys = clock.keys();
   if (address.tcp) address.host = bus::host_towards(run.endpoint);
   return participate("topic pub", ports, node, {run.endpoint, address});

@@ -1,6 +1,7 @@
 #include "tools/topic/publish.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "components/errors/exit_error.h"
 
@@ -43,6 +44,13 @@ TEST_CASE("a wrong field of a message says what is allowed") {
   CHECK(fault("range_m=[1]") == "range_m: is an array, which only a program can fill (clients/python)");
   CHECK(fault("ping") == "ping: is not FIELD=VALUE");
   CHECK_THROWS_WITH(message_of(kType, {"ping=1", "ping=2"}), "ping: is given twice");
+}
+
+TEST_CASE("a publisher's sockets lie beside the clock's, by an absolute path, however the run is named") {
+  CHECK(socket_folder({"", "ipc:///tmp/runs/run-a/clock", {}}) == "/tmp/runs/run-a");
+  CHECK(socket_folder({"./run-a", "ipc:///tmp/runs/run-a/clock", {}}) == "/tmp/runs/run-a");
+  CHECK(socket_folder({"", "ipc://run-a/clock", {}}) == (std::filesystem::current_path() / "run-a").string());
+  CHECK(socket_folder({"", "tcp://127.0.0.1:5000", {}}).empty());
 }
 
 }  // namespace ensonify::topic_tool
