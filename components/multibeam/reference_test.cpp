@@ -55,7 +55,7 @@ std::map<int, double> levels(const Quality& quality) {
 
 }  // namespace
 
-TEST_CASE("quality 1 has the level of the reference within 0.1 dB in each 5 degrees") {
+TEST_CASE("quality 1 has the level of the reference within 0.1 dB in each 5 degrees", "[long]") {
   const auto reference = levels(Quality::of_reference()), ordinary = levels(1.0);
   REQUIRE(reference.size() >= 24);
   for (const auto& [from_deg, level] : reference) {
