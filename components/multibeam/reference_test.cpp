@@ -45,7 +45,8 @@ std::map<int, double> levels(const Quality& quality) {
       const double angle_deg = double(steering.beam_angle_rad[std::size_t(beam)]) / MultibeamConfig::kDegree;
       double& sum = sums[5 * int(std::floor(angle_deg / 5.0))];
       for (int k = 0; k < image.samples; ++k) {
-        const double amplitude = double(image.amplitude_upa[std::size_t(beam * image.samples + k)]);
+        const double amplitude =
+            double(image.amplitude_upa[std::size_t(beam) * std::size_t(image.samples) + std::size_t(k)]);
         sum += amplitude * amplitude;
       }
     }
