@@ -86,7 +86,7 @@ void add_direct_echoes(const Carrier& carrier, const Vec3& source_enu_m, const S
 }
 
 void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling) {
-  constexpr std::size_t kPerTask = 8192;
+  constexpr std::size_t kArrivalsPerTask = 8192;
   samples_ = sampling.count;
   blocks_ = (samples_ + kBlock - 1) / kBlock;
   reach_ = (pulse.support() + kBlock - 2) / kBlock;
@@ -94,14 +94,15 @@ void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, 
   for (const EchoSet& set : echoes) all += set.arrivals.size();
   trace::make_elements(received_, all);
   Received* received = received_.data();
-  for (std::uint16_t number = 0; number < echoes.size(); ++number) {
+  for (std::size_t number = 0; number < echoes.size(); ++number) {
     const Arrivals& arrivals = echoes[number].arrivals;
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, arrivals.size(), kPerTask),
+        tbb::blocked_range<std::size_t>(0, arrivals.size(), kArrivalsPerTask),
         [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const auto place = pulse.place((arrivals.time_s[i] - sampling.start_s) / sampling.period_s);
-            received[i] = {place.first, static_cast<std::uint16_t>(place.phase), number, static_cast<std::uint32_t>(i)};
+            received[i] = {place.first, static_cast<std::uint16_t>(place.phase), static_cast<std::uint16_t>(number),
+                           static_cast<std::uint32_t>(i)};
           }
         },
         tbb::simple_partitioner());

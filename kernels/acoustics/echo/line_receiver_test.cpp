@@ -67,8 +67,9 @@ TEST_CASE("beams are the direct sum over elements, 90 dB below the peak") {
       std::vector<Complex> direct(100);
       for (const Arrival& arrival : arrivals) {
         Complex received;
+        const int middle = array.elements / 2;
         for (int m = 0; m < array.elements; ++m) {
-          const double phase = kTurn * array.spacing_in_waves * (m - array.elements / 2);
+          const double phase = kTurn * array.spacing_in_waves * (m - middle);
           received += double(weights[m]) * std::polar(1.0, phase * (double(arrival.direction_head.y()) - beams[b]));
         }
         const auto place = kPulse.place((arrival.time_s - kSampling.start_s) / kSampling.period_s);

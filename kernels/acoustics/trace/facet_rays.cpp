@@ -169,7 +169,8 @@ void RayDistribution::aim_at_facets(const Probes& probes, std::span<const Object
   gather_facets(probes, objects, view, memory.facets, targets);
   double sum = 0.0;
   for (const FacetMemory::Facet& facet : memory.facets) sum += std::max(1.0, facet.wanted);
-  const double share = std::min(1.0, static_cast<double>(settings_.most_rays / kMostToFacets) / std::max(1.0, sum));
+  const auto most = settings_.most_rays / kMostToFacets;  // whole rays
+  const double share = std::min(1.0, static_cast<double>(most) / std::max(1.0, sum));
   std::optional<Towards> towards;
   std::size_t of = objects.size();
   for (const FacetMemory::Facet& facet : memory.facets) {
