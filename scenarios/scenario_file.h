@@ -35,8 +35,8 @@ ParameterList header_list();
 
 /// A scenario's tree: the file's, over that of the scenario that it may name with `include`, and overrides over both. A
 /// section in both files is merged key by key, a key in both has the including file's value. Where keys exclude each
-/// other (sound_speed_mps, profile and cast; kinds of tide; a number or a grid of heights) the one given last replaces
-/// the others. Problems that leave a tree are in the document. Throws ConfigError.
+/// other (sound_speed_mps, profile and cast; kinds of tide; a number or a grid of heights; plans of a mission) the one
+/// given last replaces the others. Problems that leave a tree are in the document. Throws ConfigError.
 ConfigDocument load_scenario(const std::string& path, const Overrides& overrides = {});
 
 /// Nanoseconds since 1970-01-01 UTC of "2025-06-01T12:00:00Z" (fractions of a second allowed), or nothing.

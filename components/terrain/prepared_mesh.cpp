@@ -96,7 +96,7 @@ Eigen::Matrix3d upright(const SeabedMesh& mesh) {
   return turn;
 }
 
-/// Turned by its heading, then leaned over.
+/// Turned by its heading, then tilted towards the heading of its tilt.
 Eigen::Matrix3d turn_of(const SeabedMesh& mesh) {
   const frames::Vec3 hinge(-std::cos(mesh.tilt_heading_rad), std::sin(mesh.tilt_heading_rad), 0.0);
   return Eigen::AngleAxisd(mesh.tilt_rad, hinge).toRotationMatrix() *

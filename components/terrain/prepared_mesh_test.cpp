@@ -107,7 +107,7 @@ TEST_CASE("a mesh of a file stands where the scenario says, turned clockwise, ca
   CHECK(again.hierarchy.born == placed.hierarchy.born);
 }
 
-TEST_CASE("a mesh leans to where it is told, and a file's y axis may be up") {
+TEST_CASE("a mesh is tilted towards a heading, and a file's y axis may be up") {
   const Ridge ridge;
   SeabedMesh mesh{.name = "ridge", .file = ridge.path, .tilt_rad = 0.5 * kPi, .tilt_heading_rad = 0.5 * kPi};
   const auto corner = [&] { return vertex(placed_mesh(mesh, 1, *slope()).hierarchy, 7); };

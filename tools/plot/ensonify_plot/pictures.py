@@ -111,7 +111,7 @@ def round_minutes(low_deg: float, high_deg: float) -> np.ndarray:
 
 
 def in_minutes(minutes: np.ndarray, sides: str) -> list:
-    """54°17.95'N, as charts have it; with as many decimals as tell them apart."""
+    """54°17.95'N, degrees and decimal minutes as on charts; with as many decimals as tell them apart."""
     step = np.diff(minutes).min() if len(minutes) > 1 else 1.0
     decimals = max(0, int(np.ceil(-np.log10(step) - 1e-9)))
     texts = []
