@@ -46,6 +46,11 @@ double wavelength_m(const ForwardLookingConfig& config) {
   return true_profile(config.world).speed_mps(config.world.mission.depth_m) / config.frequency_hz;
 }
 
+/// The receive array.
+LineDesign line_of(const ForwardLookingConfig& config) {
+  return {config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading, config.quality.pattern_error()};
+}
+
 /// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams receive.
 trace::TransmitVolume volume_of(const ForwardLookingConfig& config) {
   const double tall = array::length_in_waves_for(std::min(config.transmit_vertical_rad, config.receive_vertical_rad));
@@ -105,8 +110,7 @@ double ForwardFaces::noise_share() const {
 
 ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
     : config_(config),
-      line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
-            config.quality.pattern_error()),
+      line_(line_of(config)),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
       echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects,
               config.quality),
@@ -114,7 +118,10 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
       volume_directions_(echoes_.volume_directions(
           [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
 
-double ForwardLookingHead::near_field_m() const { return array::near_field_range_m(line_.line, line_.wavelength_m); }
+double near_field_m(const ForwardLookingConfig& config) {
+  const LineDesign design = line_of(config);
+  return array::near_field_range_m(design.line, design.wavelength_m);
+}
 
 void ForwardLookingHead::prepare(const HeadSettings& settings) {
   const RangedPulse ranged = pulse_for(settings);

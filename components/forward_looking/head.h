@@ -54,8 +54,6 @@ class ForwardLookingHead {
   std::size_t max_ping_bytes() const;
   /// Beam axes, azimuth from the head's x axis, positive to starboard.
   const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
-  /// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
-  double near_field_m() const;
 
  private:
   /// Design shared by pings of the same pulse.
@@ -83,5 +81,8 @@ class ForwardLookingHead {
   std::vector<float> sin_beams_;
   ArrayEchoes::Memory beams_;
 };
+
+/// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
+double near_field_m(const ForwardLookingConfig& config);
 
 }  // namespace ensonify

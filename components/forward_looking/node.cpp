@@ -3,10 +3,11 @@
 namespace ensonify {
 
 HeadPlan ForwardLooking::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
           .finest_beam_rad = config.beamwidth_rad,
           .beam_axis = BeamAxis::kForward,
+          .near_field_m = near_field_m(config),
           .probe = true};
 }
 

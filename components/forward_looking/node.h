@@ -16,7 +16,6 @@ class ForwardLooking {
   ForwardLooking(const Config& config, std::size_t) : config_(config), head_(config) {}
 
   HeadOutputs<msg::Ping> outputs() const { return {{"ping", head_.max_ping_bytes()}}; }
-  void connect(Ports& ports) const { ports.note("near_field_m", head_.near_field_m()); }
   SentPing transmit(SimTime now, const HeadSettings& settings, const HeadInputs& inputs) const;
   HeadReport<msg::Ping> ping(const PingEvent& event, const SentPing& sent, HeadInputs& inputs);
 

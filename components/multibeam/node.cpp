@@ -27,8 +27,9 @@ std::size_t snippet_bytes(const MultibeamConfig& config) {
 }  // namespace
 
 HeadPlan Multibeam::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
-          .sectors = static_cast<int>(config.all_sectors().size()),
+  std::vector<msg::SectorDeclaration> sectors;
+  for (const auto& sector : config.all_sectors()) sectors.push_back({sector.frequency_hz, sector.delay_s});
+  return {.channels = {{"", config.start(), config.limits(), sectors}},
           .longest_reception_s = config.longest_reception_s(),
           .finest_beam_rad = std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad),
           .probe = true};

@@ -70,7 +70,7 @@ msg::BottomTrack strongest_echo(const echo::Image& image, const echo::Sampling& 
 }  // namespace
 
 HeadPlan Profiler::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = config.reception_s(config.range_m),
           .finest_beam_rad = config.beamwidth_rad};
 }

@@ -10,6 +10,7 @@
 
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
+#include "components/runtime/declared.h"
 #include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/participant.h"
 #include "components/runtime/protocol.h"
@@ -113,7 +114,7 @@ LocalBus bus_of(const Launch& launch, const std::map<std::string, NodeFactory>& 
             [&](Ports& ports) { return factory->second(launch, process, ports); });
   }
   auto facts = facts_of(launch);
-  for (const Declaration& process : bus.declarations()) add_notes(facts, process);
+  facts[kDeclarationsFact] = declarations_json(bus.declarations());
   bus.connect(wire_rules(launch), process_places(launch), facts);
   return bus;
 }

@@ -1,4 +1,4 @@
-#include <heads_found.h>  // generated: tests/physics/CMakeLists.txt
+#include <nodes_found.h>  // generated: tests/physics/CMakeLists.txt
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -35,6 +35,19 @@ World random_world(Draws& draw) {
                             {2, *seabed::material_of("rigid")}};
   return world;
 }
+
+// clang-format off
+template <class Node> struct IsHead : std::false_type {};
+template <class Head> struct IsHead<HeadNode<Head>> : std::true_type {};
+template <class Found, class... Nodes> struct Heads { using Type = Found; };
+// clang-format on
+template <class... Found, class Node, class... Rest>
+struct Heads<std::tuple<Found...>, Node, Rest...>
+    : std::conditional_t<IsHead<Node>::value, Heads<std::tuple<Found..., Node>, Rest...>,
+                         Heads<std::tuple<Found...>, Rest...>> {};
+template <class... Nodes>
+typename Heads<std::tuple<>, Nodes...>::Type heads_among(std::tuple<Nodes...>*);
+using HeadsFound = decltype(heads_among(static_cast<NodesFound*>(nullptr)));
 
 constexpr double kTile_m = 32.0, kPosts_m = 0.5;
 
