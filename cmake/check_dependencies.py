@@ -58,7 +58,7 @@ SEES = {
     "components": SHARED + ["launch/file", "launch/process"],
     "scenarios": WORLD,
     "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],
-    "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file"],
+    "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file", "kernels/base/profile"],
     "launch": SHARED,
     "tools": SHARED + ["launch"],
 }

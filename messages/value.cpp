@@ -175,6 +175,12 @@ bool operator==(const Value& a, const Value& b) {
   return true;
 }
 
+Value from_json(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw DecodeError("is no JSON");
+  return value_of(json);
+}
+
 std::string to_json(const Value& value, std::size_t max_elements) {
   return json_of(value, max_elements).dump(-1, ' ', false, Json::error_handler_t::replace);
 }

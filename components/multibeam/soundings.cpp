@@ -9,6 +9,7 @@
 
 #include "components/sonar/environment.h"
 #include "kernels/acoustics/array/line.h"
+#include "kernels/base/profile/profile.h"
 #include "kernels/survey/georeference/sounding.h"
 
 namespace ensonify {
@@ -107,6 +108,7 @@ frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estima
 
 Placed SoundingMaker::place(const InstrumentPing& ping, Detected detected, ReliefEstimator& relief,
                             Memory& memory) const {
+  const profile::Span span(profile::Stage::kPlacing);
   const Steering& steering = ping.steering;
   Placed placed{.echoes = std::move(detected.echoes), .soundings = {}, .bottoms = {}};
   const std::vector<Echo>& echoes = placed.echoes;
@@ -217,6 +219,7 @@ void SoundingMaker::state_uncertainty(const InstrumentPing& ping, const uncertai
 
 Detected SoundingMaker::detect(const InstrumentPing& ping, std::span<const MultibeamHead::Received> received,
                                Memory& memory) const {
+  const profile::Span span(profile::Stage::kDetection);
   const Steering& steering = ping.steering;
   detect::Settings settings;
   settings.gates.snr_db = config_.detection_threshold_db;

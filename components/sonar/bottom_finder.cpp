@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify {
 namespace {
 
@@ -29,6 +31,7 @@ double BottomFinder::step_db(const detect::WaterfallLine& line, double altitude_
 
 msg::BottomTrack BottomFinder::find(const echo::Image& envelope, const echo::Sampling& sampling,
                                     const echo::Pulse& pulse, double sound_speed_mps) {
+  const profile::Span span(profile::Stage::kDetection);
   const auto samples = static_cast<std::size_t>(envelope.samples);
   const double range_per_s = 0.5 * sound_speed_mps;
   settings_.echo_m = range_per_s * (pulse.end_s() - pulse.start_s);

@@ -11,6 +11,7 @@
 #include "components/sonar/head_config.h"
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/ping_cycle.h"
+#include "kernels/base/profile/profile.h"
 
 namespace ensonify {
 
@@ -153,6 +154,7 @@ class HeadNode {
         if constexpr (requires { message->track; }) {
           inputs_.fill_track(message->track, ping.transmit, sent.sectors.front().reception);
         }
+        const profile::Span span(profile::Stage::kMessage);
         out->send(*message);
       });
       if (!report.seabed_in_range) silent.push_back({channel.name, sent.sectors.front().settings.range_m});

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@
 #include "components/runtime/termination.h"
 #include "components/runtime/tool.h"
 #include "launch/process/launch_wiring.h"
+#include "launch/process/profiled_node.h"
 
 namespace ensonify {
 
@@ -80,7 +82,7 @@ int run_process(const char* component, const NodeFactory& factory, const Options
   const Launch launch = read_launch(options.launch);
   const ProcessSpec& process = launch.process(options.name);
   Ports ports(options.name, options.launch.out);
-  const std::unique_ptr<AnyNode> node = factory(launch, process, ports);
+  std::unique_ptr<AnyNode> node = factory(launch, process, ports);
   ports.seal();
   if (options.check) {
     std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
@@ -95,7 +97,11 @@ int run_process(const char* component, const NodeFactory& factory, const Options
   if (address.tcp && launch.clock.keys && !address.keys) {
     throw UserError("--keys: the run at " + clock + " has keys; give a copy of keys.json in its run directory");
   }
-  return participate(component, ports, *node, {clock, address});
+  if (std::getenv(kProfileVariable) == nullptr) return participate(component, ports, *node, {clock, address});
+  ProfiledNode profiled(std::move(node));
+  const int code = participate(component, ports, profiled, {clock, address});
+  profiled.write(profile_folder(launch.options.out) + "/" + options.name + ".json", options.name);
+  return code;
 }
 
 /// All nodes of a launch on one bus, wired.

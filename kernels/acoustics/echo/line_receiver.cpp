@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "kernels/acoustics/trace/batch.h"
+#include "kernels/base/profile/profile.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
@@ -188,6 +189,7 @@ void LineReceiver::check(const Input& input, std::span<const std::vector<float>>
 
 void LineReceiver::form(const Input& input, std::span<const float> sin_beams,
                         std::span<const std::vector<float>> weights, std::span<Image> images, Memory& memory) const {
+  const profile::Span span(profile::Stage::kBeamform);
   check(input, weights, images.size());
   memory.index.set(input.echoes, input.pulse, input.sampling);
   memory.steer.clear();
@@ -369,8 +371,15 @@ void LineReceiver::form_block(const Input& input, int block, std::span<const std
     return;
   }
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-  spread(input, block, memory.index, own);
-  draw(input, block, own);
+  {
+    const profile::Span span(profile::Stage::kSpread);
+    spread(input, block, memory.index, own);
+  }
+  {
+    const profile::Span span(profile::Stage::kNoise);
+    draw(input, block, own);
+  }
+  const profile::Span span(profile::Stage::kTransforms);
   for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, own);
   for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
     to_beam_grid(samples, weights[i], own);
