@@ -59,8 +59,8 @@ int check(const LaunchOptions& options, bool as_json) {
     }
   }
   if (as_json) {
-    const auto declarations = nlohmann::json::parse(declarations_json(checked.declarations));
-    const nlohmann::json answer = {
+    const auto declarations = nlohmann::ordered_json::parse(declarations_json(checked.declarations));
+    const nlohmann::ordered_json answer = {
         {"problems", checked.problems}, {"warnings", warnings}, {"declarations", declarations}};
     fmt::print("{}\n", answer.dump(2));
   } else {

@@ -33,7 +33,7 @@ std::vector<Json> written_in(const std::string& folder) {
 
 std::string row(const std::string& name, double count, double wall_s, double processor_s, double of_s) {
   const auto each = [count](double s) { return count > 0.0 ? 1e3 * s / count : 0.0; };
-  return fmt::format("  {:<16}{:>9.0f}{:>12.3f}{:>16.3f}{:>9.1f} %\n", name, count, each(wall_s), each(processor_s),
+  return fmt::format("  {:<18}{:>9.0f}{:>14.3f}{:>14.3f}{:>8.1f} %\n", name, count, each(wall_s), each(processor_s),
                      of_s > 0.0 ? 100.0 * processor_s / of_s : 0.0);
 }
 
@@ -74,8 +74,8 @@ Profiles gather_profiles(const std::string& out) {
     of_processes[process] = std::move(profile);
   }
   if (!profiles.table.empty())
-    profiles.table.insert(0, fmt::format("  {:<16}{:>9}{:>12}{:>16}{:>11}\n", "stage", "count", "wall ms each",
-                                         "processor ms", "of it"));
+    profiles.table.insert(0, fmt::format("  {:<18}{:>9}{:>14}{:>14}{:>10}\n", "stage", "count", "wall ms each",
+                                         "processor ms", "share"));
   write_text(out + "/profile.json", Json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n");
   profiles.json = of_processes.dump();
   return profiles;

@@ -14,7 +14,7 @@ namespace ensonify::protocol {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // fields in the order of their struct
 
 constexpr std::size_t kLongestPortName = 128;
 constexpr std::size_t kMostPorts = 1000;

@@ -17,7 +17,7 @@ class Profile(SystemTest):
     def test_a_profile_adds_up_and_changes_nothing(self):
         measured = self.run_it("measured", "--profile")
         profile = json.loads((measured.out / "run.json").read_text())["profile"]
-        self.assertEqual(sorted(profile), ["auv", "eye", "nav", "pager", "pilot", "recorder"])
+        self.assertEqual(sorted(profile), ["auv", "expect", "eye", "nav", "pager", "pilot", "recorder"])
         for name, process in profile.items():
             with self.subTest(process=name):
                 step = process["stages"]["step"]
