@@ -133,8 +133,8 @@ std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPort
 }
 
 std::vector<std::string> setting_problems(const Mission& mission, const CheckedPorts& checked) {
-  const bool steered = std::ranges::any_of(
-      checked.declarations, [](const Declaration& process) { return process.component == "autopilot"; });
+  const bool steered = std::ranges::any_of(checked.declarations,
+                                           [](const Declaration& process) { return process.component == "autopilot"; });
   std::vector<std::string> problems;
   if (!steered) return problems;
   const auto heads = declared<msg::HeadDeclaration>(declarations_json(checked.declarations));

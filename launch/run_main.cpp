@@ -45,9 +45,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--free", options.free, "run as fast as possible")->excludes(rate);
   auto* name = app.add_option("--name", options.name, "what tools call this run by (`ensonify topic list --run NAME`)")
                    ->check(fault_of_run_name);
-  auto* in_process =
-      app.add_flag("--in-process", options.in_process, "run everything in one process, one thread (debugging, sanitizers)")
-          ->excludes(name);
+  auto* in_process = app.add_flag("--in-process", options.in_process,
+                                  "run everything in one process, one thread (debugging, sanitizers)")
+                         ->excludes(name);
   app.add_flag("--profile", options.profile,
                "measure where the time of each process goes, by stage: a table, run.json, and <out>/profile.json for "
                "https://ui.perfetto.dev")

@@ -48,7 +48,8 @@ double wavelength_m(const ForwardLookingConfig& config) {
 
 /// The receive array.
 LineDesign line_of(const ForwardLookingConfig& config) {
-  return {config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading, config.quality.pattern_error()};
+  return {config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
+          config.quality.pattern_error()};
 }
 
 /// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams receive.

@@ -135,7 +135,8 @@ class Ports {
   SimTime now() const { return now_; }
   /// Feeds of the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
   const std::vector<Feed>& feeds() const { return feeds_; }
-  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version", "declarations" (declared.h). Complete before the first step.
+  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version", "declarations" (declared.h). Complete
+  /// before the first step.
   const std::map<std::string, std::string>& facts() const { return facts_; }
 
   /// Publishes an undecoded message on a port (replay).

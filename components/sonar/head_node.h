@@ -25,7 +25,7 @@ struct HeadPlan {
   double finest_beam_rad = 0.0;
   BeamAxis beam_axis = BeamAxis::kDown;
   double near_field_m = 0.0;  // of the unfocused receive array; 0: not stated
-  bool probe = false;  // for the sound speed at its face
+  bool probe = false;         // for the sound speed at its face
 };
 
 /// Output of a channel: its port and the longest message. In a head whose channels have names the port is `port_name`.
@@ -59,8 +59,8 @@ struct SilentChannel {
 };
 
 HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan);
-/// Declaration of a head for those that look for heads: pager, autopilot, `ensonify check`, plots. `kind` is that of its
-/// pings.
+/// Declaration of a head for those that look for heads: pager, autopilot, `ensonify check`, plots. `kind` is that of
+/// its pings.
 msg::HeadDeclaration declaration_of(const std::string& kind, const HeadConfig& config, const HeadPlan& plan);
 std::string no_seabed_reason(const std::vector<SilentChannel>& silent);
 

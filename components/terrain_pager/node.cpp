@@ -175,7 +175,8 @@ pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
 void TerrainPagerNode::start_paging() {
   double feed_m = config_.feed_margin_m;
   if (feed_m <= 0.0) {
-    feed_m = pager::demanded_m(declared<msg::HeadDeclaration>(ports_.facts()), -terrain_->lowest_m()) + config_.fastest_mps / config_.rate_hz;
+    feed_m = pager::demanded_m(declared<msg::HeadDeclaration>(ports_.facts()), -terrain_->lowest_m()) +
+             config_.fastest_mps / config_.rate_hz;
     try {
       pager::check_budgets(config_, rules(feed_m).margins, grid_, box_);
     } catch (const ConfigError& error) {

@@ -22,7 +22,9 @@ namespace {
 bool in_one_octant(const int* on, const RTCRay16& rays) {
   std::uint32_t any = 0, all = ~0U;  // sign bits of the lanes that are on, bit per axis
   for (std::size_t lane = 0; lane < 16; ++lane) {
-    const auto sign = [lane](const float(&component)[16]) { return std::bit_cast<std::uint32_t>(component[lane]) >> 31; };
+    const auto sign = [lane](const float(&component)[16]) {
+      return std::bit_cast<std::uint32_t>(component[lane]) >> 31;
+    };
     const std::uint32_t signs = sign(rays.dir_x) | sign(rays.dir_y) << 1 | sign(rays.dir_z) << 2;
     const auto lane_on = static_cast<std::uint32_t>(on[lane]);  // all bits or none
     any |= signs & lane_on;

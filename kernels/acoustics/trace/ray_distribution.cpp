@@ -30,7 +30,7 @@ constexpr double kPlaneStep_m = 0.25,
 // Strata of a part: fewer rays sample a peaked law better if they are strata.
 constexpr auto kFewestToPlaces = static_cast<std::size_t>(RaySettings::kToPlaces);
 
-constexpr double kSpare = 1.01;        // of the fewest rays
+constexpr double kSpare = 1.01;         // of the fewest rays
 constexpr double kMostKept = 65'536.0;  // rays of a plan, 1 MB
 
 void check(const Span& span, double lowest, double highest, const char* fault) {

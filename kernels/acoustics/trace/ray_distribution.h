@@ -147,7 +147,7 @@ class RayDistribution {
     friend RayDistribution;
     frames::HeadPose head_;
     std::vector<Part> parts_;
-    bool keeps_ = false;                  // of few rays those to places, by part, so that they are not made twice
+    bool keeps_ = false;  // of few rays those to places, by part, so that they are not made twice
     std::vector<std::vector<Ray>> kept_;
     std::size_t spread_ = 0;     // rays over directions
     float places_scale_ = 1.0F;  // of the solid angles of rays to places, which share that of their parts

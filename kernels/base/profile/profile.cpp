@@ -44,9 +44,7 @@ Log& log_of_this_thread() {
 
 namespace detail {
 
-Opened open(Stage stage) {
-  return {now_ns(CLOCK_MONOTONIC), is_part(stage) ? 0 : now_ns(CLOCK_PROCESS_CPUTIME_ID)};
-}
+Opened open(Stage stage) { return {now_ns(CLOCK_MONOTONIC), is_part(stage) ? 0 : now_ns(CLOCK_PROCESS_CPUTIME_ID)}; }
 
 void close(Stage stage, const Opened& opened) {
   Log& log = log_of_this_thread();

@@ -31,8 +31,8 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::kNoise) + 1;
 inline constexpr std::array<const char*, kStages> kStageNames{
-    "step",     "probes",   "rays",      "trace",   "weigh",   "merge",  "echoes",
-    "patterns", "beamform", "detection", "placing", "message", "spread", "transforms", "noise"};
+    "step",     "probes",    "rays",    "trace",   "weigh",  "merge",      "echoes", "patterns",
+    "beamform", "detection", "placing", "message", "spread", "transforms", "noise"};
 /// Whether a stage is a part of another that several threads share: summed over them, and no event of its own.
 constexpr bool is_part(Stage stage) { return stage >= Stage::kSpread; }
 
@@ -47,7 +47,7 @@ struct Event {
 };
 struct Report {
   std::array<Sum, kStages> sums{};
-  std::vector<Event> events;    // the first kMostEvents
+  std::vector<Event> events;                                // the first kMostEvents
   std::int64_t begin_ns = 0, end_ns = 0, processor_ns = 0;  // of all that was measured
 };
 inline constexpr std::size_t kMostEvents = 200'000;

@@ -11,9 +11,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-profile::Sum sum_of(const profile::Report& report, Stage stage) {
-  return report.sums[static_cast<std::size_t>(stage)];
-}
+profile::Sum sum_of(const profile::Report& report, Stage stage) { return report.sums[static_cast<std::size_t>(stage)]; }
 
 void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
