@@ -26,9 +26,9 @@ using Sounder = NodeUnderTest<EchosounderNode>;
 /// In water of 1500 m/s and 0.05 dB/m over a Lambert seabed of -25 dB.
 EchosounderConfig over_lambert() {
   EchosounderConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.water.absorption_dbpm = 0.05;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.absorption_dbpm = 0.05;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.range_m = 40.0;
   return config;
 }
@@ -121,7 +121,7 @@ TEST_CASE("facet slopes stated by tiles count as those of the scenario") {
   const seabed::SedimentParameters silt = *seabed::sediment_of("medium silt");
   const auto received = [&](const seabed::Scatterer& sediment, const std::vector<double>& reported) {
     EchosounderConfig config = over_lambert();
-    config.world.seabed.sediments = {{0, sediment}};
+    world_of(config).seabed.sediments = {{0, sediment}};
     msg::Tile tile = flat();
     tile.facet_mean_square_slope = msg::Array<double>::of(reported);
     return Survey(config, tile).pings;

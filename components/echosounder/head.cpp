@@ -52,7 +52,7 @@ Apertures apertures_of(const EchosounderConfig& config) {
   a.narrowest_rad = config.beamwidth_rad;
   a.nearest_m = 1.0;
   a.resolution_m = range_resolution_m(config);
-  a.seed = config.world.seed;
+  a.seed = config.world->seed;
   a.process = config.process;
   return a;
 }
@@ -63,7 +63,7 @@ trace::RayDistribution rays_of(const EchosounderConfig& c) {
   const trace::TransmitVolume volume{trace::TransmitVolume::Axis::kForward,
                                      {-1.0, 1.0, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
                                      {-kWidest_rad, kWidest_rad, -null_rad, null_rad, c.beamwidth_rad}};
-  return {volume, c.quality.ray_settings(range_resolution_m(c)), {c.world.seed, c.process + "/rays"}};
+  return {volume, c.quality.ray_settings(range_resolution_m(c)), {c.world->seed, c.process + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
@@ -79,8 +79,8 @@ detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
 
 EchosounderHead::EchosounderHead(const EchosounderConfig& config)
     : config_(config),
-      echoes_(apertures_of(config), Environment(config.world, config.frequency_hz), config.effects, config.quality,
-              rays_of(config)),
+      echoes_(apertures_of(config), std::make_shared<const Environment>(*config.world, config.frequency_hz),
+              config.effects, config.quality, rays_of(config)),
       bottom_(bottom_of(config)) {}
 
 EchosounderHead::Received EchosounderHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,

@@ -43,7 +43,7 @@ std::vector<float> weights_of(const array::LineArray& array, bool side_lobes) {
 
 /// True, at the depth of the mission.
 double wavelength_m(const ForwardLookingConfig& config) {
-  return true_profile(config.world).speed_mps(config.world.mission.depth_m) / config.frequency_hz;
+  return true_profile(*config.world).speed_mps(config.world->mission.depth_m) / config.frequency_hz;
 }
 
 /// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams receive.
@@ -67,7 +67,7 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
   array.element = faces.element;
   array.noise_share = faces.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
-  array.seed = config.world.seed;
+  array.seed = config.world->seed;
   array.process = config.process;
   return array;
 }
@@ -108,8 +108,8 @@ ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
       line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
             config.quality.pattern_error()),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
-      echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects,
-              config.quality),
+      echoes_(array_of(config, line_.line, faces_),
+              std::make_shared<const Environment>(*config.world, config.frequency_hz), config.effects, config.quality),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
           [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
@@ -123,9 +123,9 @@ void ForwardLookingHead::prepare(const HeadSettings& settings) {
   design_.emplace(PingDesign{
       ranged,
       ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-                 echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
+                 echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world->seed, "seabed"}),
                  trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m),
-                                        {config_.world.seed, config_.process + "/rays"}))});
+                                        {config_.world->seed, config_.process + "/rays"}))});
 }
 
 ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "components/sonar/testing/config.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/backscatter.h"
 
@@ -23,9 +24,9 @@ constexpr double kAbsorption_dbpm = 0.2;
 /// 10 m under the surface; sound that travels straight, over a Lambert seabed.
 ForwardLookingConfig quiet() {
   ForwardLookingConfig config;
-  config.world.water.profile.sound_speed_mps = kSpeed_mps;
-  config.world.water.absorption_dbpm = kAbsorption_dbpm;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = kSpeed_mps;
+  world_of(config).water.absorption_dbpm = kAbsorption_dbpm;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.process = "eye";
   config.effects.noise = config.effects.multipath = false;
   return config;
@@ -297,7 +298,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
                                                               {"tvg", &Effects::tvg},
                                                               {"quantisation", &Effects::quantisation}};
   ForwardLookingConfig config = quiet();
-  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
+  world_of(config).water.scattering_layers = {{0.0, 100.0, -60.0}};
   config.tilt_rad = 10 * kDeg;
   config.beams = 32;
   config.pulse.most_samples = 200;
@@ -310,7 +311,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
     on.*part.of = true;
     const auto image = [&](const Effects& effects, std::uint64_t seed) {
       config.effects = effects;
-      config.world.seed = seed;
+      world_of(config).seed = seed;
       const msg::Ping ping = ping_of(config, scene);
       std::vector<float> before;
       for (std::size_t i = 0; i < ping.amplitude_upa.size(); ++i) {

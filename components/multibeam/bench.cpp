@@ -40,7 +40,7 @@ frames::PoseHistory at_rest() {
 void one_ping(benchmark::State& state) {
   MultibeamConfig config = head_in_plain_water();
   config.quality = 0.01 * static_cast<double>(state.range(0));
-  config.world.water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
+  world_of(config).water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
   for (int sector = 0; state.range(2) > 1 && sector < state.range(2); ++sector) {
     config.sectors.push_back({.frequency_hz = config.frequency_hz + 20e3 * sector, .delay_s = 200e-6 * sector});
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "components/sonar/head_motion.h"
 #include "components/sonar/ranged_pulse.h"
@@ -58,7 +60,7 @@ std::vector<std::vector<float>> weights_of(const ReceiveLine& line, bool halves)
 
 ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector,
                       const SectorPattern& pattern) {
-  const double true_mps = true_profile(config.world).speed_mps(config.world.mission.depth_m);
+  const double true_mps = true_profile(*config.world).speed_mps(config.world->mission.depth_m);
   ReceiveArray array;
   array.frequency_hz = design.sectors[sector].frequency_hz;
   array.elements = echo::element_line(design.receive.whole, true_mps / array.frequency_hz);
@@ -66,7 +68,7 @@ ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, 
   array.element = pattern.element();
   array.noise_share = pattern.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
-  array.seed = config.world.seed;
+  array.seed = config.world->seed;
   array.process = config.process;
   array.suffix = suffix_of(sector);
   return array;
@@ -99,13 +101,13 @@ MultibeamHead::Received received_of(const SectorEchoes::Sent& sent, std::span<co
 
 }  // namespace
 
-SectorEchoes::SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector)
+SectorEchoes::SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector,
+                           std::shared_ptr<const Environment> environment)
     : config_(config),
       arrays_(design),
       sector_(sector),
       pattern_(config, design, sector),
-      echoes_(array_of(config, design, sector, pattern_),
-              Environment(config.world, design.sectors[sector].frequency_hz), config.effects, config.quality) {}
+      echoes_(array_of(config, design, sector, pattern_), std::move(environment), config.effects, config.quality) {}
 
 SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double swath_rad) const {
   const double resolution_m = range_resolution_m(config_, pulse_length_s);
@@ -121,9 +123,9 @@ SectorEchoes::PingDesign SectorEchoes::design_for(double pulse_length_s, double 
   };
   return {pulse_length_s, swath_rad, sectors_of(config_, swath_rad)[sector_].centre_rad,
           ArrayPulse(config_.pulse(pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
+                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays), {config_.world->seed, "seabed"}),
                      trace::RayDistribution(volume_of(config_, arrays_, sector_, swath_rad), rays,
-                                            {config_.world.seed, config_.process + "/rays" + suffix_of(sector_)})),
+                                            {config_.world->seed, config_.process + "/rays" + suffix_of(sector_)})),
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};
 }
 
@@ -194,7 +196,14 @@ void SectorEchoes::aim(const Steering& steering, const frames::HeadPose& pose, M
 }
 
 MultibeamHead::MultibeamHead(const MultibeamConfig& config) : config_(config), design_(config) {
-  for (std::size_t i = 0; i < design_.sectors.size(); ++i) sectors_.emplace_back(config, design_, i);
+  std::map<double, std::shared_ptr<const Environment>> environments;  // by frequency
+  for (std::size_t i = 0; i < design_.sectors.size(); ++i) {
+    auto& environment = environments[design_.sectors[i].frequency_hz];
+    if (!environment) {
+      environment = std::make_shared<const Environment>(*config.world, design_.sectors[i].frequency_hz);
+    }
+    sectors_.emplace_back(config, design_, i, environment);
+  }
 }
 
 void MultibeamHead::receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,

@@ -23,7 +23,8 @@ namespace ensonify {
 class SectorEchoes {
  public:
   /// The design must outlive the sector.
-  SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector);
+  SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector,
+               std::shared_ptr<const Environment> environment);
   SectorEchoes(const SectorEchoes&) = delete;
   SectorEchoes& operator=(const SectorEchoes&) = delete;
 

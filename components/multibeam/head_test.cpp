@@ -21,8 +21,8 @@ MultibeamConfig small() {
   config.beams = 32;
   config.receive_beamwidth_rad = config.transmit_beamwidth_rad = 4.0 * MultibeamConfig::kDegree;
   config.quality = 0.05;
-  config.world.water.noise_level_db = 70.0;
-  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
+  world_of(config).water.noise_level_db = 70.0;
+  world_of(config).water.scattering_layers = {{0.0, 100.0, -60.0}};
   return config;
 }
 
@@ -146,15 +146,15 @@ TEST_CASE("calm surface echoes arrive after 2 d / c; none with multipath off or 
   const double level_db = 20.0 * std::log10(at_surface());
   CHECK_THAT(level_db, WithinAbs(215.0 - 12.04 - 0.28 - 20.0 - 3.0, 1.0));
 
-  config.world.vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
+  world_of(config).vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
   CHECK(at_surface(2.0) == 0.0);
   CHECK_THAT(20.0 * std::log10(at_surface(5.0)), WithinAbs(215.0 - 20.0 - 0.7 - 20.0 - 3.0, 1.0));
-  config.world.vertical.tide = vertical::Tide();
+  world_of(config).vertical.tide = vertical::Tide();
 
   config.effects.multipath = false;
   CHECK(at_surface() == 0.0);
   config.effects.multipath = true;
-  config.world.water.wind_speed_mps = 5.0;
+  world_of(config).water.wind_speed_mps = 5.0;
   CHECK(at_surface() == 0.0);
 }
 

@@ -37,7 +37,7 @@ HeadPlan Multibeam::plan(const Config& config) {
 Multibeam::Multibeam(const Config& config, std::size_t)
     : config_(config),
       head_(config),
-      applied_(applied_profile(config.world)),
+      applied_(applied_profile(*config.world)),
       soundings_(config, head_.design()),
       range_(config.range_m, 0.5 * config.swath_rad, config.beams),
       swath_of_range_rad_(config.swath_rad),
@@ -95,7 +95,7 @@ SteeringInputs Multibeam::steering_inputs(SimTime now, const HeadInputs& inputs)
   }
   const auto body = inputs.estimate().at(now.count(), frames::PoseHistory::Outside::kNearest);
   steering_inputs.sound_speed_mps = applied_.speed_mps(
-      body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z() : config_.world.mission.depth_m);
+      body ? -frames::head_pose(*body, config_.mounting.measured).position_enu_m.z() : config_.world->mission.depth_m);
   return steering_inputs;
 }
 

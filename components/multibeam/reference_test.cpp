@@ -16,9 +16,9 @@ namespace {
 /// 20 m of water with a thermocline over a slope, where a straight outer beam is 5 % wrong; no noise, no speckle.
 MultibeamConfig under_a_thermocline(const Quality& quality) {
   MultibeamConfig config = head_in_plain_water();
-  config.world.water.profile = WaterProfile{};
+  world_of(config).water.profile = WaterProfile{};
   for (const auto& [depth_m, speed_mps] : {std::pair{0.0, 1512.0}, {6.0, 1512.0}, {10.0, 1495.0}, {60.0, 1492.0}})
-    config.world.water.profile.samples.push_back({.depth_m = depth_m, .sound_speed_mps = speed_mps});
+    world_of(config).water.profile.samples.push_back({.depth_m = depth_m, .sound_speed_mps = speed_mps});
   config.beams = 64;
   config.quality = quality;
   config.effects.speckle = config.effects.noise = config.effects.volume = config.effects.multipath = false;

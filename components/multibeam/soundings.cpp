@@ -99,7 +99,7 @@ Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedPr
 }
 
 SoundingMaker::SoundingMaker(const MultibeamConfig& config, const ArrayDesign& design)
-    : config_(config), applied_(applied_profile(config.world)), sectors_(design.sectors) {}
+    : config_(config), applied_(applied_profile(*config.world)), sectors_(design.sectors) {}
 
 frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estimate, SimTime t) const {
   return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
@@ -229,7 +229,7 @@ Detected SoundingMaker::detect(const InstrumentPing& ping, std::span<const Multi
   if (!ping.estimate.empty()) {
     const frames::HeadPose head = estimated_pose(ping.estimate, ping.event.transmit);
     settings.seabed_tilt_rad = seabed_tilt_rad(head);
-    const double water_level_m = config_.world.vertical.tide.at(seconds(ping.event.transmit)).height_m;
+    const double water_level_m = config_.world->vertical.tide.at(seconds(ping.event.transmit)).height_m;
     settings.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
   }
   std::vector<detect::Detection>& detections = memory.detections;

@@ -52,7 +52,7 @@ Apertures apertures_of(const ScanningConfig& config, const LineDesign& line) {
   a.narrowest_rad = config.horizontal_beamwidth_rad;
   a.narrow_axis_head = Eigen::Vector3f::UnitY();
   a.resolution_m = resolution_m(config);
-  a.seed = config.world.seed;
+  a.seed = config.world->seed;
   a.process = config.process;
   return a;
 }
@@ -67,7 +67,7 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
                  2.0 * array::half_power_half_width(tall)};
   volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world.seed, config.process + "/rays"}};
+  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world->seed, config.process + "/rays"}};
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ ScanningHead::ScanningHead(const ScanningConfig& config) : ScanningHead(config, 
 
 ScanningHead::ScanningHead(const ScanningConfig& config, const LineDesign& line)
     : config_(config),
-      echoes_(apertures_of(config, line), Environment(config.world, config.frequency_hz), config.effects,
-              config.quality, rays_of(config, line)) {}
+      echoes_(apertures_of(config, line), std::make_shared<const Environment>(*config.world, config.frequency_hz),
+              config.effects, config.quality, rays_of(config, line)) {}
 
 ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
                                                     double known_sound_speed_mps, const frames::PoseHistory& truth,

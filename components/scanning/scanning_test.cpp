@@ -36,9 +36,9 @@ void check_angles(const Scan& scan, const std::vector<double>& expected) {
 /// A quiet head over a Lambert seabed.
 ScanningConfig quiet() {
   ScanningConfig config;
-  config.world.water.profile.sound_speed_mps = kSpeed_mps;
-  config.world.water.absorption_dbpm = 0.2;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = kSpeed_mps;
+  world_of(config).water.absorption_dbpm = 0.2;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.process = "eye";
   config.effects.noise = config.effects.multipath = config.effects.speckle = false;
   return config;

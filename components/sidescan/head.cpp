@@ -87,7 +87,7 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   a.electronic_noise_db = channel.electronic_noise_db;
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
   a.resolution_m = channel.resolution_m(config.sound_speed_mps);
-  a.seed = config.world.seed;
+  a.seed = config.world->seed;
   a.process = config.process;
   return a;
 }
@@ -105,7 +105,7 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
   // along the track. Those to places of the world leave it at other ranges in each ping.
   trace::RaySettings rays = config.quality.ray_settings(channel.resolution_m(config.sound_speed_mps));
   rays.fewest_in_main_cell = trace::RaySettings::kToPlaces;
-  return {volume, rays, {config.world.seed, config.process + "/" + channel.name + "/rays"}};
+  return {volume, rays, {config.world->seed, config.process + "/" + channel.name + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
@@ -126,8 +126,9 @@ SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& 
 SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line)
     : config_(config),
       channel_(channel),
-      echoes_(apertures_of(config, channel, line), Environment(config.world, channel.frequency_hz), config.effects,
-              config.quality, rays_of(config, channel, line)),
+      echoes_(apertures_of(config, channel, line),
+              std::make_shared<const Environment>(*config.world, channel.frequency_hz), config.effects, config.quality,
+              rays_of(config, channel, line)),
       bottom_(bottom_of(config)),
       pulse_length_s_(channel.pulse_length_s),
       pulse_(channel.pulse(channel.pulse_length_s)) {}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/sonar/testing/config.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
@@ -19,9 +20,9 @@ namespace {
 /// vertical pattern.
 SidescanConfig plain_sidescan() {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.water.absorption_dbpm = 0.1;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.absorption_dbpm = 0.1;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.channels[0].source_level_db = 210.0;
   config.channels[0].horizontal_beamwidth_rad = 0.5 * SidescanChannel::kDegree;
   config.effects.directivity = config.effects.speckle = config.effects.noise = config.effects.multipath = false;
@@ -221,7 +222,7 @@ TEST_CASE("noise is that of the water against the line's directivity, in the pul
   SidescanConfig config = plain_sidescan();
   config.effects.noise = true;
   config.channels[0].source_level_db = -300.0;
-  config.world.water.noise_level_db = 50.0;
+  world_of(config).water.noise_level_db = 50.0;
   const auto ping = received(config, flat()).ping;
   const double di =
       array::directivity_index_db(array::length_in_waves_for(0.5 * kDeg), array::length_in_waves_for(50 * kDeg));
@@ -234,7 +235,7 @@ TEST_CASE("noise is that of the water against the line's directivity, in the pul
 TEST_CASE("a run that differs in one effect differs by that effect only") {
   SidescanConfig config = plain_sidescan();
   config.effects = {};
-  config.world.water.scattering_layers = {{13.0, 20.0, -60.0}};
+  world_of(config).water.scattering_layers = {{13.0, 20.0, -60.0}};
   config.channels[0].range_m = 30.0;
   const Sea sea = flat();
   const auto all = received(config, sea).ping;

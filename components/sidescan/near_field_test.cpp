@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/sidescan/head.h"
+#include "components/sonar/testing/config.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 
@@ -27,8 +28,8 @@ constexpr double kStrip_m = 0.06;  // wide: one row of posts, half of a focused 
 
 SidescanConfig sidescan(Focus focus) {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-120.0}}, {1, seabed::Lambert{-10.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-120.0}}, {1, seabed::Lambert{-10.0}}};
   config.effects.directivity = config.effects.speckle = config.effects.noise = false;
   config.effects.multipath = config.effects.absorption = false;
   config.quality = 4;

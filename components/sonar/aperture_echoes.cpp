@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/water/noise.h"
@@ -25,13 +26,13 @@ std::string stream_name(const Apertures& a, const char* what) {
 
 }  // namespace
 
-ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                               const Quality& quality, const trace::RayDistribution& rays)
+ApertureEchoes::ApertureEchoes(const Apertures& apertures, std::shared_ptr<const Environment> environment,
+                               const Effects& effects, const Quality& quality, const trace::RayDistribution& rays)
     : apertures_(apertures),
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      sea_(environment, apertures.frequency_hz, effects, quality),
+      sea_(std::move(environment), apertures.frequency_hz, effects, quality),
       cells_(patch_m(apertures), {apertures.seed, "seabed"}),
       distribution_(rays) {
   if (!sea_.water_scatters()) return;

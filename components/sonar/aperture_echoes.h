@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,7 +49,7 @@ struct Emission {
 class ApertureEchoes {
  public:
   /// `rays` are those of its transmissions.
-  ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
+  ApertureEchoes(const Apertures& apertures, std::shared_ptr<const Environment> environment, const Effects& effects,
                  const Quality& quality, const trace::RayDistribution& rays);
 
   /// Memory of the caller: results lie in it until it is used again.

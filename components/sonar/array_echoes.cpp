@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace ensonify {
 namespace {
@@ -13,11 +14,11 @@ random::Stream stream_of(const ReceiveArray& array, const char* what) {
 
 }  // namespace
 
-ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
-                         const Quality& quality)
+ArrayEchoes::ArrayEchoes(const ReceiveArray& array, std::shared_ptr<const Environment> environment,
+                         const Effects& effects, const Quality& quality)
     : array_(array),
       effects_(effects),
-      sea_(environment, array.frequency_hz, effects, quality),
+      sea_(std::move(environment), array.frequency_hz, effects, quality),
       ambient_(stream_of(array, "noise")),
       electronic_(stream_of(array, "electronic")),
       volume_(stream_of(array, "volume")),

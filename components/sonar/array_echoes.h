@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,7 +69,7 @@ struct ArrayReception {
 /// surface, water column, other transmissions, and noise at the elements. The twin of ApertureEchoes.
 class ArrayEchoes {
  public:
-  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
+  ArrayEchoes(const ReceiveArray& array, std::shared_ptr<const Environment> environment, const Effects& effects,
               const Quality& quality);
 
   const SeaAcoustics& sea() const { return sea_; }

@@ -7,7 +7,7 @@ namespace ensonify {
 HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan) {
   HeadInputs::Start start;
   start.mounting = config.mounting;
-  start.tide = config.world.vertical.tide;
+  start.tide = config.world->vertical.tide;
   start.lod = config.lod;
   start.lod.adaptations_per_ping = plan.sectors * static_cast<std::int32_t>(plan.channels.size());
   start.longest_ping = from_seconds(plan.longest_reception_s + config.processing_latency_s);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -169,9 +170,10 @@ struct ShotMemory {
 class SeaAcoustics {
  public:
   /// Of `quality` only whether it is the reference counts here: rays and cells are the caller's.
-  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects, const Quality& quality);
+  SeaAcoustics(std::shared_ptr<const Environment> environment, double frequency_hz, const Effects& effects,
+               const Quality& quality);
 
-  const Environment& environment() const { return environment_; }
+  const Environment& environment() const { return *environment_; }
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
@@ -198,7 +200,7 @@ class SeaAcoustics {
                         echo::Arrivals& foreign) const;
 
   /// Whether the water column sends anything back.
-  bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
+  bool water_scatters() const { return effects_.volume && !environment_->scattering_layers().empty(); }
   /// Mean squares of that (sample by direction) towards these receive directions, down to the seabed's depth.
   void reverberation_upa2(const Shot& shot, const Echoed& echoed,
                           std::span<const echo::VolumeDirections> receive_directions, const echo::Pulse& pulse,
@@ -217,7 +219,7 @@ class SeaAcoustics {
   HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const;
   double sent_db(double source_level_db) const;
 
-  Environment environment_;
+  std::shared_ptr<const Environment> environment_;
   double frequency_hz_;
   Effects effects_;
   bool exact_;

@@ -1,6 +1,7 @@
 #include "examples/profiler/head.h"
 
 #include <cmath>
+#include <memory>
 
 #include "components/sonar/head_motion.h"
 #include "components/sonar/sea_acoustics.h"
@@ -30,7 +31,7 @@ Apertures aperture_of(const ProfilerConfig& c) {
   aperture.narrowest_rad = c.beamwidth_rad;
   aperture.nearest_m = 1.0;
   aperture.resolution_m = resolution_m(c);
-  aperture.seed = c.world.seed;
+  aperture.seed = c.world->seed;
   aperture.process = c.process;
   return aperture;
 }
@@ -40,7 +41,7 @@ trace::RayDistribution rays_of(const ProfilerConfig& c) {
   const trace::TransmitVolume cone{trace::TransmitVolume::Axis::kForward,
                                    {-reach, reach, -main, main, main},
                                    {-reach_rad, reach_rad, -c.beamwidth_rad, c.beamwidth_rad, c.beamwidth_rad}};
-  return {cone, c.quality.ray_settings(resolution_m(c)), {c.world.seed, c.process + "/rays"}};
+  return {cone, c.quality.ray_settings(resolution_m(c)), {c.world->seed, c.process + "/rays"}};
 }
 
 /// The bottom by the middle of the strongest echo, if it stands out: the strongest of 10,000 samples of noise is 10 dB
@@ -78,8 +79,8 @@ HeadPlan Profiler::plan(const Config& config) {
 Profiler::Profiler(const Config& config, std::size_t)
     : config_(config),
       pulse_(echo::tapered_pulse(config.pulse_length_s, 0.0)),
-      echoes_(aperture_of(config), Environment(config.world, config.frequency_hz), config.effects, config.quality,
-              rays_of(config)) {}
+      echoes_(aperture_of(config), std::make_shared<const Environment>(*config.world, config.frequency_hz),
+              config.effects, config.quality, rays_of(config)) {}
 
 HeadOutputs<msg::Ping, msg::BottomTrack> Profiler::outputs() const {
   const double samples = kSamplesPerPulse * config_.reception_s(config_.range_m) / config_.pulse_length_s;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/sidescan/head.h"
+#include "components/sonar/testing/config.h"
 
 namespace ensonify::physics {
 
@@ -8,7 +9,7 @@ namespace ensonify::physics {
 /// are 0.5 degrees wide, its pulses 100 us long.
 inline SidescanConfig sidescan_of(double frequency_hz) {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
   config.channels[0].frequency_hz = frequency_hz;
   config.channels[0].horizontal_beamwidth_rad = 0.5 * SidescanChannel::kDegree;
   config.channels[0].range_m = 101.0;
