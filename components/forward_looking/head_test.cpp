@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/backscatter.h"
 
@@ -48,8 +49,8 @@ frames::PoseHistory at_rest() {
 }
 
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene& scene) {
-  ForwardLookingHead head(config);
-  return head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene).ping;
+  ForwardLooking head(config, 0);
+  return image_of(head, {0, SimTime{0}, config.range_m}, config.start(), around(at_rest(), scene, kSpeed_mps));
 }
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene&& scene) { return ping_of(config, scene); }
 
@@ -357,11 +358,11 @@ TEST_CASE("a shaded array of equal beamwidth is longer, and has lower side lobes
   ForwardLookingConfig config = of_one_side();
   trace::Scene scene = seabed_to_starboard();
   const msg::Ping uniform = ping_of(config, scene);
-  const double uniform_near_m = ForwardLookingHead(config).near_field_m();
+  const double uniform_near_m = ForwardLooking(config, 0).near_field_m();
   config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
   const msg::Ping shaded = ping_of(config, scene);
   // Half-power widths are 64.4 and 50.76 lambda / L degrees.
-  CHECK(ForwardLookingHead(config).near_field_m() / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
+  CHECK(ForwardLooking(config, 0).near_field_m() / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
   CHECK(mean_square(shaded, -60, -40, 20, 30) < 0.1 * mean_square(uniform, -60, -40, 20, 30));
   CHECK_THAT(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)), WithinAbs(0.0, 0.5));
 }
@@ -392,10 +393,10 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
   config.effects.speckle = false;
   config.range_m = 30.0;
   config.pulse.most_samples = 300;
-  ForwardLookingHead head(config);
+  ForwardLooking head(config, 0);
   trace::Scene scene = scene_of(pillar);
   const auto seen_deg = [&](double known_mps) {
-    const msg::Ping ping = head.receive_echoes({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene).ping;
+    const msg::Ping ping = image_of(head, {0, SimTime{0}, 30.0}, config.start(), around(at_rest(), scene, known_mps));
     const auto all = ping.amplitude_upa.flat();
     const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
+#include "components/sonar/shot_design.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
@@ -38,22 +38,6 @@ struct ReceiveArray {
   std::uint64_t seed = 1;
   std::string process,
       suffix;  // streams are PROCESS/noise, PROCESS/electronic and PROCESS/volume, each with the suffix
-};
-
-/// Pulse and sampling of some pings, and what follows from them.
-struct ArrayPulse {
-  ArrayPulse(const echo::Pulse& of_a_point, double sample_period_s, const echo::SpeckleCells& patches,
-             const trace::RayDistribution& distribution)
-      : pulse(of_a_point),
-        sampled(of_a_point, sample_period_s),
-        squared(sampled.squared()),
-        cells(patches),
-        rays(distribution) {}
-
-  echo::Pulse pulse;
-  echo::SampledPulse sampled, squared;
-  echo::SpeckleCells cells;
-  trace::RayDistribution rays;
 };
 
 /// Reception of a shot by a line.
@@ -89,8 +73,8 @@ class ArrayEchoes {
   };
 
   /// Third stage of a shot: the images, in memory.images.
-  void beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse, const ArrayReception& reception,
-                Memory& memory) const;
+  std::span<const echo::Image> beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                        const ArrayReception& reception, Memory& memory) const;
 
  private:
   echo::Background background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,

@@ -5,6 +5,7 @@
 
 #include "components/forward_looking/head.h"
 #include "components/multibeam/head.h"
+#include "components/sonar/testing/ping.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 #include "tests/physics/dip.h"
@@ -117,13 +118,13 @@ Dips of_forward_looking(double apart_m) {
   TileSet tiles;
   tiles.insert(
       striped({kAltitude_m, kFine_m, -0.1, 9.97, 0.1, 10.25}, [&](double, double north_m) { return strips(north_m); }));
-  ForwardLookingHead head(config);
+  ForwardLooking head(config, 0);
   Dips dips;
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps * kPulse_s / kEightPerPulse;
     const auto truth = resting_at({0.0, std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0});
     const auto ping =
-        head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene()).ping;
+        image_of(head, {0, SimTime{0}, config.range_m}, config.start(), around(truth, tiles.scene(), kSpeed_mps));
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(static_cast<std::size_t>(config.beams) / 2))));
   }
   return dips;
