@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "components/multibeam/ping_message.h"
 #include "components/multibeam/testing/head.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
@@ -52,19 +53,21 @@ struct Received {
 };
 
 Received received(const MultibeamConfig& config, bool phase = false) {
-  MultibeamHead head(config);
+  const Multibeam head(config, 0);
   const PingEvent event{7, SimTime{0}, 45.0};
   const Steering steering = steer(config, config.swath_rad, {});
-  MultibeamHead::Ping echoes;
-  head.receive_echoes(event, config.start(), steering, moving(), seabed(), echoes);
+  const HeadSettings settings = config.start();
+  Multibeam::Memory memory;
+  const auto sectors = receive_echoes(head, event, settings, steering, moving(), seabed(), memory);
   Received result;
-  for (const auto& sector : echoes.sectors) {
+  for (const SectorBeams& sector : sectors) {
     const auto half = sector.halves.positive_upa;
     result.starboard.insert(result.starboard.end(), half.begin(), half.end());
     const auto amplitude = sector.image.amplitude_upa;
     result.amplitude_upa.insert(result.amplitude_upa.end(), amplitude.begin(), amplitude.end());
   }
-  result.ping = head.ping_message(echoes, event, config.start(), steering, phase);
+  result.ping = ping_message(config, event, settings, steering, applied_settings(config, event, settings, steering),
+                             {memory.amplitude_upa, sectors, phase});
   return result;
 }
 
