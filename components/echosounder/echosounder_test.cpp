@@ -7,6 +7,7 @@
 #include "components/runtime/testing/node_under_test.h"
 #include "components/sonar/testing/config.h"
 #include "components/sonar/testing/mesh.h"
+#include "components/sonar/testing/ping.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/aperture.h"
@@ -26,9 +27,9 @@ using Sounder = NodeUnderTest<EchosounderNode>;
 /// In water of 1500 m/s and 0.05 dB/m over a Lambert seabed of -25 dB.
 EchosounderConfig over_lambert() {
   EchosounderConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.water.absorption_dbpm = 0.05;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.absorption_dbpm = 0.05;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.range_m = 40.0;
   return config;
 }
@@ -121,7 +122,7 @@ TEST_CASE("facet slopes stated by tiles count as those of the scenario") {
   const seabed::SedimentParameters silt = *seabed::sediment_of("medium silt");
   const auto received = [&](const seabed::Scatterer& sediment, const std::vector<double>& reported) {
     EchosounderConfig config = over_lambert();
-    config.world.seabed.sediments = {{0, sediment}};
+    world_of(config).seabed.sediments = {{0, sediment}};
     msg::Tile tile = flat();
     tile.facet_mean_square_slope = msg::Array<double>::of(reported);
     return Survey(config, tile).pings;
@@ -282,7 +283,7 @@ TEST_CASE("the surface overhead is never taken for the bottom, at any pulse leng
 
 TEST_CASE("a pulse that a command makes longer is judged by its own length") {
   EchosounderConfig config = over_lambert();
-  EchosounderHead head(config);
+  Echosounder head(config, 0);
   TileSet tiles;
   tiles.insert(flat());
   frames::PoseHistory at_rest(1'000'000'000);
@@ -291,9 +292,10 @@ TEST_CASE("a pulse that a command makes longer is judged by its own length") {
   }
   HeadSettings settings = config.start();
   settings.pulse_length_s = 2e-3;  // 40 samples, 1.5 m
-  const auto received = head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene());
-  CHECK(received.bottom.valid);
-  CHECK_THAT(received.bottom.altitude_m, WithinAbs(20.0, 1.1 * 750.0 * config.sample_period_s()));
+  const auto report = report_of(head, {0, SimTime{0}, settings.range_m}, settings, around(at_rest, tiles.scene()));
+  const msg::BottomTrack bottom = std::get<1>(report.messages).value();
+  CHECK(bottom.valid);
+  CHECK_THAT(bottom.altitude_m, WithinAbs(20.0, 1.1 * 750.0 * config.sample_period_s()));
 }
 
 TEST_CASE("nearer than least_range_m nothing is taken for the bottom") {

@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kBackLoss_db = 40.0;
 
-std::shared_ptr<const array::PatternTable> line_pattern(double length_in_waves, double error) {
-  return std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(length_in_waves, sine); }, 0.5 * length_in_waves, error);
-}
-
 /// cos^q is -3 dB at half the aperture.
 float cosine_power(double aperture_rad) {
   return static_cast<float>(std::log(std::sqrt(0.5)) / std::log(std::cos(0.5 * aperture_rad)));
@@ -43,7 +38,7 @@ std::vector<float> weights_of(const array::LineArray& array, bool side_lobes) {
 
 /// True, at the depth of the mission.
 double wavelength_m(const ForwardLookingConfig& config) {
-  return true_profile(config.world).speed_mps(config.world.mission.depth_m) / config.frequency_hz;
+  return true_profile(*config.world).speed_mps(config.world->mission.depth_m) / config.frequency_hz;
 }
 
 /// The receive array.
@@ -73,7 +68,7 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
   array.element = faces.element;
   array.noise_share = faces.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
-  array.seed = config.world.seed;
+  array.seed = config.world->seed;
   array.process = config.process;
   return array;
 }
@@ -86,14 +81,15 @@ ForwardFaces::ForwardFaces(const ForwardLookingConfig& config, double element_in
   const array::FaceFactor face{in_vertical_plane(config.tilt_rad), array::Face(0.0, kBackLoss_db)};
   const Eigen::Vector3f up_the_face = in_vertical_plane(config.tilt_rad - 0.5 * std::numbers::pi);
   const auto vertical = [&](double beamwidth_rad) {
-    return array::LineFactor{.table = line_pattern(array::length_in_waves_for(beamwidth_rad), error),
+    return array::LineFactor{.table = array::uniform_line_table(array::length_in_waves_for(beamwidth_rad), error),
                              .axis_head = up_the_face};
   };
   transmit.times_power(array::CosineFactor{cosine_power(config.aperture_rad)})
       .times_power(face)
       .times_power(vertical(config.transmit_vertical_rad));
   element
-      .times(array::LineFactor{.table = line_pattern(element_in_waves, error), .axis_head = Eigen::Vector3f::UnitY()})
+      .times(array::LineFactor{.table = array::uniform_line_table(element_in_waves, error),
+                               .axis_head = Eigen::Vector3f::UnitY()})
       .times(vertical(config.receive_vertical_rad))
       .times(face);
 }
@@ -109,87 +105,105 @@ double ForwardFaces::noise_share() const {
   return sum;
 }
 
-ForwardLookingHead::ForwardLookingHead(const ForwardLookingConfig& config)
+HeadPlan ForwardLooking::plan(const Config& config) {
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
+          .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
+          .finest_beam_rad = config.beamwidth_rad,
+          .beam_axis = BeamAxis::kForward,
+          .near_field_m = near_field_m(config),
+          .probe = true};
+}
+
+ForwardLooking::ForwardLooking(const Config& config, std::size_t)
     : config_(config),
       line_(line_of(config)),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
-      echoes_(array_of(config, line_.line, faces_), Environment(config.world, config.frequency_hz), config.effects,
-              config.quality),
+      echoes_(array_of(config, line_.line, faces_),
+              std::make_shared<const Environment>(*config.world, config.frequency_hz), config.effects, config.quality),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
           [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
+
+HeadOutputs<msg::Ping> ForwardLooking::outputs() const {
+  const auto samples = static_cast<std::size_t>(config_.beams) * static_cast<std::size_t>(config_.pulse.most_samples);
+  return {{"ping", samples * sizeof(float) + 65536}};
+}
+
+SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
+  const RangedPulse pulse = pulse_for(settings);
+  const double bandwidth_hz = config_.pulse.chirp ? pulse.band_hz : 0.0;
+  return {{{config_.frequency_hz, pulse.length_s, from_seconds(pulse.reception_s()), settings, bandwidth_hz}},
+          around.sound_speed_mps};
+}
 
 double near_field_m(const ForwardLookingConfig& config) {
   const LineDesign design = line_of(config);
   return array::near_field_range_m(design.line, design.wavelength_m);
 }
 
-void ForwardLookingHead::prepare(const HeadSettings& settings) {
-  const RangedPulse ranged = pulse_for(settings);
-  if (design_ && design_->ranged == ranged) return;
-  const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
-  design_.emplace(PingDesign{
-      ranged,
-      ArrayPulse(echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-                 echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world.seed, "seabed"}),
-                 trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m),
-                                        {config_.world.seed, config_.process + "/rays"}))});
+RangedPulse ForwardLooking::pulse_for(const HeadSettings& settings) const {
+  return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
 }
 
-ForwardLookingHead::Received ForwardLookingHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                                double known_sound_speed_mps,
-                                                                const frames::PoseHistory& truth,
-                                                                const trace::Scene& seabed) {
-  prepare(settings);
-  const auto& [ranged, array] = *design_;
-  const echo::Sampling& sampling = ranged.sampling;
+ForwardLooking::Design ForwardLooking::prepare(const HeadSettings& settings) const {
+  const RangedPulse ranged = pulse_for(settings);
+  const double resolution_m = 0.5 * kNominalSpeed_mps / ranged.band_hz;
+  return {settings.range_m,
+          settings.pulse_length_s,
+          ranged,
+          {echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
+           echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world->seed, "seabed"}),
+           trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m),
+                                  {config_.world->seed, config_.process + "/rays"})}};
+}
+
+ForwardLooking::Report ForwardLooking::ping(const PingEvent& event, const SentPing& sent, const Surroundings& around) {
+  const Transmission& transmission = sent.sectors.front();
+  const HeadSettings& settings = transmission.settings;
+  const Design& design = design_of(*this, settings, memory_.design);
+  const echo::Sampling& sampling = design.ranged.sampling;
   const SeaAcoustics& sea = echoes_.sea();
-  head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
-  const Shot shot{poses_, seconds(event.transmit), settings.source_level_db, {&faces_.transmit, 1}};
+  head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
+  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, {&faces_.transmit, 1}};
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;
-  const trace::Mesh mesh = sea.mesh(shot, seabed, array.rays, reach_m);
-  const Insonified insonified = sea.insonify(shot, mesh, array.rays, array.cells, reach_m, shot_);
-  const Echoed echoed = sea.echoes(shot, insonified, shot_);
-  foreign_.clear();
-  sea.add_interference(shot, echoed, event.interfering, array.pulse, foreign_);
-  point_beams(true_mps, known_sound_speed_mps);
-  echoes_.beamform(shot, echoed, array,
-                   {static_cast<std::uint64_t>(event.ping), sampling, sin_beams_, volume_directions_, foreign_},
-                   beams_);
-  return {ping_message(event, settings, known_sound_speed_mps), echoed.summary(shot, settings.range_m, seabed)};
+  point_beams(true_mps, sent.sound_speed_mps, memory_.sin_beams);
+
+  const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, reach_m);
+  const Insonified insonified = sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, reach_m, memory_.shot);
+  const Echoed echoed = sea.echoes(shot, insonified, memory_.shot);
+  const echo::Arrivals& foreign = sea.interference(shot, echoed, event.interfering, design.shot.pulse, memory_.shot);
+  const auto images =
+      echoes_.beamform(shot, echoed, design.shot,
+                       {event.number(), sampling, memory_.sin_beams, volume_directions_, foreign}, memory_.beams);
+
+  return {.messages = {ping_message(event, sent, design, images.front())},
+          .trouble = no_echo_reason(echoed.summary(shot, settings.range_m, around.seabed))};
 }
 
 /// Delays are made for the sound speed that the head knows; the true one turns its beams.
-void ForwardLookingHead::point_beams(double true_mps, double known_mps) {
+void ForwardLooking::point_beams(double true_mps, double known_mps, std::vector<float>& sin_beams) const {
   const double turned = true_mps / known_mps;
-  sin_beams_.clear();
+  sin_beams.clear();
   for (const float angle : beam_angle_rad_) {
-    sin_beams_.push_back(static_cast<float>(std::clamp(turned * std::sin(static_cast<double>(angle)), -1.0, 1.0)));
+    sin_beams.push_back(static_cast<float>(std::clamp(turned * std::sin(static_cast<double>(angle)), -1.0, 1.0)));
   }
 }
 
-msg::Ping ForwardLookingHead::ping_message(const PingEvent& event, const HeadSettings& settings,
-                                           double known_sound_speed_mps) const {
-  const RangedPulse& ranged = design_->ranged;
-  msg::Ping ping =
-      ensonify::ping_message(event, "forward_looking", config_.frequency_hz, settings, known_sound_speed_mps);
+msg::Ping ForwardLooking::ping_message(const PingEvent& event, const SentPing& sent, const Design& design,
+                                       const echo::Image& image) const {
+  const HeadSettings& settings = sent.sectors.front().settings;
+  const RangedPulse& ranged = design.ranged;
+  msg::Ping ping = ensonify::ping_message(event, kComponent, config_.frequency_hz, settings, sent.sound_speed_mps);
   ping.beam_angle_rad = msg::Array<float>::of(beam_angle_rad_);
-  write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling,
-                beams_.images.front(), ping);
+  write_samples(tvg_of(settings, sent.sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
   fill_shape(config_.pulse.chirp, config_.pulse.tapered_fraction, ping.applied);
   ping.applied.pulse_length_s = ranged.length_s;
   ping.applied.bandwidth_hz = config_.pulse.chirp ? ranged.band_hz : 0.0;
   ping.applied.transmit_beamwidth_rad = config_.transmit_vertical_rad;
   ping.applied.receive_beamwidth_rad = config_.beamwidth_rad;
   return ping;
-}
-
-std::size_t ForwardLookingHead::max_ping_bytes() const {
-  return static_cast<std::size_t>(config_.beams) * static_cast<std::size_t>(config_.pulse.most_samples) *
-             sizeof(float) +
-         65536;
 }
 
 }  // namespace ensonify

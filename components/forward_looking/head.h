@@ -6,8 +6,9 @@
 
 #include "components/forward_looking/config.h"
 #include "components/sonar/array_echoes.h"
+#include "components/sonar/head_node.h"
 #include "components/sonar/line_design.h"
-#include "components/sonar/sea_acoustics.h"
+#include "components/sonar/shot_design.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "messages/sonar.h"
@@ -31,55 +32,58 @@ struct ForwardFaces {
   double noise_share() const;
 };
 
-/// The acoustics of a forward-looking head: what its beams receive. Uses the true motion, the actual mounting and the
-/// true water, as the sea does; steering and range use the sound speed that the head knows.
-class ForwardLookingHead {
+/// A forward-looking head: an image per ping, of what its beams receive. Uses the true motion, the actual mounting and
+/// the true water, as the sea does; steering and range use the sound speed that the head knows. It neither detects nor
+/// places: of the five stages it has the first three.
+class ForwardLooking {
  public:
-  explicit ForwardLookingHead(const ForwardLookingConfig& config);
-  ForwardLookingHead(const ForwardLookingHead&) = delete;
-  ForwardLookingHead& operator=(const ForwardLookingHead&) = delete;
+  using Config = ForwardLookingConfig;
+  static constexpr const char* kComponent = "forward_looking";
+  using Report = HeadReport<msg::Ping>;
 
-  struct Received {
-    msg::Ping ping;  // without a track
-    TraceSummary trace;
+  /// What follows from the settings of a ping.
+  struct Design {
+    double range_m, held_pulse_length_s;  // 0: the pulse follows the range
+    RangedPulse ranged;
+    ShotDesign shot;
+
+    bool fits(const HeadSettings& settings) const {
+      return range_m == settings.range_m && held_pulse_length_s == settings.pulse_length_s;
+    }
   };
-  /// The image of a ping. A function of the shot, the settings, the sound speed that the head knows, the poses while it
-  /// receives, and the tiles.
-  Received receive_echoes(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps,
-                          const frames::PoseHistory& truth, const trace::Scene& seabed);
 
-  RangedPulse pulse_for(const HeadSettings& settings) const {
-    return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
-  }
-  std::size_t max_ping_bytes() const;
-  /// Beam axes, azimuth from the head's x axis, positive to starboard.
-  const std::vector<float>& beam_angle_rad() const { return beam_angle_rad_; }
+  static HeadPlan plan(const Config& config);
+
+  /// The configuration outlives the head.
+  ForwardLooking(const Config& config, std::size_t channel);
+
+  HeadOutputs<msg::Ping> outputs() const;
+  SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
+  Design prepare(const HeadSettings& settings) const;
+  Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
 
  private:
-  /// Design shared by pings of the same pulse.
-  struct PingDesign {
-    RangedPulse ranged;
-    ArrayPulse array;
+  RangedPulse pulse_for(const HeadSettings& settings) const;
+  void point_beams(double true_mps, double known_mps, std::vector<float>& sin_beams) const;
+  msg::Ping ping_message(const PingEvent& event, const SentPing& sent, const Design& design,
+                         const echo::Image& image) const;
+
+  /// Scratch: its contents do not matter.
+  struct Memory {
+    std::optional<Design> design;  // of the newest ping
+    std::vector<frames::HeadPose> poses;
+    ShotMemory shot;
+    std::vector<float> sin_beams;
+    ArrayEchoes::Memory beams;
   };
 
-  void prepare(const HeadSettings& settings);
-  void point_beams(double true_mps, double known_mps);
-  msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings, double known_sound_speed_mps) const;
-
-  ForwardLookingConfig config_;
+  const Config& config_;
   LineDesign line_;
   ForwardFaces faces_;
   ArrayEchoes echoes_;
-  std::vector<float> beam_angle_rad_;
+  std::vector<float> beam_angle_rad_;                      // azimuth from the head's x axis, positive to starboard
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
-  std::optional<PingDesign> design_;
-
-  // Memory of the ping path.
-  std::vector<frames::HeadPose> poses_;
-  ShotMemory shot_;
-  echo::Arrivals foreign_;
-  std::vector<float> sin_beams_;
-  ArrayEchoes::Memory beams_;
+  Memory memory_;
 };
 
 /// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/backscatter.h"
 
@@ -23,9 +25,9 @@ constexpr double kAbsorption_dbpm = 0.2;
 /// 10 m under the surface; sound that travels straight, over a Lambert seabed.
 ForwardLookingConfig quiet() {
   ForwardLookingConfig config;
-  config.world.water.profile.sound_speed_mps = kSpeed_mps;
-  config.world.water.absorption_dbpm = kAbsorption_dbpm;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = kSpeed_mps;
+  world_of(config).water.absorption_dbpm = kAbsorption_dbpm;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.process = "eye";
   config.effects.noise = config.effects.multipath = false;
   return config;
@@ -47,8 +49,8 @@ frames::PoseHistory at_rest() {
 }
 
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene& scene) {
-  ForwardLookingHead head(config);
-  return head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, at_rest(), scene).ping;
+  ForwardLooking head(config, 0);
+  return image_of(head, {0, SimTime{0}, config.range_m}, config.start(), around(at_rest(), scene, kSpeed_mps));
 }
 msg::Ping ping_of(const ForwardLookingConfig& config, trace::Scene&& scene) { return ping_of(config, scene); }
 
@@ -297,7 +299,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
                                                               {"tvg", &Effects::tvg},
                                                               {"quantisation", &Effects::quantisation}};
   ForwardLookingConfig config = quiet();
-  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
+  world_of(config).water.scattering_layers = {{0.0, 100.0, -60.0}};
   config.tilt_rad = 10 * kDeg;
   config.beams = 32;
   config.pulse.most_samples = 200;
@@ -310,7 +312,7 @@ TEST_CASE("one effect switched off leaves the draws of the others alone") {
     on.*part.of = true;
     const auto image = [&](const Effects& effects, std::uint64_t seed) {
       config.effects = effects;
-      config.world.seed = seed;
+      world_of(config).seed = seed;
       const msg::Ping ping = ping_of(config, scene);
       std::vector<float> before;
       for (std::size_t i = 0; i < ping.amplitude_upa.size(); ++i) {
@@ -391,10 +393,10 @@ TEST_CASE("a wrong sound speed at the face turns the beams as it scales their si
   config.effects.speckle = false;
   config.range_m = 30.0;
   config.pulse.most_samples = 300;
-  ForwardLookingHead head(config);
+  ForwardLooking head(config, 0);
   trace::Scene scene = scene_of(pillar);
   const auto seen_deg = [&](double known_mps) {
-    const msg::Ping ping = head.receive_echoes({0, SimTime{0}, 30.0}, config.start(), known_mps, at_rest(), scene).ping;
+    const msg::Ping ping = image_of(head, {0, SimTime{0}, 30.0}, config.start(), around(at_rest(), scene, known_mps));
     const auto all = ping.amplitude_upa.flat();
     const auto at = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
     return static_cast<double>(ping.beam_angle_rad[at / ping.amplitude_upa.cols()]) / kDeg;

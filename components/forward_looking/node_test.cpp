@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/runtime/testing/node_under_test.h"
+#include "components/sonar/testing/config.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
 
@@ -114,10 +115,10 @@ TEST_CASE("a head that can only see black says why") {
 TEST_CASE("on a tide the water is where it stands, not at chart datum") {
   auto config = small();
   config.range_m = 60.0;
-  config.world.vertical.tide = vertical::Tide(3.0);
+  world_of(config).vertical.tide = vertical::Tide(3.0);
   CHECK(health_at(config, 2.0) == "ok: ");
   CHECK(health_at(config, 4.0) == "degraded: the head is 1.0 m above the water");
-  config.world.vertical.tide = vertical::Tide(-3.0);
+  world_of(config).vertical.tide = vertical::Tide(-3.0);
   CHECK(health_at(config, -2.0) == "degraded: the head is 1.0 m above the water");
 }
 

@@ -46,14 +46,14 @@ TEST_CASE("after the first ping, receiving allocates nothing") {
   const MultibeamConfig config = head_in_plain_water();
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
-  MultibeamHead head(config);
-  MultibeamHead::Ping received;
+  Multibeam head(config, 0);
+  Multibeam::Memory memory;
   const int before_anything = allocations;
-  head.receive_echoes({0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
+  receive_echoes(head, {0, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), memory);
   CHECK(allocations > before_anything);  // the count works
-  head.receive_echoes({1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
+  receive_echoes(head, {1, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), memory);
   const int before = allocations;
   for (int ping = 2; ping < 12; ++ping)
-    head.receive_echoes({ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), received);
+    receive_echoes(head, {ping, SimTime{0}, 60.0}, settings, steering, truth, tiles.scene(), memory);
   CHECK(allocations - before == 0);
 }

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "components/multibeam/head.h"
-#include "components/multibeam/soundings.h"
 #include "components/multibeam/testing/head.h"
 #include "components/sonar/tile_set.h"
 
@@ -40,27 +39,28 @@ frames::PoseHistory at_rest() {
 void one_ping(benchmark::State& state) {
   MultibeamConfig config = head_in_plain_water();
   config.quality = 0.01 * static_cast<double>(state.range(0));
-  config.world.water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
+  world_of(config).water.wind_speed_mps = state.range(1) == 0 ? 5.0 : 0.0;  // echoes by way of a calm surface
   for (int sector = 0; state.range(2) > 1 && sector < state.range(2); ++sector) {
     config.sectors.push_back({.frequency_hz = config.frequency_hz + 20e3 * sector, .delay_s = 200e-6 * sector});
   }
   config.sample_rate_hz = static_cast<double>(state.range(3)) / config.pulse_length_s;
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
-  MultibeamHead head(config);
+  Multibeam head(config, 0);
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   PingEvent event{0, SimTime{0}, 75.0};
-  MultibeamHead::Ping received;
-  head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
-  const int rays = received.trace.rays_that_hit;
+  Multibeam::Memory memory;
+  receive_echoes(head, event, settings, steering, truth, tiles.scene(), memory);
+  int rays = 0;
+  for (const Echoed& sector : memory.echoed) rays += sector.rays_that_hit;
   if (rays < 20000) throw std::runtime_error("the rays miss the seabed");
   state.counters["rays"] = rays;
   for (auto _ : state) {
     ++event.ping;
-    head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
-    benchmark::DoNotOptimize(received.sectors.front().image.amplitude_upa.data());
+    const auto beams = receive_echoes(head, event, settings, steering, truth, tiles.scene(), memory);
+    benchmark::DoNotOptimize(beams.front().image.amplitude_upa.data());
   }
 }
 BENCHMARK(one_ping)
@@ -78,21 +78,21 @@ void detections(benchmark::State& state) {
   const MultibeamConfig config = head_in_plain_water();
   const Steering steering = steer(config, config.swath_rad, {});
   const HeadSettings settings = config.start();
-  MultibeamHead head(config);
-  SoundingMaker maker(config, head.design());
+  Multibeam head(config, 0);
+  const Detector detector(config, head.arrays());
+  const SoundingMaker maker(config, head.arrays());
   TileSet tiles;
   tiles.insert(wavy_tile());
   const auto truth = at_rest();
   const PingEvent event{0, SimTime{0}, 75.0};
-  MultibeamHead::Ping received;
-  head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
+  Multibeam::Memory memory;
+  const auto beams = receive_echoes(head, event, settings, steering, truth, tiles.scene(), memory);
   const uncertainty::Navigation navigation = config.uncertainty.unstated();
   const InstrumentPing ping{event, settings, steering, truth, navigation};
-  SoundingMaker::Memory memory;
   ReliefEstimator relief;
   std::size_t bottoms = 0;
   for (auto _ : state) {
-    const Placed placed = maker.place(ping, maker.detect(ping, received.sectors, memory), relief, memory);
+    const Placed placed = maker.place(ping, detector.detect(ping, beams, memory.detection), relief, memory.soundings);
     benchmark::DoNotOptimize(placed.soundings.valid.data());
     bottoms = placed.bottoms.size();
   }

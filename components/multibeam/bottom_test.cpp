@@ -38,7 +38,7 @@ WaterProfile warm_over_cold() {
 
 TEST_CASE("in refracting water soundings lie on the flat bottom if the profile is known") {
   auto config = shallow();
-  config.world.water.profile = warm_over_cold();
+  world_of(config).water.profile = warm_over_cold();
   const auto soundings = survey(config, {}, 2_s);
   REQUIRE(soundings.size() == 19);
   // As in isovelocity water, above; the mean of 19 pings is a quarter looser than that of 29.
@@ -52,17 +52,17 @@ TEST_CASE("in refracting water soundings lie on the flat bottom if the profile i
 
 TEST_CASE("a wrong applied profile bends a flat seabed as theory says") {
   auto config = shallow();
-  config.world.water.profile = warm_over_cold();
-  config.world.water.applied.sound_speed_mps = 1530.0;  // of the surface: right at the face, wrong below
-  const auto error = [&](double angle_deg) {            // of the depth, by the exact ray of that beam
-    const refraction::SoundSpeedProfile truth = true_profile(config.world);
+  world_of(config).water.profile = warm_over_cold();
+  world_of(config).water.applied.sound_speed_mps = 1530.0;  // of the surface: right at the face, wrong below
+  const auto error = [&](double angle_deg) {                // of the depth, by the exact ray of that beam
+    const refraction::SoundSpeedProfile truth = true_profile(*config.world);
     const double depression = (90.0 - angle_deg) * MultibeamConfig::kDegree;
     const auto ray = refraction::path_to_depth(truth, 0.0, depression, 20.0);
     return ray->travel_time_s * 1530.0 * std::sin(depression) - 20.0;
   };
   REQUIRE(error(60.0) - error(10.0) < -0.5);  // the outer swath curls up by that
   const auto refracted = survey(config, {}, 1_s);
-  config.world.water.applied = {};
+  world_of(config).water.applied = {};
   const auto right = survey(config, {}, 1_s);  // the same echoes: what detection errs cancels
   for (const auto& [from, to] : {std::pair{38.0, 42.0}, {53.0, 57.0}, {60.0, 64.0}}) {
     const double found = depth_error(refracted, from, to).mean - depth_error(right, from, to).mean;

@@ -2,124 +2,103 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "components/multibeam/arrays.h"
 #include "components/multibeam/config.h"
+#include "components/multibeam/detector.h"
+#include "components/multibeam/sector.h"
+#include "components/multibeam/soundings.h"
 #include "components/multibeam/steering.h"
-#include "components/sonar/array_echoes.h"
-#include "components/sonar/sea_acoustics.h"
-#include "kernels/acoustics/detect/bottom.h"
-#include "kernels/acoustics/trace/scene.h"
-#include "kernels/base/frames/pose.h"
-#include "messages/sonar.h"
+#include "components/sonar/auto_range.h"
+#include "components/sonar/head_node.h"
+#include "components/sonar/shot_design.h"
+#include "messages/navigation.h"
 
 namespace ensonify {
 
-/// The acoustics of one transmit sector: what its beams receive of its transmission. Uses the true motion, the actual
-/// mounting and the true water, as the sea does. Of other sectors it receives what its filter lets through, by its own
-/// beams' side lobes and where sectors join.
-class SectorEchoes {
+/// A Mills-cross head, a swath per ping: its image, soundings, and if asked for snippets and the seabed's image. The
+/// motion sensor and the probe steer it. All five stages.
+class Multibeam {
  public:
-  /// The design must outlive the sector.
-  SectorEchoes(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector);
-  SectorEchoes(const SectorEchoes&) = delete;
-  SectorEchoes& operator=(const SectorEchoes&) = delete;
-
-  /// Memory of a ping in one sector, the caller's: results lie in it until it is used again.
-  struct Memory {
-    /// Images of all of the receive line, of its starboard and of its port half (those without speckle alone: sums of
-    /// mean squares have no phase). Times count from the sector's own transmission.
-    ArrayEchoes::Memory beams;
-    // Scratch.
-    std::vector<frames::HeadPose> poses;  // from transmission on
-    SteeredSector steered;                // in the water as it is
-    array::Pattern transmit;
-    ShotMemory shot;
-    std::vector<float> sin_beams;
-    echo::Arrivals foreign;
-  };
-  /// Design shared by pings of the same pulse and swath.
-  struct PingDesign {
-    double pulse_length_s, swath_rad;
-    double centre_rad;  // of the sector
-    ArrayPulse array;
-    std::vector<echo::VolumeDirections> volume_directions;  // empty: the water does not scatter
-  };
-  PingDesign design_for(double pulse_length_s, double swath_rad) const;
-
-  /// A sector's transmission and its echoes.
+  using Config = MultibeamConfig;
+  static constexpr const char* kComponent = "multibeam";
+  using Report = HeadReport<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage>;
   struct Sent {
-    Shot shot;
-    Echoed echoed;
-    echo::Sampling sampling;
-    const PingDesign& design;
+    std::vector<Transmission> sectors;
+    Steering steering;
   };
 
-  /// Transmission: rays from the true pose when it is sent, echoes at the true poses at reception. The design is that
-  /// of the settings. `truth` has a pose.
-  Sent send(const PingEvent& event, const HeadSettings& settings, const PingDesign& design, const Steering& steering,
-            const frames::PoseHistory& truth, const trace::Scene& seabed, Memory& memory) const;
-  /// Beams of the sector, in memory.beams.images, when all sectors of the ping have sent; with noise at the array's
-  /// elements. Both together are a function of the shot, the settings, the steering, the poses and the tiles.
-  void beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> all, Memory& memory) const;
+  /// What follows from the settings of a ping.
+  struct Design {
+    double pulse_length_s, swath_rad;
+    std::vector<Sector::Design> sectors;
 
- private:
-  void aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) const;
-
-  MultibeamConfig config_;
-  const ArrayDesign& arrays_;
-  std::size_t sector_;
-  SectorPattern pattern_;
-  ArrayEchoes echoes_;
-};
-
-/// The acoustics of a Mills-cross head: what its beams receive. What the instrument makes of it is in soundings.h.
-class MultibeamHead {
- public:
-  explicit MultibeamHead(const MultibeamConfig& config);
-  MultibeamHead(const MultibeamHead&) = delete;
-  MultibeamHead& operator=(const MultibeamHead&) = delete;
-
-  /// Beams of one sector against time after that sector's transmission, as all of the receive line and as each half of
-  /// it receives them: before gain and converter.
-  /// A point's echo counts as a rectangle of its energy, echo_s long about its middle. The times of the image's samples
-  /// are such that this rectangle begins at the point's arrival. The middle comes middle_s after it: half a tone's
-  /// length, 0 of a chirp, whose peak stands there.
-  struct Received {
-    detect::Amplitudes image;
-    detect::HalfApertures halves;
-    double echo_s = 0.0, middle_s = 0.0;
+    bool fits(const HeadSettings& settings) const {
+      return pulse_length_s == settings.pulse_length_s && swath_rad == settings.swath_rad;
+    }
   };
-  /// A ping as received, in memory of the caller, which may be used again.
-  struct Ping {
-    std::vector<Received> sectors;                      // their spans lie in this ping
-    TraceSummary trace;                                 // of all sectors
+
+  static HeadPlan plan(const Config& config);
+
+  /// The configuration outlives the head.
+  Multibeam(const Config& config, std::size_t channel);
+  Multibeam(const Multibeam&) = delete;
+  Multibeam& operator=(const Multibeam&) = delete;
+
+  HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage> outputs() const;
+  void connect(Ports& ports);
+  Sent transmit(SimTime now, HeadSettings settings, const Surroundings& around);
+  Design prepare(const HeadSettings& settings) const;
+  Report ping(const PingEvent& event, const Sent& sent, const Surroundings& around);
+
+  /// Scratch: its contents do not matter. Results of the stages lie in it until it is used again.
+  struct Memory {
+    std::optional<Design> design;  // of the newest ping
+    std::vector<Sector::Memory> sectors;
+    std::vector<Sector::Sent> sent;
+    std::vector<Echoed> echoed;
+    std::vector<SectorBeams> beams;
     std::shared_ptr<std::vector<float>> amplitude_upa;  // of all beams; a new one while messages still hold the last
-    // Scratch.
-    std::vector<SectorEchoes::Memory> memory;
-    std::vector<SectorEchoes::Sent> sent;
-    std::vector<float> part;  // amplitudes of a sector
+    Detector::Memory detection;
+    SoundingMaker::Memory soundings;
   };
-  /// Fills a ping: a function of shot, settings, steering, poses and tiles. `truth` has a pose.
-  void receive_echoes(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                      const frames::PoseHistory& truth, const trace::Scene& seabed, Ping& ping);
 
-  /// A ping as a message, without a track; amplitudes without a converter are shared with it. The phase costs time and
-  /// is left out unless asked for, or without speckle, when there is none.
-  msg::Ping ping_message(const Ping& received, const PingEvent& event, const HeadSettings& settings,
-                         const Steering& steering, bool phase) const;
-  /// The settings that a ping was made with.
-  msg::AppliedSettings applied(const PingEvent& event, const HeadSettings& settings, const Steering& steering) const;
-  std::size_t max_ping_bytes() const;
-  const ArrayDesign& design() const { return design_; }
+  /// The first three stages of a ping, sector by sector; together a function of event, settings, steering, poses and
+  /// tiles. The truth has a pose.
+  std::span<const Sector::Sent> insonify(const PingEvent& event, const HeadSettings& settings, const Design& design,
+                                         const Steering& steering, const Surroundings& around, Memory& memory) const;
+  std::span<const Echoed> echoes(std::span<const Sector::Sent> sent, Memory& memory) const;
+  std::span<const SectorBeams> beamform(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                                        std::span<const Sector::Sent> sent, std::span<const Echoed> echoed,
+                                        Memory& memory) const;
+
+  const ArrayDesign& arrays() const { return arrays_; }
 
  private:
-  MultibeamConfig config_;
-  ArrayDesign design_;
-  std::deque<SectorEchoes> sectors_;
-  std::vector<SectorEchoes::PingDesign> designs_;  // by sector, of the settings of the newest ping
+  void follow_range(const HeadSettings& settings);
+  SteeringInputs steering_inputs(SimTime now, const Surroundings& around) const;
+  void add_images(const Sent& sent, const Placed& placed, std::span<const SectorBeams> beams, Report& report) const;
+
+  /// What later pings depend on.
+  struct State {
+    ReliefEstimator relief;
+    AutoRange range;
+    double swath_of_range_rad;                 // that the range knows
+    std::optional<frames::Attitude> attitude;  // the newest that the motion sensor gave
+    HeadingMean heading;
+  };
+
+  const Config& config_;
+  ArrayDesign arrays_;
+  std::deque<Sector> sectors_;
+  refraction::SoundSpeedProfile applied_;
+  Detector detector_;
+  SoundingMaker soundings_;
+  Memory memory_;
+  State state_;
 };
 
 }  // namespace ensonify

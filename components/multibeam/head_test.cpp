@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "components/multibeam/ping_message.h"
 #include "components/multibeam/testing/head.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
@@ -21,8 +22,8 @@ MultibeamConfig small() {
   config.beams = 32;
   config.receive_beamwidth_rad = config.transmit_beamwidth_rad = 4.0 * MultibeamConfig::kDegree;
   config.quality = 0.05;
-  config.world.water.noise_level_db = 70.0;
-  config.world.water.scattering_layers = {{0.0, 100.0, -60.0}};
+  world_of(config).water.noise_level_db = 70.0;
+  world_of(config).water.scattering_layers = {{0.0, 100.0, -60.0}};
   return config;
 }
 
@@ -52,19 +53,21 @@ struct Received {
 };
 
 Received received(const MultibeamConfig& config, bool phase = false) {
-  MultibeamHead head(config);
+  const Multibeam head(config, 0);
   const PingEvent event{7, SimTime{0}, 45.0};
   const Steering steering = steer(config, config.swath_rad, {});
-  MultibeamHead::Ping echoes;
-  head.receive_echoes(event, config.start(), steering, moving(), seabed(), echoes);
+  const HeadSettings settings = config.start();
+  Multibeam::Memory memory;
+  const auto sectors = receive_echoes(head, event, settings, steering, moving(), seabed(), memory);
   Received result;
-  for (const auto& sector : echoes.sectors) {
+  for (const SectorBeams& sector : sectors) {
     const auto half = sector.halves.positive_upa;
     result.starboard.insert(result.starboard.end(), half.begin(), half.end());
     const auto amplitude = sector.image.amplitude_upa;
     result.amplitude_upa.insert(result.amplitude_upa.end(), amplitude.begin(), amplitude.end());
   }
-  result.ping = head.ping_message(echoes, event, config.start(), steering, phase);
+  result.ping = ping_message(config, event, settings, steering, applied_settings(config, event, settings, steering),
+                             {memory.amplitude_upa, sectors, phase});
   return result;
 }
 
@@ -146,15 +149,15 @@ TEST_CASE("calm surface echoes arrive after 2 d / c; none with multipath off or 
   const double level_db = 20.0 * std::log10(at_surface());
   CHECK_THAT(level_db, WithinAbs(215.0 - 12.04 - 0.28 - 20.0 - 3.0, 1.0));
 
-  config.world.vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
+  world_of(config).vertical.tide = vertical::Tide(3.0);  // 5 m overhead: 20 log 10 m, 0.07 x 10
   CHECK(at_surface(2.0) == 0.0);
   CHECK_THAT(20.0 * std::log10(at_surface(5.0)), WithinAbs(215.0 - 20.0 - 0.7 - 20.0 - 3.0, 1.0));
-  config.world.vertical.tide = vertical::Tide();
+  world_of(config).vertical.tide = vertical::Tide();
 
   config.effects.multipath = false;
   CHECK(at_surface() == 0.0);
   config.effects.multipath = true;
-  config.world.water.wind_speed_mps = 5.0;
+  world_of(config).water.wind_speed_mps = 5.0;
   CHECK(at_surface() == 0.0);
 }
 

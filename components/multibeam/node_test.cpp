@@ -115,7 +115,7 @@ TEST_CASE("a ping is published at its last echo plus the processing latency") {
 TEST_CASE("the same ping twice has the same bytes, another seed has others") {
   const auto received = [](std::uint64_t seed) {
     auto config = shallow();
-    config.world.seed = seed;
+    world_of(config).seed = seed;
     Head head(config);
     give_motion(head, {.speed_mps = 2.0, .roll_rad = 0.1}, 300_ms);
     head.give("tile", flat_tile(-20.0));

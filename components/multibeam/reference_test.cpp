@@ -16,9 +16,9 @@ namespace {
 /// 20 m of water with a thermocline over a slope, where a straight outer beam is 5 % wrong; no noise, no speckle.
 MultibeamConfig under_a_thermocline(const Quality& quality) {
   MultibeamConfig config = head_in_plain_water();
-  config.world.water.profile = WaterProfile{};
+  world_of(config).water.profile = WaterProfile{};
   for (const auto& [depth_m, speed_mps] : {std::pair{0.0, 1512.0}, {6.0, 1512.0}, {10.0, 1495.0}, {60.0, 1492.0}})
-    config.world.water.profile.samples.push_back({.depth_m = depth_m, .sound_speed_mps = speed_mps});
+    world_of(config).water.profile.samples.push_back({.depth_m = depth_m, .sound_speed_mps = speed_mps});
   config.beams = 64;
   config.quality = quality;
   config.effects.speckle = config.effects.noise = config.effects.volume = config.effects.multipath = false;
@@ -30,7 +30,7 @@ std::map<int, double> levels(const Quality& quality) {
   const MultibeamConfig config = under_a_thermocline(quality);
   TileSet tiles;
   tiles.insert(tile_of(200.0, 0.5, [](double east, double) { return -22.0 + 0.03 * east; }));
-  MultibeamHead head(config);
+  const Multibeam head(config, 0);
   const Steering steering = steer(config, config.swath_rad, {});
   std::map<int, double> sums;
   for (int ping = 0; ping < 24; ++ping) {
@@ -38,9 +38,10 @@ std::map<int, double> levels(const Quality& quality) {
     frames::Pose pose;
     pose.position_enu_m = {0.0, 3.0 * ping, -2.0};
     truth.push(0, pose);
-    MultibeamHead::Ping received;
-    head.receive_echoes({ping, SimTime{0}, 60.0}, config.start(), steering, truth, tiles.scene(), received);
-    const detect::Amplitudes& image = received.sectors.front().image;
+    Multibeam::Memory memory;
+    const auto beams =
+        receive_echoes(head, {ping, SimTime{0}, 60.0}, config.start(), steering, truth, tiles.scene(), memory);
+    const detect::Amplitudes& image = beams.front().image;
     for (int beam = 0; beam < image.beams; ++beam) {
       const double angle_deg = double(steering.beam_angle_rad[std::size_t(beam)]) / MultibeamConfig::kDegree;
       double& sum = sums[5 * int(std::floor(angle_deg / 5.0))];

@@ -21,8 +21,8 @@ double nearest_s(const msg::Soundings& soundings) {
 
 }  // namespace
 
-msg::Snippets snippets_of(std::span<const MultibeamHead::Received> received, const Steering& steering,
-                          std::span<const Echo> echoes, const msg::Soundings& soundings) {
+msg::Snippets snippets_of(std::span<const SectorBeams> received, const Steering& steering, std::span<const Echo> echoes,
+                          const msg::Soundings& soundings) {
   std::vector<std::uint16_t> beams;
   std::vector<float> first_s, samples;
   std::vector<std::uint32_t> centres, offsets{0};
@@ -55,8 +55,8 @@ msg::Snippets snippets_of(std::span<const MultibeamHead::Received> received, con
 }
 
 msg::SeabedImage seabed_image_of(const MultibeamConfig& config, const HeadSettings& settings, const Steering& steering,
-                                 const MultibeamHead::Received& received, const AreaLengths& lines,
-                                 const msg::Snippets& snippets, const msg::Soundings& soundings) {
+                                 const SectorBeams& received, const AreaLengths& lines, const msg::Snippets& snippets,
+                                 const msg::Soundings& soundings) {
   const auto sectors = config.all_sectors();
   detect::FlatteningModel model;
   model.source_level_db = settings.source_level_db;

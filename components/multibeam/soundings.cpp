@@ -1,11 +1,8 @@
 #include "components/multibeam/soundings.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "components/sonar/environment.h"
 #include "kernels/acoustics/array/line.h"
@@ -62,12 +59,6 @@ std::uint8_t flags_of(const detect::Detection& detection) {
                                    bit(detect::kCutOff, msg::kCutOff) | bit(detect::kOutOfGate, msg::kOutOfGate));
 }
 
-/// Angle in the plane across the track between the head's z axis and the vertical: where a level seabed lies for it.
-double seabed_tilt_rad(const frames::HeadPose& head) {
-  const frames::Vec3 down = head.enu_from_head.conjugate() * -frames::Vec3::UnitZ();
-  return std::atan2(down.y(), down.z());
-}
-
 }  // namespace
 
 Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedProfile& applied) {
@@ -99,12 +90,8 @@ Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedPr
   return middle + place;
 }
 
-SoundingMaker::SoundingMaker(const MultibeamConfig& config, const ArrayDesign& design)
-    : config_(config), applied_(applied_profile(config.world)), sectors_(design.sectors) {}
-
-frames::HeadPose SoundingMaker::estimated_pose(const frames::PoseHistory& estimate, SimTime t) const {
-  return frames::head_pose(*estimate.at(t.count(), frames::PoseHistory::Outside::kNearest), config_.mounting.measured);
-}
+SoundingMaker::SoundingMaker(const MultibeamConfig& config, const ArrayDesign& arrays)
+    : config_(config), applied_(applied_profile(*config.world)), sectors_(arrays.sectors) {}
 
 Placed SoundingMaker::place(const InstrumentPing& ping, Detected detected, ReliefEstimator& relief,
                             Memory& memory) const {
@@ -137,7 +124,7 @@ Placed SoundingMaker::place(const InstrumentPing& ping, Detected detected, Relie
     place(ping, i, placed);
   }
   const uncertainty::Geometry geometry = motion(ping);
-  const frames::Vec3 head_enu_m = estimated_pose(ping.estimate, ping.event.transmit).position_enu_m;
+  const frames::Vec3 head_enu_m = ping.head_pose(config_.mounting.measured, ping.event.transmit).position_enu_m;
   update(relief, geometry, head_enu_m, placed, memory);
   state_uncertainty(ping, geometry, head_enu_m, relief, placed);
   return placed;
@@ -217,86 +204,6 @@ void SoundingMaker::state_uncertainty(const InstrumentPing& ping, const uncertai
   }
 }
 
-Detected SoundingMaker::detect(const InstrumentPing& ping, std::span<const MultibeamHead::Received> received,
-                               Memory& memory) const {
-  const profile::Span span(profile::Stage::kDetection);
-  const Steering& steering = ping.steering;
-  detect::Settings settings;
-  settings.gates.snr_db = config_.detection_threshold_db;
-  settings.gates.min_range_m = config_.least_range_m;
-  settings.max_detections = config_.detections_per_beam;
-  settings.second_echo.refused = config_.refuse_second_echo;
-  settings.pulse_length_s = received.front().echo_s;
-  settings.absorption_dbpm = ping.settings.gain_absorption_dbpm;
-  settings.sound_speed_mps = steering.sound_speed_mps;
-  if (!ping.estimate.empty()) {
-    const frames::HeadPose head = estimated_pose(ping.estimate, ping.event.transmit);
-    settings.seabed_tilt_rad = seabed_tilt_rad(head);
-    const double water_level_m = config_.world.vertical.tide.at(seconds(ping.event.transmit)).height_m;
-    settings.second_echo.head_depth_m = std::max(water_level_m - head.position_enu_m.z(), 0.0);
-  }
-  std::vector<detect::Detection>& detections = memory.detections;
-  std::vector<Echo> echoes;
-  std::size_t first = 0;  // place of the sector's first sounding
-  for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {
-    settings.receive_length_in_waves = sectors_[sector].receive_in_waves;
-    settings.phase_centres_in_waves = sectors_[sector].phase_centres_in_waves;
-    const SteeredSector& beams = steering.sectors[sector];
-    const auto begin = steering.beam_of_sounding.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = std::lower_bound(begin, steering.beam_of_sounding.end(), beams.first_beam + beams.beams);
-    const auto count = static_cast<std::size_t>(end - begin);
-    const auto sines = std::span(steering.sin_soundings).subspan(first, count);
-    const MultibeamHead::Received& as_formed = received[sector];
-    const MultibeamHead::Received at =
-        steering.high_density() ? at_places(steering, sector, as_formed,
-                                            std::span(steering.beam_of_sounding).subspan(first, count), sines, memory)
-                                : as_formed;
-    detect::detect_bottom(settings, sines, at.image, at.halves, detections);
-    for (std::size_t i = 0; i < detections.size(); ++i) {
-      const auto place = static_cast<int>(first + i / static_cast<std::size_t>(settings.max_detections));
-      const auto detection = static_cast<int>(i % static_cast<std::size_t>(settings.max_detections));
-      if (detection > 0 && !detections[i].valid) continue;
-      echoes.push_back({steering.beam_of_sounding[static_cast<std::size_t>(place)], detection, static_cast<int>(sector),
-                        place, detections[i]});
-    }
-    first += count;
-  }
-  return {std::move(echoes), received.front().echo_s, received.front().image.period_s};
-}
-
-/// The beams nearest to places in the swath, their halves turned from their axes to these places: what turns is the
-/// phase between the halves, what the beams receive stays.
-MultibeamHead::Received SoundingMaker::at_places(const Steering& steering, std::size_t sector,
-                                                 const MultibeamHead::Received& beams,
-                                                 std::span<const int> beam_of_place, std::span<const float> sin_places,
-                                                 Memory& memory) const {
-  auto& amplitude_upa = memory.amplitude_upa;
-  auto &positive_upa = memory.positive_upa, &negative_upa = memory.negative_upa;
-  const auto samples = static_cast<std::size_t>(beams.image.samples), count = sin_places.size();
-  const bool phase = !beams.halves.positive_upa.empty();
-  amplitude_upa.resize(count * samples);
-  positive_upa.resize(phase ? count * samples : 0);
-  negative_upa.resize(positive_upa.size());
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const auto beam = static_cast<std::size_t>(beam_of_place[i]);
-    const std::size_t from = (beam - static_cast<std::size_t>(steering.sectors[sector].first_beam)) * samples;
-    const auto to = static_cast<std::ptrdiff_t>(i * samples);
-    std::ranges::copy(beams.image.amplitude_upa.subspan(from, samples), amplitude_upa.begin() + to);
-    if (!phase) return;
-    std::ranges::copy(beams.halves.negative_upa.subspan(from, samples), negative_upa.begin() + to);
-    const double off_axis = static_cast<double>(sin_places[i]) - static_cast<double>(steering.sin_beams[beam]);
-    const std::complex<float> turn(
-        std::polar(1.0, -2.0 * std::numbers::pi * sectors_[sector].phase_centres_in_waves * off_axis));
-    std::ranges::transform(beams.halves.positive_upa.subspan(from, samples), positive_upa.begin() + to,
-                           [&](std::complex<float> value) { return value * turn; });
-  });
-  MultibeamHead::Received at = beams;
-  at.image.beams = static_cast<int>(count);
-  at.image.amplitude_upa = amplitude_upa;
-  at.halves = {positive_upa, negative_upa};
-  return at;
-}
-
 /// Why there are entries without a sounding. Outward of a beam whose echo is cut off by the range, what a beam receives
 /// are the side lobes of those within it.
 void SoundingMaker::flag(const Steering& steering, Placed& placed) {
@@ -346,11 +253,12 @@ void SoundingMaker::place(const InstrumentPing& ping, std::size_t entry, Placed&
   const auto sector = static_cast<std::size_t>(echo.sector), place = static_cast<std::size_t>(echo.place);
   const SimTime transmit = ping.event.transmit + from_seconds(sectors_[sector].delay_s);
   const double two_way_s = echo.measured.two_way_s;
-  const frames::Vec3 where = sounding_enu_m(
-      {estimated_pose(ping.estimate, transmit), estimated_pose(ping.estimate, transmit + from_seconds(two_way_s)),
-       steering.sectors[sector].sin_transmit, static_cast<double>(steering.sin_soundings[place]),
-       steering.sound_speed_mps, two_way_s},
-      applied_);
+  const frames::Vec3 where =
+      sounding_enu_m({ping.head_pose(config_.mounting.measured, transmit),
+                      ping.head_pose(config_.mounting.measured, transmit + from_seconds(two_way_s)),
+                      steering.sectors[sector].sin_transmit, static_cast<double>(steering.sin_soundings[place]),
+                      steering.sound_speed_mps, two_way_s},
+                     applied_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     placed.soundings.position_enu_m(entry, axis) = where[static_cast<Eigen::Index>(axis)];
   }

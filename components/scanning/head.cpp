@@ -26,8 +26,7 @@ LineDesign narrow_line(const ScanningConfig& config) {
 
 array::Pattern pattern_of(const ScanningConfig& config, const LineDesign& line) {
   const double tall = tall_in_waves(config);
-  const auto vertical = std::make_shared<array::PatternTable>(
-      [=](double sine) { return array::line_amplitude(tall, sine); }, 0.5 * tall, config.quality.pattern_error());
+  const auto vertical = array::uniform_line_table(tall, config.quality.pattern_error());
   const auto first_null = static_cast<float>(config.effects.side_lobes ? 2.0 : line.first_null);
   const auto cosine = static_cast<float>(std::cos(config.tilt_rad)),
              sine = static_cast<float>(std::sin(config.tilt_rad));
@@ -52,7 +51,7 @@ Apertures apertures_of(const ScanningConfig& config, const LineDesign& line) {
   a.narrowest_rad = config.horizontal_beamwidth_rad;
   a.narrow_axis_head = Eigen::Vector3f::UnitY();
   a.resolution_m = resolution_m(config);
-  a.seed = config.world.seed;
+  a.seed = config.world->seed;
   a.process = config.process;
   return a;
 }
@@ -67,51 +66,88 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
                  2.0 * array::half_power_half_width(tall)};
   volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world.seed, config.process + "/rays"}};
+  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world->seed, config.process + "/rays"}};
 }
 
 }  // namespace
 
 array::Pattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
 
-ScanningHead::ScanningHead(const ScanningConfig& config) : ScanningHead(config, narrow_line(config)) {}
+HeadPlan Scanning::plan(const Config& config) {
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
+          .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
+          .finest_beam_rad = config.horizontal_beamwidth_rad,
+          .beam_axis = BeamAxis::kForward,
+          .probe = true};
+}
 
-ScanningHead::ScanningHead(const ScanningConfig& config, const LineDesign& line)
+Scanning::Scanning(const Config& config, std::size_t) : Scanning(config, narrow_line(config)) {}
+
+Scanning::Scanning(const Config& config, const LineDesign& line)
     : config_(config),
-      echoes_(apertures_of(config, line), Environment(config.world, config.frequency_hz), config.effects,
-              config.quality, rays_of(config, line)) {}
+      rays_(rays_of(config, line)),
+      echoes_(apertures_of(config, line), std::make_shared<const Environment>(*config.world, config.frequency_hz),
+              config.effects, config.quality) {}
 
-ScanningHead::Received ScanningHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                    double known_sound_speed_mps, const frames::PoseHistory& truth,
-                                                    const trace::Scene& seabed) {
+HeadOutputs<msg::Ping> Scanning::outputs() const {
+  return {{"ping", static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536}};
+}
+
+SentPing Scanning::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
+  const RangedPulse pulse = pulse_for(settings);
+  return {{{config_.frequency_hz, pulse.length_s, from_seconds(pulse.reception_s()), settings}},
+          around.sound_speed_mps};
+}
+
+RangedPulse Scanning::pulse_for(const HeadSettings& settings) const {
+  return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);
+}
+
+Scanning::Design Scanning::prepare(const HeadSettings& settings) const {
+  const RangedPulse ranged = pulse_for(settings);
+  return {settings.range_m,
+          settings.pulse_length_s,
+          ranged,
+          {echo_pulse(config_.pulse, ranged), ranged.sampling.period_s, echoes_.cells(), rays_}};
+}
+
+Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, const Surroundings& around) {
+  const Transmission& transmission = sent.sectors.front();
+  const HeadSettings& settings = transmission.settings;
+  const Design& design = design_of(*this, settings, memory_.design);
+  const SeaAcoustics& sea = echoes_.sea();
   Scan scan = config_.scan;
   scan.width_rad = settings.swath_rad;
   const double angle_rad = scan_angle_rad(scan, event.ping);
-  const RangedPulse ranged = pulse_for(settings);
-  head_poses(truth, config_.mounting.actual, event.transmit, from_seconds(ranged.reception_s()), poses_);
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
-  for (frames::HeadPose& pose : poses_) pose.enu_from_head = pose.enu_from_head * turned;
-  Emission emission;
-  emission.event = event;
-  emission.source_level_db = settings.source_level_db;
-  emission.sample_period_s = ranged.sampling.period_s;
-  emission.reception_s = (ranged.sampling.count - 0.5) * ranged.sampling.period_s;
-  const auto [image, trace] =
-      echoes_.receive_echoes(emission, echo_pulse(config_.pulse, ranged), poses_, seabed, memory_);
+  head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
+  for (frames::HeadPose& pose : memory_.poses) pose.enu_from_head = pose.enu_from_head * turned;
+  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, echoes_.transmit()};
 
-  Received received{ping_message(event, "scanning", config_.frequency_hz, settings, known_sound_speed_mps), trace};
-  msg::Ping& ping = received.ping;
-  ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
-  write_samples(tvg_of(settings, known_sound_speed_mps), config_.converter_in_use(), ranged.sampling, image, ping);
-  fill_shape(false, config_.pulse.tapered_fraction, ping.applied);
-  ping.applied.pulse_length_s = ranged.length_s;
-  ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
-  ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;
-  return received;
+  const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, event.range_m);
+  const Insonified insonified =
+      sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, event.range_m, memory_.shot);
+  const Echoed echoed = sea.echoes(shot, insonified, memory_.shot);
+  const echo::Arrivals& foreign = sea.interference(shot, echoed, event.interfering, design.shot.pulse, memory_.shot);
+  const echo::Image& image =
+      echoes_.beamform(shot, echoed, design.shot, {event.number(), design.ranged.sampling, foreign}, memory_.beams);
+
+  return {.messages = {ping_message(event, sent, design, angle_rad, image)},
+          .trouble = no_echo_reason(echoed.summary(shot, event.range_m, around.seabed))};
 }
 
-std::size_t ScanningHead::max_ping_bytes() const {
-  return static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536;
+msg::Ping Scanning::ping_message(const PingEvent& event, const SentPing& sent, const Design& design, double angle_rad,
+                                 const echo::Image& image) const {
+  const HeadSettings& settings = sent.sectors.front().settings;
+  msg::Ping ping = ensonify::ping_message(event, kComponent, config_.frequency_hz, settings, sent.sound_speed_mps);
+  ping.beam_angle_rad = msg::Array<float>::of({static_cast<float>(angle_rad)});
+  write_samples(tvg_of(settings, sent.sound_speed_mps), config_.converter_in_use(), design.ranged.sampling, image,
+                ping);
+  fill_shape(false, config_.pulse.tapered_fraction, ping.applied);
+  ping.applied.pulse_length_s = design.ranged.length_s;
+  ping.applied.transmit_beamwidth_rad = config_.vertical_beamwidth_rad;
+  ping.applied.receive_beamwidth_rad = config_.horizontal_beamwidth_rad;
+  return ping;
 }
 
 }  // namespace ensonify

@@ -5,6 +5,7 @@
 #include "components/runtime/testing/node_under_test.h"
 #include "components/scanning/node.h"
 #include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/seabed/backscatter.h"
 #include "messages/motion.h"
@@ -36,9 +37,9 @@ void check_angles(const Scan& scan, const std::vector<double>& expected) {
 /// A quiet head over a Lambert seabed.
 ScanningConfig quiet() {
   ScanningConfig config;
-  config.world.water.profile.sound_speed_mps = kSpeed_mps;
-  config.world.water.absorption_dbpm = 0.2;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = kSpeed_mps;
+  world_of(config).water.absorption_dbpm = 0.2;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.process = "eye";
   config.effects.noise = config.effects.multipath = config.effects.speckle = false;
   return config;
@@ -92,13 +93,13 @@ TEST_CASE("a pole echoes in the ping that points at it, at its range") {
   const double east_m = -12.0 * std::sin(60 * kDeg), north_m = 12.0 * std::cos(60 * kDeg);
   ScanningConfig config = quiet();
   config.scan = {.centre_rad = -60 * kDeg, .width_rad = 20 * kDeg, .step_rad = 0.9 * kDeg};
-  ScanningHead head(config);
+  Scanning head(config, 0);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   auto scene = scene_of([&](double e, double n) { return std::hypot(e - east_m, n - north_m) < 0.2 ? -9.0 : -60.0; });
   double strongest_upa = 0.0, angle_deg = 0.0, range_m = 0.0;
   for (std::int64_t ping = 0; ping < pings_per_sweep(config.scan); ++ping) {
-    const msg::Ping row = head.receive_echoes({ping, SimTime{0}, 20.0}, config.start(), kSpeed_mps, truth, scene).ping;
+    const msg::Ping row = image_of(head, {ping, SimTime{0}, 20.0}, config.start(), around(truth, scene, kSpeed_mps));
     REQUIRE(row.amplitude_upa.rows() == 1);
     for (std::size_t k = 0; k < row.amplitude_upa.cols(); ++k) {
       if (static_cast<double>(row.amplitude_upa[k]) <= strongest_upa) continue;
@@ -138,13 +139,13 @@ TEST_CASE("the mean level of a flat seabed is that of the area integral") {
   config.range_m = 40.0;
   config.scan.centre_rad = config.scan.width_rad = 0.5 * kDeg;
   config.quality = 1.0;
-  ScanningHead head(config);
+  Scanning head(config, 0);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   auto scene = scene_of([](double, double) { return -15.0; });
-  const msg::Ping row = head.receive_echoes({0, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene).ping;
+  const msg::Ping row = image_of(head, {0, SimTime{0}, 40.0}, config.start(), around(truth, scene, kSpeed_mps));
   const double narrow = array::length_in_waves_for(2 * kDeg), tall = array::length_in_waves_for(25 * kDeg);
-  const double length_m = 0.5 * kSpeed_mps * head.pulse_for(config.start()).length_s, H = 5.0;
+  const double length_m = 0.5 * kSpeed_mps * head.prepare(config.start()).ranged.length_s, H = 5.0;
   for (const double R : {15.0, 20.0, 30.0}) {
     double sum = 0.0;
     constexpr int kSteps = 40000;
@@ -179,8 +180,8 @@ TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   const auto ping = [&] {
-    ScanningHead head(config);
-    return head.receive_echoes({200, SimTime{0}, 40.0}, config.start(), kSpeed_mps, truth, scene).ping;
+    Scanning head(config, 0);
+    return image_of(head, {200, SimTime{0}, 40.0}, config.start(), around(truth, scene, kSpeed_mps));
   };
   const msg::Ping rectangular = ping();
   config.pulse.tapered_fraction = 0.5;
@@ -202,7 +203,7 @@ TEST_CASE("a tapered tone keeps a flat seabed's mean level but for its effective
 TEST_CASE("a command holds the tone and sets the sector's width") {
   ScanningConfig config = quiet();
   config.scan = {.width_rad = 90 * kDeg, .step_rad = 9 * kDeg};
-  ScanningHead head(config);
+  Scanning head(config, 0);
   frames::PoseHistory truth(1'000'000'000);
   truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
   auto scene = scene_of([](double, double) { return -15.0; });
@@ -212,7 +213,7 @@ TEST_CASE("a command holds the tone and sets the sector's width") {
     wanted.swath_rad = swath_rad;
     CommandedSettings settings(config.start(), config.limits());
     settings.command(wanted);
-    return head.receive_echoes({number, SimTime{0}, 20.0}, settings.at_ping(), kSpeed_mps, truth, scene).ping;
+    return image_of(head, {number, SimTime{0}, 20.0}, settings.at_ping(), around(truth, scene, kSpeed_mps));
   };
   const double by_range_s = 2 * 2 * 20.0 / kSpeed_mps / 1200;  // two of 1200 samples
   CHECK(ping(0, msg::kUnchanged, msg::kUnchanged).applied.pulse_length_s == Approx(by_range_s));

@@ -52,10 +52,7 @@ array::NearFieldFactor::Focus received_focus(const SidescanChannel& c) {
 /// Both sides of a head whose lines have this pattern.
 std::vector<array::Pattern> sides_of(const array::Pattern& along, const SidescanConfig& config,
                                      const SidescanChannel& channel) {
-  const double face_length = face_in_waves(channel);
-  const auto across =
-      std::make_shared<array::PatternTable>([=](double sine) { return array::line_amplitude(face_length, sine); },
-                                            0.5 * face_length, config.quality.pattern_error());
+  const auto across = array::uniform_line_table(face_in_waves(channel), config.quality.pattern_error());
   const auto cosine = static_cast<float>(std::cos(channel.depression_rad));
   const auto sine = static_cast<float>(std::sin(channel.depression_rad));
   std::vector<array::Pattern> sides;
@@ -87,7 +84,7 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   a.electronic_noise_db = channel.electronic_noise_db;
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
   a.resolution_m = channel.resolution_m(config.sound_speed_mps);
-  a.seed = config.world.seed;
+  a.seed = config.world->seed;
   a.process = config.process;
   return a;
 }
@@ -105,7 +102,7 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
   // along the track. Those to places of the world leave it at other ranges in each ping.
   trace::RaySettings rays = config.quality.ray_settings(channel.resolution_m(config.sound_speed_mps));
   rays.fewest_in_main_cell = trace::RaySettings::kToPlaces;
-  return {volume, rays, {config.world.seed, config.process + "/" + channel.name + "/rays"}};
+  return {volume, rays, {config.world->seed, config.process + "/" + channel.name + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
@@ -120,56 +117,84 @@ AperturePatterns side_patterns(const SidescanConfig& config, const SidescanChann
   return patterns_of(config, channel, line_of(config, channel));
 }
 
-SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel)
-    : SidescanHead(config, channel, line_of(config, channel)) {}
-
-SidescanHead::SidescanHead(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line)
-    : config_(config),
-      channel_(channel),
-      echoes_(apertures_of(config, channel, line), Environment(config.world, channel.frequency_hz), config.effects,
-              config.quality, rays_of(config, channel, line)),
-      bottom_(bottom_of(config)),
-      pulse_length_s_(channel.pulse_length_s),
-      pulse_(channel.pulse(channel.pulse_length_s)) {}
-
-SidescanHead::Received SidescanHead::receive_echoes(const PingEvent& event, const HeadSettings& settings,
-                                                    const frames::PoseHistory& vehicle, const trace::Scene& seabed) {
-  if (pulse_length_s_ != settings.pulse_length_s) {
-    pulse_length_s_ = settings.pulse_length_s;
-    pulse_ = channel_.pulse(pulse_length_s_);
+HeadPlan Sidescan::plan(const Config& config) {
+  HeadPlan plan;
+  plan.finest_beam_rad = 1.0;
+  for (const SidescanChannel& channel : config.channels) {
+    const SettingLimits limits = config.limits_of(channel);
+    plan.channels.push_back({channel.name, config.start_of(channel), limits, {{channel.frequency_hz}}});
+    plan.longest_reception_s =
+        std::max(plan.longest_reception_s, config.reception_s(channel.range_m, limits.find("pulse_length_s")->most));
+    plan.finest_beam_rad = std::min(plan.finest_beam_rad, channel.horizontal_beamwidth_rad);
   }
-  Emission emission;
-  emission.event = event;
-  emission.source_level_db = settings.source_level_db;
-  emission.reception_s = config_.reception_s(settings.range_m, settings.pulse_length_s);
-  emission.sample_period_s = channel_.sample_period_s();
-
-  head_poses(vehicle, config_.mounting.actual, event.transmit, from_seconds(emission.reception_s), poses_);
-  const auto [image, trace] = echoes_.receive_echoes(emission, pulse_, poses_, seabed, memory_);
-
-  const echo::Sampling sampling{0.0, emission.sample_period_s, image.samples};
-  Received received{ping_message(event, settings), bottom_.find(image, sampling, pulse_, config_.sound_speed_mps),
-                    trace};
-  received.bottom.stamp_ns = event.transmit.count();
-  received.bottom.ping = event.ping;
-  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), sampling, image, received.ping);
-  return received;
+  return plan;
 }
 
-msg::Ping SidescanHead::ping_message(const PingEvent& event, const HeadSettings& settings) const {
-  msg::Ping ping = ensonify::ping_message(event, "sidescan", channel_.frequency_hz, settings, config_.sound_speed_mps);
+Sidescan::Sidescan(const Config& config, std::size_t channel)
+    : Sidescan(config, config.channels[channel], line_of(config, config.channels[channel])) {}
+
+Sidescan::Sidescan(const Config& config, const SidescanChannel& channel, const LineDesign& line)
+    : config_(config),
+      channel_(channel),
+      rays_(rays_of(config, channel, line)),
+      echoes_(apertures_of(config, channel, line),
+              std::make_shared<const Environment>(*config.world, channel.frequency_hz), config.effects, config.quality),
+      bottom_(bottom_of(config)) {}
+
+HeadOutputs<msg::Ping, msg::BottomTrack> Sidescan::outputs() const {
+  const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_)["pulse_length_s"].most);
+  const auto samples = static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0);
+  return {{"ping", 2 * sizeof(float) * samples + 65536}, {"bottom"}};
+}
+
+SentPing Sidescan::transmit(SimTime, const HeadSettings& settings, const Surroundings&) const {
+  const SimTime reception = from_seconds(config_.reception_s(settings.range_m, settings.pulse_length_s));
+  return {{{channel_.frequency_hz, settings.pulse_length_s, reception, settings, channel_.bandwidth_hz}}};
+}
+
+Sidescan::Design Sidescan::prepare(const HeadSettings& settings) const {
+  const double period_s = channel_.sample_period_s();
+  const double reception_s = config_.reception_s(settings.range_m, settings.pulse_length_s);
+  return {settings.range_m,
+          settings.pulse_length_s,
+          {0.0, period_s, static_cast<int>(std::ceil(reception_s / period_s))},
+          {channel_.pulse(settings.pulse_length_s), period_s, echoes_.cells(), rays_}};
+}
+
+Sidescan::Report Sidescan::ping(const PingEvent& event, const SentPing& sent, const Surroundings& around) {
+  const Transmission& transmission = sent.sectors.front();
+  const HeadSettings& settings = transmission.settings;
+  const Design& design = design_of(*this, settings, memory_.design);
+  const SeaAcoustics& sea = echoes_.sea();
+  head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
+  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, echoes_.transmit()};
+
+  const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, event.range_m);
+  const Insonified insonified =
+      sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, event.range_m, memory_.shot);
+  const Echoed echoed = sea.echoes(shot, insonified, memory_.shot);
+  const echo::Arrivals& foreign = sea.interference(shot, echoed, event.interfering, design.shot.pulse, memory_.shot);
+  const echo::Image& image =
+      echoes_.beamform(shot, echoed, design.shot, {event.number(), design.sampling, foreign}, memory_.beams);
+  msg::BottomTrack bottom =
+      bottom_.find(image, design.sampling, design.shot.pulse, config_.sound_speed_mps, state_.bottom, memory_.bottom);
+
+  bottom.stamp_ns = event.transmit.count();
+  bottom.ping = event.ping;
+  return {{ping_message(event, settings, design, image), std::move(bottom)}, echoed.rays_that_hit > 0};
+}
+
+msg::Ping Sidescan::ping_message(const PingEvent& event, const HeadSettings& settings, const Design& design,
+                                 const echo::Image& image) const {
+  msg::Ping ping = ensonify::ping_message(event, kComponent, channel_.frequency_hz, settings, config_.sound_speed_mps);
   const auto broadside = static_cast<float>(0.5 * std::numbers::pi - channel_.depression_rad);
   ping.beam_angle_rad = msg::Array<float>::of({-broadside, broadside});
   fill_shape(channel_.chirp, channel_.tapered_fraction, ping.applied);
   ping.applied.bandwidth_hz = channel_.bandwidth_hz;
   ping.applied.transmit_beamwidth_rad = channel_.horizontal_beamwidth_rad;
   ping.applied.receive_beamwidth_rad = channel_.vertical_beamwidth_rad;
+  write_samples(tvg_of(settings, config_.sound_speed_mps), config_.converter_in_use(), design.sampling, image, ping);
   return ping;
-}
-
-std::size_t SidescanHead::max_ping_bytes() const {
-  const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_)["pulse_length_s"].most);
-  return 2 * sizeof(float) * static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0) + 65536;
 }
 
 }  // namespace ensonify

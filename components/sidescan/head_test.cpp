@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
@@ -19,9 +21,9 @@ namespace {
 /// vertical pattern.
 SidescanConfig plain_sidescan() {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.water.absorption_dbpm = 0.1;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.absorption_dbpm = 0.1;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
   config.channels[0].source_level_db = 210.0;
   config.channels[0].horizontal_beamwidth_rad = 0.5 * SidescanChannel::kDegree;
   config.effects.directivity = config.effects.speckle = config.effects.noise = config.effects.multipath = false;
@@ -50,11 +52,21 @@ Sea flat(double height_m = -kDepth_m - 10.0) {
   return Sea(tile_of(256, 1.0, [=](double, double) { return height_m; }));
 }
 
-SidescanHead::Received received(const SidescanConfig& config, const Sea& sea, double yaw_radps = 0.0,
-                                std::int64_t ping = 0) {
-  SidescanHead head(config, config.channels[0]);
+struct Received {
+  msg::Ping ping;
+  msg::BottomTrack bottom;
+};
+
+Received received_by(Sidescan&& head, const SidescanConfig& config, const Sea& sea, const frames::PoseHistory& truth,
+                     std::int64_t ping = 0) {
   const HeadSettings settings = config.start_of(config.channels[0]);
-  return head.receive_echoes({ping, SimTime{0}, settings.range_m}, settings, yawing(yaw_radps), sea.tiles.scene());
+  auto report = report_of(head, {ping, SimTime{0}, settings.range_m}, settings, around(truth, sea.tiles.scene()));
+  auto& [image, bottom] = report.messages;
+  return {std::move(*image), std::move(*bottom)};
+}
+
+Received received(const SidescanConfig& config, const Sea& sea, double yaw_radps = 0.0, std::int64_t ping = 0) {
+  return received_by(Sidescan(config, 0), config, sea, yawing(yaw_radps), ping);
 }
 
 /// Mean power of a side over +-`around_m` of slant range, dB. The echo at time t is that of slant ranges
@@ -154,7 +166,7 @@ TEST_CASE("the first bottom is at the altitude, to a sample, and reported for ea
   SidescanConfig config = plain_sidescan();
   config.effects = {};
   config.effects.multipath = false;
-  const auto [ping, bottom, trace] = received(config, flat());
+  const auto [ping, bottom] = received(config, flat());
   const double sample_m = 750.0 * ping.sample_period_s;
   CHECK(bottom.valid);
   CHECK_THAT(bottom.altitude_m, WithinAbs(10.0, sample_m));
@@ -175,12 +187,7 @@ TEST_CASE("the surface overhead is not detected as the bottom, even with a long 
     config.world = plain_sidescan().world;
     config.channels[0].pulse_length_s = 1e-3;
     config.channels[0].samples_per_pulse = samples;
-    const SidescanChannel& channel = config.channels[0];
-    const HeadSettings settings = config.start_of(channel);
-    const Sea sea = flat(-13.0);
-    SidescanHead head(config, channel);
-    const auto [ping, bottom, trace] =
-        head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, yawing(0.0, 3.0), sea.tiles.scene());
+    const auto [ping, bottom] = received_by(Sidescan(config, 0), config, flat(-13.0), yawing(0.0, 3.0));
     INFO(samples << " samples per pulse");
     CHECK(bottom.valid);
     CHECK_THAT(bottom.altitude_m, WithinAbs(10.0, 750.0 * ping.sample_period_s + 0.02));
@@ -221,7 +228,7 @@ TEST_CASE("noise is that of the water against the line's directivity, in the pul
   SidescanConfig config = plain_sidescan();
   config.effects.noise = true;
   config.channels[0].source_level_db = -300.0;
-  config.world.water.noise_level_db = 50.0;
+  world_of(config).water.noise_level_db = 50.0;
   const auto ping = received(config, flat()).ping;
   const double di =
       array::directivity_index_db(array::length_in_waves_for(0.5 * kDeg), array::length_in_waves_for(50 * kDeg));
@@ -234,7 +241,7 @@ TEST_CASE("noise is that of the water against the line's directivity, in the pul
 TEST_CASE("a run that differs in one effect differs by that effect only") {
   SidescanConfig config = plain_sidescan();
   config.effects = {};
-  config.world.water.scattering_layers = {{13.0, 20.0, -60.0}};
+  world_of(config).water.scattering_layers = {{13.0, 20.0, -60.0}};
   config.channels[0].range_m = 30.0;
   const Sea sea = flat();
   const auto all = received(config, sea).ping;

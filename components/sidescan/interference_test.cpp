@@ -75,7 +75,7 @@ double slant_range_m(double time_s) { return 0.5 * 1500.0 * time_s; }
 
 /// Sound in the water of a scenario that states neither profile nor temperature.
 double flight_s(const SidescanConfig& config, double path_m) {
-  return path_m / true_profile(config.world).speed_mps(2.0);
+  return path_m / true_profile(*config.world).speed_mps(2.0);
 }
 
 }  // namespace

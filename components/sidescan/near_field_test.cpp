@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "components/sidescan/head.h"
+#include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 
@@ -27,8 +29,8 @@ constexpr double kStrip_m = 0.06;  // wide: one row of posts, half of a focused 
 
 SidescanConfig sidescan(Focus focus) {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.seabed.sediments = {{0, seabed::Lambert{-120.0}}, {1, seabed::Lambert{-10.0}}};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).seabed.sediments = {{0, seabed::Lambert{-120.0}}, {1, seabed::Lambert{-10.0}}};
   config.effects.directivity = config.effects.speckle = config.effects.noise = false;
   config.effects.multipath = config.effects.absorption = false;
   config.quality = 4;
@@ -59,9 +61,9 @@ TileSet strip_across_the_track() {
 double found(const SidescanConfig& config, TileSet& tiles, double north_m) {
   frames::PoseHistory at_rest(1'000'000'000);
   at_rest.push(0, {{0.0, north_m, 0.0}, frames::enu_from_ned()});
-  SidescanHead head(config, config.channels[0]);
+  Sidescan head(config, 0);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  const auto ping = head.receive_echoes({0, SimTime{0}, settings.range_m}, settings, at_rest, tiles.scene()).ping;
+  const auto ping = image_of(head, {0, SimTime{0}, settings.range_m}, settings, around(at_rest, tiles.scene()));
   double sum = 0.0;
   for (std::size_t k = 0; k < ping.amplitude_upa.cols(); ++k) {
     const double slant_m = 750.0 * static_cast<double>(k) * static_cast<double>(ping.sample_period_s);

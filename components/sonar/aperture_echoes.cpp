@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/water/noise.h"
@@ -25,15 +26,14 @@ std::string stream_name(const Apertures& a, const char* what) {
 
 }  // namespace
 
-ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                               const Quality& quality, const trace::RayDistribution& rays)
+ApertureEchoes::ApertureEchoes(const Apertures& apertures, std::shared_ptr<const Environment> environment,
+                               const Effects& effects, const Quality& quality)
     : apertures_(apertures),
       effects_(effects),
       noise_(apertures.seed, stream_name(apertures, "noise")),
       volume_(apertures.seed, stream_name(apertures, "volume")),
-      sea_(environment, apertures.frequency_hz, effects, quality),
-      cells_(patch_m(apertures), {apertures.seed, "seabed"}),
-      distribution_(rays) {
+      sea_(std::move(environment), apertures.frequency_hz, effects, quality),
+      cells_(patch_m(apertures), {apertures.seed, "seabed"}) {
   if (!sea_.water_scatters()) return;
   const double reach = std::min(1.0, kVolumeReach * apertures.narrowest_rad);
   for (const array::Pattern& pattern : apertures_.patterns.receive) {
@@ -46,29 +46,24 @@ ApertureEchoes::ApertureEchoes(const Apertures& apertures, const Environment& en
   }
 }
 
-ApertureEchoes::Received ApertureEchoes::receive_echoes(const Emission& emission, const echo::Pulse& pulse,
-                                                        std::span<const frames::HeadPose> poses,
-                                                        const trace::Scene& seabed, Memory& memory) const {
-  const PingEvent& event = emission.event;
-  const Shot shot{poses, seconds(event.transmit), emission.source_level_db, apertures_.patterns.transmit};
-  const trace::Mesh mesh = sea_.mesh(shot, seabed, distribution_, event.range_m);
-  const Insonified insonified = sea_.insonify(shot, mesh, distribution_, cells_, event.range_m, memory.shot);
-  const echo::Sampling sampling{0.0, emission.sample_period_s,
-                                static_cast<int>(std::ceil(emission.reception_s / emission.sample_period_s))};
-  const echo::SampledPulse sampled(pulse, sampling.period_s);
-  const Echoed echoed = sea_.echoes(shot, insonified, memory.shot);
-  memory.foreign.clear();
-  sea_.add_interference(shot, echoed, event.interfering, pulse, memory.foreign);
+/// Without speckle the seabed's mean-square pressure is summed, and its root is the envelope before noise.
+const echo::Image& ApertureEchoes::beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                            const ApertureReception& reception, Memory& memory) const {
+  const auto& [ping, sampling, foreign] = reception;
   const std::array sets{weighed(echoed.arrivals, echoed.paired, shot.pose(), memory.gain),
-                        weighed(memory.foreign, {}, shot.pose(), memory.foreign_gain)};
-  beamform(sets, sampled, sampling, memory);
-  const auto ping = static_cast<std::uint64_t>(event.ping);
-  if (sea_.water_scatters()) {
-    sea_.reverberation_upa2(shot, echoed, volume_directions_, pulse, sampling, memory.volume_upa2);
-    memory.background.add_reverberation(memory.volume_upa2, sampled, ping, volume_, memory.image);
+                        weighed(foreign, {}, shot.pose(), memory.foreign_gain)};
+  const int rows = static_cast<int>(apertures_.patterns.receive.size());
+  echo::form_apertures(sets, rows, effects_.speckle ? design.sampled : design.squared, sampling, memory.index,
+                       memory.image);
+  if (!effects_.speckle) {
+    for (auto& value : memory.image.envelope_upa) value = std::sqrt(std::max(0.0F, value.real()));
   }
-  if (effects_.noise) memory.background.add_noise(noise_db(pulse), sampled, ping, noise_, memory.image);
-  return {memory.image, echoed.summary(shot, event.range_m, seabed)};
+  if (sea_.water_scatters()) {
+    sea_.reverberation_upa2(shot, echoed, volume_directions_, design.pulse, sampling, memory.volume_upa2);
+    memory.background.add_reverberation(memory.volume_upa2, design.sampled, ping, volume_, memory.image);
+  }
+  if (effects_.noise) memory.background.add_noise(noise_db(design.pulse), design.sampled, ping, noise_, memory.image);
+  return memory.image;
 }
 
 echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
@@ -80,14 +75,6 @@ echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo
                std::span(gain).subspan(row * arrivals.size(), arrivals.size()));
   }
   return {arrivals, gain};
-}
-
-void ApertureEchoes::beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse,
-                              const echo::Sampling& sampling, Memory& memory) const {
-  const int rows = static_cast<int>(apertures_.patterns.receive.size());
-  echo::form_apertures(echoes, rows, effects_.speckle ? pulse : pulse.squared(), sampling, memory.index, memory.image);
-  if (effects_.speckle) return;
-  for (auto& value : memory.image.envelope_upa) value = std::sqrt(std::max(0.0F, value.real()));
 }
 
 /// Of one aperture, in its band.

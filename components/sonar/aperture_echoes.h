@@ -1,16 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
+#include "components/sonar/shot_design.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/aperture.h"
-#include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
-#include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify {
@@ -35,47 +35,41 @@ struct Apertures {
   std::string process;  // names the streams of random numbers, with the frequency
 };
 
-/// Settings of one ping.
-struct Emission {
-  PingEvent event;
-  double source_level_db = 0.0;
-  double reception_s = 0.0;        // after transmission
-  double sample_period_s = 50e-6;  // of the complex envelope
+/// Reception of a shot by apertures.
+struct ApertureReception {
+  std::uint64_t ping = 0;
+  echo::Sampling sampling;
+  const echo::Arrivals& foreign;  // of other transmissions
 };
 
-/// Echoes of one transmission as each aperture receives them, by the true motion and the true water: seabed, surface,
-/// water column, other transmissions and noise. The twin of ArrayEchoes.
+/// What apertures receive of a transmission, by the true motion and the true water: seabed, surface, water column,
+/// other transmissions and noise. The twin of ArrayEchoes.
 class ApertureEchoes {
  public:
-  /// `rays` are those of its transmissions.
-  ApertureEchoes(const Apertures& apertures, const Environment& environment, const Effects& effects,
-                 const Quality& quality, const trace::RayDistribution& rays);
+  ApertureEchoes(const Apertures& apertures, std::shared_ptr<const Environment> environment, const Effects& effects,
+                 const Quality& quality);
 
-  /// Memory of the caller: results lie in it until it is used again.
+  const SeaAcoustics& sea() const { return sea_; }
+  std::span<const array::Pattern> transmit() const { return apertures_.patterns.transmit; }
+  /// Patches of seabed that answer as one point.
+  const echo::SpeckleCells& cells() const { return cells_; }
+
+  /// Memory of the caller: the image lies in it until it is used again.
   struct Memory {
     echo::Image image;
     // Scratch.
-    ShotMemory shot;
-    echo::Arrivals foreign;
     std::vector<float> gain, foreign_gain, volume_upa2;
     echo::TimeIndex index;
     echo::RowBackground background;
   };
-  struct Received {
-    echo::Image& image;  // complex envelopes, aperture by sample, uPa rms
-    TraceSummary trace;
-  };
 
-  /// All stages of a ping, a function of the emission, the poses and the tiles. `poses` are where the head truly is
-  /// from transmission on, one per kTrackPeriod.
-  Received receive_echoes(const Emission& emission, const echo::Pulse& pulse, std::span<const frames::HeadPose> poses,
-                          const trace::Scene& seabed, Memory& memory) const;
+  /// Third stage of a shot: complex envelopes, aperture by sample, uPa rms. In memory.image.
+  const echo::Image& beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                              const ApertureReception& reception, Memory& memory) const;
 
  private:
   echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
                         const frames::HeadPose& pose, std::vector<float>& gain) const;
-  void beamform(std::span<const echo::EchoSet> echoes, const echo::SampledPulse& pulse, const echo::Sampling& sampling,
-                Memory& memory) const;
   double noise_db(const echo::Pulse& pulse) const;
 
   Apertures apertures_;
@@ -83,7 +77,6 @@ class ApertureEchoes {
   random::Stream noise_, volume_;
   SeaAcoustics sea_;
   echo::SpeckleCells cells_;
-  trace::RayDistribution distribution_;
   std::vector<echo::VolumeDirections> volume_directions_;  // by aperture; empty: the water does not scatter
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace ensonify {
 namespace {
@@ -13,11 +14,11 @@ random::Stream stream_of(const ReceiveArray& array, const char* what) {
 
 }  // namespace
 
-ArrayEchoes::ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
-                         const Quality& quality)
+ArrayEchoes::ArrayEchoes(const ReceiveArray& array, std::shared_ptr<const Environment> environment,
+                         const Effects& effects, const Quality& quality)
     : array_(array),
       effects_(effects),
-      sea_(environment, array.frequency_hz, effects, quality),
+      sea_(std::move(environment), array.frequency_hz, effects, quality),
       ambient_(stream_of(array, "noise")),
       electronic_(stream_of(array, "electronic")),
       volume_(stream_of(array, "volume")),
@@ -39,8 +40,8 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
 }
 
 /// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
-void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse,
-                           const ArrayReception& reception, Memory& memory) const {
+std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                                   const ArrayReception& reception, Memory& memory) const {
   const auto gains = [&](const echo::Arrivals& arrivals, const echo::PairedArrivals& paired, std::vector<float>& gain) {
     gain.resize(arrivals.size());
     sea_.gains(array_.element, shot.pose(), arrivals, paired, shared_ ? &*shared_ : nullptr, gain);
@@ -48,21 +49,22 @@ void ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ArrayPu
   };
   const std::array sets{gains(echoed.arrivals, echoed.paired, memory.gain),
                         gains(reception.foreign, {}, memory.foreign_gain)};
-  const echo::Background noise = background(shot, echoed, pulse.pulse, reception, memory.volume_upa2);
+  const echo::Background noise = background(shot, echoed, design.pulse, reception, memory.volume_upa2);
   const auto [sampling, beams] = std::pair(reception.sampling, reception.sin_beams);
   memory.images.resize(array_.weights.size());
   if (effects_.speckle) {
-    receiver_.form({sets, pulse.sampled, sampling, noise}, beams, array_.weights, memory.images, memory.receiver);
-    return;
+    receiver_.form({sets, design.sampled, sampling, noise}, beams, array_.weights, memory.images, memory.receiver);
+    return memory.images;
   }
   memory.mean_square.resize(1);
-  power_receiver_->form({sets, pulse.squared, sampling, {}}, beams, power_weights_, memory.mean_square,
+  power_receiver_->form({sets, design.squared, sampling, {}}, beams, power_weights_, memory.mean_square,
                         memory.receiver);
-  receiver_.form({{}, pulse.sampled, sampling, noise}, beams, std::span(array_.weights).first(1),
+  receiver_.form({{}, design.sampled, sampling, noise}, beams, std::span(array_.weights).first(1),
                  std::span(memory.images).first(1), memory.receiver);
   const auto& mean_square = memory.mean_square[0].envelope_upa;
   auto& envelope = memory.images[0].envelope_upa;
   for (std::size_t i = 0; i < envelope.size(); ++i) envelope[i] += std::sqrt(std::max(0.0F, mean_square[i].real()));
+  return std::span(memory.images).first(1);
 }
 
 echo::Background ArrayEchoes::background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "components/sonar/sea_acoustics.h"
+#include "components/sonar/shot_design.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/echo/volume.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
@@ -39,22 +40,6 @@ struct ReceiveArray {
       suffix;  // streams are PROCESS/noise, PROCESS/electronic and PROCESS/volume, each with the suffix
 };
 
-/// Pulse and sampling of some pings, and what follows from them.
-struct ArrayPulse {
-  ArrayPulse(const echo::Pulse& of_a_point, double sample_period_s, const echo::SpeckleCells& patches,
-             const trace::RayDistribution& distribution)
-      : pulse(of_a_point),
-        sampled(of_a_point, sample_period_s),
-        squared(sampled.squared()),
-        cells(patches),
-        rays(distribution) {}
-
-  echo::Pulse pulse;
-  echo::SampledPulse sampled, squared;
-  echo::SpeckleCells cells;
-  trace::RayDistribution rays;
-};
-
 /// Reception of a shot by a line.
 struct ArrayReception {
   std::uint64_t ping = 0;
@@ -68,7 +53,7 @@ struct ArrayReception {
 /// surface, water column, other transmissions, and noise at the elements. The twin of ApertureEchoes.
 class ArrayEchoes {
  public:
-  ArrayEchoes(const ReceiveArray& array, const Environment& environment, const Effects& effects,
+  ArrayEchoes(const ReceiveArray& array, std::shared_ptr<const Environment> environment, const Effects& effects,
               const Quality& quality);
 
   const SeaAcoustics& sea() const { return sea_; }
@@ -88,8 +73,8 @@ class ArrayEchoes {
   };
 
   /// Third stage of a shot: the images, in memory.images.
-  void beamform(const Shot& shot, const Echoed& echoed, const ArrayPulse& pulse, const ArrayReception& reception,
-                Memory& memory) const;
+  std::span<const echo::Image> beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                        const ArrayReception& reception, Memory& memory) const;
 
  private:
   echo::Background background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,

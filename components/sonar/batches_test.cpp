@@ -14,7 +14,7 @@ TEST_CASE("a shot insonifies the same scatterers in batches of any size, in memo
   world.water.profile.samples = {{.depth_m = 0.0, .sound_speed_mps = 1500.0},
                                  {.depth_m = 50.0, .sound_speed_mps = 1480.0}};
   world.seabed.sediments[0] = seabed::Lambert{-25.0};
-  const SeaAcoustics sea(Environment(world, 300e3), 300e3, {}, {});
+  const SeaAcoustics sea(std::make_shared<const Environment>(world, 300e3), 300e3, {}, {});
   const frames::HeadPose pose{{3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   const trace::RayDistribution distribution(trace::mills_cross_volume(50.0, 50.0, 1.0),
                                             {.quality = 1.0, .range_resolution_m = 0.1}, {1, "rays"});

@@ -15,18 +15,19 @@ class BottomFinder {
   /// The length of a single echo is each ping's own, not that of these settings.
   explicit BottomFinder(const detect::FirstBottomSettings& settings) : settings_(settings) {}
 
-  /// The track after one more ping. Each beam is judged alone; the track is that of all beams' mean power. The envelope
-  /// is that before any gain, `pulse` what the filter makes of the echo of a point. Stamp and ping number are left to
-  /// the caller.
+  /// Scratch: its contents do not matter.
+  struct Memory {
+    std::vector<float> amplitude, all;
+  };
+
+  /// Fourth stage of a shot. Each beam is judged alone; the track is that of all beams' mean power. `track` is what
+  /// pings before found; this ping is added. The envelope is that before any gain, `pulse` what the filter makes of
+  /// the echo of a point. Stamp and ping number are left to the caller.
   msg::BottomTrack find(const echo::Image& envelope, const echo::Sampling& sampling, const echo::Pulse& pulse,
-                        double sound_speed_mps);
+                        double sound_speed_mps, detect::BottomTrack& track, Memory& memory) const;
 
  private:
-  double step_db(const detect::WaterfallLine& line, double altitude_m) const;
-
   detect::FirstBottomSettings settings_;
-  detect::BottomTrack track_;
-  std::vector<float> amplitude_, all_;
 };
 
 }  // namespace ensonify

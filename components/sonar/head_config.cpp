@@ -58,7 +58,7 @@ void Trigger::check(const ConfigReader& from) const {
 
 void place_head(const ConfigReader& from, const World& world, const std::string& process, HeadConfig& config) {
   place_other_heads(from, world, process, config.processing_latency_s, config.interference);
-  config.world = world;
+  config.world = std::make_shared<const World>(world);
   config.process = process;
   config.mounting = read_mounting(from, world, process);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -140,9 +141,9 @@ struct HeadParameters {
   }
 };
 
-/// A head's place, from the scenario.
+/// A head's place, from the scenario. Copies share the world, which is made once a process.
 struct HeadPlace {
-  World world;
+  std::shared_ptr<const World> world = std::make_shared<const World>();
   std::string process;
   HeadMounting mounting;
 };

@@ -11,7 +11,7 @@ HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan) {
   for (const HeadInputs::Channel& channel : plan.channels) transmissions += channel.sectors.size();
   HeadInputs::Start start;
   start.mounting = config.mounting;
-  start.tide = config.world.vertical.tide;
+  start.tide = config.world->vertical.tide;
   start.lod = config.lod;
   start.lod.adaptations_per_ping = static_cast<std::int32_t>(transmissions);
   start.longest_ping = from_seconds(plan.longest_reception_s + config.processing_latency_s);

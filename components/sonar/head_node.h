@@ -11,6 +11,7 @@
 #include "components/sonar/head_config.h"
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/ping_cycle.h"
+#include "components/sonar/surroundings.h"
 #include "kernels/base/profile/profile.h"
 
 namespace ensonify {
@@ -70,12 +71,15 @@ std::string no_seabed_reason(const std::vector<SilentChannel>& silent);
 ///
 /// A head gives:
 ///   Config, kComponent                     its HeadConfig and the name of its program
+///   Head(config, channel)                  one per channel; the node keeps the configuration, so the head refers to it
+/// and five functions:
 ///   static HeadPlan plan(config)
-///   Head(config, channel)                  one per channel
 ///   HeadOutputs<M...> outputs()
-///   sent transmit(now, settings, inputs)   a SentPing, or a type of its own with the member `sectors`
-///   HeadReport<M...> ping(event, sent, inputs)
-///   connect(ports)                         only if it has inputs of its own
+///   sent transmit(now, settings, around)   a SentPing, or a type of its own with the member `sectors`
+///   Design prepare(settings)               what follows from settings alone: const, without memory
+///   HeadReport<M...> ping(event, sent, around)
+/// and, only if it has inputs of its own, connect(ports). It has at most two members that change: its Memory, scratch
+/// whose contents do not matter, and its State, what later pings depend on.
 template <class Head>
 class HeadNode {
  public:
@@ -90,7 +94,7 @@ class HeadNode {
   }
 
  private:
-  using Sent = decltype(std::declval<Head&>().transmit(SimTime{}, HeadSettings{}, std::declval<const HeadInputs&>()));
+  using Sent = decltype(std::declval<Head&>().transmit(SimTime{}, HeadSettings{}, std::declval<const Surroundings&>()));
 
   template <class Outputs>
   struct OutsOf;
@@ -111,9 +115,9 @@ class HeadNode {
   };
 
   HeadNode(const Config& config, const HeadPlan& plan, Ports& ports)
-      : inputs_(ports, inputs_of(config, plan)), cycle_(ports, inputs_, config.timing()) {
+      : config_(config), inputs_(ports, inputs_of(config, plan)), cycle_(ports, inputs_, config.timing()) {
     for (const HeadInputs::Channel& planned : plan.channels) {
-      Channel& channel = channels_.emplace_back(config, channels_.size(), planned.name);
+      Channel& channel = channels_.emplace_back(config_, channels_.size(), planned.name);
       declare(channel, config.timing().rate, ports);
       if constexpr (requires { channel.head.connect(ports); }) channel.head.connect(ports);
     }
@@ -132,7 +136,7 @@ class HeadNode {
     std::vector<Transmission> sectors;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       Channel& channel = channels_[i];
-      channel.under_way.push_back(channel.head.transmit(now, inputs_.settings_at_ping(i), inputs_));
+      channel.under_way.push_back(channel.head.transmit(now, inputs_.settings_at_ping(i), surroundings()));
       const auto& sent = channel.under_way.back().sectors;
       sectors.insert(sectors.end(), sent.begin(), sent.end());
     }
@@ -146,7 +150,7 @@ class HeadNode {
     for (Channel& channel : channels_) {
       const Sent sent = std::move(channel.under_way.front());
       channel.under_way.pop_front();
-      auto report = channel.head.ping(ping.event(sector), sent, inputs_);
+      auto report = channel.head.ping(ping.event(sector), sent, surroundings());
       sector += sent.sectors.size();
 
       for_pairs(report.messages, channel.outs, [&](auto& message, auto& out) {
@@ -170,6 +174,12 @@ class HeadNode {
     (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<A>>>());
   }
 
+  Surroundings surroundings() const {
+    return {inputs_.truth(),           inputs_.seabed(),   inputs_.estimate(), inputs_.navigation_errors(),
+            inputs_.sound_speed_mps(), inputs_.probe_mps()};
+  }
+
+  const Config config_;  // the only one: channels refer to it
   HeadInputs inputs_;
   PingCycle cycle_;
   std::deque<Channel> channels_;

@@ -37,8 +37,7 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   World world;
   world.water.profile = profile;
   world.seabed.sediments[0] = seabed::Lambert{-25.0};
-  const Environment environment(world, 300e3);
-  SeaAcoustics sea(environment, 300e3, {.motion = false}, {});
+  const SeaAcoustics sea(std::make_shared<const Environment>(world, 300e3), 300e3, {.motion = false}, {});
   const frames::HeadPose pose{{east_m + 3.0, 2.0, -2.0}, frames::enu_from_body({0.4, 0.03, -0.05})};
   trace::RayDistribution distribution(kFan, {.quality = 0.5, .range_resolution_m = 0.05}, {1, "rays"});
   const array::Pattern all_around;

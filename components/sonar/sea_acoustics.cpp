@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "components/sonar/head_motion.h"
 #include "kernels/acoustics/echo/eigenray_echoes.h"
@@ -46,13 +47,13 @@ std::string no_echo_reason(const TraceSummary& trace_summary) {
       *trace_summary.altitude_m);
 }
 
-SeaAcoustics::SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects,
+SeaAcoustics::SeaAcoustics(std::shared_ptr<const Environment> environment, double frequency_hz, const Effects& effects,
                            const Quality& quality)
-    : environment_(environment),
+    : environment_(std::move(environment)),
       frequency_hz_(frequency_hz),
       effects_(effects),
       exact_(quality.reference),
-      paths_(environment.profile(), effects.refraction, exact_) {}
+      paths_(environment_->profile(), effects.refraction, exact_) {}
 
 Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
                                   const trace::RayDistribution& distribution, const echo::SpeckleCells& cells,
@@ -65,7 +66,7 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   distribution.aim(pose, shot.steer, seabed.objects(), static_cast<float>(range_m), refracted, trace, memory.plan);
 
   const seabed::ClassTables& backscatter =
-      environment_.backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);
+      environment_->backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);
   HitSums sums;
   memory.insonified.clear();
   for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
@@ -82,7 +83,7 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
 double SeaAcoustics::sent_db(double source_level_db) const {
-  return source_level_db - 2.0 * environment_.bubble_loss_db();
+  return source_level_db - 2.0 * environment_->bubble_loss_db();
 }
 
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
@@ -96,12 +97,12 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
   echoed.rays_in_lobe = sums.in_lobe;
   echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
   echoed.absorption_dbpm =
-      effects_.absorption ? environment_.absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
+      effects_.absorption ? environment_->absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
   memory.arrivals.clear();
   memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
   if (exact_ && paths_.refracted()) {
-    echo::add_eigenray_echoes(carrier, environment_.profile(), pose.position_enu_m, found, memory.receivers,
+    echo::add_eigenray_echoes(carrier, environment_->profile(), pose.position_enu_m, found, memory.receivers,
                               memory.arrivals);
   } else {
     echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
@@ -109,9 +110,9 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
   if (effects_.multipath) {
     const echo::MultipathHead head{.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
     echo::SurfaceMirror surface;
-    surface.level_enu_m = environment_.water_level_m(shot.transmit_s);
+    surface.level_enu_m = environment_->water_level_m(shot.transmit_s);
     surface.sound_speed_mps = sound_speed_mps(pose);
-    surface.rms_height_m = environment_.rms_wave_height_m();
+    surface.rms_height_m = environment_->rms_wave_height_m();
     echoed.paired = echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
   }
   return echoed;
@@ -182,7 +183,7 @@ void SeaAcoustics::reverberation_upa2(const Shot& shot, const Echoed& echoed,
                                       std::vector<float>& mean_square_upa2) const {
   echo::VolumeLayers layers;
   layers.backscatter_per_m = [this](double depth_m) {
-    return power_of(water::volume_scattering_db(environment_.scattering_layers(), depth_m));
+    return power_of(water::volume_scattering_db(environment_->scattering_layers(), depth_m));
   };
   layers.deepest_m = echoed.seabed_depth_m;
   echo::reverberation_upa2(sent_db(shot.source_level_db), echoed.absorption_dbpm, sound_speed_mps(shot.pose()),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,8 @@ struct PingEvent {
   SimTime transmit{0};
   double range_m = 0.0;
   std::vector<echo::InterferingTransmission> interfering = {};  // what other heads send meanwhile
+
+  std::uint64_t number() const { return static_cast<std::uint64_t>(ping); }  // as random draws count pings
 };
 
 /// Height of a head above the seabed straight below it, by the tiles' posts; nothing over a hole, where no tile is held
@@ -162,6 +165,7 @@ struct ShotMemory {
   echo::Scatterers scatterers;
   echo::Receivers receivers;
   echo::Arrivals arrivals;
+  echo::Arrivals foreign;  // of other transmissions
 };
 
 /// The sea for a head of one frequency: seabed, surface, water column and other heads, by the true motion and the true
@@ -169,9 +173,10 @@ struct ShotMemory {
 class SeaAcoustics {
  public:
   /// Of `quality` only whether it is the reference counts here: rays and cells are the caller's.
-  SeaAcoustics(const Environment& environment, double frequency_hz, const Effects& effects, const Quality& quality);
+  SeaAcoustics(std::shared_ptr<const Environment> environment, double frequency_hz, const Effects& effects,
+               const Quality& quality);
 
-  const Environment& environment() const { return environment_; }
+  const Environment& environment() const { return *environment_; }
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
@@ -192,13 +197,22 @@ class SeaAcoustics {
   /// Appends what this receiver's filter lets through of another transmission's echoes ...
   void add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,
                      const echo::Arrivals& echoes, const echo::Pulse& pulse, echo::Arrivals& foreign) const;
-  /// ... and of what other heads send meanwhile.
+  /// ... and of what other heads send meanwhile; ...
   void add_interference(const Shot& shot, const Echoed& echoed,
                         std::span<const echo::InterferingTransmission> interfering, const echo::Pulse& pulse,
                         echo::Arrivals& foreign) const;
 
+  /// ... or that alone, in the memory.
+  const echo::Arrivals& interference(const Shot& shot, const Echoed& echoed,
+                                     std::span<const echo::InterferingTransmission> interfering,
+                                     const echo::Pulse& pulse, ShotMemory& memory) const {
+    memory.foreign.clear();
+    add_interference(shot, echoed, interfering, pulse, memory.foreign);
+    return memory.foreign;
+  }
+
   /// Whether the water column sends anything back.
-  bool water_scatters() const { return effects_.volume && !environment_.scattering_layers().empty(); }
+  bool water_scatters() const { return effects_.volume && !environment_->scattering_layers().empty(); }
   /// Mean squares of that (sample by direction) towards these receive directions, down to the seabed's depth.
   void reverberation_upa2(const Shot& shot, const Echoed& echoed,
                           std::span<const echo::VolumeDirections> receive_directions, const echo::Pulse& pulse,
@@ -217,7 +231,7 @@ class SeaAcoustics {
   HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const;
   double sent_db(double source_level_db) const;
 
-  Environment environment_;
+  std::shared_ptr<const Environment> environment_;
   double frequency_hz_;
   Effects effects_;
   bool exact_;

@@ -30,8 +30,8 @@ struct AtRest {
 
   static ProfilerConfig over_lambert() {
     ProfilerConfig config;
-    config.world.water.profile.sound_speed_mps = 1500.0;
-    config.world.seabed.sediments = {{0, seabed::Lambert{-25.0}}};
+    world_of(config).water.profile.sound_speed_mps = 1500.0;
+    world_of(config).seabed.sediments = {{0, seabed::Lambert{-25.0}}};
     return config;
   }
 };

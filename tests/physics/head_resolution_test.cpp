@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "components/forward_looking/head.h"
-#include "components/multibeam/head.h"
+#include "components/multibeam/ping_message.h"
+#include "components/multibeam/testing/head.h"
+#include "components/sonar/testing/ping.h"
 #include "components/sonar/tile_set.h"
 #include "kernels/acoustics/array/line.h"
 #include "tests/physics/dip.h"
@@ -87,15 +89,16 @@ Dips of_multibeam(double apart_m) {
       striped({kAltitude_m, kFine_m, 9.97, -0.1, 10.25, 0.1}, [&](double east_m, double) { return strips(east_m); }));
   const HeadSettings settings = config.start();
   const Steering steering = steer(config, config.swath_rad, {.sound_speed_mps = kSpeed_mps});
-  MultibeamHead head(config);
+  const Multibeam head(config, 0);
   Dips dips;
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps / config.sample_rate_hz;
     const auto truth = resting_at({std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0, 0.0});
     const PingEvent event{0, SimTime{0}, 17.0};
-    MultibeamHead::Ping received;
-    head.receive_echoes(event, settings, steering, truth, tiles.scene(), received);
-    const auto ping = head.ping_message(received, event, settings, steering, false);
+    Multibeam::Memory memory;
+    const auto beams = receive_echoes(head, event, settings, steering, truth, tiles.scene(), memory);
+    const auto ping = ping_message(config, event, settings, steering,
+                                   applied_settings(config, event, settings, steering), {memory.amplitude_upa, beams});
     std::size_t beam = 0;
     while (double(ping.beam_angle_rad[beam]) < 0.25 * std::numbers::pi) ++beam;
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(beam))));
@@ -117,13 +120,13 @@ Dips of_forward_looking(double apart_m) {
   TileSet tiles;
   tiles.insert(
       striped({kAltitude_m, kFine_m, -0.1, 9.97, 0.1, 10.25}, [&](double, double north_m) { return strips(north_m); }));
-  ForwardLookingHead head(config);
+  ForwardLooking head(config, 0);
   Dips dips;
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps * kPulse_s / kEightPerPulse;
     const auto truth = resting_at({0.0, std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0});
     const auto ping =
-        head.receive_echoes({0, SimTime{0}, config.range_m}, config.start(), kSpeed_mps, truth, tiles.scene()).ping;
+        image_of(head, {0, SimTime{0}, config.range_m}, config.start(), around(truth, tiles.scene(), kSpeed_mps));
     dips.add(dip_db(powers_of(ping.amplitude_upa.row(static_cast<std::size_t>(config.beams) / 2))));
   }
   return dips;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "components/sidescan/head.h"
+#include "components/sonar/testing/config.h"
+#include "components/sonar/testing/ping.h"
 
 namespace ensonify::physics {
 
@@ -8,7 +10,7 @@ namespace ensonify::physics {
 /// are 0.5 degrees wide, its pulses 100 us long.
 inline SidescanConfig sidescan_of(double frequency_hz) {
   SidescanConfig config;
-  config.world.water.profile.sound_speed_mps = 1500.0;
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
   config.channels[0].frequency_hz = frequency_hz;
   config.channels[0].horizontal_beamwidth_rad = 0.5 * SidescanChannel::kDegree;
   config.channels[0].range_m = 101.0;
@@ -21,9 +23,9 @@ inline msg::Ping sidescan_ping(const SidescanConfig& config, trace::Scene& seabe
                                std::int64_t ping = 0) {
   frames::PoseHistory at_rest(1'000'000'000);
   at_rest.push(0, {position_enu_m, frames::enu_from_ned()});
-  SidescanHead head(config, config.channels[0]);
+  Sidescan head(config, 0);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  return head.receive_echoes({ping, SimTime{0}, settings.range_m}, settings, at_rest, seabed).ping;
+  return image_of(head, {ping, SimTime{0}, settings.range_m}, settings, around(at_rest, seabed));
 }
 
 inline double sample_time_s(const msg::Ping& ping, std::size_t sample) {

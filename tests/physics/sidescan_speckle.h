@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "components/sonar/testing/config.h"
 #include "kernels/acoustics/array/line.h"
 #include "tests/physics/correlation.h"
 #include "tests/physics/mills_cross.h"
@@ -25,7 +26,7 @@ inline trace::Scene& level_sand() {
 
 inline SidescanConfig head(std::uint64_t seed) {
   SidescanConfig config = sidescan_of(400e3);
-  config.world.seed = seed;
+  world_of(config).seed = seed;
   return config;
 }
 

@@ -5,6 +5,7 @@
 
 #include "components/sonar/effects.h"
 #include "components/sonar/environment.h"
+#include "components/sonar/testing/config.h"
 #include "kernels/seabed/backscatter.h"
 #include "messages/terrain.h"
 
@@ -43,9 +44,9 @@ msg::Tile striped(const StripedSeabed& of, const Bright& bright) {
 /// The strips' sediments, and sums of mean squares: the mean over the strips' phases.
 template <class Config>
 void receive_strips(Config& config) {
-  config.world.water.profile.sound_speed_mps = 1500.0;
-  config.world.seabed.sediments[0] = seabed::Lambert{-120.0};
-  config.world.seabed.sediments[1] = seabed::Lambert{-10.0};
+  world_of(config).water.profile.sound_speed_mps = 1500.0;
+  world_of(config).seabed.sediments[0] = seabed::Lambert{-120.0};
+  world_of(config).seabed.sediments[1] = seabed::Lambert{-10.0};
   config.effects.noise = config.effects.multipath = config.effects.speckle = config.effects.absorption = false;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "components/config/config_reader.h"
+#include "components/sonar/head_config.h"
 #include "scenarios/world/world.h"
 
 /// For tests of configurations of heads.
@@ -15,6 +18,14 @@ inline World world_with(const std::string& head) {
   vehicle.name = "auv";
   vehicle.mountings[head] = {};
   world.vehicles = {vehicle};
+  return world;
+}
+
+/// The world of a head's configuration, to change it: from now on one of its own.
+inline World& world_of(HeadPlace& config) {
+  auto own = std::make_shared<World>(*config.world);
+  World& world = *own;
+  config.world = std::move(own);
   return world;
 }
 

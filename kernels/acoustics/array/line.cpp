@@ -188,4 +188,9 @@ PatternTable::PatternTable(const LineArray& array, double wavelength_m, double s
     : PatternTable([&](double u) { return array::amplitude(array, wavelength_m, u, sin_steer); },
                    0.5 * ((array.elements() - 1) * array.spacing_m + array.element_length_m) / wavelength_m, error) {}
 
+std::shared_ptr<const PatternTable> uniform_line_table(double length_in_waves, double error) {
+  return std::make_shared<const PatternTable>([=](double sine) { return line_amplitude(length_in_waves, sine); },
+                                              0.5 * length_in_waves, error);
+}
+
 }  // namespace ensonify::array

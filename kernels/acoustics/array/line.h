@@ -4,6 +4,7 @@
 #include <complex>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "kernels/acoustics/array/shading.h"
@@ -149,5 +150,8 @@ class PatternTable {
   double steps_per_sine_ = 0.0;
   std::vector<std::complex<float>> points_;  // one before -1 and one beyond 1
 };
+
+/// That of a uniform line (line_amplitude), or of a face along one of its sides.
+std::shared_ptr<const PatternTable> uniform_line_table(double length_in_waves, double error);
 
 }  // namespace ensonify::array

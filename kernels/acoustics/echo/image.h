@@ -40,5 +40,7 @@ struct Image {
 
 /// Magnitude of the envelope, uPa rms, beam by sample; resized.
 void amplitude_upa(const Image& image, std::vector<float>& amplitude);
+/// The same, in place: one number for each sample.
+void amplitude_upa(const Image& image, std::span<float> amplitude);
 
 }  // namespace ensonify::echo
