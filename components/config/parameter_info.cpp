@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "components/config/config_node.h"
 
@@ -37,8 +38,13 @@ void add_rows(const ParameterList& list, const std::string& path, std::string& t
   using Kind = ParameterInfo::Kind;
   for (const ParameterInfo& p : list) {
     const std::string key = path + p.key;
-    if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
-      const std::string inner = key + (p.kind == Kind::kList ? "[]." : p.kind == Kind::kNamed ? ".NAME." : ".");
+    if (p.kind == Kind::kForms) {
+      for (const ParameterList& form : p.forms) add_rows(form, path, table);
+    } else if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
+      const std::string inner = key + (p.kind == Kind::kList      ? "[]."
+                                       : p.numbered              ? ".NUMBER."
+                                       : p.kind == Kind::kNamed ? ".NAME."
+                                                                : ".");
       table += "| `" + key + "` | | " +
                (p.kind == Kind::kSection ? ""
                 : p.entries.empty()      ? "none"
@@ -70,7 +76,23 @@ Json list_of(Json items, std::size_t width) {
   return json;
 }
 
-Json type_of(const ParameterInfo& p) {
+Json type_of(const ParameterInfo& p);
+
+/// A map with these keys, or what is short for it.
+Json structure_of(const ParameterInfo& p) {
+  Json map = object_of(p.members);
+  const auto inner = std::find_if(p.members.begin(), p.members.end(), [&](const auto& m) { return m.key == p.short_key; });
+  if (p.short_key.empty()) return map;
+  if (inner != p.members.end()) return {{"anyOf", {type_of(*inner), std::move(map)}}};
+  for (const ParameterInfo& forms : p.members) {  // of one of the forms
+    for (const ParameterList& form : forms.forms) {
+      if (!form.empty() && form.front().key == p.short_key) return {{"anyOf", {type_of(form.front()), std::move(map)}}};
+    }
+  }
+  return map;
+}
+
+Json plain_type_of(const ParameterInfo& p) {
   switch (p.kind) {
     case Kind::kNumber: return number(p.allowed);
     case Kind::kInteger: {
@@ -89,28 +111,93 @@ Json type_of(const ParameterInfo& p) {
       return {{"enum", words}};
     }
     case Kind::kNumbers: return list_of(number(p.allowed), p.width);
+    case Kind::kWholes: {
+      Json json = number(p.allowed);
+      json["type"] = "integer";
+      return list_of(std::move(json), 0);
+    }
     case Kind::kRows: return list_of(list_of(number(p.allowed), p.width), 0);
     case Kind::kTexts: return list_of({{"type", "string"}}, 0);
-    case Kind::kSection: return object_of(p.members);
-    case Kind::kList: return list_of(object_of(p.members), 0);
+    case Kind::kSection: return structure_of(p);
+    case Kind::kList: return list_of(structure_of(p), 0);
     case Kind::kOther: return Json::parse(p.schema);
-    case Kind::kNamed: return {{"type", "object"}, {"additionalProperties", object_of(p.members)}};
+    case Kind::kNamed: {
+      Json json = {{"type", "object"}};
+      if (p.numbered) json["propertyNames"] = {{"pattern", "^[0-9]+$"}};
+      json["additionalProperties"] = structure_of(p);
+      return json;
+    }
+    case Kind::kForms: break;
   }
   return {};
 }
 
-Json object_of(const ParameterList& list) {
-  Json properties = Json::object(), required = Json::array();
+Json type_of(const ParameterInfo& p) {
+  if (p.allowed.instead.empty()) return plain_type_of(p);
+  return {{"anyOf", {Json{{"const", p.allowed.instead}}, plain_type_of(p)}}};
+}
+
+bool is_structure(const ParameterInfo& p) {
+  return p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed;
+}
+
+void add_properties(const ParameterList& list, Json& properties, Json& required) {
   for (const ParameterInfo& p : list) {
-    Json& json = properties[p.key] = type_of(p);
-    const bool in_si_text = p.unit.empty();
-    json["description"] = p.about + (in_si_text ? "" : " (" + p.unit + ")");
-    const bool structure = p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed;
-    if (!structure && !p.left_out) json["default"] = Json::parse(to_json(p.value));
+    if (p.kind == Kind::kForms) {
+      Json of_forms;  // which of them are required, the form says
+      for (const ParameterList& form : p.forms) add_properties(form, properties, of_forms);
+      continue;
+    }
     if (p.allowed.required) required.push_back(p.key);
+    if (properties.contains(p.key)) continue;
+    Json& json = properties[p.key] = type_of(p);
+    json["description"] = p.about + (p.unit.empty() ? "" : " (" + p.unit + ")");
+    if (!is_structure(p) && !p.left_out) json["default"] = Json::parse(to_json(p.value));
+  }
+}
+
+bool has_key(const ParameterList& list, const std::string& key) {
+  return std::any_of(list.begin(), list.end(), [&](const ParameterInfo& p) { return p.key == key; });
+}
+
+/// Exactly one of the forms that stand among other keys: those that it must have, and none of another's.
+Json one_of(const ParameterInfo& p) {
+  Json forms = Json::array();
+  for (std::size_t i = 0; i < p.forms.size(); ++i) {
+    const ParameterList& own = p.forms[i];
+    const bool keyless = p.last_has_no_key && i + 1 == p.forms.size();
+    Json form = Json::object(), required = Json::array();
+    if (!keyless) required.push_back(own.front().key);
+    for (const ParameterInfo& key : own) {
+      if (key.allowed.required && (keyless || &key != own.data())) required.push_back(key.key);
+    }
+    if (!required.empty()) form["required"] = std::move(required);
+    for (const ParameterList& other : p.forms) {
+      for (const ParameterInfo& key : other) {
+        // Two forms' first keys fit no one form.
+        if (!has_key(own, key.key) && (keyless || &key != other.data())) form["properties"][key.key] = false;
+      }
+    }
+    forms.push_back(std::move(form));
+  }
+  return forms;
+}
+
+Json object_of(const ParameterList& list) {
+  if (list.size() == 1 && list.front().kind == Kind::kForms) {
+    Json forms = Json::array();
+    for (const ParameterList& form : list.front().forms) forms.push_back(object_of(form));
+    return {{"anyOf", std::move(forms)}};
+  }
+  Json properties = Json::object(), required = Json::array(), choices = Json::array();
+  add_properties(list, properties, required);
+  for (const ParameterInfo& p : list) {
+    if (p.kind == Kind::kForms) choices.push_back({{"oneOf", one_of(p)}});
   }
   Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
   if (!required.empty()) json["required"] = std::move(required);
+  if (choices.size() == 1) json.update(choices.front());
+  if (choices.size() > 1) json["allOf"] = std::move(choices);
   return json;
 }
 
@@ -145,6 +232,83 @@ std::string comment_of(const ParameterInfo& p) {
   return text;
 }
 
+/// A file of values: nothing that has none.
+class ValueWriter {
+ public:
+  void write(const ParameterList& list, const std::string& lead, const std::string& margin) {
+    bool first = true;
+    for (const ParameterInfo* p : written(list)) {
+      write(*p, std::exchange(first, false) ? lead : margin, margin);
+    }
+  }
+
+  std::vector<Line> lines;
+
+ private:
+  /// What of a list has a value, with the keys of the form that is there.
+  static std::vector<const ParameterInfo*> written(const ParameterList& list) {
+    std::vector<const ParameterInfo*> all;
+    for (const ParameterInfo& p : list) {
+      if (p.kind == Kind::kForms) {
+        for (const ParameterInfo* inner : written(p.members)) all.push_back(inner);
+      } else if (p.kind == Kind::kSection && p.left_out) {
+        if (!p.allowed.instead.empty()) all.push_back(&p);
+      } else if (p.kind == Kind::kSection) {
+        if (p.optional || !written(p.members).empty()) all.push_back(&p);
+      } else if (!p.left_out) {
+        all.push_back(&p);
+      }
+    }
+    return all;
+  }
+
+  void write(const ParameterInfo& p, const std::string& lead, const std::string& margin) {
+    const std::string inner = margin + "  ";
+    const std::string about = p.about + (p.unit.empty() ? "" : " (" + p.unit + ")");
+    const bool structure = p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed;
+    if (structure && p.left_out) return lines.push_back({lead + p.key + ": " + p.allowed.instead, about});
+    if (!structure) return lines.push_back({lead + p.key + ": " + flow_text(p.value), about});
+    if (p.kind == Kind::kSection) return write_map(p.members, lead + p.key + ":", about, inner);
+    if (p.entries.empty()) {
+      return lines.push_back({lead + p.key + (p.kind == Kind::kNamed ? ": {}" : ": []"), about});
+    }
+    lines.push_back({lead + p.key + ":", about});
+    for (const auto& [name, entry] : p.entries) {
+      const bool digits = name.find_first_not_of("0123456789") == std::string::npos;
+      if (p.kind == Kind::kNamed) {
+        write_map(entry, inner + (digits || reads_as_text(name) ? name : Json(name).dump()) + ":", "", inner + "  ");
+      } else if (written(entry).empty()) {
+        lines.push_back({inner + "- {}", ""});
+      } else {
+        write(entry, inner + "- ", inner + "  ");
+      }
+    }
+  }
+
+  void write_map(const ParameterList& list, const std::string& key, const std::string& about,
+                 const std::string& margin) {
+    const bool empty = written(list).empty();
+    lines.push_back({key + (empty ? " {}" : ""), about});
+    write(list, margin, margin);
+  }
+};
+
+std::string text_of(const std::vector<Line>& lines) {
+  std::size_t column = 0;
+  for (const Line& line : lines) {
+    if (line.text.size() <= kFarthestComment) column = std::max(column, line.text.size());
+  }
+  std::string text;
+  for (const Line& line : lines) {
+    text += line.text;
+    if (!line.about.empty()) {
+      text += std::string(column > line.text.size() ? column - line.text.size() : 0, ' ') + "  # " + line.about;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 class YamlWriter {
  public:
   /// `given`: the list has values, not defaults. `lead` is the margin of the first line.
@@ -152,27 +316,15 @@ class YamlWriter {
     for (const ParameterInfo& p : list) write(p, given, &p == list.data() ? lead : margin, margin);
   }
 
-  std::string text() const {
-    std::size_t column = 0;
-    for (const Line& line : lines_) {
-      if (line.text.size() <= kFarthestComment) column = std::max(column, line.text.size());
-    }
-    std::string text;
-    for (const Line& line : lines_) {
-      text += line.text;
-      if (!line.about.empty()) {
-        text += std::string(column > line.text.size() ? column - line.text.size() : 0, ' ') + "  # " + line.about;
-      }
-      text += '\n';
-    }
-    return text;
-  }
+  std::string text() const { return text_of(lines_); }
 
  private:
   using Kind = ParameterInfo::Kind;
 
   void write(const ParameterInfo& p, bool given, const std::string& lead, const std::string& margin) {
-    if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
+    if (p.kind == Kind::kForms) {
+      write(p.members, given, lead, margin);
+    } else if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
       write_structure(p, lead, margin);
     } else if (p.left_out && !(given && p.allowed.required)) {
       lines_.push_back({commented(lead) + p.key + ":", comment_of(p)});
@@ -287,6 +439,12 @@ std::string parameter_schema(const std::string& title, const ParameterList& list
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(object_of(list));
   return schema.dump(2) + "\n";
+}
+
+std::string written_yaml(const ParameterList& values, const std::string& margin) {
+  ValueWriter writer;
+  writer.write(values, margin, margin);
+  return text_of(writer.lines);
 }
 
 std::string default_yaml(const std::string& title, const ParameterList& list) {
