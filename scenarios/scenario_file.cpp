@@ -14,19 +14,6 @@ namespace ensonify {
 
 namespace {
 
-struct Seed {
-  std::uint64_t seed = ScenarioHeader{}.seed;
-
-  static void parameters(auto& self, auto&& visit) { visit("seed", "", any(), "of everything random", self.seed); }
-};
-struct Time {
-  std::string start_utc = ScenarioHeader{}.start_utc;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("start_utc", "", any(), "UTC of sim time 0, such as 2025-06-01T12:00:00Z", self.start_utc);
-  }
-};
-
 /// Keys of a section of which one is given, or those of one line together.
 struct Alternatives {
   std::vector<std::string> sections;
@@ -142,24 +129,24 @@ ConfigDocument load_scenario(const std::string& path, const Overrides& overrides
   return document;
 }
 
-ParameterList header_list() {
-  return {parameters_of<Seed>().front(), section_info("time", "when the run starts", parameters_of<Time>())};
+void TimeKeys::check(const ConfigReader& from) const {
+  if (!parse_utc_ns(start_utc)) {
+    from.problem("start_utc", "\"" + start_utc + "\" is not a UTC time such as 2025-06-01T12:00:00Z");
+  }
+}
+
+ScenarioHeader HeaderKeys::header() const {
+  ScenarioHeader header;
+  header.seed = seed;
+  header.start_utc = time.start_utc;
+  header.start_unix_ns = parse_utc_ns(time.start_utc).value_or(header.start_unix_ns);
+  return header;
 }
 
 void read_header(ConfigReader& from, ScenarioHeader& header) {
-  Seed seed{header.seed};
-  read_parameters(from, seed);
-  header.seed = seed.seed;
-  auto time = from.optional_section("time");
-  if (!time) return;
-  Time start{header.start_utc};
-  read_parameters(*time, start);
-  header.start_utc = start.start_utc;
-  if (const auto ns = parse_utc_ns(header.start_utc)) {
-    header.start_unix_ns = *ns;
-  } else {
-    time->problem("start_utc", "\"" + header.start_utc + "\" is not a UTC time such as 2025-06-01T12:00:00Z");
-  }
+  HeaderKeys keys;
+  read_parameters(from, keys);
+  header = keys.header();
 }
 
 std::optional<std::int64_t> parse_utc_ns(const std::string& text) {

@@ -283,6 +283,7 @@ std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& for
   std::string known;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (keys[i].empty()) continue;
+    if (forms.none.empty() && i + 1 == keys.size()) break;  // without a key of its own
     const std::string& key = keys[i].front();
     known += (known.empty() ? "" : ", ") + key;
     if (!from.has(key)) continue;
@@ -295,6 +296,18 @@ std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& for
   if (const std::size_t at = none.find("{}"); at != std::string::npos) none.replace(at, 2, known);
   from.problem("", none);
   return std::nullopt;
+}
+
+void refuse_others(const ConfigReader& from, const Forms& forms, const std::vector<std::vector<std::string>>& keys,
+                   std::size_t given) {
+  const auto has = [&](const std::string& key) {
+    return std::find(keys[given].begin(), keys[given].end(), key) != keys[given].end();
+  };
+  for (const auto& form : keys) {
+    for (const std::string& key : form) {
+      if (!has(key) && from.has(key)) from.problem(key, forms.beside);
+    }
+  }
 }
 
 bool whole(const ConfigReader& from, const char* key, const Allowed& allowed, const std::vector<double>& numbers) {

@@ -161,12 +161,14 @@ bool has_key(const ParameterList& list, const std::string& key) {
 }
 
 /// Exactly one of the forms that stand among other keys: those that it must have, and none of another's.
-Json one_of(const ParameterInfo& p) {
+Json one_of(const ParameterInfo& p, const ParameterList& list) {
+  const auto word = std::find_if(list.begin(), list.end(), [&](const auto& key) { return key.key == p.by; });
   Json forms = Json::array();
   for (std::size_t i = 0; i < p.forms.size(); ++i) {
     const ParameterList& own = p.forms[i];
-    const bool keyless = p.last_has_no_key && i + 1 == p.forms.size();
+    const bool by_word = !p.by.empty(), keyless = by_word || (p.last_has_no_key && i + 1 == p.forms.size());
     Json form = Json::object(), required = Json::array();
+    if (by_word) form["properties"][p.by] = {{"const", word->allowed.words[i].text}};
     if (!keyless) required.push_back(own.front().key);
     for (const ParameterInfo& key : own) {
       if (key.allowed.required && (keyless || &key != own.data())) required.push_back(key.key);
@@ -192,7 +194,7 @@ Json object_of(const ParameterList& list) {
   Json properties = Json::object(), required = Json::array(), choices = Json::array();
   add_properties(list, properties, required);
   for (const ParameterInfo& p : list) {
-    if (p.kind == Kind::kForms) choices.push_back({{"oneOf", one_of(p)}});
+    if (p.kind == Kind::kForms) choices.push_back({{"oneOf", one_of(p, list)}});
   }
   Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
   if (!required.empty()) json["required"] = std::move(required);

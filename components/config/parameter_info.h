@@ -32,6 +32,7 @@ struct ParameterInfo {
   std::vector<ParameterInfo> members = {};                 // of a section, or of each entry of a list or map
   std::vector<List> forms = {};                            // of kForms; its members are those of the form that is there
   bool last_has_no_key = false;                            // of kForms: without a key it is the last form
+  std::string by = {};                                     // of kForms: the key whose word says which it is
   std::string schema = {};                                 // of kOther: JSON Schema of the value
   std::vector<std::pair<std::string, List>> entries = {};  // that a list or map has by default, with their names
 };
@@ -94,8 +95,16 @@ class DescribeParameters {
   }
   template <class T>
   void operator()(const Forms& forms, const T& member) {
+    if (*forms.key != '\0') {
+      Allowed words = words_of<T>();
+      words.required = forms.required;
+      ParameterInfo& kind = list_.emplace_back(ParameterInfo{forms.key, "", words, forms.about, Kind::kWord});
+      kind.left_out = !given_ && forms.required;
+      kind.value = text_node(words.words[member.index()].text);
+    }
     ParameterInfo& info = list_.emplace_back(ParameterInfo{});
     info.kind = Kind::kForms;
+    info.by = forms.key;
     info.last_has_no_key = forms.none.empty();
     for (const T& form : FormsOf<T>::all()) {
       info.forms.push_back(std::visit([](const auto& f) { return parameters_of(f); }, form));
@@ -140,7 +149,8 @@ class DescribeParameters {
 
   template <class T>
   void describe_optional(ParameterInfo& info, const std::optional<T>& member) {
-    describe(info, member.value_or(T{}));
+    if constexpr (FixedVector<T>) describe(info, member.value_or(T::Zero()));
+    else describe(info, member.value_or(T{}));
     if (member) return;
     if (info.allowed.instead.empty()) info.left_out = true;
     else info.value = text_node(info.allowed.instead);
@@ -200,6 +210,7 @@ class DescribeParameters {
         const ConfigNode* of_entry = given ? given->find(name) : nullptr;
         info.entries.emplace_back(name, parameters_of(entry, given && !of_entry ? &kNothing : of_entry));
       }
+      if (given_) info.left_out = member.empty() && !given_->find(info.key);
     } else if constexpr (ListOfParameters<T>) {
       describe_entries(info, member, given);
     } else {

@@ -100,15 +100,46 @@ inline Allowed again(Allowed allowed) {
   return allowed;
 }
 
+/// The forms that a variant has in a file, as they are before one is read. One type may stand for several.
+template <class T>
+struct FormsOf;
+template <class... Form>
+struct FormsOf<std::variant<Form...>> {
+  static std::vector<std::variant<Form...>> all() { return {Form{}...}; }
+};
+
 /// Stands in a list before a variant of structs with lists of their own: the keys of one of them stand among those of
 /// the list. Which one, the first key of its list says.
 ///   visit(one_form("needs one of {}"), self.way);   // std::variant<FromFile, Bars, Wall>
 struct Forms {
-  std::string none;    // what is wrong where none of these keys, {}, is there; "": it is the last form then
-  std::string beside;  // what to do where several are; "": a check() says so
+  std::string none;       // what is wrong where none of these keys, {}, is there; "": it is the last form then
+  std::string beside;     // what to do where several are; "": a check() says so
+  const char* key = "";   // of the word that says which, if one does
+  const char* about = "";
+  bool required = false;  // that word has no default
 };
 inline Forms one_form(std::string none = "", std::string beside = "give one or the other") {
   return {std::move(none), std::move(beside)};
+}
+/// The same where the word under `key` says which form is there: each form's kWord. `other` is what is wrong with a key
+/// that only another form has.
+///   visit(form_by("kind", "generated or imported", "is not used by this kind"), self.ground);
+inline Forms form_by(const char* key, const char* about, std::string other, bool required = false) {
+  return {"", std::move(other), key, about, required};
+}
+/// Those words.
+template <class V>
+Allowed words_of() {
+  Allowed words;
+  for (const V& form : FormsOf<V>::all()) {
+    std::visit(
+        [&](const auto& of) {
+          using Form = std::decay_t<decltype(of)>;
+          if constexpr (requires { Form::kWord; }) words.words.emplace_back(Form::kWord, words.words.size());
+        },
+        form);
+  }
+  return words;
 }
 
 /// Factor from a unit of files to SI: 1 for what is SI already. An unknown unit is a mistake of ours.
@@ -140,14 +171,6 @@ template <class T>
 struct IsForms : std::false_type {};
 template <class... Form>
 struct IsForms<std::variant<Form...>> : std::bool_constant<(HasParameters<Form> && ...)> {};
-
-/// The forms that a variant has in a file, as they are before one is read. One type may stand for several.
-template <class T>
-struct FormsOf;
-template <class... Form>
-struct FormsOf<std::variant<Form...>> {
-  static std::vector<std::variant<Form...>> all() { return {Form{}...}; }
-};
 
 /// A variant is the list of whichever form is there, in a list of maps or under a key of its own.
 template <class... Form>

@@ -47,6 +47,8 @@ std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& for
                                       const std::vector<std::vector<std::string>>& keys);
 
 // Parts of it that no type changes.
+void refuse_others(const ConfigReader& from, const Forms& forms, const std::vector<std::vector<std::string>>& keys,
+                   std::size_t given);
 bool whole(const ConfigReader& from, const char* key, const Allowed& allowed, const std::vector<double>& numbers);
 bool is_map_or(const ConfigReader& from, const char* key, const std::string& word, const std::vector<std::string>& keys);
 /// A name of a map whose names are whole numbers.
@@ -70,8 +72,16 @@ class ParameterReader {
     const std::vector<T> all = FormsOf<T>::all();
     std::vector<std::vector<std::string>> keys;
     for (const T& form : all) keys.push_back(keys_of(form));
-    const auto given = form_given(from_, forms, keys);
-    if (!given) return;
+    std::optional<std::size_t> given = member.index();
+    if (*forms.key == '\0') {
+      given = form_given(from_, forms, keys);
+    } else {
+      Allowed words = words_of<T>();
+      words.required = forms.required;
+      read_word(forms.key, words, [&](const Word& word) { given = static_cast<std::size_t>(word.value); });
+      refuse_others(from_, forms, keys, *given);
+    }
+    if (!given || keys[*given].empty()) return;  // what there is without a key stays
     member = all[*given];
     std::visit([&](auto& form) { read_parameters(from_, form); }, member);
   }
@@ -225,5 +235,13 @@ void read_parameters(ConfigReader& from, T& values) {
   if constexpr (requires { ParametersOf<T>::check(from, values); }) ParametersOf<T>::check(from, values);
   if constexpr (requires { values.complete(from); }) values.complete(from);
 }
+
+/// The format at the head of a file, Of::kFormat.
+template <class Of>
+struct FormatKey {
+  void read(ConfigReader& from, const char*) { read_format(from, Of::kFormat); }
+  ConfigNode in_file() const { return ConfigNode::text(Of::kFormat); }
+  static std::string schema() { return std::string(R"({"const": ")") + Of::kFormat + "\"}"; }
+};
 
 }  // namespace ensonify

@@ -21,12 +21,9 @@ frames::Vec2 towards(const FlowKeys& flow) {
 template <class Entries, class Value>
 void check_rising(const ConfigReader& from, const char* list, const char* key, const Entries& entries, Value value,
                   const char* message) {
-  if (!from.has(list)) return;
-  const auto& given = from.node(list)->items;
   for (std::size_t i = 1; i < entries.size(); ++i) {
     if (value(entries[i]) <= value(entries[i - 1])) {
-      const std::string entry = fmt::format("{}[{}]", list, i);
-      from.problem(given[i].find(key) != nullptr ? entry + "." + key : entry, message);
+      from.problem(fmt::format("{}[{}].{}", list, i, key), message);
     }
   }
 }
