@@ -90,8 +90,16 @@ std::optional<ConfigNode> taken(ConfigNode& root, const std::string& key) {
   return value;
 }
 
-ConfigDocument load(const std::string& path, std::vector<std::string> open) {
+/// The scenario of a file, or the one that a launch file has under `scenario`.
+ConfigDocument parsed(const std::string& path) {
   ConfigDocument document = parse_config_file(path);
+  const ConfigNode* inside = document.root.find("scenario");
+  if (!is_scenario(document.root) && inside != nullptr && inside->is_map()) document.root = ConfigNode(*inside);
+  return document;
+}
+
+ConfigDocument load(ConfigDocument document, std::vector<std::string> open) {
+  const std::string path = document.root.place.file;
   const std::optional<ConfigNode> include = taken(document.root, "include");
   if (!include) return document;
   const auto refuse = [&](const std::string& why) {  // all else would follow from it
@@ -106,7 +114,7 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
   open.push_back(std::filesystem::weakly_canonical(path).string());
   if (holds(open, std::filesystem::weakly_canonical(under).string()))
     refuse("\"" + include->scalar + "\" includes itself, directly or through others");
-  ConfigDocument merged = load(under, open);
+  ConfigDocument merged = load(parse_config_file(under), open);
   if (!is_scenario(merged.root)) refuse("\"" + include->scalar + "\" is no " + kScenarioFormat);
   lay_over(merged.root, std::move(document.root));
   merged.problems.insert(merged.problems.end(), document.problems.begin(), document.problems.end());
@@ -116,7 +124,11 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
 }  // namespace
 
 ConfigDocument load_scenario(const std::string& path, const Overrides& overrides) {
-  ConfigDocument document = load(path, {});
+  return load_scenario(parsed(path), overrides);
+}
+
+ConfigDocument load_scenario(ConfigDocument given, const Overrides& overrides) {
+  ConfigDocument document = load(std::move(given), {});
   for (const auto& [key, value] : overrides) {
     for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1)) {
       const std::string section = key.substr(0, dot);

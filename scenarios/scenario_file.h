@@ -55,6 +55,8 @@ void read_header(ConfigReader& from, ScenarioHeader& header);
 /// other (sound_speed_mps, profile and cast; kinds of tide; a number or a grid of heights; plans of a mission) the one
 /// given last replaces the others. Problems that leave a tree are in the document. Throws ConfigError.
 ConfigDocument load_scenario(const std::string& path, const Overrides& overrides = {});
+/// The same of a scenario that stands in another file.
+ConfigDocument load_scenario(ConfigDocument document, const Overrides& overrides = {});
 
 /// Nanoseconds since 1970-01-01 UTC of "2025-06-01T12:00:00Z" (fractions of a second allowed), or nothing.
 std::optional<std::int64_t> parse_utc_ns(const std::string& text);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -234,6 +235,39 @@ std::string comment_of(const ParameterInfo& p) {
   return text;
 }
 
+std::string key_text(const std::string& key) {
+  const bool digits = !key.empty() && key.find_first_not_of("0123456789") == std::string::npos;
+  return digits || reads_as_text(key) ? key : Json(key).dump();
+}
+
+/// A single value as a block may have it.
+std::string plain_text(const ConfigNode& node) {
+  const bool is_value = !node.quoted && (parse_number(node.scalar) || parse_integer(node.scalar) ||
+                                         node.scalar == "true" || node.scalar == "false");
+  return is_value || reads_as_text(node.scalar) ? node.scalar : Json(node.scalar).dump();
+}
+
+void add_block(const ConfigNode& node, const std::string& lead, const std::string& margin, std::vector<Line>& lines) {
+  bool first = true;
+  const auto add = [&](const std::string& key, const ConfigNode& value, bool is_item) {
+    const std::string start = (std::exchange(first, false) ? lead : margin) + key;
+    const bool filled = !value.items.empty() || !value.entries.empty();
+    if (filled && is_item) add_block(value, start + " ", margin + "  ", lines);
+    else if (filled) {
+      lines.push_back({start, ""});
+      add_block(value, margin + "  ", margin + "  ", lines);
+    } else {
+      lines.push_back({start + (value.is_map()    ? " {}"
+                                : value.is_list() ? " []"
+                                : value.is_null() ? ""
+                                                  : " " + plain_text(value)),
+                       ""});
+    }
+  };
+  for (const auto& entry : node.entries) add(key_text(entry.key) + ":", entry.value, false);
+  for (const ConfigNode& item : node.items) add("-", item, true);
+}
+
 /// A file of values: nothing that has none.
 class ValueWriter {
  public:
@@ -269,6 +303,10 @@ class ValueWriter {
     const std::string about = p.about + (p.unit.empty() ? "" : " (" + p.unit + ")");
     const bool structure = p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed;
     if (structure && p.left_out) return lines.push_back({lead + p.key + ": " + p.allowed.instead, about});
+    if (p.kind == Kind::kOther && (!p.value.entries.empty() || !p.value.items.empty())) {
+      lines.push_back({lead + p.key + ":", about});
+      return add_block(p.value, inner, inner, lines);
+    }
     if (!structure) return lines.push_back({lead + p.key + ": " + flow_text(p.value), about});
     if (p.kind == Kind::kSection) return write_map(p.members, lead + p.key + ":", about, inner);
     if (p.entries.empty()) {
@@ -276,9 +314,8 @@ class ValueWriter {
     }
     lines.push_back({lead + p.key + ":", about});
     for (const auto& [name, entry] : p.entries) {
-      const bool digits = name.find_first_not_of("0123456789") == std::string::npos;
       if (p.kind == Kind::kNamed) {
-        write_map(entry, inner + (digits || reads_as_text(name) ? name : Json(name).dump()) + ":", "", inner + "  ");
+        write_map(entry, inner + key_text(name) + ":", "", inner + "  ");
       } else if (written(entry).empty()) {
         lines.push_back({inner + "- {}", ""});
       } else {
@@ -441,6 +478,23 @@ std::string parameter_schema(const std::string& title, const ParameterList& list
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(object_of(list));
   return schema.dump(2) + "\n";
+}
+
+std::string block_yaml(const ConfigNode& node, const std::string& margin) {
+  std::vector<Line> lines;
+  add_block(node, margin, margin, lines);
+  return text_of(lines);
+}
+
+bool lists_key(const ParameterList& list, const std::string& key) {
+  return std::any_of(list.begin(), list.end(), [&](const ParameterInfo& p) {
+    return p.key == key ||
+           std::any_of(p.forms.begin(), p.forms.end(), [&](const ParameterList& form) { return lists_key(form, key); });
+  });
+}
+
+std::string detail::absolute_path(const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
 
 std::string written_yaml(const ParameterList& values, const std::string& margin) {

@@ -49,6 +49,10 @@ std::string default_yaml(const std::string& title, const ParameterList& list);
 /// What a file had, or could have had, to give these values: each with its sentence and unit, each line behind `margin`.
 /// Of a list of values; one of none is "".
 std::string written_yaml(const ParameterList& values, const std::string& margin = "");
+/// A value as it stands, in lines behind `margin`: a map's keys, or a list's entries.
+std::string block_yaml(const ConfigNode& node, const std::string& margin = "");
+/// Whether one of the keys of a list, or of its forms, is this.
+bool lists_key(const ParameterList& list, const std::string& key);
 /// A Markdown table; keys of sections are written as section.key.
 std::string parameter_table(const ParameterList& list);
 /// JSON Schema (draft 2020-12) of the file.
@@ -69,6 +73,8 @@ std::string allowed_text(const ParameterInfo& parameter);
 
 namespace detail {
 
+/// With the working folder before it.
+std::string absolute_path(const std::string& path);
 /// The shortest decimal that, times the unit's factor, is the value again.
 ConfigNode number_node(double value, double si_per_unit);
 ConfigNode text_node(const std::string& text);
@@ -129,7 +135,8 @@ class DescribeParameters {
       else describe_optional(info, member);
     } else if constexpr (std::is_same_v<T, std::string>) {
       info.kind = info.allowed.words.empty() ? Kind::kText : Kind::kWord;
-      info.value = text_node(member);
+      const bool is_path = given_ && info.allowed.text == Allowed::Text::kPath;
+      info.value = text_node(is_path ? absolute_path(member) : member);
     } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
       info.kind = info.allowed.words.empty() ? Kind::kBool : Kind::kWord;
       info.value = ConfigNode::text(static_cast<bool>(member) ? "true" : "false");
