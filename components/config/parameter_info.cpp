@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -202,6 +203,134 @@ Json object_of(const ParameterList& list) {
   if (choices.size() == 1) json.update(choices.front());
   if (choices.size() > 1) json["allOf"] = std::move(choices);
   return json;
+}
+
+/// What stands in several places of a schema stands once, under `$defs`. A schema's description and default stay where
+/// it is used.
+class SharedSchemas {
+ public:
+  /// The schema with references in place of what is there more than once.
+  Json shared(Json schema) {
+    const Json own = schema.value("$defs", Json::object());
+    schema.erase("$defs");
+    std::vector<std::size_t> numbers;
+    for (const auto& [name, of] : own.items()) {
+      numbers.push_back(number_of(of, name));
+      Part& part = parts_[numbers.back()];
+      if (part.reference.empty()) part.reference = "#/$defs/" + name;
+      defs_[name] = {{"$ref", part.reference}};  // until it is written
+    }
+    Json result = expanded(parts_[number_of(schema, "schema")].shallow);
+    std::size_t next = 0;
+    for (const auto& [name, of] : own.items()) {
+      const Part& part = parts_[numbers[next++]];
+      if (part.reference == "#/$defs/" + name) defs_[name] = expanded(part.shallow);
+    }
+    if (!defs_.empty()) result["$defs"] = defs_;
+    return result;
+  }
+
+ private:
+  struct Part {
+    Json shallow;  // parts within are {"$part": number}
+    std::string name;
+    int uses = 0;
+    std::string reference = {};
+  };
+  static constexpr std::size_t kShortest = 60;  // what is shorter is not worth a reference
+
+  /// The number of equal parts is the same. `name` is that of the first place where the part stands.
+  std::size_t number_of(const Json& schema, const std::string& name) {
+    Json core = Json::object(), said = Json::object();
+    for (const auto& [key, value] : schema.items()) {
+      const bool says = (key == "description" || key == "default") && schema.size() > 1;
+      (says ? said : core)[key] = with_numbers(key, value, name);
+    }
+    const std::size_t number = numbered(std::move(core), name);
+    if (said.empty()) return number;
+    said["$part"] = number;
+    return numbered(std::move(said), name);
+  }
+
+  Json with_numbers(const std::string& key, const Json& value, const std::string& name) {
+    const bool map = key == "properties" || key == "$defs";
+    const bool list = key == "anyOf" || key == "oneOf" || key == "allOf";
+    const bool one = key == "items" || key == "additionalProperties" || key == "then" || key == "if" || key == "not";
+    Json result = value;
+    if (map) {
+      for (const auto& [inner, of] : value.items()) result[inner] = part(of, inner);
+    } else if (list) {
+      for (std::size_t i = 0; i < value.size(); ++i) result[i] = part(value[i], name);
+    } else if (one) {
+      result = part(value, name);
+    }
+    return result;
+  }
+  Json part(const Json& schema, const std::string& name) {
+    if (!schema.is_object() || schema.empty()) return schema;
+    return {{"$part", number_of(schema, name)}};
+  }
+
+  std::size_t numbered(Json shallow, const std::string& name) {
+    const auto [found, is_new] = numbers_.emplace(shallow.dump(), parts_.size());
+    if (is_new) {
+      count_uses(shallow);
+      parts_.push_back({std::move(shallow), name});
+    }
+    return found->second;
+  }
+  void count_uses(const Json& json) {
+    if (json.is_object() && json.contains("$part")) ++parts_[json["$part"].get<std::size_t>()].uses;
+    if (!json.is_structured()) return;
+    for (const auto& inner : json) {
+      if (inner.is_structured()) count_uses(inner);
+    }
+  }
+
+  Json written(std::size_t number) {
+    if (!parts_[number].reference.empty()) return {{"$ref", parts_[number].reference}};
+    Json json = expanded(parts_[number].shallow);
+    if (parts_[number].uses < 2 || json.dump().size() < kShortest || json.contains("$ref")) return json;
+    std::string name = parts_[number].name;
+    for (int i = 2; defs_.contains(name); ++i) name = parts_[number].name + "_" + std::to_string(i);
+    parts_[number].reference = "#/$defs/" + name;
+    defs_[name] = std::move(json);
+    return {{"$ref", parts_[number].reference}};
+  }
+  Json expanded(const Json& shallow) {
+    if (!shallow.is_structured()) return shallow;
+    if (shallow.is_object() && shallow.contains("$part")) {
+      Json json = written(shallow["$part"].get<std::size_t>());
+      for (const auto& [key, value] : shallow.items()) {
+        if (key != "$part") json[key] = value;
+      }
+      return json;
+    }
+    Json json = shallow;
+    for (auto& [key, inner] : json.items()) inner = expanded(inner);
+    return json;
+  }
+
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<Part> parts_;
+  Json defs_ = Json::object();
+};
+
+/// JSON in lines of at most `kWidest` columns, where it can be.
+void add_json(const Json& json, const std::string& lead, const std::string& margin, const char* end,
+              std::string& text) {
+  constexpr std::size_t kWidest = 150;
+  const std::string line = json.dump();
+  if (!json.is_structured() || json.empty() || margin.size() + lead.size() + line.size() <= kWidest) {
+    text += margin + lead + line + end + "\n";
+    return;
+  }
+  text += margin + lead + (json.is_object() ? "{" : "[") + "\n";
+  std::size_t left = json.size();
+  for (const auto& [key, value] : json.items()) {
+    add_json(value, json.is_object() ? Json(key).dump() + ": " : "", margin + " ", --left > 0 ? "," : "", text);
+  }
+  text += margin + (json.is_object() ? "}" : "]") + end + "\n";
 }
 
 constexpr std::size_t kFarthestComment = 36;  // column
@@ -425,35 +554,6 @@ ConfigNode detail::list_node() {
   return node;
 }
 
-namespace {
-
-ParameterInfo structure(ParameterInfo::Kind kind, const std::string& key, const std::string& about,
-                        ParameterList members, bool required) {
-  ParameterInfo info{.key = key, .about = about, .kind = kind, .left_out = true, .members = std::move(members)};
-  info.allowed.required = required;
-  return info;
-}
-
-}  // namespace
-
-ParameterInfo section_info(const std::string& key, const std::string& about, ParameterList members, bool required) {
-  return structure(ParameterInfo::Kind::kSection, key, about, std::move(members), required);
-}
-
-ParameterInfo list_info(const std::string& key, const std::string& about, ParameterList members) {
-  return structure(ParameterInfo::Kind::kList, key, about, std::move(members), false);
-}
-
-ParameterInfo named_info(const std::string& key, const std::string& about, ParameterList members) {
-  return structure(ParameterInfo::Kind::kNamed, key, about, std::move(members), false);
-}
-
-ParameterInfo other_info(const std::string& key, const std::string& about, std::string schema, bool required) {
-  ParameterInfo info = structure(ParameterInfo::Kind::kOther, key, about, {}, required);
-  info.schema = std::move(schema);
-  return info;
-}
-
 std::string allowed_text(const ParameterInfo& parameter) {
   const Allowed& allowed = parameter.allowed;
   if (!allowed.words.empty()) {
@@ -472,12 +572,16 @@ std::string parameter_table(const ParameterList& list) {
   return table;
 }
 
-std::string object_schema(const ParameterList& list) { return object_of(list).dump(); }
-
 std::string parameter_schema(const std::string& title, const ParameterList& list) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(object_of(list));
   return schema.dump(2) + "\n";
+}
+
+std::string schema_text(const std::string& schema) {
+  std::string text;
+  add_json(SharedSchemas().shared(Json::parse(schema)), "", "", "", text);
+  return text;
 }
 
 std::string block_yaml(const ConfigNode& node, const std::string& margin) {

@@ -58,15 +58,8 @@ std::string parameter_table(const ParameterList& list);
 /// JSON Schema (draft 2020-12) of the file.
 std::string parameter_schema(const std::string& title, const ParameterList& list);
 
-/// A JSON Schema of one map with these keys.
-std::string object_schema(const ParameterList& list);
-
-// What no struct holds: keys of sections whose reader is code.
-ParameterInfo section_info(const std::string& key, const std::string& about, ParameterList members,
-                           bool required = false);
-ParameterInfo list_info(const std::string& key, const std::string& about, ParameterList members);
-ParameterInfo named_info(const std::string& key, const std::string& about, ParameterList members);
-ParameterInfo other_info(const std::string& key, const std::string& about, std::string schema, bool required = false);
+/// A schema as it is shipped: what stands in several places once, under `$defs`, and few lines.
+std::string schema_text(const std::string& schema);
 
 /// "0.05 to 10", "tone or chirp"; "" where everything is allowed.
 std::string allowed_text(const ParameterInfo& parameter);

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The same schema for values that may also be an argument of the launch file.
+/// The same schema for values that may also be an argument of the launch file: a text that holds $(.
 Json with_arguments(const Json& schema) {
   if (!schema.is_object()) return schema;
   Json changed = Json::object();
@@ -24,13 +24,18 @@ Json with_arguments(const Json& schema) {
       changed[name] = value;
     }
   }
-  const bool structure = changed.contains("properties") || changed.contains("additionalProperties");
-  const bool plain = changed.contains("enum") || changed.contains("const") || (changed.contains("type") && !structure);
-  if (!plain || changed.value("type", Json()) == "string") return changed;
-  Json value = Json::object(), outer = Json::object();
-  for (auto& [name, of] : changed.items()) (name == "description" || name == "default" ? outer : value)[name] = of;
-  outer["anyOf"] = {std::move(value), {{"type", "string"}, {"pattern", "\\$\\("}}};
-  return outer;
+  if (changed.contains("properties") || changed.contains("additionalProperties")) return changed;
+  if (changed.contains("enum") || changed.contains("const")) {
+    Json words = Json::object();
+    for (const char* key : {"enum", "const"}) {
+      if (changed.contains(key)) words[key] = changed[key], changed.erase(key);
+    }
+    changed["anyOf"] = {std::move(words), {{"type", "string"}, {"pattern", "\\$\\("}}};
+  } else if (changed.contains("type") && changed["type"].is_string() && changed["type"] != "string") {
+    changed["type"] = {changed["type"], "string"};
+    changed["pattern"] = "\\$\\(";
+  }
+  return changed;
 }
 
 /// The list that the component `expect` has, and how a process ends, which the launcher judges.
@@ -59,7 +64,7 @@ std::string launch_schema(const std::map<std::string, std::string>& components) 
   schema["$defs"] = std::move(lists);
   Json changed = with_arguments(schema);
   if (!forms.empty()) changed["properties"]["processes"]["additionalProperties"]["allOf"] = std::move(forms);
-  return changed.dump(2) + "\n";
+  return schema_text(changed.dump());
 }
 
 }  // namespace ensonify
