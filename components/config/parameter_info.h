@@ -121,6 +121,7 @@ class DescribeParameters {
       info.kind = Kind::kOther;
       info.schema = T::schema();
       info.value = member.in_file();
+      if (const ConfigNode* given = given_ ? given_->find(info.key) : nullptr; given && !given->is_null()) info.value = *given;
     } else if constexpr (Structure<T>) {
       describe_structure(info, member);
     } else if constexpr (IsOptional<T>::value) {

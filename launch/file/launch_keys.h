@@ -20,18 +20,20 @@ struct ScenarioPlace {
   static std::string schema() { return R"({"type": ["string", "object"]})"; }
 };
 
-/// What the tree has lost before it is read: includes and arguments are put in, overrides applied (tree.h).
-struct ResolvedKey {
+// What the tree has lost before it is read: includes and arguments are put in, overrides applied (tree.h).
+struct IncludeKey {
+  void read(ConfigReader&, const char*) {}
+  ConfigNode in_file() const { return {}; }
+  static std::string schema();
+};
+struct ArgumentsKey {
+  void read(ConfigReader&, const char*) {}
+  ConfigNode in_file() const { return {}; }
+  static std::string schema();
+};
+struct OverridesKey {
   void read(ConfigReader& from, const char* key) { from.node(key); }
   ConfigNode in_file() const { return {}; }
-};
-struct IncludeKey : ResolvedKey {
-  static std::string schema();
-};
-struct ArgumentsKey : ResolvedKey {
-  static std::string schema();
-};
-struct OverridesKey : ResolvedKey {
   static std::string schema() { return R"({"type": "object"})"; }
 };
 
