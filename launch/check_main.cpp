@@ -52,8 +52,8 @@ std::string asked(const Launch& launch, const ProcessSpec& process, const RunPla
 void print(LaunchOptions options) {
   options.out = "$(out)";
   std::string scenario;
-  const Launch launch = read_launch(
-      options, [&](ConfigReader& from, const std::string& file) { read_world(from, file, &scenario); });
+  const Launch launch =
+      read_launch(options, [&](ConfigReader& from, const std::string& file) { read_world(from, file, &scenario); });
   const RunPlaces places{program_folder(), "", options.out};
   fmt::print("{}", written_launch(launch, scenario,
                                   [&](const ProcessSpec& process) { return asked(launch, process, places); }));
@@ -114,9 +114,10 @@ int main(int argc, char** argv) {
   bool as_json = false, as_print = false;
   add_options(app, options, true);
   auto* json = app.add_flag("--json", as_json, "print problems and warnings as JSON");
-  app.add_flag("--print", as_print,
-               "print the launch with its scenario as one file: includes, arguments and changes put in, every value with "
-               "its sentence and unit")
+  app.add_flag(
+         "--print", as_print,
+         "print the launch with its scenario as one file: includes, arguments and changes put in, every value with "
+         "its sentence and unit")
       ->excludes(json);
   if (const auto code = parse_command_line(app, argc, argv)) return *code;
   try {

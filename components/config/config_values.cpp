@@ -287,7 +287,8 @@ std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& for
     const std::string& key = keys[i].front();
     known += (known.empty() ? "" : ", ") + key;
     if (!from.has(key)) continue;
-    if (given && !forms.beside.empty()) from.problem(key, "stands beside " + keys[*given].front() + "; " + forms.beside);
+    if (given && !forms.beside.empty())
+      from.problem(key, "stands beside " + keys[*given].front() + "; " + forms.beside);
     if (!given) given = i;
   }
   if (given) return given;

@@ -120,22 +120,14 @@ std::string problems_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("what is written of values reads as the same values, for each form") {
-  for (const char* text : {"row_m: 3",
-                           "bars: 3\ntilt_deg: 7.1",
-                           "bars: 3\ncast: x.csv",
-                           "row_m: 3\nkind: imported\nraster: x.tif",
-                           "row_m: 3\nkind: drawn\nsize_m: 7",
-                           "row_m: 3\ncast: {file: x.csv, column: z}",
-                           "row_m: 3\nsteps: [{row_m: 1}, {speed_mps: 0.1}, {}]",
-                           "row_m: 3\nsteps: []",
-                           "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}",
-                           "row_m: 3\ncasts: {a b: x, c: {file: y}}",
-                           "row_m: 3\nrate: free\nstart: anywhere",
-                           "row_m: 3\nrate: 2\nstart: {}",
-                           "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]",
-                           "row_m: 3\nspeed_kn: 3",
-                           "row_m: 3\nheight_m: 0.5",
-                           "row_m: 3\nmask: {any_of: [{any_of: [{any_of: [{any_of: [{scale_m: 1}]}]}]}, {}]}"}) {
+  for (const char* text :
+       {"row_m: 3", "bars: 3\ntilt_deg: 7.1", "bars: 3\ncast: x.csv", "row_m: 3\nkind: imported\nraster: x.tif",
+        "row_m: 3\nkind: drawn\nsize_m: 7", "row_m: 3\ncast: {file: x.csv, column: z}",
+        "row_m: 3\nsteps: [{row_m: 1}, {speed_mps: 0.1}, {}]", "row_m: 3\nsteps: []",
+        "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}", "row_m: 3\ncasts: {a b: x, c: {file: y}}",
+        "row_m: 3\nrate: free\nstart: anywhere", "row_m: 3\nrate: 2\nstart: {}",
+        "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3", "row_m: 3\nheight_m: 0.5",
+        "row_m: 3\nmask: {any_of: [{any_of: [{any_of: [{any_of: [{scale_m: 1}]}]}]}, {}]}"}) {
     const Read once = read(text);
     INFO(text << "\n" << once.written);
     const Read again = read(once.written);
@@ -145,7 +137,8 @@ TEST_CASE("what is written of values reads as the same values, for each form") {
 }
 
 TEST_CASE("every value is written with sentence and unit, and nothing that has none") {
-  CHECK(read("bars: 2\nspeed_kn: 3.6\ncast: x.csv\nsteps: [{row_m: 1}]").written == R"(cast:              # a measured profile
+  CHECK(read("bars: 2\nspeed_kn: 3.6\ncast: x.csv\nsteps: [{row_m: 1}]").written ==
+        R"(cast:              # a measured profile
   file: x.csv      # a text file
   column: depth_m  # what the column is called
 kind: drawn        # where the ground is from

@@ -40,8 +40,8 @@ void add_rows(const ParameterList& list, const std::string& path, std::string& t
     if (p.kind == Kind::kForms) {
       for (const ParameterList& form : p.forms) add_rows(form, path, table);
     } else if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
-      const std::string inner = key + (p.kind == Kind::kList      ? "[]."
-                                       : p.numbered              ? ".NUMBER."
+      const std::string inner = key + (p.kind == Kind::kList    ? "[]."
+                                       : p.numbered             ? ".NUMBER."
                                        : p.kind == Kind::kNamed ? ".NAME."
                                                                 : ".");
       table += "| `" + key + "` | | " +

@@ -14,7 +14,20 @@ namespace ensonify {
 
 struct ParameterInfo {
   enum class Kind {
-    kNumber, kInteger, kBool, kWord, kText, kNumbers, kWholes, kRows, kTexts, kSection, kList, kNamed, kForms, kOther
+    kNumber,
+    kInteger,
+    kBool,
+    kWord,
+    kText,
+    kNumbers,
+    kWholes,
+    kRows,
+    kTexts,
+    kSection,
+    kList,
+    kNamed,
+    kForms,
+    kOther
   };
   using List = std::vector<ParameterInfo>;
 
@@ -23,17 +36,17 @@ struct ParameterInfo {
   Allowed allowed;
   std::string about;
   Kind kind = Kind::kText;
-  std::size_t width = 0;                                   // of fixed lists and of rows
-  bool left_out = false;                                   // there is no default (required, computed or optional) or value
-  bool optional = false;                                   // a section that need not be there
-  bool numbered = false;                                   // a map whose names are whole numbers
-  std::string short_key = {};                              // a single value is short for the map with this key alone
-  ConfigNode value = {};                                   // the default, in the unit of the file
-  std::vector<ParameterInfo> members = {};                 // of a section, or of each entry of a list or map
-  std::vector<List> forms = {};                            // of kForms; its members are those of the form that is there
-  bool last_has_no_key = false;                            // of kForms: without a key it is the last form
-  std::string by = {};                                     // of kForms: the key whose word says which it is
-  std::string schema = {};                                 // of kOther: JSON Schema of the value
+  std::size_t width = 0;                    // of fixed lists and of rows
+  bool left_out = false;                    // there is no default (required, computed or optional) or value
+  bool optional = false;                    // a section that need not be there
+  bool numbered = false;                    // a map whose names are whole numbers
+  std::string short_key = {};               // a single value is short for the map with this key alone
+  ConfigNode value = {};                    // the default, in the unit of the file
+  std::vector<ParameterInfo> members = {};  // of a section, or of each entry of a list or map
+  std::vector<List> forms = {};             // of kForms; its members are those of the form that is there
+  bool last_has_no_key = false;             // of kForms: without a key it is the last form
+  std::string by = {};                      // of kForms: the key whose word says which it is
+  std::string schema = {};                  // of kOther: JSON Schema of the value
   std::vector<std::pair<std::string, List>> entries = {};  // that a list or map has by default, with their names
 };
 
@@ -46,8 +59,8 @@ ParameterList parameters_of(const T& values = T{}, const ConfigNode* given = nul
 
 /// A configuration file with every default, each with its sentence; `title` heads it as a comment.
 std::string default_yaml(const std::string& title, const ParameterList& list);
-/// What a file had, or could have had, to give these values: each with its sentence and unit, each line behind `margin`.
-/// Of a list of values; one of none is "".
+/// What a file had, or could have had, to give these values: each with its sentence and unit, each line behind
+/// `margin`. Of a list of values; one of none is "".
 std::string written_yaml(const ParameterList& values, const std::string& margin = "");
 /// A value as it stands, in lines behind `margin`: a map's keys, or a list's entries.
 std::string block_yaml(const ConfigNode& node, const std::string& margin = "");
@@ -84,8 +97,8 @@ class DescribeParameters {
   template <class T>
   void operator()(const char* key, const char* unit, const Allowed& allowed, const char* about, const T& member) {
     ParameterInfo& info = list_.emplace_back(ParameterInfo{key, unit, allowed, about});
-    info.left_out = given_ ? allowed.again || (allowed.computed && !given_->find(key))
-                           : allowed.required || allowed.computed;
+    info.left_out =
+        given_ ? allowed.again || (allowed.computed && !given_->find(key)) : allowed.required || allowed.computed;
     describe(info, member);
   }
   template <class T>
@@ -121,7 +134,8 @@ class DescribeParameters {
       info.kind = Kind::kOther;
       info.schema = T::schema();
       info.value = member.in_file();
-      if (const ConfigNode* given = given_ ? given_->find(info.key) : nullptr; given && !given->is_null()) info.value = *given;
+      if (const ConfigNode* given = given_ ? given_->find(info.key) : nullptr; given && !given->is_null())
+        info.value = *given;
     } else if constexpr (Structure<T>) {
       describe_structure(info, member);
     } else if constexpr (IsOptional<T>::value) {
@@ -225,7 +239,7 @@ class DescribeParameters {
   void describe_entries(ParameterInfo& info, const T& member, const ConfigNode* given) {
     using Entry = typename T::value_type;
     constexpr int kDeepest = 2;  // lists of what they stand in
-    if (described_within<Entry> > kDeepest && member.empty()) return list_.pop_back();
+    if (described_within < Entry >> kDeepest && member.empty()) return list_.pop_back();
     ++described_within<Entry>;
     info.kind = NamedParameters<Entry> ? Kind::kNamed : Kind::kList;
     info.short_key = short_key<Entry>();
@@ -235,7 +249,8 @@ class DescribeParameters {
       std::string name;
       if constexpr (NamedParameters<Entry>) name = member[i].*Entry::kNamedBy;
       const ConfigNode* of_entry = nullptr;
-      if (given) of_entry = NamedParameters<Entry> ? given->find(name) : i < given->items.size() ? &given->items[i] : nullptr;
+      if (given)
+        of_entry = NamedParameters<Entry> ? given->find(name) : i < given->items.size() ? &given->items[i] : nullptr;
       info.entries.emplace_back(std::move(name), parameters_of(member[i], given && !of_entry ? &kNothing : of_entry));
     }
     if (given_) info.left_out = member.empty() && !given_->find(info.key);

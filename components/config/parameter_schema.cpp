@@ -31,7 +31,8 @@ Json type_of(const ParameterInfo& p);
 /// A map with these keys, or what is short for it.
 Json structure_of(const ParameterInfo& p) {
   Json map = object_of(p.members);
-  const auto inner = std::find_if(p.members.begin(), p.members.end(), [&](const auto& m) { return m.key == p.short_key; });
+  const auto inner =
+      std::find_if(p.members.begin(), p.members.end(), [&](const auto& m) { return m.key == p.short_key; });
   if (p.short_key.empty()) return map;
   if (inner != p.members.end()) return {{"anyOf", {type_of(*inner), std::move(map)}}};
   for (const ParameterInfo& forms : p.members) {  // of one of the forms

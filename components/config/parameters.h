@@ -112,9 +112,9 @@ struct FormsOf<std::variant<Form...>> {
 /// the list. Which one, the first key of its list says.
 ///   visit(one_form("needs one of {}"), self.way);   // std::variant<FromFile, Bars, Wall>
 struct Forms {
-  std::string none;       // what is wrong where none of these keys, {}, is there; "": it is the last form then
-  std::string beside;     // what to do where several are; "": a check() says so
-  const char* key = "";   // of the word that says which, if one does
+  std::string none;      // what is wrong where none of these keys, {}, is there; "": it is the last form then
+  std::string beside;    // what to do where several are; "": a check() says so
+  const char* key = "";  // of the word that says which, if one does
   const char* about = "";
   bool required = false;  // that word has no default
 };
@@ -242,11 +242,9 @@ namespace detail {
 template <class T>
 bool equal_members(const T& a, const T& b) {
   if constexpr (IsForms<T>::value) {
-    return a.index() == b.index() && std::visit(
-                                         [&](const auto& form) {
-                                           return equal_parameters(form, std::get<std::decay_t<decltype(form)>>(b));
-                                         },
-                                         a);
+    return a.index() == b.index() &&
+           std::visit(
+               [&](const auto& form) { return equal_parameters(form, std::get<std::decay_t<decltype(form)>>(b)); }, a);
   } else if constexpr (HasParameters<T>) {
     return equal_parameters(a, b);
   } else if constexpr (IsOptional<T>::value) {

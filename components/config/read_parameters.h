@@ -50,7 +50,8 @@ std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& for
 void refuse_others(const ConfigReader& from, const Forms& forms, const std::vector<std::vector<std::string>>& keys,
                    std::size_t given);
 bool whole(const ConfigReader& from, const char* key, const Allowed& allowed, const std::vector<double>& numbers);
-bool is_map_or(const ConfigReader& from, const char* key, const std::string& word, const std::vector<std::string>& keys);
+bool is_map_or(const ConfigReader& from, const char* key, const std::string& word,
+               const std::vector<std::string>& keys);
 /// A name of a map whose names are whole numbers.
 std::optional<std::uint64_t> number_of(const ConfigReader& from, const std::string& key, const Allowed& allowed,
                                        const std::string& name);

@@ -179,9 +179,7 @@ void Program::read(ConfigReader& from, const char* key) {
   }
 }
 
-ConfigNode Program::in_file() const {
-  return argv.empty() ? ConfigNode::text(component) : list_of_texts(argv);
-}
+ConfigNode Program::in_file() const { return argv.empty() ? ConfigNode::text(component) : list_of_texts(argv); }
 
 std::string Program::schema() {
   return R"({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": ["string", "number", "boolean"]}}]})";

@@ -133,12 +133,12 @@ struct ClockSettings {
     visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}), "between the processes",
           self.transport);
     visit("connect_timeout_s", "s", in(0.01, 3600), "wall time until every process is there", self.connect_timeout_s);
-    visit("address", "", computed(any()), "of this machine, at which the clock and what runs beside it take part by tcp",
-          self.address);
+    visit("address", "", computed(any()),
+          "of this machine, at which the clock and what runs beside it take part by tcp", self.address);
     visit("port", "", computed(in(0, 65535)), "of the clock by tcp; 0: any that is free", self.port);
     visit("keys", "", computed(any()), "tcp: nobody takes part, or sees anything, without the run's keys", self.keys);
-    visit("allow", "", computed(any()), "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine",
-          self.allow);
+    visit("allow", "", computed(any()),
+          "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine", self.allow);
   }
   void check(const ConfigReader& from) const;
 };
@@ -190,8 +190,8 @@ std::string canonical_text(const Launch& launch);
 
 /// A process's configuration with every value, as lines of YAML; "": as it was given.
 using WrittenConfig = std::function<std::string(const ProcessSpec&)>;
-/// What a launch file would have with every value and its sentence. `scenario` is read_world()'s `written`, and stands in
-/// it; "": it names none.
+/// What a launch file would have with every value and its sentence. `scenario` is read_world()'s `written`, and stands
+/// in it; "": it names none.
 std::string written_launch(const Launch& launch, const std::string& scenario, const WrittenConfig& config_of);
 
 /// JSON Schema of launch files, for editors. `components` has the JSON Schema of each component's parameters by its

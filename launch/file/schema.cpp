@@ -41,7 +41,8 @@ Json with_arguments(const Json& schema) {
 /// The list that the component `expect` has, and how a process ends, which the launcher judges.
 Json expectations(const Json& component) {
   Json list = component["properties"]["expect"];
-  list["items"]["properties"]["exit"] = {{"type", "object"}, {"description", "how a process ends: exit code or signal"}};
+  list["items"]["properties"]["exit"] = {{"type", "object"},
+                                         {"description", "how a process ends: exit code or signal"}};
   return list;
 }
 

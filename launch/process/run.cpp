@@ -143,8 +143,8 @@ void report(const Conductor& conductor, const Launch& launch) {
 
 }  // namespace
 
-int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*), int argc,
-                  char** argv) {
+int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                  int argc, char** argv) {
   Options options;
   if (const auto code = parse(component, list, argc, argv, options)) return *code;
   return exit_code_of([&] { return run_process(component, factory, list, options); });

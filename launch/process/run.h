@@ -64,8 +64,8 @@ ParameterList list_of(const ProcessSpec* process) {
 /// A component's main(): reads the launch file and this process's parameters, then either prints the ports (`--check`)
 /// or takes part in the run; with `--parameters` it prints their list and ends, with `--print` their values in this
 /// launch. Returns the exit code; every error is caught, reported and turned into one here.
-int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*), int argc,
-                  char** argv);
+int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                  int argc, char** argv);
 
 /// `int main(int argc, char** argv) { return ensonify::run<MultibeamNode>(argc, argv); }`
 template <class Node>

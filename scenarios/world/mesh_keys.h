@@ -79,8 +79,8 @@ struct StrewnKeys {
     visit("scale", "", in(1e-3, 1e3), "sizes: [least, most]", self.scale);
     visit("size_exponent", "", in(0.1, 10), "the number above a size goes as size to the power of minus this",
           self.where.size_exponent);
-    visit("on", "", computed(called("a class", in(0, 255))),
-          "classes of the ground on which they stand; left out: all", self.on);
+    visit("on", "", computed(called("a class", in(0, 255))), "classes of the ground on which they stand; left out: all",
+          self.on);
   }
   void check(const ConfigReader& from) const;
   void complete(ConfigReader& from);

@@ -103,8 +103,7 @@ void lay(const LawnmowerPlan& plan, const Places& places, Mission& mission) {
   Vec2 centre = rows.centre.value_or(Vec2(0, 0));
   if (rows.centre) places.place("lawnmower.centre_m", centre);
   if (places.good())
-    mission.steps =
-        steps_of(runlines::lawnmower(centre, rows.heading_rad, rows.length_m, rows.spacing_m, rows.count));
+    mission.steps = steps_of(runlines::lawnmower(centre, rows.heading_rad, rows.length_m, rows.spacing_m, rows.count));
 }
 void lay(const PlanOfRaster& plan, const Places&, Mission& mission) { mission.auto_plan = plan.plan; }
 void lay(PlanOfCoverage plan, const Places& places, Mission& mission) {

@@ -44,9 +44,7 @@ struct RunlinesPlan {
 };
 struct LawnmowerPlan {
   LawnmowerKeys lawnmower;
-  static void parameters(auto& self, auto&& visit) {
-    visit("lawnmower", "parallel lines, to and fro", self.lawnmower);
-  }
+  static void parameters(auto& self, auto&& visit) { visit("lawnmower", "parallel lines, to and fro", self.lawnmower); }
 };
 struct PlanOfRaster {
   AutoPlan plan;

@@ -10,8 +10,9 @@ namespace ensonify {
 
 frames::Mounting MountingKeys::mounting(frames::Mounting otherwise) const {
   if (roll_rad || pitch_rad || heading_rad) {
-    const frames::Attitude turn{
-        .heading_rad = heading_rad.value_or(0.0), .pitch_rad = pitch_rad.value_or(0.0), .roll_rad = roll_rad.value_or(0.0)};
+    const frames::Attitude turn{.heading_rad = heading_rad.value_or(0.0),
+                                .pitch_rad = pitch_rad.value_or(0.0),
+                                .roll_rad = roll_rad.value_or(0.0)};
     // The same three turns as a vehicle's attitude, from the body's axes instead of from north, east, down.
     otherwise.body_from_head = frames::canonical(frames::enu_from_ned().conjugate() * frames::enu_from_body(turn));
   }

@@ -49,9 +49,7 @@ struct GaugeTide {
 struct TideKeys {
   std::variant<ConstantTide, HarmonicTideKeys, GaugeTide> form;
 
-  static void parameters(auto& self, auto&& visit) {
-    visit(one_form("says nothing; give one of {}", ""), self.form);
-  }
+  static void parameters(auto& self, auto&& visit) { visit(one_form("says nothing; give one of {}", ""), self.form); }
   void check(const ConfigReader& from) const;
 };
 

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped() {
   std::vector<std::string> files;
   for (const char* top : {"scenarios", "bench", "docs", "examples"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(std::string(std::getenv("ENSONIFY_SOURCE")) + "/" + top)) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(std::string(std::getenv("ENSONIFY_SOURCE")) + "/" + top)) {
       if (entry.path().extension() != ".yaml") continue;
       const ConfigDocument document = parse_config_file(entry.path());
       const ConfigNode* format = document.root.find("ensonify");
@@ -87,9 +88,10 @@ TEST_CASE("a speed in knots, a mission of its own and places in degrees are writ
   const fs::path mission = fs::temp_directory_path() / "ensonify_written_mission.yaml";
   std::ofstream(mission) << "ensonify: mission/1\npositions: geodetic\nspeed_kn: 3\nrepeat: 2\n"
                             "steps: [{line: [[42.5, -70.5], [42.501, -70.5]]}, {wait_s: 3}, {speed_mps: 1}]\n";
-  const std::string text = "ensonify: scenario/1\nsite: {latitude_deg: 42.5, longitude_deg: -70.5}\nseabed: {kind: layers}\n"
-                           "mission: {repeat: 3, file: " +
-                           mission.string() + "}\n";
+  const std::string text =
+      "ensonify: scenario/1\nsite: {latitude_deg: 42.5, longitude_deg: -70.5}\nseabed: {kind: layers}\n"
+      "mission: {repeat: 3, file: " +
+      mission.string() + "}\n";
   const std::string once = written(text);
   fs::remove(mission);
   INFO(once);
