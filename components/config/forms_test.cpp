@@ -199,4 +199,27 @@ TEST_CASE("a schema has the forms: one of several, a word or a map, a value or a
   CHECK(holds(R"("on":{"type":"array","items":{"type":"integer","minimum":0.0,"maximum":255.0})"));
 }
 
+TEST_CASE("a shipped schema has what stands in several places once; sentence and default stay where it is used") {
+  const std::string part =
+      R"({"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 255}, "minItems": 2})";
+  const std::string with = part.substr(0, part.size() - 1);
+  CHECK(schema_text(R"({"properties": {"a": )" + with + R"(, "description": "one"}, "b": )" + with +
+                    R"(, "description": "two", "default": [1, 2]}, "c": {"type": "number", "description": "three"}, )" +
+                    R"("d": {"anyOf": [{"$ref": "#/$defs/own"}, )" + part +
+                    R"(]}}, "$defs": {"own": {"enum": ["x"]}}})") ==
+        R"({
+ "properties": {
+  "a": {"$ref":"#/$defs/a","description":"one"},
+  "b": {"$ref":"#/$defs/a","description":"two","default":[1,2]},
+  "c": {"type":"number","description":"three"},
+  "d": {"anyOf":[{"$ref":"#/$defs/own"},{"$ref":"#/$defs/a"}]}
+ },
+ "$defs": {
+  "own": {"enum":["x"]},
+  "a": {"type":"array","items":{"type":"number","minimum":0,"maximum":255},"minItems":2}
+ }
+}
+)");
+}
+
 }  // namespace ensonify

@@ -55,12 +55,25 @@ std::string plain_text(const ConfigNode& node) {
   return is_value || reads_as_text(node.scalar) ? node.scalar : Json(node.scalar).dump();
 }
 
+bool holds_scalars(const ConfigNode& list) {
+  return !list.items.empty() &&
+         std::all_of(list.items.begin(), list.items.end(), [](const ConfigNode& item) { return item.is_scalar(); });
+}
+
+/// A list of single values in one line.
+std::string line_of(const ConfigNode& list) {
+  std::string text;
+  for (const ConfigNode& item : list.items) text += (text.empty() ? "" : ", ") + plain_text(item);
+  return "[" + text + "]";
+}
+
 void add_block(const ConfigNode& node, const std::string& lead, const std::string& margin, std::vector<Line>& lines) {
   bool first = true;
   const auto add = [&](const std::string& key, const ConfigNode& value, bool is_item) {
     const std::string start = (std::exchange(first, false) ? lead : margin) + key;
     const bool filled = !value.items.empty() || !value.entries.empty();
-    if (filled && is_item) add_block(value, start + " ", margin + "  ", lines);
+    if (holds_scalars(value)) lines.push_back({start + " " + line_of(value), ""});
+    else if (filled && is_item) add_block(value, start + " ", margin + "  ", lines);
     else if (filled) {
       lines.push_back({start, ""});
       add_block(value, margin + "  ", margin + "  ", lines);
@@ -111,6 +124,9 @@ class ValueWriter {
     const std::string about = p.about + (p.unit.empty() ? "" : " (" + p.unit + ")");
     const bool structure = p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed;
     if (structure && p.left_out) return lines.push_back({lead + p.key + ": " + p.allowed.instead, about});
+    if (p.kind == Kind::kOther && holds_scalars(p.value)) {
+      return lines.push_back({lead + p.key + ": " + line_of(p.value), about});
+    }
     if (p.kind == Kind::kOther && (!p.value.entries.empty() || !p.value.items.empty())) {
       lines.push_back({lead + p.key + ":", about});
       return add_block(p.value, inner, inner, lines);
