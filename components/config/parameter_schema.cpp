@@ -1,6 +1,7 @@
 #include "components/config/parameter_schema.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -164,16 +165,16 @@ class SharedSchemas {
     schema.erase("$defs");
     std::vector<std::size_t> numbers;
     for (const auto& [name, of] : own.items()) {
-      numbers.push_back(number_of(of, name));
-      Part& part = parts_[numbers.back()];
-      if (part.reference.empty()) part.reference = "#/$defs/" + name;
-      defs_[name] = {{"$ref", part.reference}};  // until it is written
+      numbers.push_back(part(of, name)["$part"].get<std::size_t>());
+      Part& own_part = parts_[numbers.back()];
+      if (own_part.reference.empty()) own_part.reference = "#/$defs/" + name;
+      defs_[name] = {{"$ref", own_part.reference}};  // until it is written
     }
-    Json result = expanded(parts_[number_of(schema, "schema")].shallow);
+    Json result = expanded(parts_[part(schema, "schema")["$part"].get<std::size_t>()].shallow);
     std::size_t next = 0;
     for (const auto& [name, of] : own.items()) {
-      const Part& part = parts_[numbers[next++]];
-      if (part.reference == "#/$defs/" + name) defs_[name] = expanded(part.shallow);
+      const Part& own_part = parts_[numbers[next++]];
+      if (own_part.reference == "#/$defs/" + name) defs_[name] = expanded(own_part.shallow);
     }
     if (!defs_.empty()) result["$defs"] = defs_;
     return result;
@@ -188,20 +189,20 @@ class SharedSchemas {
   };
   static constexpr std::size_t kShortest = 60;  // what is shorter is not worth a reference
 
-  /// The number of equal parts is the same. `name` is that of the first place where the part stands.
-  std::size_t number_of(const Json& schema, const std::string& name) {
+  /// A part, to stand in another: its number, which equal parts share, with what is said of it there. `name` is that of
+  /// the first place where it stands.
+  Json part(const Json& schema, const std::string& name) {
+    if (!schema.is_object() || schema.empty()) return schema;
     Json core = Json::object(), said = Json::object();
     for (const auto& [key, value] : schema.items()) {
       const bool says = (key == "description" || key == "default") && schema.size() > 1;
-      (says ? said : core)[key] = with_numbers(key, value, name);
+      (says ? said : core)[key] = says ? value : with_parts(key, value, name);
     }
-    const std::size_t number = numbered(std::move(core), name);
-    if (said.empty()) return number;
-    said["$part"] = number;
-    return numbered(std::move(said), name);
+    said["$part"] = numbered(std::move(core), name);
+    return said;
   }
 
-  Json with_numbers(const std::string& key, const Json& value, const std::string& name) {
+  Json with_parts(const std::string& key, const Json& value, const std::string& name) {
     const bool map = key == "properties" || key == "$defs";
     const bool list = key == "anyOf" || key == "oneOf" || key == "allOf";
     const bool one = key == "items" || key == "additionalProperties" || key == "then" || key == "if" || key == "not";
@@ -214,10 +215,6 @@ class SharedSchemas {
       result = part(value, name);
     }
     return result;
-  }
-  Json part(const Json& schema, const std::string& name) {
-    if (!schema.is_object() || schema.empty()) return schema;
-    return {{"$part", number_of(schema, name)}};
   }
 
   std::size_t numbered(Json shallow, const std::string& name) {
@@ -265,10 +262,20 @@ class SharedSchemas {
   Json defs_ = Json::object();
 };
 
+/// Whole numbers without a decimal point.
+void shorten_numbers(Json& json) {
+  if (json.is_number_float() && std::abs(json.get<double>()) < 1e15 &&
+      json.get<double>() == std::trunc(json.get<double>())) {
+    json = json.get<std::int64_t>();
+  }
+  if (!json.is_structured()) return;
+  for (Json& inner : json) shorten_numbers(inner);
+}
+
 /// JSON in lines of at most `kWidest` columns, where it can be.
 void add_json(const Json& json, const std::string& lead, const std::string& margin, const char* end,
               std::string& text) {
-  constexpr std::size_t kWidest = 150;
+  constexpr std::size_t kWidest = 200;
   const std::string line = json.dump();
   if (!json.is_structured() || json.empty() || margin.size() + lead.size() + line.size() <= kWidest) {
     text += margin + lead + line + end + "\n";
@@ -293,8 +300,10 @@ std::string parameter_schema(const std::string& title, const ParameterList& list
 }
 
 std::string schema_text(const std::string& schema) {
+  Json json = Json::parse(schema);
+  shorten_numbers(json);
   std::string text;
-  add_json(SharedSchemas().shared(Json::parse(schema)), "", "", "", text);
+  add_json(SharedSchemas().shared(std::move(json)), "", "", "", text);
   return text;
 }
 

@@ -84,6 +84,21 @@ TEST_CASE("what is written of each shipped scenario has all its values, and read
   }
 }
 
+TEST_CASE("a value that is lost in writing is found") {
+  const std::string given = "mission: {run_in_m: 3, steps: [{line: [[0, 0], [1, 1]]}]}\nseabed: {sediments: {0: clay}}";
+  const auto lost_of = [&](const std::string& text) {
+    std::string lost;
+    compare(parse_config(given, "a.yaml").root, parse_config(text, "b.yaml").root, "", lost);
+    return lost;
+  };
+  CHECK(lost_of(given) == "");
+  CHECK(
+      lost_of("mission: {run_in_m: 3.0, steps: [{line: [[0, 0], [1, 1]]}]}\nseabed: {sediments: {0: {name: clay}}}") ==
+      "");
+  CHECK(lost_of("mission: {steps: [{line: [[0, 0], [1, 2]]}]}\nseabed: {sediments: {0: {name: sand}}}") ==
+        ".mission.run_in_m .mission.steps[0].line[1][1] .seabed.sediments.0 ");
+}
+
 TEST_CASE("a speed in knots, a mission of its own and places in degrees are written as they are in force") {
   const fs::path mission = fs::temp_directory_path() / "ensonify_written_mission.yaml";
   std::ofstream(mission) << "ensonify: mission/1\npositions: geodetic\nspeed_kn: 3\nrepeat: 2\n"
