@@ -214,10 +214,7 @@ TEST_CASE("a shipped schema has what stands in several places once; sentence and
   "c": {"type":"number","description":"three"},
   "d": {"anyOf":[{"$ref":"#/$defs/own"},{"$ref":"#/$defs/a"}]}
  },
- "$defs": {
-  "own": {"enum":["x"]},
-  "a": {"type":"array","items":{"type":"number","minimum":0,"maximum":255},"minItems":2}
- }
+ "$defs": {"own":{"enum":["x"]},"a":{"type":"array","items":{"type":"number","minimum":0,"maximum":255},"minItems":2}}
 }
 )");
 }
