@@ -192,7 +192,7 @@ TEST_CASE("a schema has the forms: one of several, a word or a map, a value or a
     return plain.find(text) != std::string::npos;
   };
   CHECK(holds(R"("oneOf":[{"required":["row_m"],"properties":{"tilt_deg":false}},{"required":["bars"]}])"));
-  CHECK(holds(R"({"properties":{"kind":{"const":"imported"},"size_m":false},"required":["raster"]})"));
+  CHECK(holds(R"({"properties":{"kind":{"const":"imported"},"size_m":false},"required":["kind","raster"]})"));
   CHECK(holds(R"("start":{"anyOf":[{"const":"anywhere"},{"type":"object","additionalProperties":false)"));
   CHECK(holds(R"("cast":{"anyOf":[{"type":["string","number","boolean"]},{"type":"object")"));
   CHECK(holds(R"("propertyNames":{"pattern":"^[0-9]+$"})"));

@@ -108,39 +108,62 @@ void add_properties(const ParameterList& list, Json& properties, Json& required)
   }
 }
 
-bool has_key(const ParameterList& list, const std::string& key) {
-  return std::any_of(list.begin(), list.end(), [&](const ParameterInfo& p) { return p.key == key; });
+/// Keys of a list and of its forms.
+std::vector<std::string> all_keys(const ParameterList& list) {
+  std::vector<std::string> keys;
+  for (const ParameterInfo& p : list) {
+    if (p.kind != Kind::kForms) keys.push_back(p.key);
+    for (const ParameterList& form : p.forms) {
+      for (std::string& key : all_keys(form)) keys.push_back(std::move(key));
+    }
+  }
+  return keys;
 }
 
-/// Exactly one of the forms that stand among other keys: those that it must have, and none of another's.
-Json one_of(const ParameterInfo& p, const ParameterList& list) {
-  const auto word = std::find_if(list.begin(), list.end(), [&](const auto& key) { return key.key == p.by; });
-  Json forms = Json::array();
-  for (std::size_t i = 0; i < p.forms.size(); ++i) {
-    const ParameterList& own = p.forms[i];
-    const bool by_word = !p.by.empty(), keyless = by_word || (p.last_has_no_key && i + 1 == p.forms.size());
-    Json form = Json::object(), required = Json::array();
-    if (by_word) form["properties"][p.by] = {{"const", word->allowed.words[i].text}};
-    if (!keyless) required.push_back(own.front().key);
-    for (const ParameterInfo& key : own) {
-      if (key.allowed.required && (keyless || &key != own.data())) required.push_back(key.key);
-    }
-    if (!required.empty()) form["required"] = std::move(required);
-    for (const ParameterList& other : p.forms) {
-      for (const ParameterInfo& key : other) {
-        // Two forms' first keys fit no one form.
-        if (!has_key(own, key.key) && (keyless || &key != other.data())) form["properties"][key.key] = false;
-      }
-    }
-    forms.push_back(std::move(form));
+Json one_of(const ParameterInfo& p, const ParameterList& list);
+
+/// What holds for form `i` of those that stand among the keys of `list`: keys that it must have, and none of another's.
+Json rules_of(const ParameterInfo& p, std::size_t i, const ParameterList& list) {
+  const ParameterList& own = p.forms[i];
+  const bool by_word = !p.by.empty(), keyless = by_word || (p.last_has_no_key && i + 1 == p.forms.size());
+  Json rules = Json::object(), required = Json::array();
+  if (by_word) {
+    const auto word = std::find_if(list.begin(), list.end(), [&](const auto& key) { return key.key == p.by; });
+    const std::string& text = word->allowed.words[i].text;
+    rules["properties"][p.by] = {{"const", text}};
+    if (word->allowed.required || text != word->value.scalar) required.push_back(p.by);
   }
+  if (!keyless) required.push_back(own.front().key);
+  for (const ParameterInfo& key : own) {
+    if (key.allowed.required && (keyless || &key != own.data())) required.push_back(key.key);
+    if (key.kind == Kind::kForms) rules["oneOf"] = one_of(key, own);
+  }
+  if (!required.empty()) rules["required"] = std::move(required);
+  for (const ParameterList& other : p.forms) {
+    for (const std::string& key : all_keys(other)) {
+      // Two forms' first keys fit no one form.
+      if (!lists_key(own, key) && (keyless || key != other.front().key)) rules["properties"][key] = false;
+    }
+  }
+  return rules;
+}
+
+Json one_of(const ParameterInfo& p, const ParameterList& list) {
+  Json forms = Json::array();
+  for (std::size_t i = 0; i < p.forms.size(); ++i) forms.push_back(rules_of(p, i, list));
   return forms;
 }
 
 Json object_of(const ParameterList& list) {
   if (list.size() == 1 && list.front().kind == Kind::kForms) {
+    const ParameterInfo& p = list.front();
     Json forms = Json::array();
-    for (const ParameterList& form : list.front().forms) forms.push_back(object_of(form));
+    for (const ParameterList& form : p.forms) {
+      Json json = object_of(form);
+      const bool keyless = p.last_has_no_key && &form == &p.forms.back();
+      if (!keyless && !form.front().allowed.required) json["required"].push_back(form.front().key);
+      forms.push_back(std::move(json));
+    }
     return {{"anyOf", std::move(forms)}};
   }
   Json properties = Json::object(), required = Json::array(), choices = Json::array();
@@ -204,7 +227,7 @@ class SharedSchemas {
 
   Json with_parts(const std::string& key, const Json& value, const std::string& name) {
     const bool map = key == "properties" || key == "$defs";
-    const bool list = key == "anyOf" || key == "oneOf" || key == "allOf";
+    const bool list = key == "anyOf" || key == "allOf";  // oneOf has rules for keys, no values
     const bool one = key == "items" || key == "additionalProperties" || key == "then" || key == "if" || key == "not";
     Json result = value;
     if (map) {
