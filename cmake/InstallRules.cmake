@@ -28,16 +28,6 @@ install(CODE "
                           \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\" ${PROJECT_VERSION} ${help} COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${help}/ DESTINATION share)
 
-# Chosen at install time, for any file that is built may change who uses a header.
-install(CODE "
-  execute_process(COMMAND ${ENSONIFY_PYTHON} ${CMAKE_SOURCE_DIR}/cmake/public_headers.py
-                  OUTPUT_VARIABLE headers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-  string(REPLACE \"\\n\" \";\" headers \"\${headers}\")
-  foreach(header IN LISTS headers)
-    get_filename_component(folder \${header} DIRECTORY)
-    file(INSTALL ${CMAKE_SOURCE_DIR}/\${header} DESTINATION \${CMAKE_INSTALL_PREFIX}/include/ensonify/\${folder})
-  endforeach()" COMPONENT development)
-
 set(package lib/cmake/ensonify)
 install(EXPORT ensonifyTargets NAMESPACE ensonify:: DESTINATION ${package} COMPONENT development)
 configure_package_config_file(cmake/ensonifyConfig.cmake.in ${CMAKE_BINARY_DIR}/ensonifyConfig.cmake

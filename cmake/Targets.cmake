@@ -11,9 +11,10 @@ set(precompiled <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesyst
                 <optional> <set> <span> <string> <string_view> <variant> <vector> <Eigen/Geometry>)
 target_precompile_headers(ensonify_pch PRIVATE ${precompiled})
 
-# ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ...)
+# ensonify_library(NAME SOURCES a.cpp b.cpp DEPS other_library ... HEADERS a.h ...): of kernels and messages the headers
+# that other projects get, too. install_check compiles each alone: what they include must be one of them.
 function(ensonify_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS;HEADERS" ${ARGN})
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_precompile_headers(${name} REUSE_FROM ensonify_pch)
@@ -21,6 +22,9 @@ function(ensonify_library name)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
+  endif()
+  if(ARG_HEADERS)
+    target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ARG_HEADERS})
   endif()
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(folder MATCHES "^(kernels|messages)")
@@ -35,7 +39,8 @@ endfunction()
 function(ensonify_export name)
   string(REPLACE "ensonify_" "" short ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
-  install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development)
+  install(TARGETS ${name} EXPORT ensonifyTargets ARCHIVE DESTINATION lib COMPONENT development
+          FILE_SET HEADERS DESTINATION include/ensonify COMPONENT development)
 endfunction()
 
 # ensonify_testing_library(NAME SOURCES ... DEPS ...): code that only tests and benchmarks use; in */testing, never installed.

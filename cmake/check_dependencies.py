@@ -2,8 +2,11 @@
 """Checks from the #include lines that knowledge points one way (docs/architecture.md).
 
   check_dependencies.py [ROOT]       checks the tree, names every offending line, exit code 1 if there is one
+  check_dependencies.py --dot        prints docs/draw/rooms.dot: who includes whom, but for what follows from others
+  check_dependencies.py --drawn      whether that file and docs/rooms.svg still say so
   check_dependencies.py --self-test  checks the checker on a small tree with planted offences
 """
+import html
 import pathlib
 import re
 import sys
@@ -58,10 +61,23 @@ SEES = {
     "components": SHARED + ["launch/file", "launch/process"],
     "scenarios": WORLD,
     "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],
-    "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file"],
+    "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file", "kernels/base/profile"],
     "launch": SHARED,
     "tools": SHARED + ["launch"],
 }
+
+
+# What these folders must not reach, whatever they include: a newcomer's component links no ocean.
+FAR = {"examples/gyro": re.compile(r"^(scenarios/world|components/sonar|kernels/(?!base))/")}
+
+# Rooms of the picture: the first prefix that fits.
+DRAWN = (
+    ("tools/", "tools/<verb>"), ("launch/", "launch"), ("scenarios/", "scenarios"), ("messages/", "messages"), ("kernels/", "kernels"),
+    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "truth", "config", "runtime", "errors")),
+    ("components/", "components/<process>"),
+)
+# Every process has its main() from there; drawn, it would be an arrow both ways.
+HOSTS = ("launch/process/", "launch/file/")
 
 
 def is_test(path):
@@ -110,9 +126,80 @@ def problem_of_library_include(path, target):
     return None
 
 
+def includes_of(root):
+    """File -> the project's files that it includes."""
+    sources = sorted(p for f in FOLDERS for p in (root / f).rglob("*") if p.suffix in (".h", ".cpp"))
+    included = {}
+    for source in sources:
+        lines = map(INCLUDE.match, source.read_text(encoding="utf-8").splitlines())
+        included[source.relative_to(root).as_posix()] = [match[1] for match in lines if match and match[1]]
+    return included
+
+
+def far_includes(included):
+    """What the folders of FAR reach and must not, with the way there."""
+    found = []
+    for folder, forbidden in FAR.items():
+        ways = {path: path for path in included if path.startswith(folder + "/") and not is_test(path)}
+        due = list(ways)
+        while due:
+            path = due.pop()
+            for target in included.get(path, []):
+                if target in ways:
+                    continue
+                ways[target] = f"{ways[path]} -> {target}"
+                due.append(target)
+                if forbidden.match(target):
+                    found.append(f"{folder}: reaches {target}: {ways[target]}")
+    return found
+
+
+def room_drawn(path):
+    return next((name for prefix, name in DRAWN if path.startswith(prefix)), None)
+
+
+def dot(included):
+    """The rooms and their arrows, as text for Graphviz. An arrow that follows from others is left out."""
+    arrows = {}
+    for path, targets in included.items():
+        if is_test(path) or is_bench(path) or "/testing/" in path or room_drawn(path) is None:
+            continue
+        for target in targets:
+            room, other = room_drawn(path), room_drawn(target)
+            if other not in (None, room) and not (room.startswith("components/") and target.startswith(HOSTS)):
+                arrows.setdefault(room, set()).add(other)
+
+    def reached(room, without):
+        due, seen = [other for other in arrows.get(room, ()) if other != without], set()
+        while due:
+            other = due.pop()
+            if other not in seen:
+                seen.add(other)
+                due += arrows.get(other, ())
+        return seen
+
+    kept = [(room, other) for room in sorted(arrows) for other in sorted(arrows[room]) if other not in reached(room, other)]
+    return "\n".join([
+        "// The rooms: who sees whom. Written by cmake/check_dependencies.py --dot; docs/rooms.svg is drawn from it with dot -Tsvg.",
+        "digraph rooms {",
+        '  rankdir=TB; node [shape=box, style="rounded", fontname="sans-serif", fontsize=12]; edge [arrowsize=0.7];',
+        *(f'  "{room}" -> "{other}";' for room, other in kept), "}"])
+
+
+def drawn(root):
+    """What docs/draw/rooms.dot and docs/rooms.svg say otherwise than the include lines."""
+    text = dot(includes_of(root)) + "\n"
+    arrows = {f"{room}->{other}" for room, other in re.findall(r'"(.+)" -> "(.+)";', text)}
+    picture = html.unescape((root / "docs/rooms.svg").read_text(encoding="utf-8"))
+    wrong = [] if (root / "docs/draw/rooms.dot").read_text(encoding="utf-8") == text else ["docs/draw/rooms.dot"]
+    wrong += [] if set(re.findall(r"<title>(.+->.+)</title>", picture)) == arrows else ["docs/rooms.svg"]
+    return [f"{file}: is not of these includes: cmake/check_dependencies.py --dot > docs/draw/rooms.dot && "
+            "dot -Tsvg docs/draw/rooms.dot -o docs/rooms.svg" for file in wrong]
+
+
 def problems(root):
     """Every offending include line, as text."""
-    found = []
+    found = far_includes(includes_of(root))
     sources = sorted(p for f in FOLDERS for p in (root / f).rglob("*") if p.suffix in (".h", ".cpp"))
     for source in sources:
         path = source.relative_to(root).as_posix()
@@ -153,6 +240,8 @@ PLANTED = {
     "launch/l.h": [("<vector>", None)],
     "launch/l.cpp": [("<yaml-cpp/yaml.h>", "components/config"), ('"components/y/y.h"', "out of sight"),
                      ('"tools/plot/p.cpp"', "out of sight")],
+    "examples/gyro/g.h": [('"scenarios/scenario_file.h"', None)],
+    "scenarios/scenario_file.h": [('"scenarios/world/w.h"', None)],
     "tests/support/s.h": [('"components/x/x.h"', None), ('"kernels/a/a.h"', None)],
 }
 
@@ -165,6 +254,7 @@ def self_test():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text("".join(f"#include {target}\n" for target, _ in lines), encoding="utf-8")
             expected.update({f"{path}:{n}": words for n, (_, words) in enumerate(lines, 1) if words})
+        expected["examples/gyro"] = "reaches scenarios/world/w.h"
         found = dict(text.split(": ", 1) for text in problems(root)[0])
     wrong = [f"not found: {place} ({words})" for place, words in expected.items() if words not in found.get(place, "")]
     wrong += [f"found by mistake: {place}: {text}" for place, text in found.items() if place not in expected]
@@ -175,7 +265,15 @@ def self_test():
 def main():
     if sys.argv[1:] == ["--self-test"]:
         return self_test()
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    here = pathlib.Path(__file__).resolve().parent.parent
+    if sys.argv[1:] == ["--dot"]:
+        print(dot(includes_of(here)))
+        return 0
+    if sys.argv[1:] == ["--drawn"]:
+        wrong = drawn(here)
+        print("\n".join(wrong) or "the drawn rooms are those of the includes")
+        return 1 if wrong else 0
+    root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here
     found, count = problems(root)
     print("\n".join(found + [f"dependencies: {count} files, {len(found)} problems"]))
     return 1 if found else 0

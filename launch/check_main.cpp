@@ -8,6 +8,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/printable.h"
+#include "components/runtime/declared.h"
 #include "components/runtime/tool.h"
 #include "components/terrain/layers_source.h"
 #include "launch/check_ports.h"
@@ -58,7 +59,10 @@ int check(const LaunchOptions& options, bool as_json) {
     }
   }
   if (as_json) {
-    fmt::print("{}\n", nlohmann::json{{"problems", checked.problems}, {"warnings", warnings}}.dump(2));
+    const auto declarations = nlohmann::ordered_json::parse(declarations_json(checked.declarations));
+    const nlohmann::ordered_json answer = {
+        {"problems", checked.problems}, {"warnings", warnings}, {"declarations", declarations}};
+    fmt::print("{}\n", answer.dump(2));
   } else {
     for (const auto& problem : checked.problems) {
       fmt::print(stderr, "{}\n", printable(problem));

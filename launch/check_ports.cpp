@@ -11,9 +11,11 @@
 #include <optional>
 #include <utility>
 
+#include "components/runtime/declared.h"
 #include "components/runtime/protocol.h"
 #include "launch/child.h"
 #include "launch/process/launch_wiring.h"
+#include "messages/declarations.h"
 
 namespace ensonify::launcher {
 namespace {
@@ -131,33 +133,25 @@ std::vector<std::string> wiring_problems(const Launch& launch, const CheckedPort
 }
 
 std::vector<std::string> setting_problems(const Mission& mission, const CheckedPorts& checked) {
-  std::map<std::string, std::string> facts;
-  bool steered = false;
-  for (const Declaration& process : checked.declarations) {
-    add_notes(facts, process);
-    steered = steered || process.component == "autopilot";
-  }
+  const bool steered = std::ranges::any_of(checked.declarations,
+                                           [](const Declaration& process) { return process.component == "autopilot"; });
   std::vector<std::string> problems;
   if (!steered) return problems;
-  for (const ConfigProblem& problem : ensonify::setting_problems(mission, facts)) problems.push_back(problem.text());
+  const auto heads = declared<msg::HeadDeclaration>(declarations_json(checked.declarations));
+  for (const ConfigProblem& problem : ensonify::setting_problems(mission, heads)) problems.push_back(problem.text());
   return problems;
 }
 
 std::vector<std::string> resolution_warnings(const CheckedPorts& checked) {
+  const std::string declarations = declarations_json(checked.declarations);
   std::vector<std::string> warnings;
-  const auto note = [](const std::map<std::string, double>& notes, const char* key) {
-    const auto found = notes.find(key);
-    return found == notes.end() ? 0.0 : found->second;
-  };
-  for (const Declaration& pager : checked.declarations) {
-    const double spacing_m = note(pager.notes, "post_spacing_m");
-    const double depth_m = note(pager.notes, "shallowest_m");
-    for (const Declaration& head : checked.declarations) {
-      const double footprint_m = depth_m * note(head.notes, "finest_beam_rad");
-      if (spacing_m > 0.0 && footprint_m > 0.0 && spacing_m > footprint_m) {
+  for (const auto& [pager, seabed] : declared<msg::PagerDeclaration>(declarations)) {
+    for (const auto& [name, head] : declared<msg::HeadDeclaration>(declarations)) {
+      const double footprint_m = seabed.shallowest_m * head.finest_beam_rad;
+      if (seabed.post_spacing_m > 0.0 && footprint_m > 0.0 && seabed.post_spacing_m > footprint_m) {
         warnings.push_back(fmt::format(
-            "{}: posts are {:.3g} m apart, but {} resolves {:.2g} m at {:.3g} m depth; details will be missing",
-            pager.process, spacing_m, head.process, footprint_m, depth_m));
+            "{}: posts are {:.3g} m apart, but {} resolves {:.2g} m at {:.3g} m depth; details will be missing", pager,
+            seabed.post_spacing_m, name, footprint_m, seabed.shallowest_m));
       }
     }
   }

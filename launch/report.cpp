@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/vehicle/runlines/runline.h"
+#include "launch/process/profiled_node.h"
 
 namespace ensonify::launcher {
 
@@ -86,9 +87,10 @@ std::optional<ClockReport> read_clock_report(const std::string& out) {
 
 void remove_reports(const std::string& out) {
   std::error_code ignored;
-  for (const char* stale : {"/expect.json", "/clock.json", "/run.json"}) {
+  for (const char* stale : {"/expect.json", "/clock.json", "/run.json", "/profile.json"}) {
     std::filesystem::remove(out + stale, ignored);
   }
+  std::filesystem::remove_all(profile_folder(out), ignored);
 }
 
 std::string junit_xml(const RunReport& report) {
@@ -139,6 +141,7 @@ std::string json_text(const RunReport& report) {
            {"real_time_factor", report.wall_s > 0.0 ? report.sim_s / report.wall_s : 0.0},
            {"processes", processes},
            {"expect", expectations}};
+  if (report.profiles.json != "null") out["profile"] = json::parse(report.profiles.json);
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

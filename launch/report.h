@@ -7,6 +7,7 @@
 
 #include "launch/child.h"
 #include "launch/file/launch_file.h"
+#include "launch/profile.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify::launcher {
@@ -37,6 +38,7 @@ struct RunReport {
   double wall_s = 0.0;
   std::vector<ProcessReport> processes;
   std::vector<Expectation> expectations;
+  Profiles profiles;  // with --profile
 };
 
 /// Contents of `<out>/clock.json`, written by its clock or, with --in-process, by the process that had none.

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -14,6 +15,8 @@
 #include "launch/check_ports.h"
 #include "launch/commands.h"
 #include "launch/file/launch_file.h"
+#include "launch/process/profiled_node.h"
+#include "launch/profile.h"
 #include "launch/run_dir.h"
 #include "launch/supervisor.h"
 #include "scenarios/world/world.h"
@@ -30,6 +33,7 @@ struct Options {
   bool in_process = false;
   bool json = false;
   bool quiet = false;
+  bool profile = false;
   std::string junit;
   std::string name;
 };
@@ -41,8 +45,13 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--free", options.free, "run as fast as possible")->excludes(rate);
   auto* name = app.add_option("--name", options.name, "what tools call this run by (`ensonify topic list --run NAME`)")
                    ->check(fault_of_run_name);
-  app.add_flag("--in-process", options.in_process, "run everything in one process, one thread (debugging, sanitizers)")
-      ->excludes(name);
+  auto* in_process = app.add_flag("--in-process", options.in_process,
+                                  "run everything in one process, one thread (debugging, sanitizers)")
+                         ->excludes(name);
+  app.add_flag("--profile", options.profile,
+               "measure where the time of each process goes, by stage: a table, run.json, and <out>/profile.json for "
+               "https://ui.perfetto.dev")
+      ->excludes(in_process);
   app.add_option("--junit", options.junit, "write expectations and process endings as JUnit XML to this file");
   app.add_flag("--json", options.json, "print the result as JSON on standard output");
   app.add_flag("--quiet,-q", options.quiet, "no progress, no summary");
@@ -135,9 +144,12 @@ int run(Options& options) {
     }
     report = run_in_process(launch);
   } else {
+    if (options.profile) ::setenv(kProfileVariable, "1", 1);
+    else ::unsetenv(kProfileVariable);
     Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json, options.name);
     report = supervisor.run();
   }
+  if (options.profile) report.profiles = gather_profiles(out);
   write_text(out + "/run.json", json_text(report));
   if (!options.junit.empty()) {
     write_text(options.junit, junit_xml(report));
@@ -146,6 +158,7 @@ int run(Options& options) {
   if (report.code == kExitOk) {
     if (!options.quiet) {
       summarize(report, out);
+      fmt::print(stderr, "{}", report.profiles.table);
     }
     report.code = run_after(launch, {program_folder(), "", out}, options.json);
   }

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "messages/clock.h"
+#include "messages/declarations.h"
 #include "messages/health.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
@@ -18,7 +19,7 @@ using AllMessages =
     std::tuple<Pose, Guidance, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
-               MeshRelease, Chart, Health, ClockHealth>;
+               MeshRelease, Chart, HeadDeclaration, PagerDeclaration, Health, ClockHealth>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

@@ -91,6 +91,20 @@ const TypeInfo* find_type(std::string_view type) {
   return found == types.end() ? nullptr : &*found;
 }
 
+std::string mistake_in(std::string_view type, const Value& value) {
+  std::string mistake;
+  for_each_message([&](auto message) {
+    if (type != message.kType) return;
+    try {
+      from_value(value, message, "");
+      if (const std::string field = not_finite(message); !field.empty()) mistake = field + ": is not finite";
+    } catch (const DecodeError& error) {
+      mistake = error.what();
+    }
+  });
+  return mistake;
+}
+
 std::string type_in_words(const FieldInfo& field) {
   switch (field.kind) {
     case Kind::boolean: return "boolean";

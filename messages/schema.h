@@ -72,6 +72,9 @@ const std::vector<TypeInfo>& message_types();
 /// The type named, or null.
 const TypeInfo* find_type(std::string_view type);
 
+/// What is wrong with a value as a message of this type; "" when nothing is, or when the type is not known here.
+std::string mistake_in(std::string_view type, const Value& value);
+
 /// The type in words: "number", "number x 3", "f4 array", "text", "list of {name, count}".
 std::string type_in_words(const FieldInfo& field);
 

@@ -80,6 +80,27 @@ Json json_of(const Value& value, std::size_t max_elements) {
   return nullptr;
 }
 
+Value value_of(const Json& json) {
+  if (json.is_object()) {
+    Value::Map map;
+    for (const auto& [key, member] : json.items()) map.emplace_back(key, value_of(member));
+    return {std::move(map)};
+  }
+  if (json.is_array()) {
+    Value::List list;
+    for (const Json& item : json) list.push_back(value_of(item));
+    return {std::move(list)};
+  }
+  if (json.is_string()) return {json.get<std::string>()};
+  if (json.is_boolean()) return {json.get<bool>()};
+  if (json.is_number_float()) return {json.get<double>()};
+  if (json.is_number_integer()) {
+    const bool fits = !json.is_number_unsigned() || std::in_range<std::int64_t>(json.get<std::uint64_t>());
+    return fits ? Value{json.get<std::int64_t>()} : Value{json.get<std::uint64_t>()};
+  }
+  return {};
+}
+
 }  // namespace
 
 double RawArray::number(std::size_t i) const {
@@ -152,6 +173,12 @@ bool operator==(const Value& a, const Value& b) {
   if (const auto* integer = a.as<std::int64_t>()) return *integer == *b.as<std::int64_t>();
   if (const auto* large = a.as<std::uint64_t>()) return *large == *b.as<std::uint64_t>();
   return true;
+}
+
+Value from_json(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw DecodeError("is no JSON");
+  return value_of(json);
 }
 
 std::string to_json(const Value& value, std::size_t max_elements) {

@@ -50,3 +50,13 @@ TEST_CASE("JSON shows short arrays whole, long ones by range, non-finite numbers
   CHECK(to_json(Value{Value::Map{{"a", {true}}, {"b", Value{Value::List{{}, Value{std::int64_t{-1}}}}}}}) ==
         R"({"a":true,"b":[null,-1]})");
 }
+
+TEST_CASE("a value that JSON can say comes back from it, and what is no JSON is refused") {
+  const Value value{Value::Map{{"on", Value{true}},
+                               {"far", Value{-1.5}},
+                               {"count", Value{std::int64_t{7}}},
+                               {"all", Value{Value::List{Value{std::string("a")}, Value{Value::Map{}}}}}}};
+  CHECK(from_json(to_json(value)) == value);
+  CHECK(from_json("18446744073709551615") == Value{std::uint64_t{18446744073709551615U}});
+  CHECK_THROWS_AS(from_json("{"), DecodeError);
+}

@@ -50,6 +50,8 @@ def python_field(kind, default, braces):
         return "tuple", f"fixed({', '.join(values)})"
     if match := re.fullmatch(r"std::vector<(\w+)>", kind):
         return "list", f"list_of({match[1]})"
+    if kind == "std::vector<std::string>":
+        return "list", "list_of(str)"
     raise SystemExit(f"generate_messages.py: no Python for a member of type {kind}")
 
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/declared.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {
@@ -38,10 +39,10 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
   }
 }
 
-/// What heads note is known when time starts.
+/// What heads declare is known when time starts.
 void AutopilotNode::check_settings() {
   checked_ = true;
-  const auto problems = setting_problems(config_.plan.mission, ports_.facts());
+  const auto problems = setting_problems(config_.plan.mission, declared<msg::HeadDeclaration>(ports_.facts()));
   if (!problems.empty()) throw ConfigError(problems);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/runtime/declared.h"
 #include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
@@ -45,7 +46,8 @@ std::string Registry::join(const std::string& from, const protocol::Hello& hello
   if (has_joined_[*rank]) return name + ": has joined already";
   joined_[*rank] = hello;
   has_joined_[*rank] = true;
-  add_notes(facts_, hello.declaration);
+  declarations_.push_back(hello.declaration);
+  facts_[kDeclarationsFact] = declarations_json(declarations_);
   for (const auto& [key, text] : hello.facts) facts_[name + "/" + key] = text;
   return "";
 }
@@ -59,7 +61,9 @@ std::vector<std::string> Registry::missing() const {
 }
 
 const std::vector<std::string>& Registry::check() {
+  declarations_.clear();  // from the order in which they joined to that of their ranks
   for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
+  facts_[kDeclarationsFact] = declarations_json(declarations_);
   graph_ = wire(declarations_, rules_, places_);
   for (std::size_t e = 0; e < graph_.edges.size(); ++e)
     unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];

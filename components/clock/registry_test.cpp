@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "components/runtime/declared.h"
+#include "messages/declarations.h"
+
 using namespace ensonify;
 
 namespace {
@@ -49,12 +52,17 @@ TEST_CASE("a stranger, a double and a process under another's name are refused")
   CHECK(registry.join("a", hello_of("a", {}, {})) == "a: has joined already");
 }
 
-TEST_CASE("everybody learns what each process notes") {
+TEST_CASE("everybody learns what each process declares") {
   clock::Registry registry(launch_of({"bow", "pager"}));
   auto bow = hello_of("bow", {}, {});
-  bow.declaration.notes = {{"reach_m", 151.5}};
+  msg::HeadDeclaration head;
+  head.reach_m = 151.5;
+  head.channels = {{"low", {{100e3, 0.0}}, {{"mode", 0.0, 0.0, false, {"bathymetry"}}}}};
+  bow.declaration.declares = {{msg::HeadDeclaration::kType, msg::to_value(head)}};
   CHECK(registry.join("bow", bow).empty());
   CHECK(registry.join("pager", hello_of("pager", {}, {})).empty());
   REQUIRE(registry.check().empty());
-  CHECK(registry.welcome(1).facts.at("bow/reach_m") == "151.5");
+  const auto heads = declared<msg::HeadDeclaration>(registry.welcome(1).facts);
+  REQUIRE(heads.size() == 1);
+  CHECK(msg::to_value(heads.at("bow")) == msg::to_value(head));
 }

@@ -82,7 +82,7 @@ detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {
 HeadPlan Echosounder::plan(const Config& config) {
   HeadSettings longest = config.start();
   longest.pulse_length_s = config.limits()["pulse_length_s"].most;
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = config.reception_s(longest),
           .finest_beam_rad = config.beamwidth_rad};
 }

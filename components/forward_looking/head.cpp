@@ -41,6 +41,12 @@ double wavelength_m(const ForwardLookingConfig& config) {
   return true_profile(*config.world).speed_mps(config.world->mission.depth_m) / config.frequency_hz;
 }
 
+/// The receive array.
+LineDesign line_of(const ForwardLookingConfig& config) {
+  return {config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
+          config.quality.pattern_error()};
+}
+
 /// All elevations, with the main lobe of the narrower face; the aperture and what side lobes of its last beams receive.
 trace::TransmitVolume volume_of(const ForwardLookingConfig& config) {
   const double tall = array::length_in_waves_for(std::min(config.transmit_vertical_rad, config.receive_vertical_rad));
@@ -100,17 +106,17 @@ double ForwardFaces::noise_share() const {
 }
 
 HeadPlan ForwardLooking::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
           .finest_beam_rad = config.beamwidth_rad,
           .beam_axis = BeamAxis::kForward,
+          .near_field_m = near_field_m(config),
           .probe = true};
 }
 
 ForwardLooking::ForwardLooking(const Config& config, std::size_t)
     : config_(config),
-      line_(config.beamwidth_rad, kNominalSpeed_mps / config.frequency_hz, config.shading,
-            config.quality.pattern_error()),
+      line_(line_of(config)),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
       echoes_(array_of(config, line_.line, faces_),
               std::make_shared<const Environment>(*config.world, config.frequency_hz), config.effects, config.quality),
@@ -130,7 +136,10 @@ SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const S
           around.sound_speed_mps};
 }
 
-double ForwardLooking::near_field_m() const { return array::near_field_range_m(line_.line, line_.wavelength_m); }
+double near_field_m(const ForwardLookingConfig& config) {
+  const LineDesign design = line_of(config);
+  return array::near_field_range_m(design.line, design.wavelength_m);
+}
 
 RangedPulse ForwardLooking::pulse_for(const HeadSettings& settings) const {
   return pulse_at(config_.pulse, settings.range_m, config_.sound_speed_mps, settings.pulse_length_s);

@@ -58,13 +58,9 @@ class ForwardLooking {
   ForwardLooking(const Config& config, std::size_t channel);
 
   HeadOutputs<msg::Ping> outputs() const;
-  void connect(Ports& ports) const { ports.note("near_field_m", near_field_m()); }
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
-
-  /// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
-  double near_field_m() const;
 
  private:
   RangedPulse pulse_for(const HeadSettings& settings) const;
@@ -89,5 +85,8 @@ class ForwardLooking {
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
   Memory memory_;
 };
+
+/// Range at which the receive array's far field begins, m; nearer, a real head focuses its beams, as is assumed here.
+double near_field_m(const ForwardLookingConfig& config);
 
 }  // namespace ensonify

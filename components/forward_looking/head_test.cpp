@@ -357,11 +357,11 @@ TEST_CASE("a shaded array of equal beamwidth is longer, and has lower side lobes
   ForwardLookingConfig config = of_one_side();
   trace::Scene scene = seabed_to_starboard();
   const msg::Ping uniform = ping_of(config, scene);
-  const double uniform_near_m = ForwardLooking(config, 0).near_field_m();
+  const double uniform_near_m = near_field_m(config);
   config.shading = {array::Shading::Window::kTaylor, 30.0, 4};
   const msg::Ping shaded = ping_of(config, scene);
   // Half-power widths are 64.4 and 50.76 lambda / L degrees.
-  CHECK(ForwardLooking(config, 0).near_field_m() / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
+  CHECK(near_field_m(config) / uniform_near_m == Approx(std::pow(64.4 / 50.76, 2)).epsilon(0.01));
   CHECK(mean_square(shaded, -60, -40, 20, 30) < 0.1 * mean_square(uniform, -60, -40, 20, 30));
   CHECK_THAT(db(mean_square(shaded, 20, 40, 20, 30) / mean_square(uniform, 20, 40, 20, 30)), WithinAbs(0.0, 0.5));
 }

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify {
 namespace {
 
@@ -40,6 +42,7 @@ detect::Settings Detector::settings_of(const InstrumentPing& ping, double echo_s
 }
 
 Detected Detector::detect(const InstrumentPing& ping, std::span<const SectorBeams> received, Memory& memory) const {
+  const profile::Span span(profile::Stage::kDetection);
   const Steering& steering = ping.steering;
   detect::Settings settings = settings_of(ping, received.front().echo_s);
   std::vector<detect::Detection>& detections = memory.detections;

@@ -47,8 +47,9 @@ TraceSummary summary_of(std::span<const Sector::Sent> sent, std::span<const Echo
 }  // namespace
 
 HeadPlan Multibeam::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
-          .sectors = static_cast<int>(config.all_sectors().size()),
+  std::vector<msg::SectorDeclaration> sectors;
+  for (const auto& sector : config.all_sectors()) sectors.push_back({sector.frequency_hz, sector.delay_s});
+  return {.channels = {{"", config.start(), config.limits(), sectors}},
           .longest_reception_s = config.longest_reception_s(),
           .finest_beam_rad = std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad),
           .probe = true};

@@ -6,6 +6,7 @@
 
 #include "components/sonar/environment.h"
 #include "kernels/acoustics/array/line.h"
+#include "kernels/base/profile/profile.h"
 #include "kernels/survey/georeference/sounding.h"
 
 namespace ensonify {
@@ -94,6 +95,7 @@ SoundingMaker::SoundingMaker(const MultibeamConfig& config, const ArrayDesign& a
 
 Placed SoundingMaker::place(const InstrumentPing& ping, Detected detected, ReliefEstimator& relief,
                             Memory& memory) const {
+  const profile::Span span(profile::Stage::kPlacing);
   const Steering& steering = ping.steering;
   Placed placed{.echoes = std::move(detected.echoes), .soundings = {}, .bottoms = {}};
   const std::vector<Echo>& echoes = placed.echoes;

@@ -64,7 +64,6 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
   if (carried_.imu) {
     estimator_.emplace(carried_, config.seed, config.process);
     increments_ = ports.out<msg::InertialIncrements>("imu", {.rate = rate_of(carried_.imu->instrument.rate_hz)});
-    ports.note("pose_least_hz", rate_of(carried_.imu->instrument.rate_hz).hz());  // fewer make fewer readings
   }
   if (carried_.motion_sensor) {
     motion_sensor_.emplace(*carried_.motion_sensor, config.seed, config.process);
@@ -72,12 +71,16 @@ NavigationNode::NavigationNode(const Config& config, Ports& ports)
       delayed_heaves_ = ports.out<msg::DelayedHeave>("delayed_heave", {.rate = attitude_rate(config)});
     }
   }
-  ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) {
-    truth_ = pose;
-    recent_.push_back(pose);
-    const std::int64_t old_ns = pose.stamp_ns - motion_latency_.count();
-    while (recent_.size() > 1 && recent_[1].stamp_ns <= old_ns) recent_.pop_front();
-  });
+  // Fewer poses make fewer readings of an inertial unit.
+  const Rate least = carried_.imu ? rate_of(carried_.imu->instrument.rate_hz) : Rate{};
+  ports.in<msg::Pose>("pose",
+                      [this](const msg::Pose& pose) {
+                        truth_ = pose;
+                        recent_.push_back(pose);
+                        const std::int64_t old_ns = pose.stamp_ns - motion_latency_.count();
+                        while (recent_.size() > 1 && recent_[1].stamp_ns <= old_ns) recent_.pop_front();
+                      },
+                      {.least = least});
   if (!world_) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) {
       world_.emplace(frames::Geodetic{chart.origin_latitude_deg, chart.origin_longitude_deg});

@@ -1,4 +1,6 @@
 #include "components/record/format.h"
+#include "components/runtime/declared.h"
+#include "messages/value.h"
 
 namespace ensonify::record {
 
@@ -12,11 +14,13 @@ std::vector<Attachment> attachments_of(const std::map<std::string, std::string>&
     const auto fact = facts.find(name);
     if (fact != facts.end()) files.push_back({name, "text/plain", fact->second});
   }
-  std::string notes;
-  for (const auto& [name, value] : facts) {
-    if (name.find('/') != std::string::npos) notes += name + ": " + value + "\n";
+  if (const auto fact = facts.find(kDeclarationsFact); fact != facts.end() && fact->second != "{}")
+    files.push_back({"declarations.json", "application/json", fact->second});
+  msg::Value::Map own;  // of participants: PROCESS/KEY
+  for (const auto& [name, text] : facts) {
+    if (name.find('/') != std::string::npos) own.emplace_back(name, msg::Value{text});
   }
-  if (!notes.empty()) files.push_back({"notes.yaml", "application/yaml", notes});
+  if (!own.empty()) files.push_back({"facts.json", "application/json", msg::to_json(msg::Value{std::move(own)})});
   return files;
 }
 

@@ -30,6 +30,7 @@ struct OutOptions {
 struct InOptions {
   SimTime delay{0};       // a message published at t is seen at events from t + delay on
   bool optional = false;  // may stay unconnected
+  Rate least;             // that its publisher must have; {0}: any
 };
 
 /// Declaration of a port: the JSON that `--check` prints and HELLO carries.
@@ -46,6 +47,7 @@ struct InPort {
   bool optional = false;
   std::vector<std::string> topics;  // given: these names or patterns such as "*" and "bow/*", not the wiring
   std::size_t max_bytes = 0;        // 0: as declared by the publisher
+  Rate least = {};                  // InOptions
 };
 
 /// One topic that feeds one input of this process, known once the wiring is checked.
@@ -96,7 +98,7 @@ class Ports {
 
   template <msg::Message M>
   void in(const std::string& port, std::function<void(const M&)> handler, InOptions options = {}) {
-    declare_in({port, M::kType, options.delay, options.optional, {}, 0},
+    declare_in({port, M::kType, options.delay, options.optional, {}, 0, options.least},
                [this, handler = std::move(handler)](const msg::Packet& packet) {
                  if (const auto message = sound<M>(packet)) handler(*message);
                });
@@ -107,7 +109,7 @@ class Ports {
   template <msg::Message M>
   void in_topics(const std::string& port, std::vector<std::string> topics,
                  std::function<void(const std::string& publisher, const M&)> handler, InOptions options = {}) {
-    declare_in({port, M::kType, options.delay, options.optional, std::move(topics), 0},
+    declare_in({port, M::kType, options.delay, options.optional, std::move(topics), 0, options.least},
                [this, handler = std::move(handler)](const msg::Packet& packet) {
                  const auto message = sound<M>(packet);
                  if (message) handler(packet.topic.substr(0, packet.topic.find('/')), *message);
@@ -116,7 +118,7 @@ class Ports {
 
   /// An input whose type is only known at run time; messages come undecoded.
   void in_raw(const std::string& port, const std::string& type, PacketHandler handler, InOptions options = {}) {
-    declare_in({port, type, options.delay, options.optional, {}, 0}, std::move(handler));
+    declare_in({port, type, options.delay, options.optional, {}, 0, options.least}, std::move(handler));
   }
 
   /// Every message of the topics that match `topics` ("*" and "name/*" are patterns), undecoded. For recorders and
@@ -133,7 +135,8 @@ class Ports {
   SimTime now() const { return now_; }
   /// Feeds of the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
   const std::vector<Feed>& feeds() const { return feeds_; }
-  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version". Complete before the first step.
+  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version", "declarations" (declared.h). Complete
+  /// before the first step.
   const std::map<std::string, std::string>& facts() const { return facts_; }
 
   /// Publishes an undecoded message on a port (replay).
@@ -151,12 +154,14 @@ class Ports {
   /// State "ok", "degraded" or "failed" and one line why.
   void health(const std::string& state, const std::string& message);
 
-  /// A number worth knowing before the run, such as "finest_beam_rad"; `ensonify check` compares them between
-  /// processes.
-  void note(const std::string& name, double value) { notes_[name] = value; }
+  /// What others want to know of this process before the run (messages/declarations.h); one of each type.
+  template <msg::Message M>
+  void declare(const M& declaration) {
+    declares_.insert_or_assign(M::kType, msg::to_value(declaration));
+  }
 
   // --- for whatever runs the node ---
-  const std::map<std::string, double>& notes() const { return notes_; }
+  const std::map<std::string, msg::Value>& declares() const { return declares_; }
   const std::vector<OutPort>& outs() const { return outs_; }
   const std::vector<InPort>& ins() const { return ins_; }
   bool declares_finish() const { return may_finish_; }
@@ -193,7 +198,7 @@ class Ports {
   std::vector<PacketHandler> handlers_;
   Publish publish_;
   SimTime now_{0};
-  std::map<std::string, double> notes_;
+  std::map<std::string, msg::Value> declares_;
   bool may_finish_ = false;
   bool finish_requested_ = false;
   msg::Health health_;

@@ -8,12 +8,13 @@
 #include <type_traits>
 
 #include "components/errors/exit_error.h"
+#include "messages/schema.h"
 
 namespace ensonify::protocol {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // fields in the order of their struct
 
 constexpr std::size_t kLongestPortName = 128;
 constexpr std::size_t kMostPorts = 1000;
@@ -32,10 +33,13 @@ json to_json(const Declaration& d) {
                   {"type", p.type},
                   {"delay_ns", p.delay.count()},
                   {"optional", p.optional},
-                  {"topics", p.topics}});
+                  {"topics", p.topics},
+                  {"least_rate", {p.least.num, p.least.den}}});
   }
+  json declares = json::object();
+  for (const auto& [type, content] : d.declares) declares[type] = json::parse(msg::to_json(content));
   return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish}, {"out", out},
-          {"in", in},          {"notes", d.notes}};
+          {"in", in},          {"declares", declares}};
 }
 
 /// The value under `key`, of exactly the kind asked for: a number is no text and 1.5 no integer. Throws naming the key.
@@ -61,10 +65,6 @@ T field(const json& j, const char* key) {
     const bool texts = found->is_object() &&
                        std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_string(); });
     if (!texts) wrong("a map of texts");
-  } else if constexpr (std::is_same_v<T, std::map<std::string, double>>) {
-    const bool numbers = found->is_object() &&
-                         std::all_of(found->begin(), found->end(), [](const json& item) { return item.is_number(); });
-    if (!numbers) wrong("a map of numbers");
   }
   return found->template get<T>();
 }
@@ -91,16 +91,22 @@ std::string port_name(const json& p) {
   return name;
 }
 
+/// A rate as two integers; {0} where it is left out.
+Rate rate(const json& p, const char* key) {
+  const auto found = p.find(key);
+  if (found == p.end()) return {};
+  const json& r = *found;
+  const bool pair = r.is_array() && r.size() == 2 && r[0].is_number_integer() && r[1].is_number_integer();
+  const Rate rate = pair ? Rate{r[0], r[1]} : Rate{-1, 1};
+  if (rate.num < 0 || rate.den <= 0 || rate.hz() > kHighestRateHz)
+    throw std::runtime_error(std::string(key) + ": is not two integers, [num >= 0, den > 0], of at most 10000 Hz");
+  return rate;
+}
+
 OutPort out_port(const json& p) {
   OutPort out{port_name(p), field<std::string>(p, "type"), field<std::size_t>(p, "max_bytes", 4096), {}};
   if (out.max_bytes > kMostBytes) throw std::runtime_error("max_bytes: is more than " + std::to_string(kMostBytes));
-  if (const auto rate = p.find("rate"); rate != p.end()) {
-    const bool pair =
-        rate->is_array() && rate->size() == 2 && (*rate)[0].is_number_integer() && (*rate)[1].is_number_integer();
-    if (pair) out.rate = {(*rate)[0], (*rate)[1]};
-    if (!pair || out.rate.num < 0 || out.rate.den <= 0 || out.rate.hz() > kHighestRateHz)
-      throw std::runtime_error("rate: is not two integers, [num >= 0, den > 0], of at most 10000 Hz");
-  }
+  out.rate = rate(p, "rate");
   return out;
 }
 
@@ -110,7 +116,8 @@ InPort in_port(const json& p) {
             SimTime{field<std::int64_t>(p, "delay_ns", 0)},
             field<bool>(p, "optional", false),
             field<std::vector<std::string>>(p, "topics", {}),
-            0};
+            0,
+            rate(p, "least_rate")};
   if (in.delay < SimTime{0} || in.delay > kLongestDelay)
     throw std::runtime_error("delay_ns: is outside [0, " + std::to_string(kLongestDelay.count()) + "]");
   return in;
@@ -138,12 +145,27 @@ void each_port(const json& j, const char* key, const Read& read) {
   }
 }
 
+/// What a process declares, by type; a type of ours must be one.
+std::map<std::string, msg::Value> declares(const json& j) {
+  const bool maps =
+      j.is_object() && std::all_of(j.begin(), j.end(), [](const json& content) { return content.is_object(); });
+  if (!maps) throw std::runtime_error("declares: is not a map of maps, by message type");
+  std::map<std::string, msg::Value> declares;
+  for (const auto& [type, content] : j.items()) {
+    const msg::Value value = msg::from_json(content.dump());
+    const std::string mistake = msg::mistake_in(type, value);
+    if (!mistake.empty()) throw std::runtime_error("declares." + type + "." + mistake);
+    declares.emplace(type, value);
+  }
+  return declares;
+}
+
 Declaration from_json(const json& j) {
   Declaration d;
   d.process = field<std::string>(j, "name");
   d.component = field<std::string>(j, "component", "");
   d.may_finish = field<bool>(j, "may_finish", false);
-  d.notes = field<std::map<std::string, double>>(j, "notes", {});
+  if (j.contains("declares")) d.declares = declares(j["declares"]);
   each_port(j, "out", [&](const json& p) { d.outs.push_back(out_port(p)); });
   each_port(j, "in", [&](const json& p) { d.ins.push_back(in_port(p)); });
   return d;

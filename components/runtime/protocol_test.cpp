@@ -63,7 +63,9 @@ TEST_CASE("a HELLO with a wrong field is refused, and the field named") {
   refused(hello("", "", R"(,"pid":18446744073709551615)"), "pid: is not an integer in range");
   refused(hello("", "", R"(,"may_finish":1)"), "may_finish: is not true or false");
   refused(hello("", "", R"(,"facts":{"a":1})"), "facts: is not a map of texts");
-  refused(hello("", "", R"(,"notes":{"a":"1"})"), "notes: is not a map of numbers");
+  refused(hello("", "", R"(,"declares":{"a":"1"})"), "declares: is not a map of maps");
+  refused(hello("", "", R"(,"declares":{"head_declaration/1":{"reach_m":"far"}})"),
+          "declares.head_declaration/1.reach_m: is not a number");
   refused(hello("5", "", ""), "out: is not a list of ports");
   std::string many = "{" + port + "}";
   for (int i = 0; i < 1000; ++i) many += ",{" + port + "}";
@@ -73,6 +75,7 @@ TEST_CASE("a HELLO with a wrong field is refused, and the field named") {
   refused(hello(R"({"port":"a"})", "", ""), "out[0].type: is missing");
   for (const char* rate : {"10", "[10]", "[1.5,1]", "[10,0]", "[-1,1]", "[10001,1]", "[9223372036854775807,1]"})
     refused(hello("{" + port + R"(,"rate":)" + rate + "}", "", ""), "out[0].rate: is not two integers");
+  refused(hello("", "{" + port + R"(,"least_rate":[10,0]})", ""), "in[0].least_rate: is not two integers");
   refused(hello("{" + port + R"(,"max_bytes":-1})", "", ""), "out[0].max_bytes: is not an integer in range");
   refused(hello("{" + port + R"(,"max_bytes":1099511627776})", "", ""), "out[0].max_bytes: is more than");
   refused(hello("", "{" + port + R"(,"delay_ns":-1})", ""), "in[0].delay_ns: is outside");

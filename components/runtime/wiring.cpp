@@ -198,9 +198,9 @@ class Wirer {
 
   void add_edge(std::size_t topic, std::size_t to, std::size_t in, SimTime delay) {
     const Rate has = graph_.topics[topic].rate;
-    const auto needs = processes_[to].notes.find(processes_[to].ins[in].port + "_least_hz");
-    if (needs != processes_[to].notes.end() && has.num > 0 && has.hz() < needs->second) {
-      problem(fmt::format("{}: needs at least {:g} Hz, and {} has {:g} Hz", placed_name(to, in), needs->second,
+    const Rate least = processes_[to].ins[in].least;
+    if (has.num > 0 && has.hz() < least.hz()) {
+      problem(fmt::format("{}: needs at least {:g} Hz, and {} has {:g} Hz", placed_name(to, in), least.hz(),
                           graph_.topics[topic].name, has.hz()));
     }
     graph_.edges.push_back({topic, to, in, delay});
@@ -248,7 +248,7 @@ class Wirer {
 }  // namespace
 
 Declaration declaration_of(const std::string& component, const Ports& ports) {
-  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.notes()};
+  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.declares()};
 }
 
 Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,

@@ -16,7 +16,7 @@ struct Declaration {
   std::vector<OutPort> outs;
   std::vector<InPort> ins;
   bool may_finish = false;
-  std::map<std::string, double> notes = {};  // Ports::note
+  std::map<std::string, msg::Value> declares = {};  // Ports::declare, by type
 };
 
 /// Declaration of a process to the others.

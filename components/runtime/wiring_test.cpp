@@ -79,7 +79,7 @@ TEST_CASE("a wrong type, a missing publisher and a shortened delay are refused")
 
 TEST_CASE("a publisher that is slower than an input needs is refused") {
   Declaration nav = process("nav", {}, {in("pose", "pose/1")});
-  nav.notes["pose_least_hz"] = 200.0;
+  nav.ins[0].least = {200, 1};
   const auto with_rate = [&](Rate rate) {
     return std::vector{process("auv", {{"pose", "pose/1", 4096, rate}}, {}), nav};
   };

@@ -74,7 +74,7 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
 array::Pattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
 
 HeadPlan Scanning::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = longest_reception_s(config.pulse, config.longest_range_m, config.sound_speed_mps),
           .finest_beam_rad = config.horizontal_beamwidth_rad,
           .beam_axis = BeamAxis::kForward,

@@ -122,7 +122,7 @@ HeadPlan Sidescan::plan(const Config& config) {
   plan.finest_beam_rad = 1.0;
   for (const SidescanChannel& channel : config.channels) {
     const SettingLimits limits = config.limits_of(channel);
-    plan.channels.push_back({channel.name, config.start_of(channel), limits});
+    plan.channels.push_back({channel.name, config.start_of(channel), limits, {{channel.frequency_hz}}});
     plan.longest_reception_s =
         std::max(plan.longest_reception_s, config.reception_s(channel.range_m, limits.find("pulse_length_s")->most));
     plan.finest_beam_rad = std::min(plan.finest_beam_rad, channel.horizontal_beamwidth_rad);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify {
 namespace {
 
@@ -31,6 +33,7 @@ double step_db(const detect::FirstBottomSettings& settings, const detect::Waterf
 msg::BottomTrack BottomFinder::find(const echo::Image& envelope, const echo::Sampling& sampling,
                                     const echo::Pulse& pulse, double sound_speed_mps, detect::BottomTrack& track,
                                     Memory& memory) const {
+  const profile::Span span(profile::Stage::kDetection);
   auto& [amplitude, all] = memory;
   const auto samples = static_cast<std::size_t>(envelope.samples);
   const double range_per_s = 0.5 * sound_speed_mps;

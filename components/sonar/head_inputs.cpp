@@ -14,28 +14,6 @@ namespace {
 
 constexpr SimTime kCommandDelay = 100_ms;
 
-/// How far from the vehicle the head needs the seabed, whatever it is set to: the pager asks (terrain_pager/demand.h).
-void note_reach(Ports& ports, const HeadInputs::Start& start) {
-  double range_m = 0.0;
-  bool follows = false;  // the depth, by itself, in every channel
-  for (const HeadInputs::Channel& channel : start.channels) {
-    const SettingLimit* range = channel.limits.find("range_m");
-    if (range == nullptr) continue;
-    follows = channel.settings.auto_range && (follows || range_m == 0.0);
-    range_m = std::max(range_m, range->most);
-  }
-  if (range_m == 0.0) return;
-  ports.note("reach_m", range_m + start.mounting.actual.position_body_m.norm());
-  if (follows) ports.note("auto_range", 1.0);
-}
-
-/// What a command may set, of one channel at least: whoever plans commands looks there.
-void note_limits(Ports& ports, const HeadInputs::Start& start) {
-  SettingLimits limits;
-  for (const HeadInputs::Channel& channel : start.channels) limits.widen(channel.limits);
-  for (const auto& [name, value] : limits.notes()) ports.note(name, value);
-}
-
 /// Covariances that are all zero are not given.
 std::optional<uncertainty::Navigation> errors_of(const msg::Estimate& estimate) {
   uncertainty::Navigation errors;
@@ -59,8 +37,6 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
     names_.push_back(channel.name);
     settings_.emplace_back(channel.settings, channel.limits);
   }
-  note_reach(ports, start);
-  note_limits(ports, start);
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { push(truth_, pose); });
   ports.in<msg::Estimate>("estimate",
                           [this](const msg::Estimate& estimate) {

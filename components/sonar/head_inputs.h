@@ -10,6 +10,7 @@
 #include "kernels/base/frames/pose.h"
 #include "kernels/survey/uncertainty/sounding.h"
 #include "kernels/vehicle/vertical/tide.h"
+#include "messages/declarations.h"
 #include "messages/sonar.h"
 #include "scenarios/world/world.h"
 
@@ -25,6 +26,7 @@ class HeadInputs {
     std::string name;  // "": the only one
     HeadSettings settings;
     SettingLimits limits;
+    std::vector<msg::SectorDeclaration> sectors;  // transmissions of a ping
   };
   struct Start {
     HeadMounting mounting;

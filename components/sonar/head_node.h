@@ -12,20 +12,21 @@
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/ping_cycle.h"
 #include "components/sonar/surroundings.h"
+#include "kernels/base/profile/profile.h"
 
 namespace ensonify {
 
 /// Axis of a head's frame from which the angles of its beams are counted, positive to starboard.
 enum class BeamAxis { kDown, kForward };
 
-/// Declaration of a head: what follows from its parameters before the run.
+/// Plan of a head: what follows from its parameters before the run.
 struct HeadPlan {
   std::vector<HeadInputs::Channel> channels;  // that ping together, each with settings of its own
-  int sectors = 1;                            // transmissions of each channel
   double longest_reception_s = 0.0;           // with the longest range and pulse that can be set
   double finest_beam_rad = 0.0;
   BeamAxis beam_axis = BeamAxis::kDown;
-  bool probe = false;  // for the sound speed at its face
+  double near_field_m = 0.0;  // of the unfocused receive array; 0: not stated
+  bool probe = false;         // for the sound speed at its face
 };
 
 /// Output of a channel: its port and the longest message. In a head whose channels have names the port is `port_name`.
@@ -59,8 +60,9 @@ struct SilentChannel {
 };
 
 HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan);
-/// Declares in notes what a head is, for those that look for heads: `ensonify check`, plots, benchmarks, tests.
-void note_head(Ports& ports, const HeadPlan& plan);
+/// Declaration of a head for those that look for heads: pager, autopilot, `ensonify check`, plots. `kind` is that of
+/// its pings.
+msg::HeadDeclaration declaration_of(const std::string& kind, const HeadConfig& config, const HeadPlan& plan);
 std::string no_seabed_reason(const std::vector<SilentChannel>& silent);
 
 /// Node of any head: inputs, ping cycle and, for each channel, the head itself as a value with its outputs. Two kinds
@@ -119,7 +121,7 @@ class HeadNode {
       declare(channel, config.timing().rate, ports);
       if constexpr (requires { channel.head.connect(ports); }) channel.head.connect(ports);
     }
-    note_head(ports, plan);
+    ports.declare(declaration_of(kComponent, config, plan));
   }
 
   void declare(Channel& channel, Rate rate, Ports& ports) {
@@ -156,6 +158,7 @@ class HeadNode {
         if constexpr (requires { message->track; }) {
           inputs_.fill_track(message->track, ping.transmit, sent.sectors.front().reception);
         }
+        const profile::Span span(profile::Stage::kMessage);
         out->send(*message);
       });
       if (!report.seabed_in_range) silent.push_back({channel.name, sent.sectors.front().settings.range_m});

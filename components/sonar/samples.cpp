@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify {
 namespace {
 
@@ -38,12 +40,16 @@ msg::Ping ping_message(const PingEvent& event, const char* kind, double frequenc
 void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
                    const echo::Image& envelope, msg::Ping& ping) {
   auto amplitude = std::make_shared<std::vector<float>>();
-  echo::amplitude_upa(envelope, *amplitude);
+  {
+    const profile::Span span(profile::Stage::kMessage);
+    echo::amplitude_upa(envelope, *amplitude);
+  }
   write_samples(gain, converter, sampling, std::move(amplitude), ping);
 }
 
 void write_samples(const echo::TvgLaw& gain, const Converter& converter, const echo::Sampling& sampling,
                    std::shared_ptr<std::vector<float>> amplitude_upa, msg::Ping& ping) {
+  const profile::Span span(profile::Stage::kMessage);
   ping.first_sample_s = sampling.start_s;
   ping.sample_period_s = sampling.period_s;
   if (converter.bits == 0) {

@@ -72,9 +72,11 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
     distribution.trace(memory.plan, first, shot.rays_per_batch, trace, memory.batch);
     sums = sums + weigh(shot, backscatter, memory);
+    const profile::Span span(profile::Stage::kMerge);
     cells.add({pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2, memory.backscatter},
               memory.insonified);
   }
+  const profile::Span span(profile::Stage::kMerge);
   echo::SpeckleCells::gather(memory.insonified, memory.scatterers);
   return {memory.scatterers, sums};
 }
@@ -85,6 +87,7 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 }
 
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
+  const profile::Span span(profile::Stage::kEchoes);
   const auto& [found, sums] = insonified;
   const frames::HeadPose& pose = shot.pose();
   const double head_depth_m = -pose.position_enu_m.z();
@@ -117,6 +120,7 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
 
 /// What the rays of a batch carry to what they hit, and how strongly that scatters.
 HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const {
+  const profile::Span span(profile::Stage::kWeigh);
   const trace::Rays& rays = memory.batch.rays;
   const trace::Hits& hits = memory.batch.hits;
   const double source = power_of(sent_db(shot.source_level_db));
@@ -146,6 +150,7 @@ HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backsca
 void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
                          const echo::PairedArrivals& paired, const echo::SharedByBeams* shared,
                          std::span<float> gains) const {
+  const profile::Span span(profile::Stage::kPatterns);
   const double half_speed_mps = 0.5 * sound_speed_mps(pose);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, gains.size(), kArrivalsPerTask),

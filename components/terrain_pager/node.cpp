@@ -12,6 +12,7 @@
 #include "components/config/config_error.h"
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
+#include "components/runtime/declared.h"
 #include "components/runtime/log.h"
 #include "components/terrain/source_of.h"
 #include "components/terrain_pager/mission_track.h"
@@ -104,8 +105,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   }
   made_chart_ = std::async(std::launch::async, [this] { return chart(); });
   const double shallowest_m = pager::check_mission(*terrain_, config, pager::Beyond::kRefused);
-  ports.note("post_spacing_m", grid_.spacing_m);
-  ports.note("shallowest_m", shallowest_m);
+  ports.declare(msg::PagerDeclaration{grid_.spacing_m, shallowest_m});
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
 }
 
@@ -171,11 +171,12 @@ pager::Paging::Rules TerrainPagerNode::rules(double feed_margin_m) const {
   return rules;
 }
 
-/// What heads note is known when time starts. Between two updates the vehicle moves on.
+/// What heads declare is known when time starts. Between two updates the vehicle moves on.
 void TerrainPagerNode::start_paging() {
   double feed_m = config_.feed_margin_m;
   if (feed_m <= 0.0) {
-    feed_m = pager::demanded_m(ports_.facts(), -terrain_->lowest_m()) + config_.fastest_mps / config_.rate_hz;
+    feed_m = pager::demanded_m(declared<msg::HeadDeclaration>(ports_.facts()), -terrain_->lowest_m()) +
+             config_.fastest_mps / config_.rate_hz;
     try {
       pager::check_budgets(config_, rules(feed_m).margins, grid_, box_);
     } catch (const ConfigError& error) {

@@ -66,19 +66,16 @@ std::vector<TileKey> Paging::needed(const paging::Motion& motion, std::vector<Ti
   return first;
 }
 
-double demanded_m(const std::map<std::string, std::string>& facts, double deepest_m) {
-  constexpr std::string_view kReach = "/reach_m";
+double demanded_m(const std::map<std::string, msg::HeadDeclaration>& heads, double deepest_m) {
   const double by_depth_m = 3.0 * deepest_m + 20.0;
   double demanded = deepest_m + 20.0;
-  bool heads = false;
-  for (const auto& [name, text] : facts) {
-    if (!name.ends_with(kReach)) continue;
-    heads = true;
-    const double reach_m = std::stod(text);
-    const bool follows = facts.contains(name.substr(0, name.size() - kReach.size()) + "/auto_range");
-    demanded = std::max(demanded, follows ? std::min(reach_m, by_depth_m) : reach_m);
+  bool any = false;
+  for (const auto& [process, head] : heads) {
+    if (head.reach_m <= 0.0) continue;
+    any = true;
+    demanded = std::max(demanded, head.auto_range ? std::min(head.reach_m, by_depth_m) : head.reach_m);
   }
-  return heads ? demanded : by_depth_m;
+  return any ? demanded : by_depth_m;
 }
 
 std::size_t tile_bytes(const TileGrid& grid) {

@@ -8,6 +8,7 @@
 
 #include "components/terrain_pager/config.h"
 #include "kernels/mesh/paging/rules.h"
+#include "messages/declarations.h"
 
 namespace ensonify::pager {
 
@@ -54,12 +55,12 @@ class Paging {
   std::set<TileKey> ever_fetched_, ever_at_heads_;
 };
 
-/// Distance from the vehicle to which heads need the seabed, m. Each head notes how far it can be set to receive,
-/// `bow/reach_m`, its place on the vehicle included; what an operator's command can ask for is within that, so tiles
-/// are there before a command takes effect. A head that follows the depth by itself (`bow/auto_range`) has no use for
-/// more than what lies within 71 degrees of nadir: three times the greatest depth + 20 m. Without any head it is this,
-/// too. Never less than the greatest depth + 20 m: Doppler logs and altimeters point down at no more than 45 degrees.
-double demanded_m(const std::map<std::string, std::string>& facts, double deepest_m);
+/// Distance from the vehicle to which heads need the seabed, m. Each declares how far it can be set to receive
+/// (`reach_m`); what an operator's command can ask for is within that, so tiles are there before a command takes
+/// effect. A head that follows the depth by itself (`auto_range`) has no use for more than what lies within 71 degrees
+/// of nadir: three times the greatest depth + 20 m. Without any head it is this, too. Never less than the greatest
+/// depth + 20 m: Doppler logs and altimeters point down at no more than 45 degrees.
+double demanded_m(const std::map<std::string, msg::HeadDeclaration>& heads, double deepest_m);
 
 /// Bytes of a tile's heights and classes.
 std::size_t tile_bytes(const TileGrid& grid);

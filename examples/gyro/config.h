@@ -4,7 +4,7 @@
 #include <string>
 
 #include "components/config/parameters.h"
-#include "scenarios/world/world.h"
+#include "scenarios/scenario_file.h"
 
 namespace ensonify {
 
@@ -28,7 +28,7 @@ struct GyroConfig : GyroParameters {
   std::uint64_t seed = 1;
   std::string process;
 
-  static GyroConfig read(ConfigReader& from, const World& world, const std::string& process);
+  static GyroConfig read(ConfigReader& from, const ScenarioHeader& scenario, const std::string& process);
 };
 
 }  // namespace ensonify

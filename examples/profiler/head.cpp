@@ -47,7 +47,7 @@ trace::RayDistribution rays_of(const ProfilerConfig& c) {
 }  // namespace
 
 HeadPlan Profiler::plan(const Config& config) {
-  return {.channels = {{"", config.start(), config.limits()}},
+  return {.channels = {{"", config.start(), config.limits(), {{config.frequency_hz}}}},
           .longest_reception_s = config.reception_s(config.range_m),
           .finest_beam_rad = config.beamwidth_rad};
 }

@@ -62,6 +62,7 @@ TEST_CASE("a profiler says that its range is below the altitude") {
 
 TEST_CASE("a profiler declares one beam, from its down axis") {
   AtRest at_rest(12.0);
-  CHECK(at_rest.head.ports().notes().at("beams_from_forward") == 0.0);
-  CHECK(at_rest.head.ports().notes().at("finest_beam_rad") == ProfilerConfig{}.beamwidth_rad);
+  const msg::Value& declaration = at_rest.head.ports().declares().at(msg::HeadDeclaration::kType);
+  CHECK(*declaration.at("beam_axis") == msg::Value{std::string("down")});
+  CHECK(*declaration.at("finest_beam_rad") == msg::Value{ProfilerConfig{}.beamwidth_rad});
 }

@@ -1,7 +1,5 @@
 #include "launch/process/launch_wiring.h"
 
-#include <fmt/format.h>
-
 #include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/version.h"
 
@@ -39,10 +37,6 @@ std::map<std::string, std::string> facts_of(const Launch& launch) {
           {"start_utc", launch.scenario.header.start_utc},
           {"version", kVersion},
           {"seed", std::to_string(launch.scenario.header.seed)}};
-}
-
-void add_notes(std::map<std::string, std::string>& facts, const Declaration& process) {
-  for (const auto& [name, value] : process.notes) facts[process.process + "/" + name] = fmt::format("{}", value);
 }
 
 Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {

@@ -19,9 +19,6 @@ std::map<std::string, std::string> process_places(const Launch& launch);
 /// Facts fixed for the run and kept for queries: "launch", "scenario", "version", "seed", "start_utc", "external"
 /// (names of the processes that somebody else starts, with spaces between).
 std::map<std::string, std::string> facts_of(const Launch& launch);
-/// Adds what a process notes: "bow/finest_beam_rad".
-void add_notes(std::map<std::string, std::string>& facts, const Declaration& process);
-
 /// The wiring as the conductor sees it: who waits for whom.
 Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch);
 

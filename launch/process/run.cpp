@@ -5,17 +5,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "components/errors/exit_code.h"
 #include "components/errors/exit_error.h"
+#include "components/runtime/declared.h"
 #include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/participant.h"
 #include "components/runtime/protocol.h"
 #include "components/runtime/termination.h"
 #include "components/runtime/tool.h"
 #include "launch/process/launch_wiring.h"
+#include "launch/process/profiled_node.h"
 
 namespace ensonify {
 
@@ -79,7 +82,7 @@ int run_process(const char* component, const NodeFactory& factory, const Options
   const Launch launch = read_launch(options.launch);
   const ProcessSpec& process = launch.process(options.name);
   Ports ports(options.name, options.launch.out);
-  const std::unique_ptr<AnyNode> node = factory(launch, process, ports);
+  std::unique_ptr<AnyNode> node = factory(launch, process, ports);
   ports.seal();
   if (options.check) {
     std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
@@ -94,7 +97,11 @@ int run_process(const char* component, const NodeFactory& factory, const Options
   if (address.tcp && launch.clock.keys && !address.keys) {
     throw UserError("--keys: the run at " + clock + " has keys; give a copy of keys.json in its run directory");
   }
-  return participate(component, ports, *node, {clock, address});
+  if (std::getenv(kProfileVariable) == nullptr) return participate(component, ports, *node, {clock, address});
+  ProfiledNode profiled(std::move(node));
+  const int code = participate(component, ports, profiled, {clock, address});
+  profiled.write(profile_folder(launch.options.out) + "/" + options.name + ".json", options.name);
+  return code;
 }
 
 /// All nodes of a launch on one bus, wired.
@@ -113,7 +120,7 @@ LocalBus bus_of(const Launch& launch, const std::map<std::string, NodeFactory>& 
             [&](Ports& ports) { return factory->second(launch, process, ports); });
   }
   auto facts = facts_of(launch);
-  for (const Declaration& process : bus.declarations()) add_notes(facts, process);
+  facts[kDeclarationsFact] = declarations_json(bus.declarations());
   bus.connect(wire_rules(launch), process_places(launch), facts);
   return bus;
 }

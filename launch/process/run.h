@@ -26,6 +26,11 @@ Config read_config(Config (*read)(ConfigReader&, const ScenarioHeader&), ConfigR
                    const ProcessSpec&) {
   return read(from, launch.scenario.header);
 }
+template <class Config>
+Config read_config(Config (*read)(ConfigReader&, const ScenarioHeader&, const std::string& name), ConfigReader& from,
+                   const Launch& launch, const ProcessSpec& process) {
+  return read(from, launch.scenario.header, process.name);
+}
 template <class Config, class World>
 Config read_config(Config (*read)(ConfigReader&, const World&, const std::string& name), ConfigReader& from,
                    const Launch& launch, const ProcessSpec& process) {

@@ -151,22 +151,22 @@ TEST_CASE("what cannot be run is reported before time starts") {
 
 namespace {
 
-using Facts = std::map<std::string, std::string>;
+using Heads = std::map<std::string, msg::HeadDeclaration>;
 
-/// What a head with these limits notes, as the others see it.
-Facts facts_of(const SettingLimits& limits, const std::string& head = "bow") {
-  Facts facts;
-  for (const auto& [name, value] : limits.notes()) facts[head + "/" + name] = std::to_string(value);
-  return facts;
+/// A head with these limits, as the others see it.
+Heads head_of(const SettingLimits& limits, const std::string& name = "bow") {
+  msg::HeadDeclaration head;
+  head.channels = {{"", {}, limits.declared()}};
+  return {{name, head}};
 }
 
 /// What a head refuses of a mission of one step.
-std::string refused(const std::string& settings, const Facts& facts) {
+std::string refused(const std::string& settings, const Heads& heads) {
   const Mission mission = scenario_with("  steps:\n    - {set_sonar: bow, " + settings + "}\n    - mark: end\n",
                                         "mountings: {bow: {actual: {}}}")
                               .mission;
   std::string text;
-  for (const ConfigProblem& problem : setting_problems(mission, facts)) text += problem.text() + "\n";
+  for (const ConfigProblem& problem : setting_problems(mission, heads)) text += problem.text() + "\n";
   return text;
 }
 
@@ -179,26 +179,26 @@ TEST_CASE("a mission's setting beyond the limits of its head is refused, with it
   limits["range_m"] = {{1.0, 75.0}, true};
   limits["pulse_length_s"] = {{1e-4, 1e-3}};
   limits["mode"].words = {"bathymetry", "water_column"};
-  const Facts facts = facts_of(limits);
-  CHECK(refused("source_level_db: 245, swath_deg: 150, range_m: 0, mode: water_column", facts) == "");
-  CHECK(refused("source_level_db: 260", facts) ==
+  const Heads heads = head_of(limits);
+  CHECK(refused("source_level_db: 245, swath_deg: 150, range_m: 0, mode: water_column", heads) == "");
+  CHECK(refused("source_level_db: 260", heads) ==
         "bay.yaml:7:41: mission.steps[0].source_level_db: 260 is outside [175, 250], the limits of bow\n");
-  CHECK(refused("swath_deg: 160", facts) ==
+  CHECK(refused("swath_deg: 160", heads) ==
         "bay.yaml:7:35: mission.steps[0].swath_deg: 160 is outside [28.6479, 150], the limits of bow\n");
-  CHECK(refused("pulse_length_s: 0", facts) ==
+  CHECK(refused("pulse_length_s: 0", heads) ==
         "bay.yaml:7:40: mission.steps[0].pulse_length_s: 0 leaves it to bow, which does not choose; allowed: [0.0001, "
         "0.001]\n");
-  CHECK(refused("mode: bathymetri", facts) ==
+  CHECK(refused("mode: bathymetri", heads) ==
         "bay.yaml:7:30: mission.steps[0].mode: bathymetri is no word of bow; allowed: bathymetry, water_column\n");
-  CHECK(refused("gain_offset_db: 3", facts) ==
+  CHECK(refused("gain_offset_db: 3", heads) ==
         "bay.yaml:7:40: mission.steps[0].gain_offset_db: bow has no such setting\n");
-  CHECK(refused("source_level_db: 260", facts_of(limits, "stern")) == "");  // bow has not declared its limits
+  CHECK(refused("source_level_db: 260", head_of(limits, "stern")) == "");  // bow has not declared its limits
 
   SettingLimits narrow = limits, wide = limits;
   narrow["source_level_db"] = {{175.0, 215.0}};
-  CHECK(refused("source_level_db: 245", facts_of(narrow)) != "");
+  CHECK(refused("source_level_db: 245", head_of(narrow)) != "");
   narrow.widen(wide);
-  CHECK(refused("source_level_db: 245", facts_of(narrow)) == "");
+  CHECK(refused("source_level_db: 245", head_of(narrow)) == "");
 }
 
 TEST_CASE("every field of the message is a setting of missions, with limits, and no list names it again") {
@@ -210,9 +210,9 @@ TEST_CASE("every field of the message is a setting of missions, with limits, and
     SettingLimits limits;
     if (is_text) limits[name].words = {"7"};
     else limits[name] = {{6.0 * file.si, 8.0 * file.si}};
-    CHECK(refused(file.key + ": 7", facts_of(limits)) == "");
-    CHECK(refused(file.key + ": 9", facts_of(limits)) != "");
-    CHECK(refused(file.key + ": 7", {{"bow/settings.other.least", "0"}}) != "");
+    CHECK(refused(file.key + ": 7", head_of(limits)) == "");
+    CHECK(refused(file.key + ": 9", head_of(limits)) != "");
+    CHECK(refused(file.key + ": 7", head_of({})) != "");  // it has no such setting
   });
 }
 

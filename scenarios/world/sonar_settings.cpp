@@ -13,7 +13,6 @@
 namespace ensonify {
 namespace {
 
-const std::string kNotes = "settings.", kLeast = ".least", kMost = ".most", kChosen = ".chosen";
 constexpr double kRounding = 1e-6;  // relative: degrees of a file against a head's radians
 
 bool is_setting(const std::string& field) {
@@ -71,42 +70,33 @@ void SettingLimits::widen(const SettingLimits& other) {
   }
 }
 
-std::map<std::string, double> SettingLimits::notes() const {
-  std::map<std::string, double> notes;
-  for (const auto& [field, limit] : limits_) {
-    for (const std::string& word : limit.words) notes[kNotes + field + "=" + word] = 1.0;
-    if (!limit.words.empty()) continue;
-    notes[kNotes + field + kLeast] = limit.least;
-    notes[kNotes + field + kMost] = limit.most;
-    if (limit.chosen) notes[kNotes + field + kChosen] = 1.0;
-  }
-  return notes;
+std::vector<msg::SettingDeclaration> SettingLimits::declared() const {
+  std::vector<msg::SettingDeclaration> declared;
+  for (const auto& [field, limit] : limits_)
+    declared.push_back({field, limit.least, limit.most, limit.chosen, limit.words});
+  return declared;
 }
 
-SettingLimits SettingLimits::noted(const std::map<std::string, std::string>& facts, const std::string& head) {
-  SettingLimits limits;
-  const std::string prefix = head + "/" + kNotes;
-  for (auto fact = facts.lower_bound(prefix); fact != facts.end() && fact->first.starts_with(prefix); ++fact) {
-    const std::string note = fact->first.substr(prefix.size());
-    const double value = std::strtod(fact->second.c_str(), nullptr);
-    const std::size_t end = std::min(note.find_first_of(".="), note.size());
-    SettingLimit& limit = limits.limits_[note.substr(0, end)];
-    const std::string what = note.substr(end);
-    if (what == kLeast) limit.least = value;
-    if (what == kMost) limit.most = value;
-    if (what == kChosen) limit.chosen = true;
-    if (what.starts_with("=")) limit.words.push_back(what.substr(1));
+SettingLimits SettingLimits::of(const msg::HeadDeclaration& head) {
+  SettingLimits all;
+  for (const msg::ChannelDeclaration& channel : head.channels) {
+    SettingLimits limits;
+    for (const msg::SettingDeclaration& declared : channel.settings)
+      limits.limits_[declared.setting] = {{declared.least, declared.most}, declared.chosen, declared.words};
+    all.widen(limits);
   }
-  return limits;
+  return all;
 }
 
-std::vector<ConfigProblem> setting_problems(const Mission& mission, const std::map<std::string, std::string>& facts) {
+std::vector<ConfigProblem> setting_problems(const Mission& mission,
+                                            const std::map<std::string, msg::HeadDeclaration>& heads) {
   std::vector<ConfigProblem> problems;
   for (const MissionStep& step : mission.steps) {
     const auto* sonar = std::get_if<SetSonar>(&step);
     if (sonar == nullptr) continue;
-    const SettingLimits limits = SettingLimits::noted(facts, sonar->head);
-    if (limits.empty()) continue;
+    const auto head = heads.find(sonar->head);
+    if (head == heads.end() || head->second.channels.empty()) continue;
+    const SettingLimits limits = SettingLimits::of(head->second);
     for_settings(sonar->settings, [&](const char* name, const char* unit, const char*, const auto& value) {
       const auto given = sonar->given.find(name);
       if (given == sonar->given.end()) return;

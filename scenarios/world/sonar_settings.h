@@ -10,10 +10,11 @@
 
 #include "components/config/config_error.h"
 #include "components/config/parameters.h"
+#include "messages/declarations.h"
 #include "messages/sonar.h"
 
 /// Operator's settings of a head: the fields of msg::SonarSettings but its stamp, and no list beside that one. A file
-/// writes a field by its name, angles in degrees; a head declares its limits in notes, by the field's name.
+/// writes a field by its name, angles in degrees; a head declares its limits by the field's name.
 namespace ensonify {
 
 /// visit(name, unit, about, member) of each setting: a number or a text.
@@ -63,22 +64,22 @@ class SettingLimits {
   /// The limit of a field, to be set. A name that is no setting is a mistake of ours.
   SettingLimit& operator[](const std::string& field);
   const SettingLimit* find(const std::string& field) const;
-  bool empty() const { return limits_.empty(); }
   /// Takes in what another head, or channel of the same, allows.
   void widen(const SettingLimits& other);
 
-  /// What a head notes: "settings.range_m.most", "settings.mode=bathymetry".
-  std::map<std::string, double> notes() const;
-  /// Limits that a head has noted, among the facts of all processes; empty where it declares none.
-  static SettingLimits noted(const std::map<std::string, std::string>& facts, const std::string& head);
+  /// The same as a channel declares them.
+  std::vector<msg::SettingDeclaration> declared() const;
+  /// Limits that a head has declared, of all its channels.
+  static SettingLimits of(const msg::HeadDeclaration& head);
 
  private:
   std::map<std::string, SettingLimit> limits_;
 };
 
 struct Mission;
-/// Settings of a mission that a head does not take, each with its place, by what the heads have noted. A head that has
-/// noted nothing is not checked: it refuses at run time what it does not take.
-std::vector<ConfigProblem> setting_problems(const Mission& mission, const std::map<std::string, std::string>& facts);
+/// Settings of a mission that a head does not take, each with its place. A head that has declared nothing is not
+/// checked: it refuses at run time what it does not take.
+std::vector<ConfigProblem> setting_problems(const Mission& mission,
+                                            const std::map<std::string, msg::HeadDeclaration>& heads);
 
 }  // namespace ensonify

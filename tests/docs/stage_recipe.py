@@ -35,18 +35,30 @@ def follow(source, stage):
     (stage / "components/CMakeLists.txt").write_text("\n".join(added) + "\n")
 
 
+def files_in(row):
+    """The files that a table's row names: `config.h/.cpp` are two."""
+    for name in re.findall(r"`([^`]+)`", row):
+        stem, *more = name.split("/.")
+        yield stem
+        yield from (f"{stem.rpartition('.')[0]}.{ending}" for ending in more)
+
+
 def follow_page(page, example, component, stage):
     shutil.copytree(example, stage / "examples" / example.name)
-    page = page.read_text()
-    commands = re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S)
+    text = page.read_text()
+    commands = re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S)
     for command in commands:
         subprocess.run(["sh", "-e", "-c", command], cwd=stage, check=True)
-    files = re.findall(r"^`([^`\s]+\.yaml)`[^\n]*:\n\n```yaml\n(.*?)^```", page, re.M | re.S)
-    for name, text in files:
+    files = re.findall(r"^`([^`\s]+\.yaml)`[^\n]*:\n\n```yaml\n(.*?)^```", text, re.M | re.S)
+    for name, content in files:
         (stage / name).parent.mkdir(parents=True, exist_ok=True)
-        (stage / name).write_text(text)
+        (stage / name).write_text(content)
     if len(commands) != 2 or len(files) != 2:
         sys.exit(f"the page has {len(commands)} sh blocks and {len(files)} yaml files; 2 and 2 are expected")
+    made = {file.name for file in (stage / "components" / component).iterdir()}
+    named = {name for row in re.findall(r"^\| (`.+?) \|", text, re.M) for name in files_in(row)}
+    if not made <= named:
+        sys.exit(f"the page's table does not name {sorted(made - named)}")
     for file in (stage / "components" / component).iterdir():
         if example.name in file.read_text().lower() or example.name in file.name:
             sys.exit(f"the recipe left the template's name in {file.name}")

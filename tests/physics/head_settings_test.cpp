@@ -1,5 +1,3 @@
-#include <heads_found.h>  // generated: tests/physics/CMakeLists.txt
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "components/sonar/testing/seabed.h"
 #include "components/sonar/tile_set.h"
 #include "tests/physics/heads.h"
+#include "tests/physics/heads_found.h"
 
 // Heads as values, without their nodes.
 

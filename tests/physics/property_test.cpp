@@ -1,4 +1,3 @@
-#include <heads_found.h>  // generated: tests/physics/CMakeLists.txt
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include "components/sonar/testing/random_head.h"
 #include "components/sonar/testing/seabed.h"
 #include "tests/physics/heads.h"
+#include "tests/physics/heads_found.h"
 
 // Laws that hold for any legal head, at any place, over any seabed: random ones, always the same.
 

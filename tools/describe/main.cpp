@@ -39,6 +39,7 @@ struct ComponentFacts {
   std::string example;  // "bow in launch/demo.yaml"; "" if no launch file uses the component
   std::vector<OutPort> outs;
   std::vector<InPort> ins;
+  std::map<std::string, msg::Value> declares;
   std::string no_ports_because;  // why the program could not report its ports
 };
 
@@ -135,6 +136,7 @@ void ask_for_ports(ComponentFacts& facts) {
     facts.example = example.process + " in launch/" + fs::path(example.launch).filename().string();
     facts.outs = declaration.outs;
     facts.ins = declaration.ins;
+    facts.declares = declaration.declares;
     facts.no_ports_because.clear();
     return;
   }
@@ -197,6 +199,12 @@ void print_ports(const ComponentFacts& facts) {
                delay.empty() ? "" : "delay " + delay + (port.optional ? ", " : ""), port.optional ? "optional" : "",
                port.topics.empty() ? "" : fmt::format(": {}", fmt::join(port.topics, ", ")));
   }
+  for (const auto& [type, content] : facts.declares) {
+    fmt::print("  declares {}\n", type);
+    for (const auto& [field, value] : *content.as<msg::Value::Map>()) {
+      fmt::print("    {}: {}\n", field, msg::to_json(value));
+    }
+  }
 }
 
 Json ports_json(const ComponentFacts& facts) {
@@ -212,6 +220,7 @@ Json ports_json(const ComponentFacts& facts) {
                           {"optional", port.optional},
                           {"topics", port.topics}});
   }
+  for (const auto& [type, content] : facts.declares) json["declares"][type] = Json::parse(msg::to_json(content));
   return json;
 }
 
@@ -266,7 +275,7 @@ void print_all(bool as_json) {
   }
   fmt::print("Components (ensonify describe COMPONENT):\n  {}\n\nMessages (ensonify describe MESSAGE):\n",
              fmt::join(component_names(), ", "));
-  for (const msg::TypeInfo& type : msg::message_types()) fmt::print("  {:<18} {}\n", type.type, type.about);
+  for (const msg::TypeInfo& type : msg::message_types()) fmt::print("  {:<20} {}\n", type.type, type.about);
 }
 
 /// "ping/1", or "ping" for the highest major there is. A component of that name comes first.

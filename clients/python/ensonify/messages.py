@@ -11,6 +11,11 @@ from ensonify.typed import Message, Struct, array, fixed, list_of
 __all__ = [
     "Pace",
     "ClockHealth",
+    "SectorDeclaration",
+    "SettingDeclaration",
+    "ChannelDeclaration",
+    "HeadDeclaration",
+    "PagerDeclaration",
     "Counter",
     "Health",
     "Mark",
@@ -93,6 +98,90 @@ class ClockHealth(Message):
     slips: int = 0
     slip_s: float = 0.0
     participants: list = list_of(Pace)
+
+
+@dataclass(eq=False)
+class SectorDeclaration(Struct):
+    """One of the transmissions of a head's channel.
+
+    frequency_hz [Hz]: centre frequency
+    delay_s [s]: start after the ping's time of transmission
+    """
+
+    frequency_hz: float = 0.0
+    delay_s: float = 0.0
+
+
+@dataclass(eq=False)
+class SettingDeclaration(Struct):
+    """Limits of one setting of a head.
+
+    setting: field of sonar_settings/1
+    least [unit of that field]: least value of a number; equal to the most: it is fixed
+    most [unit of that field]: greatest value of a number
+    chosen [1]: whether 0 lets the head choose
+    words: values of a text; empty for a number
+    """
+
+    setting: str = ""
+    least: float = 0.0
+    most: float = 0.0
+    chosen: bool = False
+    words: list = list_of(str)
+
+
+@dataclass(eq=False)
+class ChannelDeclaration(Struct):
+    """A channel of a head: its transmissions and what a command may set.
+
+    name: end of its ports' names; empty: the only channel
+    sectors: transmissions of a ping
+    settings: limits of what a command may set; what is not listed cannot be set
+    """
+
+    name: str = ""
+    sectors: list = list_of(SectorDeclaration)
+    settings: list = list_of(SettingDeclaration)
+
+
+@dataclass(eq=False)
+class HeadDeclaration(Message):
+    """What a sonar head declares before the run. It is part of `hello` and of a record, and no topic.
+
+    kind: kind of head, as in ping/1
+    beam_axis: axis of the head from which beam angles count, positive to starboard: down or forward
+    finest_beam_rad [rad]: half-power width of the finest beam
+    near_field_m [m]: range within which the unfocused receive array is in its near field; 0: not stated
+    reach_m [m]: distance from the vehicle's origin to which the longest range reaches; 0: it has no range
+    auto_range [1]: whether the range follows the depth in every channel
+    position_body_m [m]: transducer, as measured: forward, starboard, down
+    body_from_head [1]: rotation, as measured: quaternion w, x, y, z
+    channels: channels that ping together
+    """
+
+    TYPE = "head_declaration/1"
+    kind: str = ""
+    beam_axis: str = "down"
+    finest_beam_rad: float = 0.0
+    near_field_m: float = 0.0
+    reach_m: float = 0.0
+    auto_range: bool = False
+    position_body_m: tuple = fixed(0.0, 0.0, 0.0)
+    body_from_head: tuple = fixed(1.0, 0.0, 0.0, 0.0)
+    channels: list = list_of(ChannelDeclaration)
+
+
+@dataclass(eq=False)
+class PagerDeclaration(Message):
+    """What the terrain pager declares before the run. It is part of `hello` and of a record, and no topic.
+
+    post_spacing_m [m]: distance between posts
+    shallowest_m [m]: least depth below chart datum, positive down
+    """
+
+    TYPE = "pager_declaration/1"
+    post_spacing_m: float = 0.0
+    shallowest_m: float = 0.0
 
 
 @dataclass(eq=False)
@@ -1083,6 +1172,8 @@ class Chart(Message):
 
 TYPES = {cls.TYPE: cls for cls in (
     ClockHealth,
+    HeadDeclaration,
+    PagerDeclaration,
     Health,
     Mark,
     NextLine,

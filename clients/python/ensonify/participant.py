@@ -17,7 +17,7 @@ from typing import Any, Iterator
 
 from ensonify import wire
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
-from ensonify.typed import Message
+from ensonify.typed import Message, declared_in
 
 
 class Received:
@@ -122,6 +122,7 @@ class Participant:
         self._finish = False
         self._ins: list = []
         self._outs: list = []
+        self._declares: dict = {}  # by type
         self._session: Session | None = None
         self._left = False
         self._now_ns: int | None = None
@@ -145,10 +146,18 @@ class Participant:
         self._outs.append(port_out)
         return port_out
 
+    def declare(self, declaration: Message) -> None:
+        """What others want to know of this process before time starts, such as a HeadDeclaration; one of each type."""
+        self._declares[declaration.TYPE] = declaration.to_map()
+
     def declaration(self) -> dict:
-        """What --check prints: the ports of this process."""
-        return {"name": self.name, "component": "python", "may_finish": self._may_finish,
+        """What --check prints: the ports of this process, and what it declares."""
+        return {"name": self.name, "component": "python", "may_finish": self._may_finish, "declares": self._declares,
                 "out": [port.declaration() for port in self._outs], "in": [port.declaration() for port in self._ins]}
+
+    def declared(self, message_type: type) -> dict:
+        """What processes of the run declare, by process: `declared(ensonify.HeadDeclaration)["bow"]`. Known once joined."""
+        return declared_in(self.facts.get("declarations", "{}"), message_type)
 
     # --- running
 

@@ -16,6 +16,7 @@ from typing import Any, Iterator, NamedTuple
 
 from ensonify import messages, wire
 from ensonify.session import EXIT_BAD_INPUT, RunError
+from ensonify.typed import declared_in
 
 _MAGIC = b"\x89MCAP0\r\n"
 _PROFILE = "x-ensonify/1"
@@ -90,10 +91,13 @@ class Record:
             raise RunError(f"{self.file}: is damaged: {error}", EXIT_BAD_INPUT) from None
         self.utc_start_ns = int(self.info.get("utc_start_ns", 0))
 
-    def notes(self) -> dict:
-        """Numbers that the processes declared of themselves: `bow/finest_beam_rad`. Empty if the record does not hold them."""
-        lines = self.attachments.get("notes.yaml", b"").decode().splitlines()
-        return {name: float(value) for name, value in (line.split(": ") for line in lines)}
+    def declared(self, message_type: type) -> dict:
+        """What processes declared of themselves before the run, by process: `declared(ensonify.HeadDeclaration)["bow"]`. Empty if
+        none declared one of this type, or if the record was made before there were any."""
+        try:
+            return declared_in(self.attachments.get("declarations.json", b"{}"), message_type)
+        except wire.DecodeError as error:
+            raise RunError(f"{self.file}: {error}", EXIT_BAD_INPUT) from None
 
     def topics(self) -> dict:
         """Topic name to (type, number of messages)."""

@@ -1,6 +1,7 @@
 """What a typed message is made of: dataclasses whose fields know how they travel (see messages.py)."""
 import dataclasses
 import functools
+import json
 from typing import Any, Callable
 
 import numpy as np
@@ -37,6 +38,15 @@ class Message(Struct):
     TYPE = ""
 
 
+def declared_in(text: str | bytes, message_type: type) -> dict:
+    """Declarations of one type, by process, in the JSON text that a run or a record has of all. A DecodeError for another text."""
+    try:
+        return {process: message_type.from_map(declarations[message_type.TYPE])
+                for process, declarations in json.loads(text).items() if message_type.TYPE in declarations}
+    except (ValueError, AttributeError, TypeError) as error:
+        raise DecodeError(f"declarations: {error}") from None
+
+
 def array(dtype: str) -> Any:
     """A field that travels as one raw frame; `dtype` in numpy's short form. Empty unless given."""
     empty = np.empty(0, DTYPES[dtype])
@@ -49,7 +59,7 @@ def fixed(*values) -> Any:
 
 
 def list_of(struct: type) -> Any:
-    """A field that holds any number of structs."""
+    """A field that holds any number of structs, or of texts."""
     return dataclasses.field(default_factory=list, metadata={"list_of": struct})
 
 
@@ -112,6 +122,12 @@ def _fixed(length: int, element: Callable) -> Callable:
     return convert
 
 
+def _texts(value):
+    if not isinstance(value, list):
+        raise TypeError("is no list of texts")
+    return [_text(element) for element in value]
+
+
 def _list_in(struct: type) -> Callable:
     def decode(value):
         if not isinstance(value, list) or not all(isinstance(element, dict) for element in value):
@@ -132,6 +148,8 @@ def _codecs(cls: type) -> tuple:
         elif "fixed" in how:
             convert = _fixed(how["fixed"], _SCALARS[type(field.default[0])])
             codecs.append((field.name, convert, convert))
+        elif how.get("list_of") is str:
+            codecs.append((field.name, _texts, _texts))
         elif "list_of" in how:
             codecs.append((field.name, lambda structs: [s.to_map() for s in structs], _list_in(how["list_of"])))
         else:

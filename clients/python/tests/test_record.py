@@ -28,7 +28,8 @@ class Records(unittest.TestCase):
             writer.start(profile=profile, library="test")
             writer.add_metadata("ensonify", {"version": "0", "seed": "1", "utc_start_ns": str(UTC_START_NS)})
             writer.add_attachment(0, 0, "scenario.yaml", "text/yaml", b"seed: 1\n")
-            writer.add_attachment(0, 0, "notes.yaml", "application/yaml", b"bow/finest_beam_rad: 0.5\n")
+            writer.add_attachment(0, 0, "declarations.json", "application/json",
+                                  b'{"bow":{"head_declaration/1":{"finest_beam_rad":0.5,"later":1}},"pager":{"x/1":{}}}')
             schema = writer.register_schema("ping/1", "jsonschema", b"{}")
             other = writer.register_schema("of_another/9", "jsonschema", b"{}")
             ping_channel = writer.register_channel("bow/ping", "msgpack", schema)
@@ -56,7 +57,9 @@ class Records(unittest.TestCase):
                 self.assertEqual(len(list(record.messages(*patterns))), number, patterns)
             self.assertEqual(record.missed, {})
             self.assertEqual(record.attachments["scenario.yaml"], b"seed: 1\n")
-            self.assertEqual(record.notes(), {"bow/finest_beam_rad": 0.5})
+            self.assertEqual({process: head.finest_beam_rad for process, head in record.declared(ensonify.HeadDeclaration).items()},
+                             {"bow": 0.5})
+            self.assertEqual(record.declared(ensonify.PagerDeclaration), {})
             self.assertEqual(record.info["seed"], "1")
 
     def test_a_truncated_record_is_read_to_its_last_whole_chunk(self):

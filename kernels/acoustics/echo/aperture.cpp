@@ -6,10 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify::echo {
 
 void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPulse& pulse, const Sampling& sampling,
                     TimeIndex& index, Image& image) {
+  const profile::Span span(profile::Stage::kBeamform);
   for (const EchoSet& set : echoes) {
     if (!set.fits(static_cast<std::size_t>(rows))) {
       throw std::invalid_argument("apertures need one gain per row and arrival, or none");
@@ -18,6 +21,7 @@ void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPuls
   index.set(echoes, pulse, sampling);
   image.resize(rows, sampling.count);
   tbb::parallel_for(0, index.blocks(), [&](int block) {
+    const profile::Span part(profile::Stage::kSpread);
     const int first = block * TimeIndex::kBlock;
     const int count = std::min(TimeIndex::kBlock, sampling.count - first);
     for (int row = 0; row < rows; ++row) std::fill_n(image.row(row).begin() + first, count, std::complex<float>{});
@@ -41,7 +45,9 @@ void RowBackground::add(const MeanSquare& mean_square_upa2, const SampledPulse& 
   const auto response = pulse.response();
   const auto rows = static_cast<std::size_t>(image.beams);
   if (draws_.size() < rows) draws_.resize(rows);
+  const profile::Span span(profile::Stage::kBeamform);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+    const profile::Span part(profile::Stage::kNoise);
     auto& draws = draws_[row];
     draws.assign(static_cast<std::size_t>(image.samples) + response.size(), {});
     random::add_gaussian(stream, ping, std::uint64_t{row} << 32, std::sqrt(0.5F), draws);

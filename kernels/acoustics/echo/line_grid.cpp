@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "kernels/acoustics/trace/batch.h"
+#include "kernels/base/profile/profile.h"
 
 namespace ensonify::echo {
 namespace {
@@ -289,8 +290,15 @@ void LineGrid::form_block(const Input& input, int block, std::span<const std::sp
     return;
   }
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-  spread(input, block, memory.index, own);
-  draw(input, block, own);
+  {
+    const profile::Span span(profile::Stage::kSpread);
+    spread(input, block, memory.index, own);
+  }
+  {
+    const profile::Span span(profile::Stage::kNoise);
+    draw(input, block, own);
+  }
+  const profile::Span span(profile::Stage::kTransforms);
   for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, own);
   for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
     to_beam_grid(samples, weights[i], own);

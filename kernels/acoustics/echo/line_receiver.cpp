@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/base/profile/profile.h"
+
 namespace ensonify::echo {
 namespace {
 
@@ -76,6 +78,7 @@ LineReceiver::LineReceiver(const ElementLine& line, bool mean_squares) : pressur
 
 void LineReceiver::form(const Input& input, std::span<const float> sin_beams, std::span<const WantedImage> wanted,
                         std::span<Image> images, Memory& memory) const {
+  const profile::Span span(profile::Stage::kBeamform);
   if (wanted.size() != images.size())
     throw std::invalid_argument("a line receiver needs one image for each wanted one");
   std::size_t end = 0;

@@ -3,7 +3,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -14,6 +16,22 @@
 
 namespace ensonify::trace {
 namespace {
+
+/// Whether the directions of a packet agree in sign along each axis. Embree then may trace it as one
+/// (RTC_INTERSECT_CONTEXT_FLAG_COHERENT); of others it would lose rays at seams.
+bool in_one_octant(const int* on, const RTCRay16& rays) {
+  std::uint32_t any = 0, all = ~0U;  // sign bits of the lanes that are on, bit per axis
+  for (std::size_t lane = 0; lane < 16; ++lane) {
+    const auto sign = [lane](const float(&component)[16]) {
+      return std::bit_cast<std::uint32_t>(component[lane]) >> 31;
+    };
+    const std::uint32_t signs = sign(rays.dir_x) | sign(rays.dir_y) << 1 | sign(rays.dir_z) << 2;
+    const auto lane_on = static_cast<std::uint32_t>(on[lane]);  // all bits or none
+    any |= signs & lane_on;
+    all &= signs | ~lane_on;
+  }
+  return any == (all & 7U);
+}
 
 /// Around all posts under the leaf, as the patch has them.
 RTCBounds bounds_of(const Shown& shown, const terrain::Vec2& origin_enu_m) {
@@ -128,8 +146,9 @@ PartTree::PartTree(const Device& device, std::vector<std::shared_ptr<const Part>
 
 void PartTree::intersect(const int* on, RTCRayHit16& rays) const {
   if (!scene_) return;
-  Query query;  // its COHERENT flag would lose rays at seams when a packet's directions differ in sign
+  Query query;
   rtcInitIntersectContext(&query);
+  if (in_one_octant(on, rays.ray)) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(on, scene_.get(), &query, &rays);
   if (query.failure) std::rethrow_exception(query.failure);
 }

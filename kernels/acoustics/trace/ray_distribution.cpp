@@ -30,7 +30,8 @@ constexpr double kPlaneStep_m = 0.25,
 // Strata of a part: fewer rays sample a peaked law better if they are strata.
 constexpr auto kFewestToPlaces = static_cast<std::size_t>(RaySettings::kToPlaces);
 
-constexpr double kSpare = 1.01;  // of the fewest rays
+constexpr double kSpare = 1.01;         // of the fewest rays
+constexpr double kMostKept = 65'536.0;  // rays of a plan, 1 MB
 
 void check(const Span& span, double lowest, double highest, const char* fault) {
   const bool rises = lowest <= span.low && span.low <= span.main_low && span.main_low < span.main_high &&
@@ -257,6 +258,7 @@ void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float m
   std::vector<Part>& parts = plan.parts_;
   const auto &sines = probes.sine_edges, &angles_rad = probes.angle_edges_rad;
   parts.resize((sines.size() - 1) * columns());
+  plan.kept_.resize(parts.size());
   for_parts(0, parts.size(), [&](std::size_t k) {
     const std::size_t i = k / columns(), j = k % columns();
     parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
@@ -272,7 +274,9 @@ void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float m
     for (; count > most; count = static_cast<double>(cut(share, parts))) share *= 0.999 * most / count;
     for (; count < kSpare * fewest; count = static_cast<double>(cut(share, parts)))
       share *= 1.001 * kSpare * fewest / count;
-    for_parts(0, parts.size(), [&](std::size_t k) { count_part(view, parts[k]); });
+    plan.keeps_ = count <= kMostKept;
+    for_parts(0, parts.size(),
+              [&](std::size_t k) { count_part(view, parts[k], plan.keeps_ ? &plan.kept_[k] : nullptr); });
     plan.spread_ = 0;
     for (Part& part : parts) part.first_ray = std::exchange(plan.spread_, plan.spread_ + part.rays);
     return static_cast<double>(plan.spread_);
@@ -290,9 +294,10 @@ void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float m
   plan.places_scale_ = static_cast<float>(parts_sr / places_sr);
 }
 
-void RayDistribution::count_part(const Place& head, Part& part) const {
+void RayDistribution::count_part(const Place& head, Part& part, std::vector<Ray>* kept) const {
   const bool to_places = part.need.plane_m > 0.0 && part.strata() >= kFewestToPlaces;
-  const ToPlaces found = to_places ? aim_at_places(part, head, nullptr) : ToPlaces{};
+  if (kept != nullptr) kept->clear();
+  const ToPlaces found = to_places ? aim_at_places(part, head, kept) : ToPlaces{};
   part.to_places_sr = found.solid_angle_sr;
   part.rays = found.rays > 0 ? found.rays : part.strata();
 }
@@ -312,8 +317,9 @@ void RayDistribution::fill(const Plan& plan, std::size_t first, std::size_t coun
     const Place head{plan.head_, plan.head_.enu_from_head.toRotationMatrix()};
     for_parts(low, high, [&](std::size_t k) {
       const Part& part = parts[k];
-      std::vector<Ray>& rays = batch.parts_[k - low];
-      fill_part(plan, k, head, rays);
+      const bool kept = plan.keeps_ && part.to_places_sr > 0.0;
+      const std::vector<Ray>& rays = kept ? plan.kept_[k] : batch.parts_[k - low];
+      if (!kept) fill_part(plan, k, head, batch.parts_[k - low]);
       const float scale = part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F;
       const std::size_t from = std::max(first, part.first_ray), to = std::min(spread_end, part.first_ray + part.rays);
       for (std::size_t i = from; i < to; ++i) {

@@ -8,6 +8,7 @@
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/pose.h"
+#include "kernels/base/profile/profile.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/water/refraction/path_table.h"
 
@@ -146,6 +147,8 @@ class RayDistribution {
     friend RayDistribution;
     frames::HeadPose head_;
     std::vector<Part> parts_;
+    bool keeps_ = false;  // of few rays those to places, by part, so that they are not made twice
+    std::vector<std::vector<Ray>> kept_;
     std::size_t spread_ = 0;     // rays over directions
     float places_scale_ = 1.0F;  // of the solid angles of rays to places, which share that of their parts
     double share_ = 1.0;
@@ -161,8 +164,12 @@ class RayDistribution {
   void aim(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,
            const refraction::PathTable* refracted, const Trace& trace, Plan& plan) const {
     plan.head_ = head;
-    probe(steer, plan.probes_);
-    trace(plan.probes_.rays, plan.probe_hits_);
+    {
+      const profile::Span span(profile::Stage::kProbes);
+      probe(steer, plan.probes_);
+      trace(plan.probes_.rays, plan.probe_hits_);
+    }
+    const profile::Span span(profile::Stage::kRays);
     aim_beyond_probes(objects, max_range_m, refracted, plan);
   }
 
@@ -183,7 +190,11 @@ class RayDistribution {
   /// whole. Throws std::invalid_argument unless there is one hit per ray.
   template <class Trace>
   void trace(const Plan& plan, std::size_t first, std::size_t count, const Trace& trace, Batch& batch) const {
-    fill(plan, first, count, batch);
+    {
+      const profile::Span span(profile::Stage::kRays);
+      fill(plan, first, count, batch);
+    }
+    const profile::Span span(profile::Stage::kTrace);
     trace(batch.rays, batch.hits);
     settle(plan, batch);
   }
@@ -253,8 +264,8 @@ class RayDistribution {
   static std::size_t cut(double share, std::span<Part> parts);
   void aim_beyond_probes(std::span<const Object> objects, float max_range_m, const refraction::PathTable* refracted,
                          Plan& plan) const;
-  /// Counts the rays of a part, and what they carry to places.
-  void count_part(const Place& head, Part& part) const;
+  /// Counts the rays of a part, and what they carry to places; keeps those unless `kept` is null.
+  void count_part(const Place& head, Part& part, std::vector<Ray>* kept) const;
   void fill_part(const Plan& plan, std::size_t index, const Place& head, std::vector<Ray>& rays) const;
   void fill(const Plan& plan, std::size_t first, std::size_t count, Batch& batch) const;
   static void settle(const Plan& plan, Batch& batch);

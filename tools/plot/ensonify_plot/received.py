@@ -9,7 +9,6 @@ from ensonify_plot import geometry
 from ensonify_plot.level import Gain
 from ensonify_plot.survey import UserError
 
-FORWARD_KINDS = ("forward_looking", "scanning")  # by the definition of ping/1, for records without declarations
 PULSES = {"cw": "CW", "cw_tapered": "tapered CW", "fm_up": "FM up", "fm_down": "FM down"}
 
 
@@ -99,13 +98,10 @@ def require_soundings(who: str, power_upa2) -> None:
                         "below the altitude, no terrain, wrong frame)")
 
 
-def from_forward(record: ensonify.Record, topic: str, ping: ensonify.Ping) -> bool | None:
-    """Whether a head's beam angles count from its forward axis, as it declares; where that was not recorded, by its kind as
-    ping/1 says; None if nothing says."""
-    declared = record.notes().get(f"{process_of(topic)}/beams_from_forward")
-    if declared is not None:
-        return declared == 1
-    return ping.kind in FORWARD_KINDS if ping.kind else None
+def from_forward(record: ensonify.Record, topic: str) -> bool | None:
+    """Whether a head's beam angles count from its forward axis, as it declares; None where no declaration was recorded."""
+    head = record.declared(ensonify.HeadDeclaration).get(process_of(topic))
+    return None if head is None else head.beam_axis == "forward"
 
 
 def of_heads(record: ensonify.Record, forward: bool, beams: Callable[[ensonify.Ping], bool],
@@ -113,7 +109,7 @@ def of_heads(record: ensonify.Record, forward: bool, beams: Callable[[ensonify.P
     """Fits the pings of heads that count their beams from this axis and have such beams. Without a known axis they are guessed."""
 
     def fits(topic: str, ping: ensonify.Ping) -> bool:
-        axis = from_forward(record, topic, ping)
+        axis = from_forward(record, topic)
         return guess(topic, ping) if axis is None else axis == forward and beams(ping)
 
     return fits

@@ -1,5 +1,6 @@
 """Echoes made from formulas, with targets whose places are known: what the pictures of pings are tested on, and what docs/manual/plots.md
 shows of heads that its survey does not carry. The sonar equation in closed forms, straight rays, Rayleigh speckle."""
+import json
 import math
 
 import numpy as np
@@ -12,14 +13,15 @@ SOUND_SPEED_MPS = 1500.0
 SILENCE_UPA = 10.0  # rms noise
 
 
-def write(file, messages, notes=""):
-    """A record of (topic, message) in the order given, and what the processes declared."""
+def write(file, messages, declares=None):
+    """A record of (topic, message) in the order given, and what the processes declared: by process, a message."""
     with open(file, "wb") as stream:
         writer = Writer(stream, chunk_size=1 << 20, compression=CompressionType.NONE)
         writer.start(profile="x-ensonify/1", library="test")
         writer.add_metadata("ensonify", {"version": "0.1.0", "seed": "1", "utc_start_ns": "0"})
-        if notes:
-            writer.add_attachment(0, 0, "notes.yaml", "application/yaml", notes.encode())
+        if declares:
+            text = json.dumps({process: {message.TYPE: message.to_map()} for process, message in declares.items()})
+            writer.add_attachment(0, 0, "declarations.json", "application/json", text.encode())
         channels = {}
         for topic, message in messages:
             if topic not in channels:

@@ -373,8 +373,8 @@ class Commands(unittest.TestCase):
 
     def test_a_head_is_found_by_what_it_declares_whatever_its_kind(self):
         pings = [(topic, dataclasses.replace(ping, kind="a new head")) for topic, ping in made.forward_looking()]
-        new = made.write(self.root / "new.mcap", pings, "eye/beams_from_forward: 1\neye/finest_beam_rad: 0.02\n")
-        down = made.write(self.root / "down.mcap", pings, "eye/beams_from_forward: 0\n")
+        new = made.write(self.root / "new.mcap", pings, {"eye": ensonify.HeadDeclaration(beam_axis="forward")})
+        down = made.write(self.root / "down.mcap", pings, {"eye": ensonify.HeadDeclaration(beam_axis="down")})
         with tempfile.TemporaryDirectory() as out:
             self.assertEqual(run("fls", new, "--out", out)[0], 0)
             self.assertEqual(run("fan", down, "--out", out)[0], 0)

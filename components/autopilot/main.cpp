@@ -1,4 +1,0 @@
-#include "components/autopilot/node.h"
-#include "launch/process/run.h"
-
-int main(int argc, char** argv) { return ensonify::run<ensonify::AutopilotNode>(argc, argv); }

@@ -1,4 +1,0 @@
-#include "components/multibeam/node.h"
-#include "launch/process/run.h"
-
-int main(int argc, char** argv) { return ensonify::run<ensonify::MultibeamNode>(argc, argv); }

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// Where the time of a process goes, by stage of its work. Off until start(): then a span is one test of a flag. On, it
+/// costs two readings of a clock (50 ns), of a stage of its own two of the processor's (1 us).
+namespace ensonify::profile {
+
+enum class Stage : std::uint8_t {
+  kStep,  // an event of a node, all of it; what no other stage has is the rest
+  // Of a head, one after another.
+  kProbes,
+  kRays,  // planned and aimed
+  kTrace,
+  kWeigh,
+  kMerge,
+  kEchoes,
+  kPatterns,  // of receivers, for each echo
+  kBeamform,  // all of it
+  kDetection,
+  kPlacing,
+  kMessage,  // samples made and sent
+  // Within beamforming, by the threads that do it.
+  kSpread,
+  kTransforms,
+  kNoise,
+};
+inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::kNoise) + 1;
+inline constexpr std::array<const char*, kStages> kStageNames{
+    "step",     "probes",    "rays",    "trace",   "weigh",  "merge",      "echoes", "patterns",
+    "beamform", "detection", "placing", "message", "spread", "transforms", "noise"};
+/// Whether a stage is a part of another that several threads share: summed over them, and no event of its own.
+constexpr bool is_part(Stage stage) { return stage >= Stage::kSpread; }
+
+struct Sum {
+  std::int64_t count = 0;
+  std::int64_t wall_ns = 0;
+  std::int64_t processor_ns = 0;  // of all threads of the process meanwhile; of a part its own time
+};
+struct Event {
+  Stage stage{};
+  std::int64_t begin_ns = 0, duration_ns = 0;  // of the machine's monotonic clock
+};
+struct Report {
+  std::array<Sum, kStages> sums{};
+  std::vector<Event> events;                                // the first kMostEvents
+  std::int64_t begin_ns = 0, end_ns = 0, processor_ns = 0;  // of all that was measured
+};
+inline constexpr std::size_t kMostEvents = 200'000;
+
+/// Begins to measure, once in a process.
+void start();
+/// All that was measured since. Only when no span is open.
+Report report();
+
+namespace detail {
+inline std::atomic<bool> on{false};
+struct Opened {
+  std::int64_t wall_ns = 0, processor_ns = 0;
+};
+Opened open(Stage stage);
+void close(Stage stage, const Opened& opened);
+}  // namespace detail
+
+/// Time from here to the end of the block.
+class Span {
+ public:
+  explicit Span(Stage stage) : stage_(stage), measured_(detail::on.load(std::memory_order_relaxed)) {
+    if (measured_) opened_ = detail::open(stage);
+  }
+  ~Span() {
+    if (measured_) detail::close(stage_, opened_);
+  }
+  Span(const Span&) = delete;
+  Span& operator=(const Span&) = delete;
+
+ private:
+  Stage stage_;
+  bool measured_;
+  detail::Opened opened_;
+};
+
+}  // namespace ensonify::profile
