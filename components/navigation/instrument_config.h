@@ -137,11 +137,11 @@ struct GnssConfig : InstrumentConfig<GnssConfig> {
 
   GnssConfig() { instrument.rate_hz = 5.0; }
   static void errors_list(auto& self, auto&& visit) {
-    using Quality = sensors::FixQuality;
-    const Allowed qualities = one_of({{"single", Quality::kSingle},
-                                      {"differential", Quality::kDifferential},
-                                      {"rtk_float", Quality::kRtkFloat},
-                                      {"rtk_fixed", Quality::kRtkFixed}});
+    using Fix = sensors::FixQuality;
+    const Allowed qualities = one_of({{"single", Fix::kSingle},
+                                      {"differential", Fix::kDifferential},
+                                      {"rtk_float", Fix::kRtkFloat},
+                                      {"rtk_fixed", Fix::kRtkFixed}});
     auto& errors = self.errors;
     visit("quality", "", qualities, "of fixes at their best", errors.best);
     visit("degraded_quality", "", qualities, "from the first fix on, until they are at their best",
