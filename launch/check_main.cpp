@@ -29,7 +29,38 @@ void append_uneven(const Launch& launch, const World& world, std::vector<std::st
   for (const auto& uneven : seabed.meshed_relief().uneven) warnings.push_back(text_of(uneven));
 }
 
-int check(const LaunchOptions& options, bool as_json) {
+/// What a program says with --print.
+std::string asked(const Launch& launch, const ProcessSpec& process, const RunPlaces& places) {
+  if (!process.argv.empty() || process.external) return "";
+  std::string command;
+  Command words = process_command(launch, process, places, "");
+  words.argv.emplace_back("--print");
+  for (const std::string& word : words.argv) {
+    command += "'";
+    for (const char c : word) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += "' ";
+  }
+  std::string text;
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) throw UserError(process.name + ": its program cannot be started");
+  char buffer[4096];
+  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, got);
+  if (::pclose(pipe) != 0) throw UserError(process.name + ": its program does not print its configuration");
+  return text;
+}
+
+/// The launch as it is when it runs, with every value. `$(out)` stays.
+void print(LaunchOptions options) {
+  options.out = "$(out)";
+  std::string scenario;
+  const Launch launch =
+      read_launch(options, [&](ConfigReader& from, const std::string& file) { read_world(from, file, &scenario); });
+  const RunPlaces places{program_folder(), "", options.out};
+  fmt::print("{}", written_launch(launch, scenario,
+                                  [&](const ProcessSpec& process) { return asked(launch, process, places); }));
+}
+
+int check(const LaunchOptions& options, bool as_json, bool as_print) {
   CheckedPorts checked;
   std::vector<std::string> warnings;
   std::size_t processes = 0;
@@ -70,7 +101,8 @@ int check(const LaunchOptions& options, bool as_json) {
     for (const auto& warning : warnings) {
       fmt::print(stderr, "warning: {}\n", printable(warning));
     }
-    if (checked.problems.empty()) {
+    if (checked.problems.empty() && as_print) print(options);
+    if (checked.problems.empty() && !as_print) {
       fmt::print("{}: {} processes, valid\n", options.file, processes);
     }
   }
@@ -83,12 +115,17 @@ int main(int argc, char** argv) {
   CLI::App app("ensonify check: reads a launch file, its scenario and every configuration, and checks the wiring.");
   app.name("ensonify check");
   LaunchOptions options;
-  bool as_json = false;
+  bool as_json = false, as_print = false;
   add_options(app, options, true);
-  app.add_flag("--json", as_json, "print problems and warnings as JSON");
+  auto* json = app.add_flag("--json", as_json, "print problems and warnings as JSON");
+  app.add_flag(
+         "--print", as_print,
+         "print the launch with its scenario as one file: includes, arguments and changes put in, every value with "
+         "its sentence and unit")
+      ->excludes(json);
   if (const auto code = parse_command_line(app, argc, argv)) return *code;
   try {
-    return check(options, as_json);
+    return check(options, as_json, as_print);
   } catch (const ExitError& error) {
     fmt::print(stderr, "{}\n", printable(error.what()));
     return error.code;

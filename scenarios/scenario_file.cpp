@@ -14,19 +14,6 @@ namespace ensonify {
 
 namespace {
 
-struct Seed {
-  std::uint64_t seed = ScenarioHeader{}.seed;
-
-  static void parameters(auto& self, auto&& visit) { visit("seed", "", any(), "of everything random", self.seed); }
-};
-struct Time {
-  std::string start_utc = ScenarioHeader{}.start_utc;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("start_utc", "", any(), "UTC of sim time 0, such as 2025-06-01T12:00:00Z", self.start_utc);
-  }
-};
-
 /// Keys of a section of which one is given, or those of one line together.
 struct Alternatives {
   std::vector<std::string> sections;
@@ -103,8 +90,16 @@ std::optional<ConfigNode> taken(ConfigNode& root, const std::string& key) {
   return value;
 }
 
-ConfigDocument load(const std::string& path, std::vector<std::string> open) {
+/// The scenario of a file, or the one that a launch file has under `scenario`.
+ConfigDocument parsed(const std::string& path) {
   ConfigDocument document = parse_config_file(path);
+  const ConfigNode* inside = document.root.find("scenario");
+  if (!is_scenario(document.root) && inside != nullptr && inside->is_map()) document.root = ConfigNode(*inside);
+  return document;
+}
+
+ConfigDocument load(ConfigDocument document, std::vector<std::string> open) {
+  const std::string path = document.root.place.file;
   const std::optional<ConfigNode> include = taken(document.root, "include");
   if (!include) return document;
   const auto refuse = [&](const std::string& why) {  // all else would follow from it
@@ -119,7 +114,7 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
   open.push_back(std::filesystem::weakly_canonical(path).string());
   if (holds(open, std::filesystem::weakly_canonical(under).string()))
     refuse("\"" + include->scalar + "\" includes itself, directly or through others");
-  ConfigDocument merged = load(under, open);
+  ConfigDocument merged = load(parse_config_file(under), open);
   if (!is_scenario(merged.root)) refuse("\"" + include->scalar + "\" is no " + kScenarioFormat);
   lay_over(merged.root, std::move(document.root));
   merged.problems.insert(merged.problems.end(), document.problems.begin(), document.problems.end());
@@ -129,7 +124,11 @@ ConfigDocument load(const std::string& path, std::vector<std::string> open) {
 }  // namespace
 
 ConfigDocument load_scenario(const std::string& path, const Overrides& overrides) {
-  ConfigDocument document = load(path, {});
+  return load_scenario(parsed(path), overrides);
+}
+
+ConfigDocument load_scenario(ConfigDocument given, const Overrides& overrides) {
+  ConfigDocument document = load(std::move(given), {});
   for (const auto& [key, value] : overrides) {
     for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1)) {
       const std::string section = key.substr(0, dot);
@@ -142,24 +141,24 @@ ConfigDocument load_scenario(const std::string& path, const Overrides& overrides
   return document;
 }
 
-ParameterList header_list() {
-  return {parameters_of<Seed>().front(), section_info("time", "when the run starts", parameters_of<Time>())};
+void TimeKeys::check(const ConfigReader& from) const {
+  if (!parse_utc_ns(start_utc)) {
+    from.problem("start_utc", "\"" + start_utc + "\" is not a UTC time such as 2025-06-01T12:00:00Z");
+  }
+}
+
+ScenarioHeader HeaderKeys::header() const {
+  ScenarioHeader header;
+  header.seed = seed;
+  header.start_utc = time.start_utc;
+  header.start_unix_ns = parse_utc_ns(time.start_utc).value_or(header.start_unix_ns);
+  return header;
 }
 
 void read_header(ConfigReader& from, ScenarioHeader& header) {
-  Seed seed{header.seed};
-  read_parameters(from, seed);
-  header.seed = seed.seed;
-  auto time = from.optional_section("time");
-  if (!time) return;
-  Time start{header.start_utc};
-  read_parameters(*time, start);
-  header.start_utc = start.start_utc;
-  if (const auto ns = parse_utc_ns(header.start_utc)) {
-    header.start_unix_ns = *ns;
-  } else {
-    time->problem("start_utc", "\"" + header.start_utc + "\" is not a UTC time such as 2025-06-01T12:00:00Z");
-  }
+  HeaderKeys keys;
+  read_parameters(from, keys);
+  header = keys.header();
 }
 
 std::optional<std::int64_t> parse_utc_ns(const std::string& text) {

@@ -24,7 +24,14 @@ ConfigReader ConfigReader::also(ConfigDocument document, const std::string& path
   return ConfigReader(std::shared_ptr<State>(state_, &state_->documents->open(std::move(document), path, false)));
 }
 
-ConfigReader ConfigReader::child(const ConfigNode& node, const std::string& path) const {
+ConfigReader ConfigReader::child(const ConfigNode& node, const std::string& path, std::string_view short_key) const {
+  if (node.is_scalar() && !short_key.empty()) {
+    ConfigNode map = ConfigNode::map(node.place);
+    map.set(std::string(short_key), node);
+    State& state = state_->documents->open({std::move(map), {}}, path, false);
+    state.short_key = short_key;
+    return ConfigReader(std::shared_ptr<State>(state_, &state));
+  }
   if (!node.is_map() && !node.is_null()) {
     state_->documents->problems.push_back({node.place, path, described(node) + ", not a map of keys"});
   }
@@ -56,12 +63,12 @@ ConfigReader ConfigReader::section(std::string_view key) const {
   return child(found != nullptr ? *found : kMissing, state_->path_of(key));
 }
 
-std::optional<ConfigReader> ConfigReader::optional_section(std::string_view key) const {
+std::optional<ConfigReader> ConfigReader::optional_section(std::string_view key, std::string_view short_key) const {
   const ConfigNode* found = take(key, false, "a map of keys");
-  return found == nullptr ? std::nullopt : std::optional(child(*found, state_->path_of(key)));
+  return found == nullptr ? std::nullopt : std::optional(child(*found, state_->path_of(key), short_key));
 }
 
-std::vector<ConfigReader> ConfigReader::list(std::string_view key) const {
+std::vector<ConfigReader> ConfigReader::list(std::string_view key, std::string_view short_key) const {
   const ConfigNode* found = take(key, false, "a list");
   std::vector<ConfigReader> readers;
   if (found == nullptr) {
@@ -72,12 +79,13 @@ std::vector<ConfigReader> ConfigReader::list(std::string_view key) const {
     return readers;
   }
   for (std::size_t i = 0; i < found->items.size(); ++i) {
-    readers.push_back(child(found->items[i], state_->path_of(key) + "[" + std::to_string(i) + "]"));
+    readers.push_back(child(found->items[i], state_->path_of(key) + "[" + std::to_string(i) + "]", short_key));
   }
   return readers;
 }
 
-std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(std::string_view key) const {
+std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(std::string_view key,
+                                                                               std::string_view short_key) const {
   const ConfigNode* found = take(key, false, "a map of keys");
   std::vector<std::pair<std::string, ConfigReader>> readers;
   if (found == nullptr) {
@@ -88,7 +96,7 @@ std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(s
     return readers;
   }
   for (const auto& entry : found->entries) {
-    readers.emplace_back(entry.key, child(entry.value, state_->path_of(key) + "." + entry.key));
+    readers.emplace_back(entry.key, child(entry.value, state_->path_of(key) + "." + entry.key, short_key));
   }
   return readers;
 }
@@ -107,6 +115,11 @@ const ConfigNode& ConfigReader::node() const {
 }
 
 bool ConfigReader::has(std::string_view key) const { return node(key) != nullptr; }
+
+bool ConfigReader::holds_word(std::string_view key, const std::string& word) const {
+  const ConfigNode* found = node(key);
+  return found != nullptr && found->is_scalar() && found->scalar == word;
+}
 
 namespace {
 

@@ -85,18 +85,22 @@ class ConfigReader {
   // --- structure ----------------------------------------------------------------------------------------------------
   /// A nested map that must be there; when it is not, that is one problem and reading from the result does nothing.
   ConfigReader section(std::string_view key) const;
-  /// A nested map that may be left out.
-  std::optional<ConfigReader> optional_section(std::string_view key) const;
+  /// A nested map that may be left out. With `short_key` a single value is short for the map with that key alone, here
+  /// and in what follows.
+  std::optional<ConfigReader> optional_section(std::string_view key, std::string_view short_key = "") const;
   /// A list of maps, empty when left out.
-  std::vector<ConfigReader> list(std::string_view key) const;
+  std::vector<ConfigReader> list(std::string_view key, std::string_view short_key = "") const;
   /// A map from names that the user chooses to maps, in the order of the file; empty when left out.
-  std::vector<std::pair<std::string, ConfigReader>> named_sections(std::string_view key) const;
+  std::vector<std::pair<std::string, ConfigReader>> named_sections(std::string_view key,
+                                                                   std::string_view short_key = "") const;
   /// The value as it stands, unread; nullptr when left out. Lives as long as the document.
   const ConfigNode* node(std::string_view key) const;
   /// The map that this reader reads.
   const ConfigNode& node() const;
 
   bool has(std::string_view key) const;
+  /// Whether the value of `key` is this word.
+  bool holds_word(std::string_view key, const std::string& word) const;
   /// The keys of this map that somebody has asked for so far.
   std::vector<std::string> known_keys() const;
   /// Adds a problem of the caller's own at the place of `key` (or of the map, when the key is left out). A key inside
@@ -145,7 +149,7 @@ class ConfigReader {
   std::optional<std::vector<double>> rows(std::string_view key, std::size_t width, bool must,
                                           const NumberRange& range) const;
   std::optional<std::size_t> word(std::string_view key, const std::vector<std::string>& words, bool must) const;
-  ConfigReader child(const ConfigNode& node, const std::string& path) const;
+  ConfigReader child(const ConfigNode& node, const std::string& path, std::string_view short_key = "") const;
   void read_path(std::string_view key, std::string& path, bool must) const;
 
   void read(std::string_view key, bool& value, bool must) const;

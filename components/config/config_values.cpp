@@ -275,4 +275,67 @@ void refuse_empty(const ConfigReader& from, const char* key, const std::string& 
   if (text.empty() && from.has(key)) from.problem(key, "is empty; allowed: a text");
 }
 
+namespace detail {
+
+std::optional<std::size_t> form_given(const ConfigReader& from, const Forms& forms,
+                                      const std::vector<std::vector<std::string>>& keys) {
+  std::optional<std::size_t> given;
+  std::string known;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i].empty()) continue;
+    if (forms.none.empty() && i + 1 == keys.size()) break;  // without a key of its own
+    const std::string& key = keys[i].front();
+    known += (known.empty() ? "" : ", ") + key;
+    if (!from.has(key)) continue;
+    if (given && !forms.beside.empty())
+      from.problem(key, "stands beside " + keys[*given].front() + "; " + forms.beside);
+    if (!given) given = i;
+  }
+  if (given) return given;
+  if (forms.none.empty()) return keys.size() - 1;
+  std::string none = forms.none;
+  if (const std::size_t at = none.find("{}"); at != std::string::npos) none.replace(at, 2, known);
+  from.problem("", none);
+  return std::nullopt;
+}
+
+void refuse_others(const ConfigReader& from, const Forms& forms, const std::vector<std::vector<std::string>>& keys,
+                   std::size_t given) {
+  const auto has = [&](const std::string& key) {
+    return std::find(keys[given].begin(), keys[given].end(), key) != keys[given].end();
+  };
+  for (const auto& form : keys) {
+    for (const std::string& key : form) {
+      if (!has(key) && from.has(key)) from.problem(key, forms.beside);
+    }
+  }
+}
+
+bool whole(const ConfigReader& from, const char* key, const Allowed& allowed, const std::vector<double>& numbers) {
+  const bool all = std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == std::floor(x); });
+  if (!all) {
+    const std::string what = allowed.called.empty() ? "" : allowed.called + ", ";
+    from.problem(key, "holds a number that is not " + what + "a whole number");
+  }
+  return all;
+}
+
+bool is_map_or(const ConfigReader& from, const char* key, const std::string& word,
+               const std::vector<std::string>& keys) {
+  const ConfigNode* node = from.node(key);
+  if (node == nullptr || node->is_map()) return true;
+  from.problem(key, "is neither " + word + " nor a map of " + joined(keys));
+  return false;
+}
+
+std::optional<std::uint64_t> number_of(const ConfigReader& from, const std::string& key, const Allowed& allowed,
+                                       const std::string& name) {
+  const auto number = parse_natural(name);
+  if (number && static_cast<double>(*number) >= allowed.lo && static_cast<double>(*number) <= allowed.hi) return number;
+  const std::string what = allowed.called.empty() ? "" : allowed.called + ", ";
+  from.problem(key + "." + name, "is not " + what + "a whole number in " + range_text(allowed.lo, allowed.hi));
+  return std::nullopt;
+}
+
+}  // namespace detail
 }  // namespace ensonify

@@ -17,8 +17,10 @@ struct ConfigReader::State {
   std::string path = {};
   bool is_document = false;
   std::set<std::string> known = {};
+  std::string short_key = {};  // of a map that stands for a single value: the key does not show
 
   std::string path_of(std::string_view key) const {
+    if (!short_key.empty() && key == short_key) return path;
     return path + (path.empty() || key.empty() ? "" : ".") + std::string(key);
   }
 };

@@ -104,14 +104,13 @@ TEST_CASE("a sphere's echo has the level of the sonar equation in its beam, at i
   const RangedPulse ranged = pulse_at(config.pulse, 30.0, kSpeed_mps);
   const echo::SampledPulse pulse(echo_pulse(config.pulse, ranged), ranged.sampling.period_s);
   echo::LineReceiver receiver(echo::element_line(array, wavelength_m));
-  const std::vector<std::vector<float>> weights{echo::beam_weights(array.weights)};
+  const std::vector<echo::WantedImage> wanted{echo::WantedImage(echo::beam_weights(array.weights))};
   const double sin_target = direction.y(), per_lobe = 1.0 / array::length_in_waves_for(config.beamwidth_rad);
   std::vector<float> sines;  // from the target on in hundredths of lambda / L
   for (int i = 0; i < 300; ++i) sines.push_back(static_cast<float>(sin_target - 0.01 * i * per_lobe));
   std::vector<echo::Image> images(1);
   echo::LineReceiver::Memory memory;
-  receiver.form({std::array{echo::EchoSet{arrivals, gain}}, pulse, ranged.sampling, {}}, sines, weights, images,
-                memory);
+  receiver.form({std::array{echo::EchoSet{arrivals, gain}}, pulse, ranged.sampling, {}}, sines, wanted, images, memory);
 
   const auto on_axis = images[0].row(0);
   std::size_t peak = 0;

@@ -108,6 +108,18 @@ void InstrumentConfig<Config>::check(const ConfigReader& from) const {
   check_spans(from, "outages_s", instrument.outages_s);
 }
 
+template struct InstrumentConfig<AltimeterConfig>;
+template struct InstrumentConfig<CtdConfig>;
+template struct InstrumentConfig<CurrentProfilerConfig>;
+template struct InstrumentConfig<DepthConfig>;
+template struct InstrumentConfig<DopplerLogConfig>;
+template struct InstrumentConfig<GnssConfig>;
+template struct InstrumentConfig<HeadingConfig>;
+template struct InstrumentConfig<ImuConfig>;
+template struct InstrumentConfig<MotionSensorConfig>;
+template struct InstrumentConfig<SoundSpeedConfig>;
+template struct InstrumentConfig<UsblConfig>;
+
 void ImuConfig::check(const ConfigReader& from) const {
   InstrumentConfig::check(from);
   if (!instrument.outages_s.empty()) {

@@ -1,6 +1,6 @@
 #include "components/recorder/config.h"
 
-#include "components/config/parameter_info.h"
+#include "components/config/parameter_schema.h"
 #include "components/config/read_parameters.h"
 #include "components/runtime/ports.h"
 #include "scenarios/scenario_file.h"

@@ -22,11 +22,10 @@ ArrayEchoes::ArrayEchoes(const ReceiveArray& array, std::shared_ptr<const Enviro
       ambient_(stream_of(array, "noise")),
       electronic_(stream_of(array, "electronic")),
       volume_(stream_of(array, "volume")),
-      receiver_(array.elements),
-      power_weights_{echo::power_weights(array.weights.front())} {
-  if (effects.speckle) return;
-  power_receiver_.emplace(echo::power_line(array.elements));
-  shared_.emplace(echo::shared_by_beams(array.elements, array.weights.front()));
+      receiver_(array.elements, !effects.speckle) {
+  const echo::Sum sum = effects.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare;
+  for (const std::vector<float>& weights : array.weights) wanted_.emplace_back(weights, sum);
+  if (!effects.speckle) shared_.emplace(echo::shared_by_beams(array.elements, array.weights.front()));
 }
 
 std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
@@ -39,7 +38,6 @@ std::vector<echo::VolumeDirections> ArrayEchoes::volume_directions(
   return echo::directions_of_cells(receiver_, two_way, step_rad);
 }
 
-/// Without speckle the seabed's mean-square pressure is summed apart, and its root stands in the background's field.
 std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                                                    const ArrayReception& reception, Memory& memory) const {
   const auto gains = [&](const echo::Arrivals& arrivals, const echo::PairedArrivals& paired, std::vector<float>& gain) {
@@ -50,21 +48,10 @@ std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoe
   const std::array sets{gains(echoed.arrivals, echoed.paired, memory.gain),
                         gains(reception.foreign, {}, memory.foreign_gain)};
   const echo::Background noise = background(shot, echoed, design.pulse, reception, memory.volume_upa2);
-  const auto [sampling, beams] = std::pair(reception.sampling, reception.sin_beams);
-  memory.images.resize(array_.weights.size());
-  if (effects_.speckle) {
-    receiver_.form({sets, design.sampled, sampling, noise}, beams, array_.weights, memory.images, memory.receiver);
-    return memory.images;
-  }
-  memory.mean_square.resize(1);
-  power_receiver_->form({sets, design.squared, sampling, {}}, beams, power_weights_, memory.mean_square,
-                        memory.receiver);
-  receiver_.form({{}, design.sampled, sampling, noise}, beams, std::span(array_.weights).first(1),
-                 std::span(memory.images).first(1), memory.receiver);
-  const auto& mean_square = memory.mean_square[0].envelope_upa;
-  auto& envelope = memory.images[0].envelope_upa;
-  for (std::size_t i = 0; i < envelope.size(); ++i) envelope[i] += std::sqrt(std::max(0.0F, mean_square[i].real()));
-  return std::span(memory.images).first(1);
+  memory.images.resize(wanted_.size());
+  receiver_.form({sets, design.sampled, reception.sampling, noise, &design.squared}, reception.sin_beams, wanted_,
+                 memory.images, memory.receiver);
+  return memory.images;
 }
 
 echo::Background ArrayEchoes::background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,

@@ -63,12 +63,11 @@ class ArrayEchoes {
       const std::function<double(const Eigen::Vector3f& direction_head)>& transmitted, double step_rad) const;
 
   /// Images as memory of the caller, one per set of weights: beam by sample, complex envelopes, uPa rms. Without
-  /// speckle the first alone is made, for sums of mean squares have no phase.
+  /// speckle they are roots of mean squares, whose phase says nothing.
   struct Memory {
     std::vector<echo::Image> images;
     // Scratch.
     std::vector<float> gain, foreign_gain, volume_upa2;
-    std::vector<echo::Image> mean_square;
     echo::LineReceiver::Memory receiver;
   };
 
@@ -85,9 +84,8 @@ class ArrayEchoes {
   SeaAcoustics sea_;
   random::Stream ambient_, electronic_, volume_;
   echo::LineReceiver receiver_;
-  std::optional<echo::LineReceiver> power_receiver_;  // without speckle
-  std::vector<std::vector<float>> power_weights_;     // of the whole line
-  std::optional<echo::SharedByBeams> shared_;         // without speckle
+  std::vector<echo::WantedImage> wanted_;
+  std::optional<echo::SharedByBeams> shared_;  // without speckle
 };
 
 }  // namespace ensonify

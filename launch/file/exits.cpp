@@ -68,6 +68,7 @@ std::vector<ConfigNode> read_exits(const ConfigReader& from, Launch& launch) {
     ConfigReader entry = from.also({items[i], {}}, "expect[" + std::to_string(i) + "]");
     ExitExpectation exit = read_exit(entry.section("exit"), launch);
     entry.optional("name", exit.name);
+    exit.given = items[i];
     launch.exits.push_back(std::move(exit));
   }
   return others;

@@ -5,10 +5,12 @@
 #include <stdexcept>
 
 #include "components/config/data_paths.h"
+#include "components/config/parameter_info.h"
 #include "components/config/read_parameters.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/address_list.h"
 #include "launch/file/exits.h"
+#include "launch/file/launch_keys.h"
 #include "launch/file/tree.h"
 
 namespace ensonify {
@@ -48,164 +50,35 @@ void check_network(const ConfigReader& from, const ClockSettings& clock) {
   }
 }
 
-ClockSettings read_clock(ConfigReader from) {
-  ClockSettings clock;
-  if (const ConfigNode* rate = from.node("rate"); rate != nullptr && !(rate->is_scalar() && rate->scalar == "free")) {
-    double value = 1.0;
-    from.required("rate", value, 1e-3, 1e6);
-    clock.rate = value;
-  }
-  read_parameters(from, clock);
-  if (from.good()) check_network(from, clock);
-  return clock;
+ConfigNode list_of_texts(const std::vector<std::string>& words) {
+  ConfigNode list;
+  list.kind = ConfigNode::Kind::kList;
+  for (const std::string& word : words) list.items.push_back(detail::text_node(word));
+  return list;
 }
 
-/// `run: multibeam` or `run: [python3, agent.py]`.
-void read_run(ConfigReader& from, ProcessSpec& process) {
-  const ConfigNode* run = from.node("run");
-  if (run != nullptr && run->is_list()) {
-    from.required("run", process.argv);
-    if (process.argv.empty()) {
-      from.problem("run", "is an empty list; allowed: a component, or a program and its arguments");
-    }
-    return;
-  }
-  if (process.external) {
-    from.optional("run", process.component);
-    return;
-  }
-  from.required("run", process.component);
-  if (run != nullptr && run->is_scalar() && !is_process_name(process.component)) {
-    from.problem("run", "\"" + process.component + "\" is not a component; a foreign program is written as a list");
-  }
-}
-
-void read_config(ConfigReader& from, ProcessSpec& process) {
-  const ConfigNode* config = from.node("config");
-  process.config.root = ConfigNode::map(process.place);
-  process.config_path = "processes." + process.name + ".config";
-  if (config == nullptr) {
-    return;
-  }
-  if (config->is_map()) {
-    process.config.root = *config;
-    return;
-  }
-  std::string path;
-  from.required_path("config", path);
-  if (!path.empty()) {
-    try {
-      process.config = parse_config_file(path);
-      process.config_path = "";
-    } catch (const ConfigError& error) {
-      from.add(error);
-    }
-  }
-}
-
-void read_env(ConfigReader& from, ProcessSpec& process) {
-  const ConfigNode* env = from.node("env");
-  if (env == nullptr) {
-    return;
-  }
-  bool good = env->is_map();
-  for (const auto& entry : env->entries) {
-    good &= entry.value.is_scalar() && entry.key.find('=') == std::string::npos;
-    process.env[entry.key] = entry.value.scalar;
-  }
-  if (!good) {
-    from.problem("env", "is not a map from names of environment variables to texts");
-  }
-}
-
-ProcessSpec read_process(const std::string& name, ConfigReader& from) {
-  ProcessSpec process;
-  process.name = name;
-  process.place = from.node().place;
-  if (!is_process_name(name)) {
-    from.problem("", "is not a process name; allowed: up to 32 of a-z, 0-9 and _, beginning with a letter");
-  } else if (is_reserved(name)) {
-    from.problem("", "is a reserved name; choose another");
-  }
-  read_parameters(from, process);
-  read_run(from, process);
-  read_config(from, process);
-  read_env(from, process);
-  std::vector<double> cpus;
-  from.optional("cpus", cpus, 0, 4095);
-  for (const double cpu : cpus) {
-    process.cpus.push_back(static_cast<int>(cpu));
-  }
-  if (process.respawn && !process.observer) {
-    from.problem("respawn", "is only for observers; a lost participant ends the run");
-  }
-  return process;
-}
-
-void read_wiring(ConfigReader& from, Launch& launch) {
-  const ConfigNode* wiring = from.node("wiring");
-  if (wiring == nullptr || wiring->is_null()) {
-    return;
-  }
-  if (!wiring->is_map()) {
-    from.problem("wiring", "is not a map from process.port to a topic");
-    return;
-  }
+/// Inputs wired by hand, of processes that there are.
+void read_wiring(const ConfigReader& from, const std::vector<ConnectionKeys>& keys, Launch& launch) {
   std::vector<std::string> names;
-  for (const auto& process : launch.processes) {
-    names.push_back(process.name);
-  }
-  // A topic alone is short for {topic: ...}; everything else is read as a section.
-  ConfigNode sections = *wiring;
-  for (auto& entry : sections.entries) {
-    if (entry.value.is_scalar()) {
-      ConfigNode section = ConfigNode::map(entry.value.place);
-      section.set("topic", entry.value);
-      entry.value = std::move(section);
-    }
-  }
-  ConfigNode holder = ConfigNode::map(wiring->place);
-  holder.set("wiring", std::move(sections));
-  for (auto& [key, reader] : from.also({std::move(holder), {}}).named_sections("wiring")) {
+  for (const auto& process : launch.processes) names.push_back(process.name);
+  for (const ConnectionKeys& key : keys) {
     Connection connection;
-    connection.place = reader.node().place;
-    const std::size_t dot = key.find('.');
-    connection.process = key.substr(0, dot);
-    connection.port = dot == std::string::npos ? "" : key.substr(dot + 1);
+    connection.place = key.place;
+    const std::size_t dot = key.input.find('.');
+    connection.process = key.input.substr(0, dot);
+    connection.port = dot == std::string::npos ? "" : key.input.substr(dot + 1);
+    const auto refuse = [&](const std::string& why) {
+      from.add(ConfigError({{key.place, "wiring." + key.input, why}}));
+    };
     if (connection.port.empty()) {
-      reader.problem("", "is not PROCESS.PORT");
+      refuse("is not PROCESS.PORT");
     } else if (std::find(names.begin(), names.end(), connection.process) == names.end()) {
       const std::string nearest = nearest_name(connection.process, names);
-      reader.problem(
-          "", "no process is named " + connection.process + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+      refuse("no process is named " + connection.process + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
-    reader.required("topic", connection.topic);
-    if (reader.has("delay_ms")) {
-      double delay_s = 0.0;
-      reader.required("delay_ms", delay_s, 0, 1e7, kMilliseconds);
-      connection.delay = from_seconds(delay_s);
-    }
+    connection.topic = key.topic;
+    if (key.delay_s) connection.delay = from_seconds(*key.delay_s);
     launch.wiring.push_back(connection);
-  }
-}
-
-void read_after(ConfigReader& from, Launch& launch) {
-  const ConfigNode* after = from.node("after");
-  if (after == nullptr || after->is_null()) {
-    return;
-  }
-  bool good = after->is_list();
-  for (const auto& step : after->items) {
-    AfterStep command{{}, step.place};
-    good &= step.is_list() && !step.items.empty();
-    for (const auto& word : step.items) {
-      good &= word.is_scalar();
-      command.words.push_back(word.scalar);
-    }
-    launch.after.push_back(std::move(command));
-  }
-  if (!good) {
-    from.problem("after", "is not a list of commands, each a list of words");
   }
 }
 
@@ -230,25 +103,16 @@ void append_recorder(Launch& launch) {
 }
 
 /// What ends with an exit code is for the launcher; everything else goes to a process `expect`.
-void read_expect(ConfigReader& from, Launch& launch) {
-  const ConfigNode* list = from.node("expect");
-  if (list == nullptr || list->is_null()) {
-    return;
-  }
-  if (!list->is_list()) {
-    from.problem("expect", "is not a list of expectations");
-    return;
-  }
-  ConfigNode others = *list;
+void read_expect(ConfigReader& from, const ConfigNode& list, Launch& launch) {
+  if (list.is_null()) return;
+  ConfigNode others = list;
   others.items = read_exits(from, launch);
-  if (others.items.empty()) {
-    return;
-  }
+  if (others.items.empty()) return;
   ProcessSpec expect;
   expect.name = "expect";
   expect.component = "expect";
-  expect.place = list->place;
-  expect.config.root = ConfigNode::map(list->place);
+  expect.place = list.place;
+  expect.config.root = ConfigNode::map(list.place);
   expect.config.root.set("expect", std::move(others));
   launch.processes.push_back(std::move(expect));
 }
@@ -278,11 +142,10 @@ void put_out_folder(Launch& launch) {
   }
 }
 
-void read_scenario_file(ConfigReader& from, const Overrides& overrides, const ReadScenario& read_scenario,
-                        ScenarioFile& scenario) {
-  std::string path;
-  from.optional_path("scenario", path);
-  if (path.empty()) {
+void read_scenario_file(ConfigReader& from, const ScenarioPlace& keys, const Overrides& overrides,
+                        const ReadScenario& read_scenario, ScenarioFile& scenario) {
+  const bool inside = keys.map.is_map();
+  if (keys.path.empty() && !inside) {
     if (!overrides.empty() && !from.has("scenario")) {
       const auto& first = overrides.front();
       from.add(ConfigError({{first.second.place, "set." + first.first, "this launch has no scenario"}}));
@@ -290,14 +153,14 @@ void read_scenario_file(ConfigReader& from, const Overrides& overrides, const Re
     return;
   }
   try {
-    scenario.document = load_scenario(path, overrides);
-    scenario.path = path;
+    scenario.path = inside ? keys.map.place.file : keys.path;
+    scenario.document = inside ? load_scenario({keys.map, {}}, overrides) : load_scenario(keys.path, overrides);
     scenario.text = to_canonical_yaml(scenario.document.root);
     ConfigReader header(scenario.document);  // its problems are reported by who reads the world
     read_header(header, scenario.header);
     if (read_scenario) {
-      ConfigReader whole = from.also(scenario.document);
-      read_scenario(whole, path);
+      ConfigReader whole = from.also(scenario.document, inside ? "scenario" : "");
+      read_scenario(whole, scenario.path);
     }
   } catch (const ConfigError& error) {
     from.add(error);
@@ -305,6 +168,136 @@ void read_scenario_file(ConfigReader& from, const Overrides& overrides, const Re
 }
 
 }  // namespace
+
+void Program::read(ConfigReader& from, const char* key) {
+  const ConfigNode* run = from.node(key);
+  if (run != nullptr && run->is_list()) {
+    from.required(key, argv);
+    if (argv.empty()) from.problem(key, "is an empty list; allowed: a component, or a program and its arguments");
+  } else {
+    from.optional(key, component);
+  }
+}
+
+ConfigNode Program::in_file() const { return argv.empty() ? ConfigNode::text(component) : list_of_texts(argv); }
+
+std::string Program::schema() {
+  return R"({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": ["string", "number", "boolean"]}}]})";
+}
+
+void ProcessConfig::read(ConfigReader& from, const char* key) {
+  const ConfigNode* config = from.node(key);
+  if (config == nullptr) return;
+  if (config->is_map()) {
+    root = *config;
+    return;
+  }
+  from.required_path(key, file);
+  if (file.empty()) return;
+  try {
+    static_cast<ConfigDocument&>(*this) = parse_config_file(file);
+  } catch (const ConfigError& error) {
+    file.clear();
+    from.add(error);
+  }
+}
+
+void EnvironmentVariables::read(ConfigReader& from, const char* key) {
+  const ConfigNode* env = from.node(key);
+  if (env == nullptr) return;
+  bool good = env->is_map();
+  for (const auto& entry : env->entries) {
+    good &= entry.value.is_scalar() && entry.key.find('=') == std::string::npos;
+    (*this)[entry.key] = entry.value.scalar;
+  }
+  if (!good) from.problem(key, "is not a map from names of environment variables to texts");
+}
+
+ConfigNode EnvironmentVariables::in_file() const {
+  ConfigNode variables = ConfigNode::map();
+  for (const auto& [name, value] : *this) variables.set(name, detail::text_node(value));
+  return variables;
+}
+
+std::string EnvironmentVariables::schema() {
+  return R"({"type": "object", "additionalProperties": {"type": ["string", "number", "boolean"]}})";
+}
+
+void ProcessSpec::check(const ConfigReader& from) const {
+  if (!is_process_name(name)) {
+    from.problem("", "is not a process name; allowed: up to 32 of a-z, 0-9 and _, beginning with a letter");
+  } else if (is_reserved(name)) {
+    from.problem("", "is a reserved name; choose another");
+  }
+  const ConfigNode* run = from.node("run");
+  if (!external && run == nullptr) from.problem("run", "is missing; allowed: text");
+  if (!external && run != nullptr && run->is_scalar() && !is_process_name(component)) {
+    from.problem("run", "\"" + component + "\" is not a component; a foreign program is written as a list");
+  }
+  if (respawn && !observer) from.problem("respawn", "is only for observers; a lost participant ends the run");
+}
+
+void ProcessSpec::complete(ConfigReader& from) {
+  place = from.node().place;
+  config_path = config.file.empty() ? "processes." + name + ".config" : "";
+  if (!config.root.is_map()) config.root = ConfigNode::map(place);
+}
+
+void ClockSettings::check(const ConfigReader& from) const {
+  if (from.good()) check_network(from, *this);
+}
+
+void ScenarioPlace::read(ConfigReader& from, const char* key) {
+  const ConfigNode* node = from.node(key);
+  if (node != nullptr && node->is_map()) map = *node;
+  else from.optional_path(key, path);
+}
+
+std::string IncludeKey::schema() {
+  const std::string one =
+      R"({"type": "string"}, {"type": "object", "required": ["file"], "additionalProperties": false, "properties": {)"
+      R"("file": {"type": "string", "description": "path of the launch file"}, "args": {"type": "object", )"
+      R"("additionalProperties": {"type": ["string", "number", "boolean"]}, "description": "values of its arguments"}}})";
+  return "{\"anyOf\": [" + one + R"(, {"type": "array", "items": {"anyOf": [)" + one + "]}}]}";
+}
+
+std::string ArgumentsKey::schema() {
+  return R"({"type": "object", "additionalProperties": {"type": ["string", "number", "boolean", "null"]}})";
+}
+
+void ExpectKey::read(ConfigReader& from, const char* key) {
+  const ConfigNode* node = from.node(key);
+  if (node == nullptr || node->is_null()) return;
+  if (node->is_list()) list = *node;
+  else from.problem(key, "is not a list of expectations");
+}
+
+void AfterKey::read(ConfigReader& from, const char* key) {
+  const ConfigNode* after = from.node(key);
+  if (after == nullptr || after->is_null()) return;
+  bool good = after->is_list();
+  for (const auto& step : after->items) {
+    AfterStep command{{}, step.place};
+    good &= step.is_list() && !step.items.empty();
+    for (const auto& word : step.items) {
+      good &= word.is_scalar();
+      command.words.push_back(word.scalar);
+    }
+    steps.push_back(std::move(command));
+  }
+  if (!good) from.problem(key, "is not a list of commands, each a list of words");
+}
+
+ConfigNode AfterKey::in_file() const {
+  ConfigNode list;
+  list.kind = ConfigNode::Kind::kList;
+  for (const AfterStep& step : steps) list.items.push_back(list_of_texts(step.words));
+  return list;
+}
+
+std::string AfterKey::schema() {
+  return R"({"type": "array", "items": {"type": "array", "items": {"type": ["string", "number", "boolean"]}}})";
+}
 
 const ProcessSpec& Launch::process(const std::string& name) const {
   for (const auto& candidate : processes) {
@@ -333,36 +326,31 @@ Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenar
   }
 
   ConfigReader from(std::move(document));
-  read_format(from, kLaunchFormat);
-  from.node("set");
-  read_scenario_file(from, targets.scenario, read_scenario, launch.scenario);
-  for (auto& [name, reader] : from.named_sections("processes")) {
-    ProcessSpec process = read_process(name, reader);
-    if (const auto found = targets.processes.find(name); found != targets.processes.end()) {
-      if (const auto problems = apply(found->second, process.config.root); !problems.empty()) {
-        from.add(ConfigError(problems));
-      }
+  LaunchKeys keys;
+  read_parameters(from, keys);
+  read_scenario_file(from, keys.scenario, targets.scenario, read_scenario, launch.scenario);
+  launch.processes = std::move(keys.processes);
+  for (ProcessSpec& process : launch.processes) {
+    const auto found = targets.processes.find(process.name);
+    if (found == targets.processes.end()) continue;
+    if (const auto problems = apply(found->second, process.config.root); !problems.empty()) {
+      from.add(ConfigError(problems));
     }
-    launch.processes.push_back(std::move(process));
   }
   if (launch.processes.empty() && !(from.has("processes") && !from.good())) {
     from.problem("processes", "names no process; a launch needs at least one");
   }
-  read_wiring(from, launch);
-  if (const auto section = from.optional_section("clock")) {
-    launch.clock = read_clock(*section);
-  }
-  read_after(from, launch);
-  if (from.has("duration_s")) {
-    double duration_s = 0.0;
-    from.required("duration_s", duration_s, 1e-3, 1e7);
-    launch.duration = from_seconds(duration_s);
+  read_wiring(from, keys.wiring, launch);
+  launch.clock = keys.clock;
+  launch.after = keys.after.steps;
+  if (keys.duration_s) {
+    launch.duration = from_seconds(*keys.duration_s);
     launch.scenario.end_ns = launch.duration->count();
   }
   if (!options.record.empty()) {
     append_recorder(launch);
   }
-  read_expect(from, launch);
+  read_expect(from, keys.expect.list, launch);
   launch.launch_text = canonical_text(launch);
   put_out_folder(launch);
   from.finish();

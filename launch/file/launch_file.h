@@ -35,14 +35,41 @@ void add_options(CLI::App& app, LaunchOptions& options, bool launch_is_positiona
 /// The options that give another program the same launch: "--launch", FILE, "--arg", ...
 std::vector<std::string> to_arguments(const LaunchOptions& options);
 
-/// One process of a launch.
-struct ProcessSpec {
-  std::string name;
+/// `run: multibeam` or `run: [python3, agent.py]`.
+struct Program {
   std::string component;          // native: the program ensonify-<component>; "" for a foreign program
   std::vector<std::string> argv;  // of a foreign program
-  ConfigDocument config;          // its own parameters, with what --set says about them
-  std::string config_path;        // put before keys in messages; "" when the parameters stand in a file of their own
-  std::map<std::string, std::string> env;
+
+  Program& program() { return *this; }
+  const Program& program() const { return *this; }
+  void read(ConfigReader& from, const char* key);
+  ConfigNode in_file() const;
+  static std::string schema();
+};
+
+/// Parameters of a process: a map, or the file that has them. Each process checks its own.
+struct ProcessConfig : ConfigDocument {
+  std::string file;  // "": they stand in the launch file
+
+  void read(ConfigReader& from, const char* key);
+  ConfigNode in_file() const { return root; }
+  static std::string schema() { return R"({"anyOf": [{"type": "string"}, {"type": "object"}]})"; }
+};
+
+/// EnvironmentVariables variables.
+struct EnvironmentVariables : std::map<std::string, std::string> {
+  void read(ConfigReader& from, const char* key);
+  ConfigNode in_file() const;
+  static std::string schema();
+};
+
+/// One process of a launch.
+struct ProcessSpec : Program {
+  std::string name;
+  static constexpr auto kNamedBy = &ProcessSpec::name;
+  ProcessConfig config;     // its own parameters, with what --set says about them
+  std::string config_path;  // put before keys in messages; "" when the parameters stand in a file of their own
+  EnvironmentVariables env;
   std::vector<int> cpus;  // empty: any
   bool external = false;
   double join_s = 30.0;
@@ -51,15 +78,20 @@ struct ProcessSpec {
   std::optional<double> memory_mb;  // most resident memory; nothing: only the run as a whole is bounded
   ConfigPlace place;                // of its stanza
 
-  /// What of a stanza has one value; the rest is read by read_launch().
   static void parameters(auto& self, auto&& visit) {
+    visit("run", "", computed(any()), "a component, or a program and its arguments as a list", self.program());
     visit("external", "", any(), "true: not started by the launcher but awaited", self.external);
     visit("join_s", "s", in(0.01, 86400), "how long an external process is awaited", self.join_s);
     visit("observer", "", any(), "true: may be lost without ending the run", self.observer);
     visit("respawn", "", any(), "true: an observer that is started again", self.respawn);
     visit("memory_mb", "MB", in(1, 1e9), "resident memory that it may hold, with what it starts; more ends the run",
           self.memory_mb);
+    visit("cpus", "", computed(in(0, 4095)), "processors that it may run on", self.cpus);
+    visit("env", "", computed(any()), "environment variables", self.env);
+    visit("config", "", computed(any()), "its own parameters, or the path of a file with them", self.config);
   }
+  void check(const ConfigReader& from) const;
+  void complete(ConfigReader& from);
 
   /// Reads this process's parameters: `Config::read(reader)`, then reader.finish().
   ConfigReader reader() const { return ConfigReader(config, config_path); }
@@ -90,6 +122,8 @@ struct ClockSettings {
   std::vector<std::string> allow;
 
   static void parameters(auto& self, auto&& visit) {
+    visit("rate", "", or_word("free", in(1e-3, 1e6)), "sim seconds per wall second, or free: as fast as it goes",
+          self.rate);
     visit("window_s", "s", in(0.01, 5.0), "how far a producer may run ahead of its consumers, sim time", self.window_s);
     visit("slip_after_s", "s", in(0, 1000), "lateness beyond which the pacing origin moves", self.slip_after_s);
     visit("slip_policy", "", one_of({{"count", SlipPolicy::kCount}, {"fail", SlipPolicy::kFail}}),
@@ -99,13 +133,14 @@ struct ClockSettings {
     visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}), "between the processes",
           self.transport);
     visit("connect_timeout_s", "s", in(0.01, 3600), "wall time until every process is there", self.connect_timeout_s);
-    visit("address", "", any(), "of this machine, at which the clock and what runs beside it take part by tcp",
-          self.address);
-    visit("port", "", in(0, 65535), "of the clock by tcp; 0: any that is free", self.port);
-    visit("keys", "", any(), "tcp: nobody takes part, or sees anything, without the run's keys", self.keys);
-    visit("allow", "", any(), "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine",
-          self.allow);
+    visit("address", "", computed(any()),
+          "of this machine, at which the clock and what runs beside it take part by tcp", self.address);
+    visit("port", "", computed(in(0, 65535)), "of the clock by tcp; 0: any that is free", self.port);
+    visit("keys", "", computed(any()), "tcp: nobody takes part, or sees anything, without the run's keys", self.keys);
+    visit("allow", "", computed(any()),
+          "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine", self.allow);
   }
+  void check(const ConfigReader& from) const;
 };
 
 /// `exit: {process: agent, code: 3}` or `{process: agent, signal: KILL}` under `expect:`: how a process must end.
@@ -115,6 +150,7 @@ struct ExitExpectation {
   std::string process;
   int code = 0;    // when signal is 0
   int signal = 0;  // number
+  ConfigNode given;
 };
 
 /// A command of `after:`.
@@ -151,6 +187,12 @@ Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenar
 
 /// Launch::launch_text of a launch whose `$(out)` has not been put in yet.
 std::string canonical_text(const Launch& launch);
+
+/// A process's configuration with every value, as lines of YAML; "": as it was given.
+using WrittenConfig = std::function<std::string(const ProcessSpec&)>;
+/// What a launch file would have with every value and its sentence. `scenario` is read_world()'s `written`, and stands
+/// in it; "": it names none.
+std::string written_launch(const Launch& launch, const std::string& scenario, const WrittenConfig& config_of);
 
 /// JSON Schema of launch files, for editors. `components` has the JSON Schema of each component's parameters by its
 /// name; others' `config` may hold anything. Every value may be an argument, $(name).

@@ -31,6 +31,7 @@ struct Options {
   std::string run_dir;
   std::string keys;
   bool check = false;
+  bool print = false;
 };
 
 /// Prints what a component's parameters are, as `ensonify describe` and the project's own pages have them.
@@ -42,7 +43,8 @@ void print_parameters(const std::string& component, const ParameterList& list, c
 }
 
 /// Returns an exit code if the program is to end here (help, bad arguments, a list of parameters).
-std::optional<int> parse(const char* component, ParameterList (*list)(), int argc, char** argv, Options& options) {
+std::optional<int> parse(const char* component, ParameterList (*list)(const ProcessSpec*), int argc, char** argv,
+                         Options& options) {
   CLI::App app(
       fmt::format("ensonify-{}: one process of a run. `ensonify run` starts it; docs/manual/wire.md says how it "
                   "talks, `ensonify describe {}` what it takes.",
@@ -55,16 +57,26 @@ std::optional<int> parse(const char* component, ParameterList (*list)(), int arg
       "--keys", options.keys,
       "the run's keys, a copy of keys.json in its run directory (default: there; without one, $ENSONIFY_KEYS)");
   app.add_flag("--check", options.check, "read the configuration, print the ports as JSON and exit");
+  app.add_flag("--print", options.print, "read the configuration, print it with every value as YAML and exit");
   app.add_option_function<std::string>(
          "--parameters",
          [=](const std::string& form) {
-           print_parameters(component, list(), form);
+           print_parameters(component, list(nullptr), form);
            throw CLI::Success();
          },
          "print the parameters with their defaults as yaml, table (Markdown) or schema (JSON Schema) and exit")
       ->check(CLI::IsMember({"yaml", "table", "schema"}))
       ->trigger_on_parse();
   return parse_command_line(app, argc, argv);
+}
+
+/// The configuration of a process with every value that the list knows; what else it has as it was given.
+void print_configuration(const ParameterList& values, const ProcessSpec& process) {
+  ConfigNode others = ConfigNode::map();
+  for (const auto& entry : process.config.root.entries) {
+    if (!lists_key(values, entry.key)) others.set(entry.key, entry.value);
+  }
+  fmt::print("{}{}", written_yaml(values), block_yaml(others));
 }
 
 /// The clock's address: given, or as the run directory says.
@@ -78,9 +90,14 @@ std::string clock_of(const Options& options) {
   return endpoint;
 }
 
-int run_process(const char* component, const NodeFactory& factory, const Options& options) {
+int run_process(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                const Options& options) {
   const Launch launch = read_launch(options.launch);
   const ProcessSpec& process = launch.process(options.name);
+  if (options.print) {
+    print_configuration(list(&process), process);
+    return kExitOk;
+  }
   Ports ports(options.name, options.launch.out);
   std::unique_ptr<AnyNode> node = factory(launch, process, ports);
   ports.seal();
@@ -133,10 +150,11 @@ void report(const Conductor& conductor, const Launch& launch) {
 
 }  // namespace
 
-int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(), int argc, char** argv) {
+int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                  int argc, char** argv) {
   Options options;
   if (const auto code = parse(component, list, argc, argv, options)) return *code;
-  return exit_code_of([&] { return run_process(component, factory, options); });
+  return exit_code_of([&] { return run_process(component, factory, list, options); });
 }
 
 int run_local(const Launch& launch, const std::map<std::string, NodeFactory>& components) {

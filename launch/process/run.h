@@ -6,6 +6,7 @@
 #include <string>
 
 #include "components/config/parameter_info.h"
+#include "components/config/read_parameters.h"
 #include "components/errors/exit_error.h"
 #include "components/runtime/stepper.h"
 #include "launch/file/launch_file.h"
@@ -48,22 +49,28 @@ NodeFactory factory_of() {
   };
 }
 
-/// The list of what a Config reads: its own, or that of the struct that it names as its Parameters.
+/// The list of what a Config reads: its own, or that of the struct that it names as its Parameters. Of a process it has
+/// the values that the process's configuration gives, else the defaults.
 template <class Config>
-ParameterList list_of() {
+ParameterList list_of(const ProcessSpec* process) {
   if constexpr (requires { typename Config::Parameters; }) {
-    return parameters_of<typename Config::Parameters>();
+    return list_of<typename Config::Parameters>(process);
   } else if constexpr (HasParameters<Config>) {
-    return parameters_of<Config>();
+    if (process == nullptr) return parameters_of<Config>();
+    Config values;
+    ConfigReader from = process->reader();
+    read_parameters(from, values);
+    return parameters_of(values, &from.node());
   } else {
     return {};
   }
 }
 
 /// A component's main(): reads the launch file and this process's parameters, then either prints the ports (`--check`)
-/// or takes part in the run; with `--parameters` it prints their list and ends. Returns the exit code; every error is
-/// caught, reported and turned into one here.
-int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(), int argc, char** argv);
+/// or takes part in the run; with `--parameters` it prints their list and ends, with `--print` their values in this
+/// launch. Returns the exit code; every error is caught, reported and turned into one here.
+int run_component(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                  int argc, char** argv);
 
 /// `int main(int argc, char** argv) { return ensonify::run<MultibeamNode>(argc, argv); }`
 template <class Node>

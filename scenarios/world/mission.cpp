@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/sections.h"
+#include "components/errors/assert.h"
+#include "scenarios/world/mission_keys.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -14,106 +15,7 @@ namespace {
 
 using runlines::Vec2;
 
-struct RunlineInFile {
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("from_m", "", must(place()), "start of the line, as positions says", self.from);
-    visit("to_m", "", must(place()), "end of the line, as positions says", self.to);
-  }
-};
-
-struct Lawnmower {
-  std::optional<Vec2> centre;
-  double heading_rad = 0.0, length_m = 0.0, spacing_m = 0.0;
-  int count = 0;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("centre_m", "", place(), "middle of all lines, as positions says; left out: the origin", self.centre);
-    visit("heading_deg", "deg", in(-360, 360), "of the first line", self.heading_rad);
-    visit("length_m", "m", must(in(1, kFarAway_m)), "length of a line", self.length_m);
-    visit("spacing_m", "m", must(in(0.1, kFarAway_m)), "from line to line", self.spacing_m);
-    visit("count", "", must(in(1, 1000)), "number of lines", self.count);
-  }
-};
-
 constexpr std::size_t kLongestName = 200;  // of a line: it goes into every mission_state/1
-
-/// Kinds of steps, as they are before a file is read.
-const std::vector<MissionStep>& kinds_of_step() {
-  static const std::vector<MissionStep> kKinds = {FollowLine{},
-                                                  PassPlace{Vec2::Zero(), {}},
-                                                  KeepPlace{Vec2(0, 0)},
-                                                  KeepPlace{},
-                                                  FollowOrbit{Vec2::Zero()},
-                                                  SetSonar{},
-                                                  SetMark{},
-                                                  GoAt{}};
-  return kKinds;
-}
-
-ParameterList list_of(const MissionStep& kind) {
-  return std::visit([](const auto& step) { return parameters_of(step); }, kind);
-}
-
-void note_places(const ConfigReader&, auto&) {}
-void note_places(const ConfigReader& from, SetSonar& sonar) {
-  sonar.given["set_sonar"] = from.problem_at("set_sonar", "");
-  for_settings(sonar.settings, [&](const char* name, const char* unit, auto&&...) {
-    const std::string key = setting_in_file(name, unit).key;
-    if (from.has(key)) sonar.given[name] = from.problem_at(key, "");
-  });
-}
-
-/// Steps with what they are read from, for problems that are found later.
-struct Steps {
-  std::vector<std::pair<ConfigReader, MissionStep>> all;
-
-  void read(const ConfigReader& from, const char* key) {
-    static const std::vector<std::string> kKeys = [] {
-      std::vector<std::string> keys;
-      for (const MissionStep& kind : kinds_of_step()) keys.push_back(list_of(kind).front().key);
-      return keys;
-    }();
-    for (ConfigReader& item : from.list(key)) {
-      std::size_t kind = 0;
-      while (kind + 1 < kKeys.size() && !item.has(kKeys[kind])) ++kind;  // the last has no key of its own
-      auto& [reader, step] = all.emplace_back(item, kinds_of_step()[kind]);
-      std::visit(
-          [&](auto& read) {
-            read_parameters(item, read);
-            note_places(item, read);
-          },
-          step);
-    }
-  }
-  ConfigNode in_file() const { return detail::list_node(); }
-  static std::string schema() {
-    ParameterList forms;
-    for (const MissionStep& kind : kinds_of_step()) forms.push_back(section_info("", "", list_of(kind)));
-    return forms_info("", "", forms).schema;
-  }
-};
-
-/// A mission's keys, its places not yet in metres.
-struct MissionInFile {
-  Mission mission;
-  bool geodetic = false;
-  std::vector<RunlineInFile> runlines;
-  std::optional<Lawnmower> lawnmower;
-  std::optional<AdaptivePlan> adaptive;
-  Steps steps;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("positions", "", one_of({{"metres", false}, {"geodetic", true}}),
-          "places are [east, north] from the site's origin, or [latitude, longitude] in degrees", self.geodetic);
-    Mission::parameters(self.mission, visit);
-    visit("runlines", "straight lines in their order", self.runlines);
-    visit("lawnmower", "parallel lines, to and fro", self.lawnmower);
-    visit("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends", self.adaptive);
-    visit("steps", "", computed(any()), "what is done, in order", self.steps);
-  }
-};
 
 /// Makes metres of places, in the frame that the mission says.
 class Places {
@@ -127,8 +29,7 @@ class Places {
     }
   }
 
-  void place(const std::string& key, Vec2& found) const { place(from_, key, found); }
-  void place(const ConfigReader& from, const std::string& key, Vec2& found) const {
+  void place(const std::string& key, Vec2& found) const {
     if (!projection_) return;
     const double off_m = distance_m(found[0], found[1]);
     if (off_m <= kFarAway_m) {
@@ -136,31 +37,35 @@ class Places {
       return;
     }
     const bool swapped = distance_m(found[1], found[0]) < kFarAway_m;
-    from.problem(key, fmt::format("[{}, {}] is {} from the site's origin; allowed: 100 km{}", found[0], found[1],
-                                  std::isfinite(off_m) ? fmt::format("{:.0f} km", 1e-3 * off_m) : "not a place",
-                                  swapped ? "; are latitude and longitude swapped?" : ""));
+    from_.problem(key, fmt::format("[{}, {}] is {} from the site's origin; allowed: 100 km{}", found[0], found[1],
+                                   std::isfinite(off_m) ? fmt::format("{:.0f} km", 1e-3 * off_m) : "not a place",
+                                   swapped ? "; are latitude and longitude swapped?" : ""));
     found = Vec2::Zero();
   }
 
-  void place(const ConfigReader& from, FollowLine& line) const {
-    for (Vec2& point : line.points_enu_m) place(from, "line", point);
+  // `at` is the step's own place, "steps[3]."
+  void place(const std::string& at, FollowLine& line) const {
+    for (Vec2& point : line.points_enu_m) place(at + "line", point);
     if (line.name.size() > kLongestName) {
-      from.problem("name", fmt::format("has {} bytes; allowed: {}", line.name.size(), kLongestName));
+      from_.problem(at + "name", fmt::format("has {} bytes; allowed: {}", line.name.size(), kLongestName));
     }
-    if (!from.good()) return;
-    if (line.points_enu_m.size() < 2) from.problem("line", "has fewer than 2 places");
+    if (!from_.good()) return;
+    if (line.points_enu_m.size() < 2) from_.problem(at + "line", "has fewer than 2 places");
     for (std::size_t i = 1; i < line.points_enu_m.size(); ++i) {
       if ((line.points_enu_m[i] - line.points_enu_m[i - 1]).norm() < kShortest_m) {
-        from.problem("line", fmt::format("place {} is less than 1 m from the one before", i + 1));
+        from_.problem(at + "line", fmt::format("place {} is less than 1 m from the one before", i + 1));
       }
     }
   }
-  void place(const ConfigReader& from, PassPlace& pass) const { place(from, "pass", pass.place_enu_m); }
-  void place(const ConfigReader& from, KeepPlace& keep) const {
-    if (keep.place_enu_m) place(from, "keep", *keep.place_enu_m);
+  void place(const std::string& at, PassPlace& pass) const { place(at + "pass", pass.place_enu_m); }
+  void place(const std::string& at, KeepPlace& keep) const {
+    if (keep.place_enu_m) place(at + "keep", *keep.place_enu_m);
   }
-  void place(const ConfigReader& from, FollowOrbit& orbit) const { place(from, "orbit", orbit.centre_enu_m); }
-  void place(const ConfigReader&, auto&) const {}
+  void place(const std::string& at, FollowOrbit& orbit) const { place(at + "orbit", orbit.centre_enu_m); }
+  void place(const std::string&, auto&) const {}
+
+  bool good() const { return from_.good(); }
+  void problem(const std::string& key, const std::string& message) const { from_.problem(key, message); }
 
  private:
   /// Roughly, by the sphere: the projection is not made for other continents.
@@ -178,46 +83,43 @@ class Places {
   std::optional<frames::LocalProjection> projection_;
 };
 
-std::vector<runlines::Runline> placed(const ConfigReader& from, std::vector<RunlineInFile> lines,
-                                      const Places& places) {
-  std::vector<runlines::Runline> runlines;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string key = fmt::format("runlines[{}].", i);
-    places.place(key + "from_m", lines[i].from);
-    places.place(key + "to_m", lines[i].to);
-    runlines.push_back({lines[i].from, lines[i].to});
-    if (from.good() && runlines::length_m(runlines.back()) < kShortest_m)
-      from.problem(key + "to_m", "is less than 1 m from from_m");
-  }
-  return runlines;
-}
+// Steps and plans, each with its places in metres.
 
-/// The keys that a mission file and the section of a scenario share. Gives how many plans they hold.
-int read_keys(ConfigReader& from, const std::optional<frames::Geodetic>& origin, Mission& mission) {
-  if (from.has("speed_kn") && from.has("speed_mps")) {
-    from.problem("speed_kn", "stands beside speed_mps; give one or the other");
+void lay(const RunlinesPlan& plan, const Places& places, Mission& mission) {
+  std::vector<runlines::Runline> lines;
+  for (std::size_t i = 0; i < plan.runlines.size(); ++i) {
+    RunlineKeys line = plan.runlines[i];
+    const std::string key = fmt::format("runlines[{}].", i);
+    places.place(key + "from_m", line.from);
+    places.place(key + "to_m", line.to);
+    lines.push_back({line.from, line.to});
+    if (places.good() && runlines::length_m(lines.back()) < kShortest_m)
+      places.problem(key + "to_m", "is less than 1 m from from_m");
   }
-  MissionInFile file{mission};
-  read_parameters(from, file);
-  mission = std::move(file.mission);
-  const Places places(from, file.geodetic, origin);
-  if (from.has("runlines")) mission.steps = steps_of(placed(from, std::move(file.runlines), places));
-  if (auto& rows = file.lawnmower; rows) {
-    if (rows->centre) places.place("lawnmower.centre_m", *rows->centre);
-    mission.steps.clear();
-    if (from.good())
-      mission.steps = steps_of(runlines::lawnmower(rows->centre.value_or(Vec2(0, 0)), rows->heading_rad, rows->length_m,
-                                                   rows->spacing_m, rows->count));
+  mission.steps = steps_of(lines);
+}
+void lay(const LawnmowerPlan& plan, const Places& places, Mission& mission) {
+  const LawnmowerKeys& rows = plan.lawnmower;
+  Vec2 centre = rows.centre.value_or(Vec2(0, 0));
+  if (rows.centre) places.place("lawnmower.centre_m", centre);
+  if (places.good())
+    mission.steps = steps_of(runlines::lawnmower(centre, rows.heading_rad, rows.length_m, rows.spacing_m, rows.count));
+}
+void lay(const PlanOfRaster& plan, const Places&, Mission& mission) { mission.auto_plan = plan.plan; }
+void lay(PlanOfCoverage plan, const Places& places, Mission& mission) {
+  places.place("adaptive.centre_m", plan.plan.centre_enu_m);
+  if (places.good()) mission.steps = steps_of({first_line(plan.plan)});
+  mission.adaptive = plan.plan;
+}
+void lay(const StepsPlan& plan, const Places& places, Mission& mission) {
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    MissionStep& step = mission.steps.emplace_back(plan.steps[i]);
+    std::visit([&](auto& read) { places.place(fmt::format("steps[{}].", i), read); }, step);
   }
-  if (file.adaptive) {
-    places.place("adaptive.centre_m", file.adaptive->centre_enu_m);
-    if (from.good()) mission.steps = steps_of({first_line(*file.adaptive)});
-    mission.adaptive = std::move(file.adaptive);
-  }
-  for (auto& [reader, step] : file.steps.all) {
-    std::visit([&, &reader = reader](auto& read) { places.place(reader, read); }, step);
-    mission.steps.push_back(std::move(step));
-  }
+}
+void lay(const NoPlan&, const Places&, Mission&) {}
+
+int plans_in(const ConfigReader& from) {
   int plans = 0;
   for (const char* plan : {"runlines", "lawnmower", "auto", "adaptive", "steps"}) plans += int{from.has(plan)};
   return plans;
@@ -271,18 +173,37 @@ void GoAt::check(const ConfigReader& from) const {
   }
 }
 
-ParameterList mission_list(bool in_scenario) {
-  ParameterList list = parameters_of<MissionInFile>();
-  if (in_scenario)
-    list.push_back(file_info("file", "a mission of its own, mission/1; what stands beside it counts", false));
-  return list;
+void SetSonar::complete(ConfigReader& from) {
+  given["set_sonar"] = from.problem_at("set_sonar", "");
+  for_settings(settings, [&](const char* name, const char* unit, auto&&...) {
+    const std::string key = setting_in_file(name, unit).key;
+    if (from.has(key)) given[name] = from.problem_at(key, "");
+  });
 }
 
-ParameterList step_list() {
-  ParameterList list;
-  for (const MissionStep& kind : kinds_of_step())
-    for (ParameterInfo& info : list_of(kind)) list.push_back(std::move(info));
-  return list;
+void MissionKeys::read_base(ConfigReader& from) {
+  if (!in_scenario) return;
+  std::string found;
+  from.optional_path("file", found);
+  if (found.empty()) return;
+  ConfigReader other = from.also(parse_config_file(found));
+  read_format(other, kMissionFormat);
+  in_scenario = false;
+  read_parameters(other, *this);
+  in_scenario = true;
+}
+
+void MissionKeys::complete(ConfigReader& from) {
+  if (from.has("speed_kn") && from.has("speed_mps")) {
+    from.problem("speed_kn", "stands beside speed_mps; give one or the other");
+  }
+  if (const int plans = plans_in(from); plans > 0) {
+    plan_from_ = from;
+    plans_ += plans;
+    plan_geodetic_ = geodetic;
+  }
+  geodetic = plan_geodetic_;
+  if (in_scenario) from_ = from;
 }
 
 std::vector<MissionStep> steps_of(const std::vector<runlines::Runline>& lines) {
@@ -324,21 +245,16 @@ std::vector<std::string> Mission::sonars() const {
   return heads;
 }
 
-Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& origin) {
-  Mission mission;
-  int plans = 0;
-  std::string path;
-  from.optional_path("file", path);
-  if (!path.empty()) {
-    ConfigReader file = from.also(parse_config_file(path));
-    read_format(file, kMissionFormat);
-    plans += read_keys(file, origin, mission);
-  }
-  plans += read_keys(from, origin, mission);
-  if (plans != 1) {
-    from.problem("", std::string(plans == 0 ? "has no plan" : "has several plans") +
+Mission MissionKeys::mission(const std::optional<frames::Geodetic>& origin) const {
+  ENSONIFY_ASSERT(from_, "a mission is read before it is laid out");
+  const ConfigReader& from = *from_;
+  Mission mission = values;
+  if (plans_ != 1) {
+    from.problem("", std::string(plans_ == 0 ? "has no plan" : "has several plans") +
                          "; give one of runlines, lawnmower, auto, adaptive, steps");
   }
+  const Places places(plan_from_ ? *plan_from_ : from, geodetic, origin);
+  std::visit([&](const auto& form) { lay(form, places, mission); }, plan);
   mission.runlines = straight_pieces(mission.steps);
   check_altitudes(from, mission);
   return mission;

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "components/config/parameter_info.h"
+#include "components/config/parameters.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/runlines/runline.h"
@@ -20,8 +20,8 @@ class ConfigReader;
 inline constexpr double kFarAway_m = 100e3;  // nothing in a world is farther from its origin
 inline constexpr double kShortest_m = 1.0;   // less is no line
 
-/// Places as the file has them, in metres of the world or, as `positions` says, in degrees; read_mission() makes metres
-/// of them.
+/// Places as the file has them, in metres of the world or, as `positions` says, in degrees; MissionKeys::mission()
+/// makes metres of them.
 inline Allowed place() { return in(-kFarAway_m, kFarAway_m); }
 
 /// `auto` in the file: runlines laid over an imported raster by whoever can read it.
@@ -101,6 +101,7 @@ struct KeepPlace {
   double for_s = 0.0;
   double within_m = 5.0;
 
+  /// Two forms of step have this type, by whether there is a place before one is read.
   static void parameters(auto& self, auto&& visit) {
     if (self.place_enu_m) {
       visit("keep", "", must(place()), "a place to stop and stay at, as positions says", *self.place_enu_m);
@@ -146,6 +147,7 @@ struct SetSonar {
     visit("set_sonar", "", must(any()), "the head", self.head);
     setting_parameters(self.settings, visit);
   }
+  void complete(ConfigReader& from);
 };
 struct SetMark {
   std::string text;
@@ -155,6 +157,21 @@ struct SetMark {
   }
 };
 using MissionStep = std::variant<FollowLine, PassPlace, KeepPlace, FollowOrbit, GoAt, SetSonar, SetMark>;
+
+/// A step with a place is another form than one without; the last has no key of its own.
+template <>
+struct FormsOf<MissionStep> {
+  static std::vector<MissionStep> all() {
+    return {FollowLine{},
+            PassPlace{runlines::Vec2::Zero(), {}},
+            KeepPlace{runlines::Vec2(0, 0)},
+            KeepPlace{},
+            FollowOrbit{runlines::Vec2::Zero()},
+            SetSonar{},
+            SetMark{},
+            GoAt{}};
+  }
+};
 
 /// Rules for giving a mission up: come to the surface, stop and end the run. Not given: never.
 struct AbortRules {
@@ -184,10 +201,10 @@ struct Mission {
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
   AbortRules abort;
 
-  /// What of it has one value; steps and plans are read by read_mission().
+  /// What of it has one value; steps and plans are in MissionKeys.
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", in(0.01, 30), "speed through the water", self.speed_mps);
-    visit("speed_kn", "kn", computed(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
+    visit("speed_kn", "kn", again(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
     visit("depth_m", "m", in(0, 11000), "of the vehicle's reference point below the water level", self.depth_m);
     visit("altitude_m", "m", in(0.5, 1000),
           "above the bottom, by the altimeter; instead of the depth, once it is known", self.altitude_m);
@@ -196,7 +213,6 @@ struct Mission {
     visit("run_out_m", "m", in(0, 10000), "straight way behind each line", self.run_out_m);
     visit("repeat", "", in(1, 100000), "times that the steps are run", self.repeat);
     visit("abort", "rules for giving the mission up: come to the surface, stop and end the run", self.abort);
-    visit("auto", "lines laid over an imported raster", self.auto_plan);
   }
   /// Depth at which each of `runlines` is run, below the water level; nothing where the bottom is followed.
   std::vector<std::optional<double>> runline_depths_m() const;
@@ -204,17 +220,6 @@ struct Mission {
 };
 
 inline constexpr const char* kMissionFormat = "mission/1";
-
-/// `mission:` of a scenario; its keys may stand in a file of their own (`file:`), mission/1, and then some of them here
-/// as well: those count. Places are metres in the world, or with `positions: geodetic` degrees [latitude, longitude];
-/// what lies farther than 100 km from `origin` is a problem, which says if latitude and longitude look swapped. Without
-/// an origin (it comes from a raster) geodetic places are a problem.
-Mission read_mission(ConfigReader from, const std::optional<frames::Geodetic>& origin);
-
-/// Keys of a mission: of a file, or with `file`, which names one, of a scenario's section.
-ParameterList mission_list(bool in_scenario);
-/// Keys of all steps, one kind after another.
-ParameterList step_list();
 
 /// The depth in force after an order, given the one before it; nothing: the bottom is followed.
 std::optional<double> depth_after(const GoAt& order, std::optional<double> before_m);

@@ -86,10 +86,8 @@ struct Seabed {
   std::vector<SeabedMesh> meshes;  // in the order of the file
   std::string tiles_folder;        // a tile set (docs/manual/tiles.md), as found on disk
 
-  /// What of it has one value; the rest is read by read_seabed().
+  /// What of it has one value; the rest is in SeabedKeys.
   static void parameters(auto& self, auto&& visit) {
-    visit("kind", "", must(one_of({{"layers", Kind::kLayers}, {"raster", Kind::kRaster}, {"tiles", Kind::kTiles}})),
-          "generated from layers, or imported", self.kind);
     visit("post_spacing_m", "m", in(0.005, 100), "distance between posts", self.post_spacing_m);
     visit("lsb_m", "m", in(1e-6, 1), "heights are whole multiples of this; a tile set has its own", self.lsb_m);
   }

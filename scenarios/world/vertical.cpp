@@ -11,14 +11,12 @@
 #include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
 #include "scenarios/world/sections.h"
-#include "scenarios/world/world.h"
+#include "scenarios/world/vertical_keys.h"
 
 namespace ensonify {
 namespace {
 
-constexpr double kHighest_m = 20.0;         // of a tide
-constexpr double kFarthestApart_m = 200.0;  // of two datums
-constexpr double kLongestGap_h = 6.0;       // of a gauge: readings farther apart miss high or low water
+constexpr double kLongestGap_h = 6.0;  // of a gauge: readings farther apart miss high or low water
 
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& message) {
   throw ConfigError({{{path, line, line > 0 ? 1 : 0}, "", message}});
@@ -30,94 +28,35 @@ std::ifstream opened(const std::string& path) {
   return in;
 }
 
-struct MeanLevel {
-  double mean_m = 0.0;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("mean_m", "m", in(-kHighest_m, kHighest_m), "mean level above chart datum", self.mean_m);
-  }
-};
-
-struct ConstituentInFile {
-  double amplitude_m = 0.0, phase_rad = 0.0;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("amplitude_m", "m", must(in(0, kHighest_m)), "with the nodal factor of the year", self.amplitude_m);
-    visit("phase_deg", "deg", in(-360, 360), "how far high water comes after reference_utc", self.phase_rad);
-  }
-};
-
-struct TideInFile {
-  double constant_m = 0.0;
-  std::string gauge;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("constant_m", "m", computed(in(-kHighest_m, kHighest_m)), "the same level always, above chart datum",
-          self.constant_m);
-    visit("gauge", "", computed(path()), "readings of a gauge: lines \"2025-06-01T12:00:00Z,1.35\"", self.gauge);
-  }
-};
-
-struct DatumsInFile {
-  struct Apart {
-    double constant_m = 0.0;
-    std::string grid;
-  };
-  Apart geoid, datum;
-
-  static void parameters(auto& self, auto&& visit) {
-    const Allowed range = in(-kFarthestApart_m, kFarthestApart_m);
-    visit("geoid_above_ellipsoid_m", "m", range, "the same everywhere", self.geoid.constant_m);
-    visit("geoid_above_ellipsoid_grid", "", computed(path()), "or an Esri ASCII grid in metres of the world",
-          self.geoid.grid);
-    visit("datum_above_geoid_m", "m", range, "chart datum, the same everywhere", self.datum.constant_m);
-    visit("datum_above_geoid_grid", "", computed(path()), "or an Esri ASCII grid in metres of the world",
-          self.datum.grid);
-  }
-};
-
-vertical::HarmonicTide read_harmonic(ConfigReader& from, double start_unix_s) {
-  vertical::HarmonicTide tide;
-  MeanLevel mean;
-  read_parameters(from, mean);
-  tide.mean_m = mean.mean_m;
-  for (auto& item : from.list("constituents")) {
-    ConstituentInFile constituent;
-    const double speed_radps = read_constituent_radps(item);
-    read_parameters(item, constituent);
-    tide.constituents.push_back({speed_radps, constituent.amplitude_m,
-                                 phase_at_start_rad(item, constituent.phase_rad, speed_radps, start_unix_s)});
-  }
-  return tide;
-}
-
-vertical::Tide read_tide(ConfigReader from, double start_unix_s) {
-  const int kinds = int{from.has("constant_m")} + int{from.has("constituents")} + int{from.has("gauge")};
-  if (kinds != 1) {
-    from.problem("", std::string(kinds == 0 ? "says nothing" : "says several things") +
-                         "; give one of constant_m, constituents, gauge");
-  }
-  if (from.has("constituents")) return vertical::Tide(read_harmonic(from, start_unix_s));
-  TideInFile tide;
-  read_parameters(from, tide);
-  if (tide.gauge.empty()) return vertical::Tide(tide.constant_m);
-  try {
-    return vertical::Tide(read_gauge(tide.gauge, start_unix_s));
-  } catch (const ConfigError& error) {
-    from.add(error);
-    return {};
-  }
-}
-
 bool has_digit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
 
-/// A number of metres, or the path of a grid.
-vertical::Separation separation_of(const ConfigReader& from, const DatumsInFile::Apart& apart, const char* metres,
-                                   const char* grid) {
-  if (apart.grid.empty()) return vertical::Separation(apart.constant_m);
-  if (from.has(metres)) from.problem(grid, std::string("stands beside ") + metres + "; give one or the other");
+vertical::Tide tide_of(const ConstantTide& tide, double) { return vertical::Tide(tide.constant_m); }
+vertical::Tide tide_of(const GaugeTide& tide, double start_unix_s) {
+  if (tide.gauge.empty()) return {};
+  return vertical::Tide(read_gauge(tide.gauge, start_unix_s));
+}
+vertical::Tide tide_of(const HarmonicTideKeys& keys, double start_unix_s) {
+  vertical::HarmonicTide tide;
+  tide.mean_m = keys.mean_m;
+  for (const TideConstituentKeys& constituent : keys.constituents) {
+    tide.constituents.push_back(
+        {constituent.speed_radps(), constituent.amplitude_m, constituent.phase_at_start_rad(start_unix_s)});
+  }
+  return vertical::Tide(tide);
+}
+
+vertical::Separation separation_of(const NotApart&) { return {}; }
+vertical::Separation separation_of(const GeoidConstant& geoid) { return vertical::Separation(geoid.metres); }
+vertical::Separation separation_of(const DatumConstant& datum) { return vertical::Separation(datum.metres); }
+vertical::Separation separation_of(const auto& grid) {
+  return grid.file.empty() ? vertical::Separation() : read_separation(grid.file);
+}
+
+/// What is wrong with a file goes to `from`.
+template <class T>
+T value_of(const ConfigReader& from, const auto& forms, const auto& convert) {
   try {
-    return read_separation(apart.grid);
+    return std::visit(convert, forms);
   } catch (const ConfigError& error) {
     from.add(error);
     return {};
@@ -163,25 +102,20 @@ EsriHead read_esri_head(std::istream& in, const std::string& path) {
 
 }  // namespace
 
-ParameterList vertical_list() {
-  ParameterList constituent = constituent_list();
-  constituent.push_back(parameters_of<ConstituentInFile>().front());
-  ParameterList tide = parameters_of<TideInFile>();
-  tide.push_back(parameters_of<MeanLevel>().front());
-  tide.push_back(list_info("constituents", "harmonic constituents about the mean level", constituent));
-  ParameterList list = parameters_of<DatumsInFile>();
-  list.insert(list.begin(), section_info("tide", "one of constant_m, constituents, gauge", tide));
-  return list;
+void TideKeys::check(const ConfigReader& from) const {
+  const int kinds = int{from.has("constant_m")} + int{from.has("constituents")} + int{from.has("gauge")};
+  if (kinds > 1) from.problem("", "says several things; give one of constant_m, constituents, gauge");
 }
 
-Vertical read_vertical(ConfigReader from, double start_unix_s) {
+Vertical VerticalKeys::vertical(const ConfigReader& from, double start_unix_s) const {
   Vertical result;
-  if (const auto tide = from.optional_section("tide")) result.tide = read_tide(*tide, start_unix_s);
-  DatumsInFile datums;
-  read_parameters(from, datums);
-  result.datums.geoid_above_ellipsoid =
-      separation_of(from, datums.geoid, "geoid_above_ellipsoid_m", "geoid_above_ellipsoid_grid");
-  result.datums.datum_above_geoid = separation_of(from, datums.datum, "datum_above_geoid_m", "datum_above_geoid_grid");
+  if (tide) {
+    result.tide =
+        value_of<vertical::Tide>(from, tide->form, [&](const auto& form) { return tide_of(form, start_unix_s); });
+  }
+  const auto separation = [](const auto& form) { return separation_of(form); };
+  result.datums.geoid_above_ellipsoid = value_of<vertical::Separation>(from, geoid, separation);
+  result.datums.datum_above_geoid = value_of<vertical::Separation>(from, datum, separation);
   return result;
 }
 
@@ -198,8 +132,8 @@ vertical::GaugeReadings read_gauge(const std::string& path, double start_unix_s)
     if (!time_ns && number == 1 && !has_digit(line.substr(0, comma))) continue;  // names of the columns
     if (!time_ns) refuse(path, number, "does not begin with a UTC time such as 2025-06-01T12:00:00Z");
     const auto height_m = parse_number(comma < line.size() ? line.substr(comma + 1) : "");
-    if (!height_m || !(std::abs(*height_m) <= kHighest_m)) {  // nan is a number of YAML's
-      refuse(path, number, fmt::format("has no height in [{}, {}] m after its time", -kHighest_m, kHighest_m));
+    if (!height_m || !(std::abs(*height_m) <= kHighestTide_m)) {  // nan is a number of YAML's
+      refuse(path, number, fmt::format("has no height in [{}, {}] m after its time", -kHighestTide_m, kHighestTide_m));
     }
     const double time_s = static_cast<double>(*time_ns) * 1e-9 - start_unix_s;
     if (!read.empty() && time_s <= read.back().first) refuse(path, number, "is not later than the reading before");

@@ -33,6 +33,7 @@ struct WaterSample {
     visit("temperature_degc", "degC", in(kColdest_degc, kWarmest_degc), "temperature there", self.temperature_degc);
     visit("salinity_psu", "psu", in(0, kSaltiest_psu), "salinity there", self.salinity_psu);
   }
+  void check(const ConfigReader& from) const;
 };
 
 /// A sound speed profile: the same speed everywhere, or samples with depths rising.
@@ -40,10 +41,6 @@ struct WaterProfile {
   std::optional<double> sound_speed_mps;
   std::vector<WaterSample> samples;
 
-  static void parameters(auto& self, auto&& visit) {
-    visit("sound_speed_mps", "m/s", in(sample_limits::kSlowest_mps, sample_limits::kFastest_mps),
-          "the same everywhere; instead of a profile or a cast", self.sound_speed_mps);
-  }
   bool given() const { return sound_speed_mps.has_value() || !samples.empty(); }
 };
 
@@ -64,7 +61,7 @@ struct Water {
   std::vector<water::ScatteringLayer> scattering_layers;
   double bubble_loss_db = 0.0;
 
-  /// What of it has one value; profiles and scattering layers are read by read_water().
+  /// What of it has one value; the rest is in WaterKeys.
   static void parameters(auto& self, auto&& visit) {
     using namespace sample_limits;
     visit("temperature_degc", "degC", in(kColdest_degc, kWarmest_degc), "of the water where the profile has none",

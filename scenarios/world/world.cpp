@@ -17,53 +17,11 @@
 #include "components/errors/assert.h"
 #include "components/errors/nearest_name.h"
 #include "kernels/vehicle/runlines/survey_plan.h"
-#include "scenarios/world/sections.h"
+#include "scenarios/world/scenario_keys.h"
 
 namespace ensonify {
 
 namespace {
-
-struct Name {
-  std::string name = Site{}.name;
-
-  static void parameters(auto& self, auto&& visit) { visit("name", "", any(), "name of the place", self.name); }
-};
-struct OriginInRaster {
-  bool in_raster = false;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("origin", "", computed(one_of({{"raster", true}})),
-          "instead of the two: the raster's centre, or the tile set's own origin", self.in_raster);
-  }
-};
-struct Origin {
-  frames::Geodetic place;
-
-  static void parameters(auto& self, auto&& visit) {
-    visit("latitude_deg", "", must(in(-89.9, 89.9)), "of the world's origin, degrees north", self.place.latitude_deg);
-    visit("longitude_deg", "", must(in(-180, 180)), "of the world's origin, degrees east", self.place.longitude_deg);
-  }
-};
-
-Site read_site(ConfigReader from) {
-  Site site;
-  Name name;
-  read_parameters(from, name);
-  site.name = name.name;
-  if (from.has("origin")) {
-    OriginInRaster origin;
-    read_parameters(from, origin);
-    site.origin_from_raster = origin.in_raster;
-    if (from.has("latitude_deg") || from.has("longitude_deg")) {
-      from.problem("origin", "stands beside latitude_deg or longitude_deg; give one or the other");
-    }
-    return site;
-  }
-  Origin origin;
-  read_parameters(from, origin);
-  site.origin = origin.place;
-  return site;
-}
 
 /// How long one round of a mission's steps takes at the least: its lines, orbits and stays, without the ways between.
 /// Begins at a speed and leaves the one that is in force after it.
@@ -130,15 +88,15 @@ std::vector<frames::Vec2> places_of_site(const World& world) {
 }
 
 /// Grids of datums must cover the site: beyond its edge a grid knows nothing.
-void check_datums(const ConfigReader& section, const World& world) {
+void check_datums(const ConfigReader& from, const World& world) {
   const vertical::Datums& datums = world.vertical.datums;
   const std::vector<frames::Vec2> places = places_of_site(world);
-  const auto check = [&](const char* key, const vertical::Separation& separation) {
+  const auto check = [&](const std::string& key, const vertical::Separation& separation) {
     const auto bare = std::ranges::find_if(places, [&](const auto& place) { return !separation.covers(place); });
     if (bare == places.end()) return;
-    section.problem(key, fmt::format("does not cover ({:.1f}, {:.1f}) m; allowed: a grid over the whole seabed and "
-                                     "all lines, east and north in metres of the world",
-                                     bare->x(), bare->y()));
+    from.problem("vertical." + key, fmt::format("does not cover ({:.1f}, {:.1f}) m; allowed: a grid over the whole "
+                                                "seabed and all lines, east and north in metres of the world",
+                                                bare->x(), bare->y()));
   };
   check("geoid_above_ellipsoid_grid", datums.geoid_above_ellipsoid);
   check("datum_above_geoid_grid", datums.datum_above_geoid);
@@ -196,64 +154,44 @@ ConfigPlace place_of_auto(const std::string& scenario_file) {
 
 }  // namespace
 
-ParameterList site_list() {
-  ParameterList list = parameters_of<Name>();
-  for (ParameterInfo& info : parameters_of<Origin>()) {
-    info.allowed.required = false;  // `origin` may stand instead
-    list.push_back(std::move(info));
+void SiteKeys::check(const ConfigReader& from) const {
+  if (from.has("origin") && (from.has("latitude_deg") || from.has("longitude_deg"))) {
+    from.problem("origin", "stands beside latitude_deg or longitude_deg; give one or the other");
   }
-  list.push_back(parameters_of<OriginInRaster>().front());
-  return list;
 }
 
-ParameterList scenario_list() {
-  ParameterList list{format_info(kScenarioFormat)};
-  list.push_back(
-      file_info("include", "a scenario whose sections these stand over; what it has need not be given here", false));
-  for (ParameterInfo& info : header_list()) list.push_back(std::move(info));
-  list.push_back(section_info("site", "the place of the world", site_list(), true));
-  list.push_back(section_info("water", "the water: sound speed, absorption, noise", water_list()));
-  list.push_back(section_info("vertical", "water level, chart datum, geoid and ellipsoid", vertical_list()));
-  list.push_back(section_info("current", "the current", current_list()));
-  list.push_back(section_info("seabed", "the seabed", seabed_list(), true));
-  list.push_back(named_info("vehicles", "by names of your own", vehicle_list()));
-  list.push_back(section_info("mission", "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
-                              mission_list(true), true));
-  return list;
+Site SiteKeys::site() const {
+  Site site;
+  site.name = name;
+  if (const auto* place = std::get_if<OriginKeys>(&origin)) site.origin = place->place;
+  else site.origin_from_raster = true;
+  return site;
 }
 
-ParameterList mission_file_list() {
-  ParameterList list{format_info(kMissionFormat)};
-  for (ParameterInfo& info : mission_list(false)) list.push_back(std::move(info));
-  return list;
-}
+ParameterList scenario_list() { return parameters_of<ScenarioFileKeys>(); }
+ParameterList mission_file_list() { return parameters_of<MissionFileKeys>(); }
+ParameterList step_list() { return parameters_of<MissionStep>(); }
 
-World read_world(ConfigReader& from, const std::string& file) {
+World read_world(ConfigReader& from, const std::string& file, std::string* written) {
+  ScenarioKeys keys;
+  read_parameters(from, keys);
+  if (written != nullptr) *written = written_yaml(parameters_of(keys, &from.node()));
+
   World world;
+  static_cast<ScenarioHeader&>(world) = keys.header.header();
   world.file = file;
-  read_format(from, kScenarioFormat);
-  world.site = read_site(from.section("site"));
-  read_header(from, world);
-  if (const auto water = from.optional_section("water")) {
-    world.water = read_water(*water);
-  }
+  world.site = keys.site.site();
+  world.water = keys.water.water();
   const double start_unix_s = static_cast<double>(world.start_unix_ns) * 1e-9;
-  const auto vertical = from.optional_section("vertical");
-  if (vertical) {
-    world.vertical = read_vertical(*vertical, start_unix_s);
-  }
-  if (const auto current = from.optional_section("current")) {
-    world.current = read_current(*current, start_unix_s);
-  }
-  world.seabed = read_seabed(from.section("seabed"));
-  for (auto& [name, vehicle] : from.named_sections("vehicles")) {
-    world.vehicles.push_back(read_vehicle(name, vehicle));
-  }
+  world.vertical = keys.vertical.vertical(from, start_unix_s);
+  world.current = keys.current.current(start_unix_s);
+  world.seabed = keys.seabed.seabed();
+  for (const VehicleKeys& vehicle : keys.vehicles) world.vehicles.push_back(vehicle.vehicle());
   world.seabed.layered.seed = world.seed;
   world.seabed.layered.file = file;
   const bool placed = !world.site.origin_from_raster;
-  world.mission = read_mission(from.section("mission"), placed ? std::optional(world.site.origin) : std::nullopt);
-  if (vertical && from.good()) check_datums(*vertical, world);
+  world.mission = keys.mission.mission(placed ? std::optional(world.site.origin) : std::nullopt);
+  if (from.good()) check_datums(from, world);
   check_whole(from, world);
   return world;
 }

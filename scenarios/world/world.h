@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/config/config_node.h"
+#include "components/config/parameter_info.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/vehicle/motion/current.h"
@@ -32,9 +33,6 @@ struct Vertical {
   vertical::Tide tide;
   vertical::Datums datums;
 };
-
-/// `vertical:` of a scenario.
-Vertical read_vertical(ConfigReader from, double start_unix_s);
 
 /// The tide of a gauge: lines "2025-06-01T12:00:00Z,1.35", time in UTC and metres above chart datum, times rising;
 /// lines that start with # and a first line of column names are skipped. Throws ConfigError with places in that file.
@@ -104,15 +102,17 @@ void check_mission(const ConfigReader& from, const Mission& mission, const Vehic
 /// Heads of a vehicle that never come below the water.
 void check_heads(const ConfigReader& from, const Mission& mission, const Vehicle& vehicle);
 
-/// Keys of a scenario file, and of a mission's: for schemas and tables.
+/// Keys of a scenario file, of a mission's, and of the steps of a mission: for schemas and tables.
 ParameterList scenario_list();
 ParameterList mission_file_list();
+ParameterList step_list();
 
 /// Reads a scenario file: one from here, or the project's own (data_paths.h). Throws ConfigError with every problem.
 World read_world(const std::string& path, const Overrides& overrides = {});
 
-/// Reads an already parsed scenario; problems stay in the reader for its finish().
-World read_world(ConfigReader& from, const std::string& file);
+/// Reads an already parsed scenario; problems stay in the reader for its finish(). `written` takes what a file would
+/// have with every value.
+World read_world(ConfigReader& from, const std::string& file, std::string* written = nullptr);
 
 /// The vehicle that a process belongs to: the one that its configuration names under `vehicle` (`wanted`), else the one
 /// that has the process's name, else the scenario's only one. Anything else is a problem of `from`, and the result a

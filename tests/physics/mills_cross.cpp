@@ -50,16 +50,16 @@ echo::Image MillsCross::receive(const trace::Scene& seabed, const frames::HeadPo
                           echo::scatterers_of(cells, {head, rays, hits, source, cross_section}), receivers, arrivals);
 
   const echo::ElementLine line{elements, spacing_in_waves};
-  const std::vector<std::vector<float>> weights{
-      echo::power_weights(echo::beam_weights(std::vector<double>(static_cast<std::size_t>(elements), 1.0)))};
-  const echo::SampledPulse squared =
-      echo::SampledPulse(echo::rectangular_pulse(pulse_length_s), sample_period_s).squared();
+  const std::vector<echo::WantedImage> wanted{echo::WantedImage(
+      echo::beam_weights(std::vector<double>(static_cast<std::size_t>(elements), 1.0)), echo::Sum::kMeanSquare)};
+  const echo::SampledPulse pulse(echo::rectangular_pulse(pulse_length_s), sample_period_s), squared = pulse.squared();
   const int samples = static_cast<int>((2.0 * range_m / kSpeed_mps + pulse_length_s) / sample_period_s) + 1;
   std::vector<echo::Image> images(1);
   echo::LineReceiver::Memory memory;
-  echo::LineReceiver(echo::power_line(line))
-      .form({std::array{echo::EchoSet{arrivals}}, squared, {0.0, sample_period_s, samples}, {}}, sin_beams, weights,
-            images, memory);
+  echo::LineReceiver(line, true)
+      .form({std::array{echo::EchoSet{arrivals}}, pulse, {0.0, sample_period_s, samples}, {}, &squared}, sin_beams,
+            wanted, images, memory);
+  for (auto& value : images[0].envelope_upa) value = std::norm(value);
   return images[0];
 }
 

@@ -1,4 +1,3 @@
-#include <nodes_found.h>  // generated: tests/physics/CMakeLists.txt
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include "components/sonar/testing/random_head.h"
 #include "components/sonar/testing/seabed.h"
 #include "tests/physics/heads.h"
+#include "tests/physics/heads_found.h"
 
 // Laws that hold for any legal head, at any place, over any seabed: random ones, always the same.
 
@@ -35,19 +35,6 @@ World random_world(Draws& draw) {
                             {2, *seabed::material_of("rigid")}};
   return world;
 }
-
-// clang-format off
-template <class Node> struct IsHead : std::false_type {};
-template <class Head> struct IsHead<HeadNode<Head>> : std::true_type {};
-template <class Found, class... Nodes> struct Heads { using Type = Found; };
-// clang-format on
-template <class... Found, class Node, class... Rest>
-struct Heads<std::tuple<Found...>, Node, Rest...>
-    : std::conditional_t<IsHead<Node>::value, Heads<std::tuple<Found..., Node>, Rest...>,
-                         Heads<std::tuple<Found...>, Rest...>> {};
-template <class... Nodes>
-typename Heads<std::tuple<>, Nodes...>::Type heads_among(std::tuple<Nodes...>*);
-using HeadsFound = decltype(heads_among(static_cast<NodesFound*>(nullptr)));
 
 constexpr double kTile_m = 32.0, kPosts_m = 0.5;
 

@@ -315,11 +315,13 @@ std::string scenario_schema() {
   schema["then"]["required"] = schema["required"];
   schema["required"] = Json::array({"ensonify"});
   for (auto& [key, section] : schema["properties"].items()) {
-    if (!section.contains("required")) continue;
-    schema["then"]["properties"][key]["required"] = section["required"];
-    section.erase("required");
+    for (const char* rule : {"required", "oneOf", "allOf"}) {
+      if (!section.contains(rule)) continue;
+      schema["then"]["properties"][key][rule] = section[rule];
+      section.erase(rule);
+    }
   }
-  return schema.dump(2) + "\n";
+  return schema_text(schema.dump());
 }
 
 /// The parameters of a component or a file, as a schema for editors or a table for pages.
@@ -327,7 +329,7 @@ std::string parameters_of_name(const std::string& name, bool as_schema) {
   if (name == "scenario" && as_schema) return scenario_schema();
   if (name == "launch" && as_schema) return launch_schema(component_schemas());
   if (const auto list = list_of_file(name)) {
-    return as_schema ? parameter_schema("Ensonify " + name, *list) : parameter_table(*list);
+    return as_schema ? schema_text(parameter_schema("Ensonify " + name, *list)) : parameter_table(*list);
   }
   const auto components = component_names();
   if (std::ranges::find(components, name) != components.end()) {

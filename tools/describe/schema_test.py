@@ -10,6 +10,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 import jsonschema
 import yaml
@@ -67,7 +68,7 @@ def problems(validator, document):
 def keys_without_sentence(schema, path=""):
     for key, value in schema.items():
         if not isinstance(value, dict):
-            for i, item in enumerate(value if isinstance(value, list) else []):
+            for i, item in enumerate(value if isinstance(value, list) and key != "oneOf" else []):  # oneOf: rules for keys above
                 if isinstance(item, dict):
                     yield from keys_without_sentence(item, f"{path}/{key}[{i}]")
         elif key == "properties":
@@ -140,4 +141,92 @@ planted(launch, demo, ["processes", "boat", "obsever"], True, "processes.boat", 
 planted(launch, demo, ["processes", "pager", "config"], {"rate_hz": 21}, "processes.pager.config.rate_hz", "21")
 planted(launch, demo, ["processes", "pilot", "config"], {"patience": 1}, "processes.pilot.config", "'patience' was unexpected")
 planted(launch, demo, ["clock"], {"rate": "fast"}, "clock.rate", "fast")
+
+# Forms: schema and reader accept and refuse the same.
+WORLD = {"site": {"latitude_deg": 53, "longitude_deg": -9}, "seabed": {"kind": "layers"},
+         "vehicles": {"boat": {}}, "mission": {"runlines": [{"from_m": [0, -50], "to_m": [0, 50]}]}}
+WALL, BARS = {"from_m": [0, 0], "to_m": [9, 0]}, [{"from_m": [0, 0, 0], "to_m": [0, 0, 3], "diameter_m": 1}]
+STREWN = {"count": 3, "from_m": [0, 0], "to_m": [9, 0], "width_m": 1}
+M2 = {"constituent": "M2", "amplitude_m": 1}
+SAMPLES = [{"depth_m": 0, "sound_speed_mps": 1500}]
+LINE, SPECTRAL = [[0, -50], [0, 50]], {"outer_scale_m": 5}
+
+
+def seabed(**keys):
+    return {"kind": "layers", **keys}
+
+
+SECTIONS = [  # section, value, whether it is valid
+    ("site", {"name": "x"}, False), ("site", {**WORLD["site"], "origin": "raster"}, False),
+    ("water", {"sound_speed_mps": 1500}, True), ("water", {"profile": SAMPLES}, True),
+    ("water", {"sound_speed_mps": 1500, "profile": SAMPLES}, False),
+    ("water", {"applied": {}}, False), ("water", {"applied": {"sound_speed_mps": 1490}}, True),
+    ("vertical", {"tide": {}}, False), ("vertical", {"tide": {"constant_m": 1}}, True),
+    ("vertical", {"tide": {"constant_m": 1, "mean_m": 1}}, False),
+    ("vertical", {"tide": {"constituents": [M2], "mean_m": 1}}, True), ("vertical", {"tide": {"constituents": [{}]}}, False),
+    ("vertical", {"geoid_above_ellipsoid_m": 1, "datum_above_geoid_m": 2}, True),
+    ("seabed", {}, False), ("seabed", {"kind": "raster"}, False), ("seabed", {"kind": "sand"}, False),
+    ("seabed", seabed(raster={"path": "x", "values": "depth"}), False), ("seabed", seabed(size_m=[500, 400]), True),
+    ("seabed", seabed(sediments={"0": "clay"}), True), ("seabed", seabed(sediments={"0": "sponge"}), False),
+    ("seabed", seabed(sediments={"0": {"name": "clay", "capped": True}}), True), ("seabed", seabed(sediments={"0": {}}), False),
+    ("seabed", seabed(sediments={"0": {"lambert_mu_db": -20}}), True), ("seabed", seabed(sediments={"sand": "clay"}), False),
+    ("seabed", seabed(sediments={"0": {"lambert_mu_db": -20, "capped": True}}), False),
+    ("seabed", seabed(sediments={"0": {"lambert_mu_db": -20, "name": "clay"}}), False),
+    ("seabed", seabed(sediments={"0": {"gsab": {"specular_db": -10, "specular_width_deg": 5, "diffuse_db": -20}}}), True),
+    ("seabed", seabed(layers={"a": {"plane": {}}}), True), ("seabed", seabed(layers={"a": {"plane": {}, "ridge": {}}}), False),
+    ("seabed", seabed(layers={"a": {"plane": {}}, "b": {"sediment": 0}}), True),
+    ("seabed", seabed(layers={"a": {"spectral": {**SPECTRAL, "rms_m": 1}}}), True),
+    ("seabed", seabed(layers={"a": {"spectral": {**SPECTRAL, "as_sediment": "clay"}}}), True),
+    ("seabed", seabed(layers={"a": {"spectral": {**SPECTRAL, "rms_m": 1, "as_sediment": "clay"}}}), False),
+    ("seabed", seabed(layers={"a": {"spectral": SPECTRAL}}), False),
+    ("seabed", seabed(layers={"a": {"plane": {}, "mask": {"any": [{"any": [{"sediment": [0, 3]}]}, {"slope_deg": {"to": 3}}]}}}), True),
+    ("seabed", seabed(layers={"a": {"plane": {}, "mask": {"sediment": [1.5]}}}), False),
+    ("seabed", seabed(meshes={"a": {"sheet_pile_wall": WALL}}), True), ("seabed", seabed(meshes={"a": {}}), False),
+    ("seabed", seabed(meshes={"a": {"sheet_pile_wall": WALL, "unit_m": 2}}), False),
+    ("seabed", seabed(meshes={"a": {"sheet_pile_wall": WALL, "bars": BARS}}), False),
+    ("seabed", seabed(meshes={"a": {"bars": BARS, "tilt_deg": 3}}), True), ("seabed", seabed(meshes={"a": {"bars": BARS, "strewn": STREWN}}), True),
+    ("seabed", seabed(meshes={"a": {"bars": BARS, "strewn": STREWN, "tilt_deg": 3}}), False),
+    ("vehicles", {"boat": {"kind": "hydrodynamic"}}, False), ("vehicles", {"boat": {"dynamics": "x.yaml"}}, False),
+    ("vehicles", {"boat": {"start": "first_runline"}}, True), ("vehicles", {"boat": {"start": "here"}}, False),
+    ("vehicles", {"boat": {"start": {"position_m": [0, 0, -1]}}}, True), ("vehicles", {"boat": {"start": {}}}, False),
+    ("vehicles", {"boat": {"mountings": {"bow": {"actual": {}}}}}, True), ("vehicles", {"boat": {"mountings": {"bow": {}}}}, False),
+    ("mission", {**WORLD["mission"], "steps": []}, False), ("mission", {"steps": [{"line": LINE}]}, True),
+    ("mission", {"steps": [{"line": LINE, "radius_m": 3}]}, False), ("mission", {"steps": [{"line": LINE}, {"keep": [0, 0]}]}, False),
+    ("mission", {"steps": [{"line": LINE}, {"keep": [0, 0], "for_s": 3}, {"wait_s": 3}, {"speed_mps": 1}, {"mark": "x"}]}, True),
+    ("mission", {"lawnmower": {"length_m": 50, "spacing_m": 5, "count": 2}}, True), ("mission", {"lawnmower": {}}, False)]
+PROCESS = {"run": "recorder", "observer": True}
+LAUNCHES = [  # keys over those of a launch of one observer, whether they are valid
+    ({"processes": {"a": {**PROCESS, "cpus": [0]}}}, True), ({"processes": {"a": {**PROCESS, "cpus": [0.5]}}}, False),
+    ({"processes": {"a": {**PROCESS, "cpus": [4096]}}}, False), ({"processes": {"a": {**PROCESS, "env": {"A": 1}}}}, True),
+    ({"processes": {"a": {**PROCESS, "run": ["true"]}}}, True), ({"processes": {"a": {**PROCESS, "run": {}}}}, False),
+    ({"clock": {"rate": "free"}}, True), ({"clock": {"rate": 2}}, True), ({"clock": {"rate": "fast"}}, False), ({"clock": {"rate": 0}}, False),
+    ({"wiring": {"a.b": "c/d"}}, True), ({"wiring": {"a.b": {"topic": "c/d", "delay_ms": 3}}}, True), ({"wiring": {"a.b": {"delay_ms": 3}}}, False),
+    ({"after": [["true", 1]]}, True), ({"after": ["true"]}, False), ({"duration_s": 0}, False),
+    ({"expect": [{"exit": {"process": "a", "code": 0}}]}, True), ({"expect": [{"cuont": {"topic": "a/b", "min": 1}}]}, False),
+    ({"expect": [{"count": {"topic": "a/b", "min": 1}}]}, True), ({"expect": [{"count": {"tpoic": "a/b", "min": 1}}]}, False),
+    ({"expect": [{"bounds": {"topic": "a/b", "field": "x", "max": "high"}}]}, False),
+    ({"scenario": {"ensonify": "scenario/1", **WORLD}}, True), ({"scenario": ["x.yaml"]}, False)]
+
+
+def read(document):
+    """What `ensonify check` says of a launch file; "" where nothing is wrong but what ports and wiring need a run for."""
+    with tempfile.TemporaryDirectory(prefix="ensonify-schema-") as folder:
+        path = pathlib.Path(folder) / "launch.yaml"
+        path.write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
+        done = subprocess.run([os.path.join(sys.argv[1], "ensonify-check"), path], capture_output=True, text=True, check=False)
+    return "\n".join(line for line in done.stderr.splitlines() if not re.search("no process (has this input|publishes)|^warning", line))
+
+
+def agree(valid, wrong, said, what):
+    assert (not wrong) == valid, f"schema: {what} is to be {'valid' if valid else 'refused'}: {wrong}"
+    assert (not said) == valid, f"reader: {what} is to be {'valid' if valid else 'refused'}: {said}"
+
+
+observer = {"ensonify": "launch/1", "processes": {"a": PROCESS}}
+for section, value, valid in SECTIONS:
+    document = {"ensonify": "scenario/1", **WORLD, section: value}
+    agree(valid, problems(scenario, document), read({**observer, "scenario": document}), {section: value})
+for keys, valid in LAUNCHES:
+    document = {**observer, **keys}
+    agree(valid, problems(launch, document), read(document), keys)
 print(f"{len(shipped['launch'])} launch and {len(shipped['scenario'])} scenario files are valid")

@@ -85,14 +85,16 @@ void add_direct_echoes(const Carrier& carrier, const Vec3& source_enu_m, const S
       tbb::simple_partitioner());
 }
 
-void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling) {
+void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling,
+                    const ContributorSet& whose) {
   constexpr std::size_t kArrivalsPerTask = 8192;
   samples_ = sampling.count;
   blocks_ = (samples_ + kBlock - 1) / kBlock;
   reach_ = (pulse.support() + kBlock - 2) / kBlock;
-  std::size_t all = 0;
-  for (const EchoSet& set : echoes) all += set.arrivals.size();
-  trace::make_elements(received_, all);
+  std::size_t count = 0;
+  for (const EchoSet& set : echoes) count += set.arrivals.size();
+  trace::make_elements(received_, count);
+  const bool all = whose.all();
   Received* received = received_.data();
   for (std::size_t number = 0; number < echoes.size(); ++number) {
     const Arrivals& arrivals = echoes[number].arrivals;
@@ -100,6 +102,10 @@ void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, 
         tbb::blocked_range<std::size_t>(0, arrivals.size(), kArrivalsPerTask),
         [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            if (!all && !whose.holds(arrivals.contributor[i])) {
+              received[i].first = samples_;  // left out below, as what comes later than all samples is
+              continue;
+            }
             const auto place = pulse.place((arrivals.time_s[i] - sampling.start_s) / sampling.period_s);
             received[i] = {place.first, static_cast<std::uint16_t>(place.phase), static_cast<std::uint16_t>(number),
                            static_cast<std::uint32_t>(i)};

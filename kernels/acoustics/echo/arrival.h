@@ -55,6 +55,28 @@ struct Arrivals : trace::Batch<Arrivals, Arrival> {
   }
 };
 
+/// Some contributors of a ping, or all of them.
+class ContributorSet {
+ public:
+  /// All.
+  ContributorSet() = default;
+  /// These and no others.
+  explicit ContributorSet(std::span<const std::uint32_t> contributors) : all_(false) {
+    for (const std::uint32_t one : contributors) {
+      if (one >= holds_.size()) holds_.resize(one + 1);
+      holds_[one] = true;
+    }
+  }
+
+  bool all() const { return all_; }
+  bool holds(std::uint32_t contributor) const { return all_ || (contributor < holds_.size() && holds_[contributor]); }
+  bool operator==(const ContributorSet&) const = default;
+
+ private:
+  bool all_ = true;
+  std::vector<bool> holds_;  // by contributor
+};
+
 /// Arrivals of one origin, and what patterns make of each: amplitudes row by row, one row per aperture, one alone for
 /// the elements of a line; empty: 1.
 struct EchoSet {
@@ -124,8 +146,9 @@ class TimeIndex {
     std::uint32_t arrival;  // of its set
   };
 
-  /// In order of sets, and within each of arrivals.
-  void set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling);
+  /// In order of sets, and within each of arrivals: those of some contributors.
+  void set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling,
+           const ContributorSet& whose = {});
 
   int blocks() const { return blocks_; }
 

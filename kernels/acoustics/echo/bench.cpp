@@ -52,7 +52,7 @@ struct Ping {
   echo::Arrivals arrivals;
   echo::LineReceiver receiver{echo::element_line(receive_array(), kWave_m)};
   echo::LineReceiver::Memory memory;
-  std::vector<std::vector<float>> weights;
+  std::vector<echo::WantedImage> wanted;
   std::vector<echo::Image> images;
   echo::SampledPulse pulse{echo::rectangular_pulse(100e-6), kSampling.period_s};
   random::Stream ambient{1, "noise"};
@@ -67,9 +67,12 @@ struct Ping {
     for (const float angle : array::equiangular_beams_rad(65 * kDeg, 256)) sin_beams.push_back(std::sin(angle));
     const array::LineArray array = receive_array();
     const auto split = array::split_aperture(array);
-    if (apertures == 1) weights = {echo::beam_weights(array.weights)};
-    else
-      weights = {echo::beam_weights(split.negative, array.weights), echo::beam_weights(split.positive, array.weights)};
+    if (apertures == 1) {
+      wanted.emplace_back(echo::beam_weights(array.weights));
+    } else {
+      for (const auto& half : {split.negative, split.positive})
+        wanted.emplace_back(echo::beam_weights(half, array.weights));
+    }
     receivers.set({0, 1, std::span(&kHead, 1)});
   }
   void trace() { scene.adapted().trace(kHead, rays, kMaxRange_m, hits); }
@@ -88,7 +91,7 @@ struct Ping {
   void form(std::uint64_t number) {
     receiver.form(
         {std::array{echo::EchoSet{arrivals}}, pulse, kSampling, {number, 1e5, &ambient, 0.0, nullptr, {}, nullptr}},
-        sin_beams, weights, images, memory);
+        sin_beams, wanted, images, memory);
   }
   void whole(std::uint64_t number) {
     trace();

@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -46,11 +47,15 @@ static std::vector<float> uniform(int elements) {
 }
 
 static Image form(const ElementLine& array, const LineReceiver::Input& input, std::span<const float> beams,
-                  const std::vector<float>& weights) {
+                  const WantedImage& wanted) {
   LineReceiver::Memory memory;
   Image image;
-  LineReceiver(array).form(input, beams, std::span(&weights, 1), std::span(&image, 1), memory);
+  LineReceiver(array, true).form(input, beams, std::span(&wanted, 1), std::span(&image, 1), memory);
   return image;
+}
+static Image form(const ElementLine& array, const LineReceiver::Input& input, std::span<const float> beams,
+                  const std::vector<float>& weights) {
+  return form(array, input, beams, WantedImage(weights));
 }
 
 TEST_CASE("beams are the direct sum over elements, 90 dB below the peak") {
@@ -114,7 +119,7 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
   LineReceiver receiver(element_line(array, 2.0));
   LineReceiver::Memory memory;
   std::vector<Image> images(3);
-  const std::vector<std::vector<float>> weights{whole, lower, upper};
+  const std::vector<WantedImage> weights{WantedImage(whole), WantedImage(lower), WantedImage(upper)};
   receiver.form({std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, weights, images, memory);
   const Image alone =
       form(element_line(array, 2.0), {std::array{EchoSet{arrivals}}, kPulse, kSampling, {}}, beams, whole);
@@ -124,7 +129,7 @@ TEST_CASE("an array's halves add up to it, and their phase gives the angle off i
   }
   const std::vector<float> beam{0.2F};
   const Arrivals one{from_sine(0.205, 11e-3)};
-  const std::vector<std::vector<float>> two{lower, upper};
+  const std::vector<WantedImage> two{WantedImage(lower), WantedImage(upper)};
   std::vector<Image> pair(2);
   receiver.form({std::array{EchoSet{one}}, kPulse, kSampling, {}}, beam, two, pair, memory);
   const auto product = pair[1].row(0)[41] * std::conj(pair[0].row(0)[41]);
@@ -137,11 +142,11 @@ TEST_CASE("sums of mean squares have the power pattern") {
   const Arrivals one{from_sine(0.1, 11e-3)};
   const Image wave = form({40, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}}, beams, weights);
   const SampledPulse squared = kPulse.squared();
-  const Image power =
-      form(power_line({40, 0.5}), {std::array{EchoSet{one}}, squared, kSampling, {}}, beams, power_weights(weights));
+  const Image root = form({40, 0.5}, {std::array{EchoSet{one}}, kPulse, kSampling, {}, &squared}, beams,
+                          WantedImage(weights, Sum::kMeanSquare));
   for (int b = 0; b < 51; ++b) {
-    REQUIRE_THAT(power.row(b)[41].real(), WithinAbs(std::norm(wave.row(b)[41]), 1e-5));
-    REQUIRE_THAT(power.row(b)[41].imag(), WithinAbs(0, 1e-5));
+    REQUIRE_THAT(std::norm(root.row(b)[41]), WithinAbs(std::norm(wave.row(b)[41]), 1e-5));
+    REQUIRE(root.row(b)[41].imag() == 0.0F);
   }
 }
 
@@ -216,10 +221,11 @@ TEST_CASE("without speckle all beams together receive a pair's pressures, near o
     const SharedByBeams shared = shared_by_beams(line, weights);
     std::vector<float> gain{1.0F, 1.0F};
     power_gains(powers, {0, 1}, &shared, gain);
-    const Image image = form(power_line(line), {std::array{EchoSet{powers, gain}}, kPulse.squared(), kSampling, {}},
-                             beams, power_weights(weights));
-    CHECK(energy(image, [](std::complex<float> p) { return double(p.real()); }) == Approx(want).epsilon(2e-3));
-    if (apart == 0.0) CHECK(double(image.row(120)[41].real()) == Approx(16.0).epsilon(1e-3));  // (3 + 1)^2 on the axis
+    const SampledPulse squared = kPulse.squared();
+    const Image image = form(line, {std::array{EchoSet{powers, gain}}, kPulse, kSampling, {}, &squared}, beams,
+                             WantedImage(weights, Sum::kMeanSquare));
+    CHECK(energy(image, [](std::complex<float> p) { return double(std::norm(p)); }) == Approx(want).epsilon(2e-3));
+    if (apart == 0.0) CHECK(double(std::norm(image.row(120)[41])) == Approx(16.0).epsilon(1e-3));  // (3 + 1)^2, on axis
   }
 }
 
@@ -227,7 +233,7 @@ TEST_CASE("threads change no bit, and a ping after the first allocates nothing")
   const auto arrivals = many(20000);
   const auto beams = sines(256);
   const random::Stream a{1, "ambient"}, e{1, "electronics"};
-  const std::vector<std::vector<float>> weights{uniform(100)};
+  const std::vector<WantedImage> weights{WantedImage(uniform(100))};
   LineReceiver receiver({100, 0.5});
   LineReceiver::Memory memory;
   std::vector<Image> one(1), two(1);
@@ -259,11 +265,97 @@ TEST_CASE("one set of arrivals or several of any size give the same bits") {
   }
 }
 
+/// Arrivals of contributors 0 (noise) to 4 in turns, and those of one of them.
+static Arrivals of_five() {
+  Arrivals arrivals = many(3000);
+  for (std::size_t i = 0; i < arrivals.size(); ++i) arrivals.contributor[i] = std::uint32_t(i % 5);
+  return arrivals;
+}
+static Arrivals only(const Arrivals& arrivals, std::uint32_t contributor) {
+  Arrivals some;
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    if (arrivals.contributor[i] == contributor) some.push_back(arrivals[i]);
+  }
+  return some;
+}
+static ContributorSet set_of(std::initializer_list<std::uint32_t> contributors) {
+  return ContributorSet(std::span(contributors.begin(), contributors.size()));
+}
+
+TEST_CASE("images of each contributor add up to the image of all, noise included") {
+  const Arrivals arrivals = of_five();
+  const auto beams = sines(31);
+  const random::Stream ambient{1, "ambient"};
+  const std::array sets{EchoSet{arrivals}};
+  const LineReceiver::Input input{sets, kPulse, kSampling, {7, 4.0, &ambient}};
+  std::vector<WantedImage> wanted{WantedImage(uniform(60))};
+  for (std::uint32_t one = 0; one < 5; ++one) wanted.emplace_back(uniform(60), Sum::kPressure, set_of({one}));
+  std::vector<Image> images(wanted.size());
+  LineReceiver::Memory memory;
+  LineReceiver({60, 0.5}).form(input, beams, wanted, images, memory);
+  // Rounding: 2^-24 of the strongest sample, through two transforms of six terms.
+  float strongest = 0.0F;
+  for (const auto p : images[0].envelope_upa) strongest = std::max(strongest, std::abs(p));
+  for (std::size_t i = 0; i < images[0].envelope_upa.size(); ++i) {
+    std::complex<float> sum;
+    for (std::size_t one = 1; one < images.size(); ++one) sum += images[one].envelope_upa[i];
+    REQUIRE(std::abs(sum - images[0].envelope_upa[i]) < 2e-6F * strongest);
+  }
+}
+
+TEST_CASE("an image of one contributor has the bits of its arrivals alone") {
+  const Arrivals arrivals = of_five();
+  const auto beams = sines(31);
+  const random::Stream ambient{1, "ambient"};
+  const SampledPulse squared = kPulse.squared();
+  const Background background{7, 4.0, &ambient};
+  std::vector<float> gain;
+  for (std::size_t i = 0; i < arrivals.size(); ++i) gain.push_back(0.5F + 0.001F * float(i % 300));
+  for (const Sum sum : {Sum::kPressure, Sum::kMeanSquare}) {
+    for (const std::uint32_t one : {trace::kNoise, 3U}) {
+      const Arrivals alone = only(arrivals, one);
+      std::vector<float> own_gain;
+      for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        if (arrivals.contributor[i] == one) own_gain.push_back(gain[i]);
+      }
+      const std::array all{EchoSet{arrivals, gain}}, its_own{EchoSet{alone, own_gain}};
+      const Image filtered = form({60, 0.5}, {all, kPulse, kSampling, background, &squared}, beams,
+                                  WantedImage(uniform(60), sum, set_of({one})));
+      const Background its_background = one == trace::kNoise ? background : Background{};
+      const Image by_hand =
+          form({60, 0.5}, {its_own, kPulse, kSampling, its_background, &squared}, beams, WantedImage(uniform(60), sum));
+      CHECK(std::ranges::any_of(by_hand.envelope_upa, [](auto p) { return std::norm(p) > 0.0F; }));
+      CHECK(filtered.envelope_upa == by_hand.envelope_upa);
+    }
+  }
+}
+
+TEST_CASE("images of several contributors, sums and weights in one call have the bits of each alone") {
+  const Arrivals arrivals = of_five();
+  const auto beams = sines(31);
+  const SampledPulse squared = kPulse.squared();
+  const std::array sets{EchoSet{arrivals}};
+  const LineReceiver::Input input{sets, kPulse, kSampling, {}, &squared};
+  const std::vector<float> tapered = beam_weights(array::shading_weights({array::Shading::Window::kHann}, 60));
+  const std::vector<WantedImage> wanted{
+      WantedImage(uniform(60)), WantedImage(tapered), WantedImage(uniform(60), Sum::kPressure, set_of({1, 4})),
+      WantedImage(tapered, Sum::kMeanSquare), WantedImage(uniform(60), Sum::kMeanSquare, set_of({2}))};
+  std::vector<Image> images(wanted.size());
+  LineReceiver::Memory memory;
+  LineReceiver({60, 0.5}, true).form(input, beams, wanted, images, memory);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    CHECK(images[i].envelope_upa == form({60, 0.5}, input, beams, wanted[i]).envelope_upa);
+  }
+}
+
 TEST_CASE("what does not fit is refused") {
   LineReceiver receiver({10, 0.5});
   LineReceiver::Memory memory;
   std::vector<Image> images(1);
-  const std::vector<std::vector<float>> wrong{uniform(9)};
+  const std::vector<WantedImage> wrong{WantedImage(uniform(9))};
   CHECK_THROWS_AS(receiver.form({{}, kPulse, kSampling, {}}, {}, wrong, images, memory), std::invalid_argument);
+  const std::vector<WantedImage> mean_square{WantedImage(uniform(10), Sum::kMeanSquare)};
+  CHECK_THROWS_AS(receiver.form({{}, kPulse, kSampling, {}}, {}, mean_square, images, memory), std::invalid_argument);
+  CHECK_THROWS_AS(receiver.form({{}, kPulse, kSampling, {}}, {}, {}, images, memory), std::invalid_argument);
   CHECK_THROWS_AS(LineReceiver({0, 0.5}), std::invalid_argument);
 }

@@ -113,10 +113,10 @@ TEST_CASE("elements of a line have noise of the same colour as apertures") {
     const LineReceiver receiver({24, spacing});
     LineReceiver::Memory memory;
     std::vector<Image> images(1);
-    const std::vector<std::vector<float>> weights{beam_weights(std::vector<double>(24, 1.0))};
+    const std::vector<WantedImage> wanted{WantedImage(beam_weights(std::vector<double>(24, 1.0)))};
     const std::vector<float> beams{-0.6F, -0.2F, 0.2F, 0.6F};
     const SampledPulse pulse(kPulse, 25e-6);
-    receiver.form({{}, pulse, {0.0, 25e-6, 40000}, {1, 1.0, &ambient, 0.1, &electronic, {}, nullptr}}, beams, weights,
+    receiver.form({{}, pulse, {0.0, 25e-6, 40000}, {1, 1.0, &ambient, 0.1, &electronic, {}, nullptr}}, beams, wanted,
                   images, memory);
     for (int lag = 1; lag < 8; ++lag) {
       CHECK_THAT(correlation(images[0], lag), WithinAbs(std::max(0.0, 1.0 - 0.25 * lag), 0.03));

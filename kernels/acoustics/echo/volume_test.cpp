@@ -95,11 +95,11 @@ TEST_CASE("beams of a line array receive it with their own patterns, and neighbo
   }
   const random::Stream stream{1, "volume"};
   const std::vector<float> beams{0.2F, 0.2F + 1.0F / 32, 0.2F + 2.0F / 32};
-  const std::vector<std::vector<float>> weights{beam_weights(std::vector<double>(M, 1.0))};
+  const std::vector<WantedImage> wanted{WantedImage(beam_weights(std::vector<double>(M, 1.0)))};
   std::vector<Image> images(1);
   LineReceiver::Memory memory;
   receiver.form({{}, SampledPulse(kPulse, 100e-6), sampling, {1, 0, nullptr, 0, nullptr, level, &stream}}, beams,
-                weights, images, memory);
+                wanted, images, memory);
   double power = 0, null = 0, next = 0, later = 0;
   std::complex<double> half_null;
   for (int k = 2; k < sampling.count; ++k) {

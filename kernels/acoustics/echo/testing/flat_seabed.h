@@ -92,16 +92,16 @@ inline Arrivals below_a_multibeam(int along, int across) {
 
 inline double peak_db(const Arrivals& arrivals, double beam_rad, double period_s) {
   const array::LineArray line = array::line_array_of_width(kOneDegree, 5e-3);
-  LineReceiver receiver(power_line(element_line(line, 5e-3)));
-  const std::vector<std::vector<float>> weights{power_weights(beam_weights(line.weights))};
-  const SampledPulse pulse = SampledPulse(rectangular_pulse(100e-6), period_s).squared();
+  const LineReceiver receiver(element_line(line, 5e-3), true);
+  const std::vector<WantedImage> wanted{WantedImage(beam_weights(line.weights), Sum::kMeanSquare)};
+  const SampledPulse pulse(rectangular_pulse(100e-6), period_s), squared = pulse.squared();
   std::vector<Image> images(1);
   const std::vector<float> beam{float(std::sin(beam_rad))};
   LineReceiver::Memory memory;
-  receiver.form({std::array{EchoSet{arrivals}}, pulse, {0, period_s, int(0.08 / period_s)}, {}}, beam, weights, images,
-                memory);
+  receiver.form({std::array{EchoSet{arrivals}}, pulse, {0, period_s, int(0.08 / period_s)}, {}, &squared}, beam, wanted,
+                images, memory);
   double peak = 0.0;
-  for (const auto p : images[0].row(0)) peak = std::max(peak, double(p.real()));
+  for (const auto p : images[0].row(0)) peak = std::max(peak, double(std::norm(p)));
   return 10 * std::log10(peak);
 }
 
