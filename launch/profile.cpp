@@ -33,7 +33,7 @@ std::vector<Json> written_in(const std::string& folder) {
 
 std::string row(const std::string& name, double count, double wall_s, double processor_s, double of_s) {
   const auto each = [count](double s) { return count > 0.0 ? 1e3 * s / count : 0.0; };
-  return fmt::format("  {:<18}{:>9.0f}{:>14.3f}{:>14.3f}{:>8.1f} %\n", name, count, each(wall_s), each(processor_s),
+  return fmt::format("  {:<18}{:>9.0f}{:>14.3f}{:>19.3f}{:>8.1f} %\n", name, count, each(wall_s), each(processor_s),
                      of_s > 0.0 ? 100.0 * processor_s / of_s : 0.0);
 }
 
@@ -57,6 +57,8 @@ std::string table_of(const Json& profile) {
   text += row("rest of steps", step["count"], rest_s, rest_processor_s, processor_s);
   text += row("waiting", step["count"], wall_s - step["wall_s"].get<double>(),
               processor_s - step["processor_s"].get<double>(), processor_s);
+  if (const auto left_out = profile["events_left_out"].get<std::size_t>(); left_out > 0)
+    text += fmt::format("  the trace file lacks its last {} events\n", left_out);
   return text;
 }
 
@@ -75,7 +77,7 @@ Profiles gather_profiles(const std::string& out) {
   }
   if (!profiles.table.empty())
     profiles.table.insert(
-        0, fmt::format("  {:<18}{:>9}{:>14}{:>14}{:>10}\n", "stage", "count", "wall ms each", "processor ms", "share"));
+        0, fmt::format("  {:<18}{:>9}{:>14}{:>19}{:>10}\n", "stage", "count", "wall ms each", "processor ms each", "share"));
   write_text(out + "/profile.json", Json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n");
   profiles.json = of_processes.dump();
   return profiles;

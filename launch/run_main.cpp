@@ -155,10 +155,10 @@ int run(Options& options) {
     write_text(options.junit, junit_xml(report));
   }
   explain(report, out);
+  if (!options.quiet) fmt::print(stderr, "{}", report.profiles.table);
   if (report.code == kExitOk) {
     if (!options.quiet) {
       summarize(report, out);
-      fmt::print(stderr, "{}", report.profiles.table);
     }
     report.code = run_after(launch, {program_folder(), "", out}, options.json);
   }

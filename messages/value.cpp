@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "messages/codec.h"
 #include "messages/fields.h"
 
 namespace ensonify::msg {
@@ -80,15 +81,16 @@ Json json_of(const Value& value, std::size_t max_elements) {
   return nullptr;
 }
 
-Value value_of(const Json& json) {
+Value value_of(const Json& json, std::size_t depth) {
+  if (depth > kMaxDepth) throw DecodeError("is nested deeper than " + std::to_string(kMaxDepth));
   if (json.is_object()) {
     Value::Map map;
-    for (const auto& [key, member] : json.items()) map.emplace_back(key, value_of(member));
+    for (const auto& [key, member] : json.items()) map.emplace_back(key, value_of(member, depth + 1));
     return {std::move(map)};
   }
   if (json.is_array()) {
     Value::List list;
-    for (const Json& item : json) list.push_back(value_of(item));
+    for (const Json& item : json) list.push_back(value_of(item, depth + 1));
     return {std::move(list)};
   }
   if (json.is_string()) return {json.get<std::string>()};
@@ -178,7 +180,7 @@ bool operator==(const Value& a, const Value& b) {
 Value from_json(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw DecodeError("is no JSON");
-  return value_of(json);
+  return value_of(json, 0);
 }
 
 std::string to_json(const Value& value, std::size_t max_elements) {

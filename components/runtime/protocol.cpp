@@ -19,6 +19,7 @@ using json = nlohmann::ordered_json;  // fields in the order of their struct
 constexpr std::size_t kLongestPortName = 128;
 constexpr std::size_t kMostPorts = 1000;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostDeclared = std::size_t{1} << 20;
 constexpr double kHighestRateHz = 10'000.0;
 constexpr SimTime kLongestDelay = std::chrono::hours(1);
 
@@ -145,6 +146,11 @@ void each_port(const json& j, const char* key, const Read& read) {
   }
 }
 
+bool deeper_than(const json& j, std::size_t levels) {
+  if (!j.is_structured()) return false;
+  return levels == 0 || std::any_of(j.begin(), j.end(), [=](const json& item) { return deeper_than(item, levels - 1); });
+}
+
 /// What a process declares, by type; a type of ours must be one.
 std::map<std::string, msg::Value> declares(const json& j) {
   const bool maps =
@@ -152,7 +158,12 @@ std::map<std::string, msg::Value> declares(const json& j) {
   if (!maps) throw std::runtime_error("declares: is not a map of maps, by message type");
   std::map<std::string, msg::Value> declares;
   for (const auto& [type, content] : j.items()) {
-    const msg::Value value = msg::from_json(content.dump());
+    if (deeper_than(content, msg::kMaxDepth))
+      throw std::runtime_error("declares." + type + ": is nested deeper than " + std::to_string(msg::kMaxDepth));
+    const std::string text = content.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (text.size() > kMostDeclared)
+      throw std::runtime_error("declares." + type + ": is longer than " + std::to_string(kMostDeclared) + " bytes");
+    const msg::Value value = msg::from_json(text);
     const std::string mistake = msg::mistake_in(type, value);
     if (!mistake.empty()) throw std::runtime_error("declares." + type + "." + mistake);
     declares.emplace(type, value);

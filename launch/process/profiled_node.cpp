@@ -57,6 +57,7 @@ void ProfiledNode::write(const std::string& file, const std::string& process) co
                      {"wall_s", seconds_of(report.end_ns - report.begin_ns)},
                      {"processor_s", seconds_of(report.processor_ns)},
                      {"stages", stages},
+                     {"events_left_out", report.events_left_out},
                      {"traceEvents", trace_events(report, process)}};
   std::error_code ignored;
   std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);

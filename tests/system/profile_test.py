@@ -30,6 +30,7 @@ class Profile(SystemTest):
             images = len(list(record.messages("eye/ping")))
         for stage in ("probes", "trace", "weigh", "merge", "echoes", "patterns", "beamform", "message", *PARTS):
             self.assertGreater(head[stage]["wall_s"], 0, stage)
+        self.assertLessEqual(sum(head[part]["processor_s"] for part in PARTS), 1.05 * head["beamform"]["processor_s"])
         self.assertEqual(head["echoes"]["count"], images)
         self.assertEqual(head["probes"]["count"], images)
         # Of what the head computes, little lies outside its stages.

@@ -14,10 +14,13 @@ std::int64_t now_ns(clockid_t clock) {
   return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
+clockid_t processor_clock(Stage stage) { return is_part(stage) ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID; }
+
 /// Of one thread; nobody else writes it.
 struct Log {
   std::array<Sum, kStages> sums{};
   std::vector<Event> events;
+  std::size_t events_left_out = 0;
 };
 
 struct Logs {
@@ -44,17 +47,7 @@ Log& log_of_this_thread() {
 
 namespace detail {
 
-Opened open(Stage stage) { return {now_ns(CLOCK_MONOTONIC), is_part(stage) ? 0 : now_ns(CLOCK_PROCESS_CPUTIME_ID)}; }
-
-void close(Stage stage, const Opened& opened) {
-  Log& log = log_of_this_thread();
-  const std::int64_t took_ns = now_ns(CLOCK_MONOTONIC) - opened.wall_ns;
-  Sum& sum = log.sums[static_cast<std::size_t>(stage)];
-  ++sum.count;
-  sum.wall_ns += took_ns;
-  sum.processor_ns += is_part(stage) ? took_ns : now_ns(CLOCK_PROCESS_CPUTIME_ID) - opened.processor_ns;
-  if (!is_part(stage) && log.events.size() < kMostEvents) log.events.push_back({stage, opened.wall_ns, took_ns});
-}
+Opened open(Stage stage) { return {now_ns(CLOCK_MONOTONIC), now_ns(processor_clock(stage))}; }
 
 }  // namespace detail
 
@@ -77,9 +70,12 @@ Report report() {
       all.sums[i].processor_ns += log->sums[i].processor_ns;
     }
     all.events.insert(all.events.end(), log->events.begin(), log->events.end());
+    all.events_left_out += log->events_left_out;
   }
   std::ranges::sort(all.events, {}, &Event::begin_ns);
-  if (all.events.size() > kMostEvents) all.events.resize(kMostEvents);
+  if (all.events.size() <= kMostEvents) return all;
+  all.events_left_out += all.events.size() - kMostEvents;
+  all.events.resize(kMostEvents);
   return all;
 }
 

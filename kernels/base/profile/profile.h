@@ -39,7 +39,7 @@ constexpr bool is_part(Stage stage) { return stage >= Stage::kSpread; }
 struct Sum {
   std::int64_t count = 0;
   std::int64_t wall_ns = 0;
-  std::int64_t processor_ns = 0;  // of all threads of the process meanwhile; of a part its own time
+  std::int64_t processor_ns = 0;  // of all threads of the process meanwhile; of a part, its own thread
 };
 struct Event {
   Stage stage{};
@@ -48,6 +48,7 @@ struct Event {
 struct Report {
   std::array<Sum, kStages> sums{};
   std::vector<Event> events;                                // the first kMostEvents
+  std::size_t events_left_out = 0;
   std::int64_t begin_ns = 0, end_ns = 0, processor_ns = 0;  // of all that was measured
 };
 inline constexpr std::size_t kMostEvents = 200'000;

@@ -43,6 +43,7 @@ TEST_CASE("spans are summed by stage over all threads, none before the start") {
   CHECK(sum_of(report, Stage::kTrace).processor_ns < sum_of(report, Stage::kTrace).wall_ns);  // it slept
   CHECK(sum_of(report, Stage::kSpread).count == 2);
   CHECK(sum_of(report, Stage::kSpread).wall_ns >= 10 * kMs);
+  CHECK(sum_of(report, Stage::kSpread).processor_ns < sum_of(report, Stage::kSpread).wall_ns);
   CHECK(report.end_ns - report.begin_ns >= 15 * kMs);
 
   REQUIRE(report.events.size() == 4);  // parts have none
