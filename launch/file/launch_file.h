@@ -94,7 +94,7 @@ struct ProcessSpec : Program {
   void complete(ConfigReader& from);
 
   /// Reads this process's parameters: `Config::read(reader)`, then reader.finish().
-  ConfigReader reader() const { return ConfigReader(config, config_path); }
+  ConfigReader reader() const { return ConfigReader(static_cast<const ConfigDocument&>(config), config_path); }
 };
 
 /// An input wired by hand: `auv.command: {topic: agent/command, delay_ms: 100}`.

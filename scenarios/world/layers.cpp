@@ -81,13 +81,13 @@ layers::Mask Mask::mask() const {
 }
 
 layers::Form Plane::form() const {
-  relief::Plane plane = *this;
+  auto plane = static_cast<const relief::Plane&>(*this);
   plane.slope = slope_of(slope_deg);
   return plane;
 }
 
 layers::Form Sphere::form() const {
-  relief::Sphere sphere = *this;
+  auto sphere = static_cast<const relief::Sphere&>(*this);
   sphere.centre_depth_m = centre_m.value_or(depth_m);
   return sphere;
 }
@@ -109,7 +109,7 @@ void Spectral::check(const ConfigReader& from) const {
 
 /// rms_m, or the strength that the sediment's backscatter model has, carried on to long waves.
 layers::Form Spectral::form() const {
-  layers::Spectral spectral = *this;
+  auto spectral = static_cast<const layers::Spectral&>(*this);
   if (rough_places) spectral.rough = rough_places->mask();
   relief::Spectrum& of = spectral.spectrum;
   if (const auto* rms = std::get_if<RmsStrength>(&strength)) {
@@ -126,7 +126,7 @@ layers::Form Spectral::form() const {
 }
 
 layers::Form Ripples::form() const {
-  relief::RippleParameters ripples = *this;
+  auto ripples = static_cast<const relief::RippleParameters&>(*this);
   // Measured dunes: 0.5 to 0.8 of the mean.
   ripples.height_m = crest_m.value_or(0.65 * relief::flemming_height_m(wavelength_m));
   return ripples;
@@ -146,7 +146,7 @@ void Marks::check(const ConfigReader& from) const {
 }
 
 relief::MarkParameters Marks::si(const std::array<double, 2>& spacing_m) const {
-  relief::MarkParameters marks = *this;
+  auto marks = static_cast<const relief::MarkParameters&>(*this);
   marks.least_spacing_m = spacing_m[0], marks.most_spacing_m = spacing_m[1];
   marks.least_half_width_m = half_width_m[0], marks.most_half_width_m = half_width_m[1];
   return marks;

@@ -91,7 +91,8 @@ TEST_CASE("beams of a line array receive it with their own patterns, and neighbo
   // Level it, so that all samples have one mean square.
   for (int k = 0; k < sampling.count; ++k) {
     const double R = 750 * (0.2 + k * 100e-6 - 100e-6);
-    for (int c = 0; c < receiver.cells(); ++c) level[std::size_t(k * receiver.cells() + c)] *= float(R * R);
+    for (int c = 0; c < receiver.cells(); ++c)
+      level[std::size_t(k) * std::size_t(receiver.cells()) + std::size_t(c)] *= float(R * R);
   }
   const random::Stream stream{1, "volume"};
   const std::vector<float> beams{0.2F, 0.2F + 1.0F / 32, 0.2F + 2.0F / 32};
