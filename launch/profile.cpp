@@ -76,8 +76,8 @@ Profiles gather_profiles(const std::string& out) {
     of_processes[process] = std::move(profile);
   }
   if (!profiles.table.empty())
-    profiles.table.insert(
-        0, fmt::format("  {:<18}{:>9}{:>14}{:>19}{:>10}\n", "stage", "count", "wall ms each", "processor ms each", "share"));
+    profiles.table.insert(0, fmt::format("  {:<18}{:>9}{:>14}{:>19}{:>10}\n", "stage", "count", "wall ms each",
+                                         "processor ms each", "share"));
   write_text(out + "/profile.json", Json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n");
   profiles.json = of_processes.dump();
   return profiles;

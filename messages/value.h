@@ -68,7 +68,8 @@ inline bool operator==(const MapEntry& a, const MapEntry& b) { return a.first ==
 /// strings.
 std::string to_json(const Value& value, std::size_t max_elements = 16);
 
-/// The value that JSON text says, without arrays. Throws DecodeError for what is no JSON, or nested deeper than kMaxDepth.
+/// The value that JSON text says, without arrays. Throws DecodeError for what is no JSON, or nested deeper than
+/// kMaxDepth.
 Value from_json(std::string_view text);
 
 }  // namespace ensonify::msg

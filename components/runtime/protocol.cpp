@@ -148,7 +148,8 @@ void each_port(const json& j, const char* key, const Read& read) {
 
 bool deeper_than(const json& j, std::size_t levels) {
   if (!j.is_structured()) return false;
-  return levels == 0 || std::any_of(j.begin(), j.end(), [=](const json& item) { return deeper_than(item, levels - 1); });
+  return levels == 0 ||
+         std::any_of(j.begin(), j.end(), [=](const json& item) { return deeper_than(item, levels - 1); });
 }
 
 /// What a process declares, by type; a type of ours must be one.

@@ -69,7 +69,8 @@ TEST_CASE("a HELLO with a wrong field is refused, and the field named") {
   std::string deep = "1";
   for (int i = 0; i < 20'000; ++i) deep = R"({"a":)" + deep + "}";
   refused(hello("", "", R"(,"declares":{"x/1":)" + deep + "}"), "declares.x/1: is nested deeper than 16");
-  refused(hello("", "", R"(,"declares":{"x/1":{"a":")" + std::string(1 << 20, 'a') + "\"}}"), "declares.x/1: is longer");
+  refused(hello("", "", R"(,"declares":{"x/1":{"a":")" + std::string(1 << 20, 'a') + "\"}}"),
+          "declares.x/1: is longer");
   refused(hello("5", "", ""), "out: is not a list of ports");
   std::string many = "{" + port + "}";
   for (int i = 0; i < 1000; ++i) many += ",{" + port + "}";

@@ -47,7 +47,7 @@ struct Event {
 };
 struct Report {
   std::array<Sum, kStages> sums{};
-  std::vector<Event> events;                                // the first kMostEvents
+  std::vector<Event> events;  // the first kMostEvents
   std::size_t events_left_out = 0;
   std::int64_t begin_ns = 0, end_ns = 0, processor_ns = 0;  // of all that was measured
 };
