@@ -67,7 +67,7 @@ struct Site {
   std::variant<Drawn, Imported> ground;
   std::optional<Cast> cast;
   std::variant<Wall, Bars> stands;
-  std::vector<std::variant<Wall, Start>> steps;
+  std::vector<std::variant<Wall, Bars, Start>> steps;
   std::map<std::uint8_t, Start> classes = {{0, Start{1.0}}};
   std::map<std::string, Cast> casts;
   std::optional<double> rate;
@@ -177,8 +177,10 @@ TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("row_m: 1\nstart: here") == "site.yaml:2:8: start: is neither anywhere nor a map of speed_mps");
   CHECK(problems_of("row_m: 1\ncast: {column: z}") == "site.yaml:2:7: cast.file: is missing; allowed: text");
   CHECK(problems_of("row_m: 1\ncast: [x]") == "site.yaml:2:7: cast: is a list, not a map of keys");
-  CHECK(problems_of("row_m: 1\nsteps: [{bars: 1}]") ==
-        "site.yaml:2:10: steps[0].bars: is not a known key; known keys: row_m, speed_mps");
+  CHECK(problems_of("row_m: 1\nsteps: [{bars: 1, row_m: 2}]") ==
+        "site.yaml:2:11: steps[0].bars: stands beside row_m; give one or the other");
+  CHECK(problems_of("row_m: 1\nsteps: [{row_m: 1, speed_mps: 1}]") ==
+        "site.yaml:2:21: steps[0].speed_mps: is not a known key; known keys: bars, row_m");
 }
 
 TEST_CASE("a schema has the forms: one of several, a word or a map, a value or a map") {

@@ -23,7 +23,7 @@ bool reads_as_text(const std::string& text) {
   static const std::string kSafe = "_-./";
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || kSafe.find(static_cast<char>(c)) < 4; };
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-         std::all_of(text.begin(), text.end(), plain) && text != "true" && text != "false" && text != "null";
+         std::all_of(text.begin(), text.end(), plain) && bare_word(text) == BareWord::kText;
 }
 
 std::string flow_text(const ConfigNode& node) {

@@ -49,6 +49,18 @@ namespace detail {
 
 Opened open(Stage stage) { return {now_ns(CLOCK_MONOTONIC), now_ns(processor_clock(stage))}; }
 
+void close(Stage stage, const Opened& opened) {
+  Log& log = log_of_this_thread();
+  const std::int64_t took_ns = now_ns(CLOCK_MONOTONIC) - opened.wall_ns;
+  Sum& sum = log.sums[static_cast<std::size_t>(stage)];
+  ++sum.count;
+  sum.wall_ns += took_ns;
+  sum.processor_ns += now_ns(processor_clock(stage)) - opened.processor_ns;
+  if (is_part(stage)) return;
+  if (log.events.size() < kMostEvents) log.events.push_back({stage, opened.wall_ns, took_ns});
+  else ++log.events_left_out;
+}
+
 }  // namespace detail
 
 void start() {
