@@ -124,6 +124,7 @@ TEST_CASE("what is written of values reads as the same values, for each form") {
        {"row_m: 3", "bars: 3\ntilt_deg: 7.1", "bars: 3\ncast: x.csv", "row_m: 3\nkind: imported\nraster: x.tif",
         "row_m: 3\nkind: drawn\nsize_m: 7", "row_m: 3\ncast: {file: x.csv, column: z}",
         "row_m: 3\nsteps: [{row_m: 1}, {speed_mps: 0.1}, {}]", "row_m: 3\nsteps: []",
+        "row_m: 3\ncasts: {\"no\": \"NULL\", \"Null\": \"~\", \"On\": {file: \"off\", column: \"Yes\"}, \"TRUE\": \"null\"}",
         "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}", "row_m: 3\ncasts: {a b: x, c: {file: y}}",
         "row_m: 3\nrate: free\nstart: anywhere", "row_m: 3\nrate: 2\nstart: {}",
         "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3", "row_m: 3\nheight_m: 0.5",
@@ -159,6 +160,23 @@ mask:              # where
 )");
 }
 
+TEST_CASE("a text that YAML reads as nothing or a truth value is written in quotes, as a key too") {
+  const std::string written = read("row_m: 3\ncasts: {\"no\": \"NULL\", a: \"Off\"}").written;
+  INFO(written);
+  CHECK(written.find("\n  \"no\":\n    file: \"NULL\"") != std::string::npos);
+  CHECK(written.find("\n  a:\n    file: \"Off\"") != std::string::npos);
+}
+
+TEST_CASE("a table says of a form's keys that the form has them, and has no row twice") {
+  const std::string table = parameter_table(parameters_of<Site>());
+  INFO(table);
+  CHECK(table.find("| `row_m` | m | of its form |") != std::string::npos);
+  CHECK(table.find("| `cast.file` |  | required |") != std::string::npos);
+  const std::string row = "| `steps[].row_m` |";
+  const std::size_t first = table.find(row);
+  CHECK((first != std::string::npos && table.find(row, first + 1) == std::string::npos));
+}
+
 TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("speed_mps: 1") == "site.yaml:1:1: needs one of row_m, bars");
   CHECK(problems_of("row_m: 1\nbars: 1") == "site.yaml:2:7: bars: stands beside row_m; give one or the other");
@@ -176,6 +194,9 @@ TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("row_m: 1\nrate: fast") == "site.yaml:2:7: rate: is \"fast\", not a number in [1, 10]");
   CHECK(problems_of("row_m: 1\nstart: here") == "site.yaml:2:8: start: is neither anywhere nor a map of speed_mps");
   CHECK(problems_of("row_m: 1\ncast: {column: z}") == "site.yaml:2:7: cast.file: is missing; allowed: text");
+  CHECK(problems_of("row_m: 1\nclasses: {0: }") == "site.yaml:2:14: classes.0: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\ncasts: {a: }") == "site.yaml:2:12: casts.a: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\nsteps: [null]") == "site.yaml:2:9: steps[0]: has no value; allowed: a map of keys");
   CHECK(problems_of("row_m: 1\ncast: [x]") == "site.yaml:2:7: cast: is a list, not a map of keys");
   CHECK(problems_of("row_m: 1\nsteps: [{bars: 1, row_m: 2}]") ==
         "site.yaml:2:11: steps[0].bars: stands beside row_m; give one or the other");

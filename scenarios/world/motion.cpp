@@ -6,7 +6,6 @@
 #include "components/config/read_parameters.h"
 #include "kernels/vehicle/vertical/tide.h"
 #include "scenarios/world/motion_keys.h"
-#include "scenarios/world/sections.h"
 
 namespace ensonify {
 namespace {
