@@ -5,6 +5,7 @@
 
 #include "components/config/read_parameters.h"
 #include "kernels/vehicle/vertical/tide.h"
+#include "scenarios/scenario_file.h"
 #include "scenarios/world/motion_keys.h"
 
 namespace ensonify {

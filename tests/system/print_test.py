@@ -36,17 +36,14 @@ class Print(SystemTest):
         self.assertGreater(len(presets), 5)
         for preset in presets:
             with self.subTest(preset=preset.name):
-                launch = (f"ensonify: launch/1\nscenario: {SOURCE}/scenarios/bay/scenario.yaml\nprocesses:\n"
-                          f"  boat: {{run: vehicle}}\n  pager: {{run: terrain_pager}}\n"
-                          f"  bow: {{run: {preset.parent.name}, config: {preset}}}\n"
-                          "wiring: {boat.command: autopilot/command}\n")
+                launch = bay(1).replace("run: multibeam", f"run: {preset.parent.name}, config: {preset}")
                 once = self.printed(self.write("preset.yaml", launch))
                 self.assertEqual(once, self.printed(self.write("printed.yaml", once)))
 
     def test_what_no_launch_file_could_say_is_refused(self):
         demo = SOURCE / "launch/demo.yaml"
-        for change, problem in ((b"site.name=b\xff", "--set site.name=b?: is not UTF-8"),
-                                (b"site.name=cost $(x)", '--set site.name: scenario.site.name: "cost $(x)" cannot be printed')):
+        for change, problem in (("site.name=b\udcff", "--set site.name=b?: is not UTF-8"),
+                                ("site.name=cost $(x)", '--set site.name: scenario.site.name: "cost $(x)" cannot be printed')):
             done = self.tool("check", demo, "--print", "--set", change)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(problem, done.stderr)
