@@ -53,8 +53,9 @@ struct ConfigDocument {
 
 inline constexpr const char* kNotUtf8 = "is not UTF-8";
 
-/// Parses one YAML document. `file` is the name that problems show. Throws ConfigError when the text is not YAML or UTF-8, holds
-/// no or several documents, has a root that is not a map, or grows beyond 200000 values through its aliases.
+/// Parses one YAML document. `file` is the name that problems show. Throws ConfigError when the text is not YAML or
+/// UTF-8, holds no or several documents, has a root that is not a map, or grows beyond 200000 values through its
+/// aliases.
 ConfigDocument parse_config(const std::string& text, const std::string& file);
 
 /// Reads and parses a file of at most 16 MiB. Throws ConfigError, also when it cannot be read.

@@ -60,8 +60,8 @@ void add_rows(const ParameterList& list, const std::string& path, bool in_form, 
                " | | " + cell(p.about) + " |\n";
       add_rows(p.members, inner, false, table);
     } else {
-      table += "| `" + key + "` | " + p.unit + " | " + cell(default_text(p, in_form)) + " | " + cell(allowed_text(p)) + " | " +
-               cell(p.about) + " |\n";
+      table += "| `" + key + "` | " + p.unit + " | " + cell(default_text(p, in_form)) + " | " + cell(allowed_text(p)) +
+               " | " + cell(p.about) + " |\n";
     }
   }
 }
