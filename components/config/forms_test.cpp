@@ -200,9 +200,9 @@ TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("row_m: 1\nsteps: [null]") == "site.yaml:2:9: steps[0]: has no value; allowed: a map of keys");
   CHECK(problems_of("row_m: 1\ncast: [x]") == "site.yaml:2:7: cast: is a list, not a map of keys");
   CHECK(problems_of("row_m: 1\nsteps: [{bars: 1, row_m: 2}]") ==
-        "site.yaml:2:11: steps[0].bars: stands beside row_m; give one or the other");
+        "site.yaml:2:16: steps[0].bars: stands beside row_m; give one or the other");
   CHECK(problems_of("row_m: 1\nsteps: [{row_m: 1, speed_mps: 1}]") ==
-        "site.yaml:2:21: steps[0].speed_mps: is not a known key; known keys: bars, row_m");
+        "site.yaml:2:20: steps[0].speed_mps: is not a known key; known keys: bars, row_m");
 }
 
 TEST_CASE("a schema has the forms: one of several, a word or a map, a value or a map") {
