@@ -98,7 +98,10 @@ std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(s
     return readers;
   }
   for (const auto& entry : found->entries) {
-    readers.emplace_back(entry.key, child(entry.value, state_->path_of(key) + "." + entry.key, short_key));
+    ConfigNode none;
+    none.place = entry.place;  // nothing has the place of what follows it
+    const ConfigNode& value = entry.value.is_null() ? none : entry.value;
+    readers.emplace_back(entry.key, child(value, state_->path_of(key) + "." + entry.key, short_key));
   }
   return readers;
 }

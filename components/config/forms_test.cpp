@@ -43,6 +43,15 @@ struct Start {
   }
 };
 
+struct Rest {
+  std::optional<double> for_s;
+  static void parameters(auto& self, auto&& visit) { visit("for_s", "s", any(), "how long", self.for_s); }
+};
+struct Stop {
+  Rest rest;
+  static void parameters(auto& self, auto&& visit) { visit("rest", "", must(any()), "what is done there", self.rest); }
+};
+
 struct Mask {
   double scale_m = 2.0;
   std::vector<Mask> any_of;
@@ -70,6 +79,7 @@ struct Site {
   std::vector<std::variant<Wall, Bars, Start>> steps;
   std::map<std::uint8_t, Start> classes = {{0, Start{1.0}}};
   std::map<std::string, Cast> casts;
+  std::map<std::string, Stop> stops;
   std::optional<double> rate;
   std::optional<Start> start;
   std::vector<std::uint8_t> on;
@@ -84,6 +94,7 @@ struct Site {
     visit("steps", "in their order", self.steps);
     visit("classes", "", called("a class", in(0, 255)), "by number", self.classes);
     visit("casts", "by names", self.casts);
+    visit("stops", "by names", self.stops);
     visit("rate", "", or_word("free", in(1, 10)), "pace", self.rate);
     visit("start", "", or_word("anywhere"), "where it starts", self.start);
     visit("on", "", called("a class", in(0, 255)), "classes", self.on);
@@ -127,8 +138,9 @@ TEST_CASE("what is written of values reads as the same values, for each form") {
         "row_m: 3\ncasts: {\"no\": \"NULL\", \"Null\": \"~\", \"On\": {file: \"off\", column: \"Yes\"}, \"TRUE\": "
         "\"null\"}",
         "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}", "row_m: 3\ncasts: {a b: x, c: {file: y}}",
-        "row_m: 3\nrate: free\nstart: anywhere", "row_m: 3\nrate: 2\nstart: {}",
-        "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3", "row_m: 3\nheight_m: 0.5",
+        "row_m: 3\nstops: {a: {rest: {}}, b: {rest: {for_s: 1}}}", "row_m: 3\nrate: free\nstart: anywhere",
+        "row_m: 3\nrate: 2\nstart: {}", "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3",
+        "row_m: 3\nheight_m: 0.5",
         "row_m: 3\nmask: {any_of: [{any_of: [{any_of: [{any_of: [{scale_m: 1}]}]}]}, {}]}"}) {
     const Read once = read(text);
     INFO(text << "\n" << once.written);
@@ -195,8 +207,8 @@ TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("row_m: 1\nrate: fast") == "site.yaml:2:7: rate: is \"fast\", not a number in [1, 10]");
   CHECK(problems_of("row_m: 1\nstart: here") == "site.yaml:2:8: start: is neither anywhere nor a map of speed_mps");
   CHECK(problems_of("row_m: 1\ncast: {column: z}") == "site.yaml:2:7: cast.file: is missing; allowed: text");
-  CHECK(problems_of("row_m: 1\nclasses: {0: }") == "site.yaml:2:14: classes.0: has no value; allowed: a map of keys");
-  CHECK(problems_of("row_m: 1\ncasts: {a: }") == "site.yaml:2:12: casts.a: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\nclasses: {0: }") == "site.yaml:2:11: classes.0: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\ncasts: {a: }") == "site.yaml:2:9: casts.a: has no value; allowed: a map of keys");
   CHECK(problems_of("row_m: 1\nsteps: [null]") == "site.yaml:2:9: steps[0]: has no value; allowed: a map of keys");
   CHECK(problems_of("row_m: 1\ncast: [x]") == "site.yaml:2:7: cast: is a list, not a map of keys");
   CHECK(problems_of("row_m: 1\nsteps: [{bars: 1, row_m: 2}]") ==

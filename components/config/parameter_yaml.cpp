@@ -111,7 +111,7 @@ class ValueWriter {
       } else if (p.kind == Kind::kSection && p.left_out) {
         if (!p.allowed.instead.empty()) all.push_back(&p);
       } else if (p.kind == Kind::kSection) {
-        if (p.optional || !written(p.members).empty()) all.push_back(&p);
+        if (p.optional || p.allowed.required || !written(p.members).empty()) all.push_back(&p);
       } else if (!p.left_out) {
         all.push_back(&p);
       }

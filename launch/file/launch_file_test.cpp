@@ -286,9 +286,9 @@ TEST_CASE("an entry without a value is refused with its place, a wiring without 
   };
   CHECK(with("  auv.command: { topic: agent/command, delay_ms: 100 }\n  bow.pose: auv/pose\n", "") == "");
   CHECK(with("bow.pose: auv/pose", "bow.pose:") ==
-        "x.yaml:11:12: wiring.bow.pose: has no value; allowed: a map of keys");
+        "x.yaml:11:3: wiring.bow.pose: has no value; allowed: a map of keys");
   CHECK(with("{ run: multibeam, config: head.yaml }", "") ==
-        "x.yaml:6:9: processes.bow: has no value; allowed: a map of keys");
+        "x.yaml:6:3: processes.bow: has no value; allowed: a map of keys");
 
   folder.add("x.yaml", kLaunch);
   folder.add("y.yaml", "ensonify: launch/1\ninclude: x.yaml\nwiring:\n");
@@ -321,7 +321,7 @@ TEST_CASE("a launch that no file could say is not written: one with $( in a valu
   };
   CHECK(refused({}) == "");
   CHECK(refused({.args = {"raster=$(x)"}}) ==
-        "x.yaml:7:53: processes.pager.config.raster: \"$(x)\" cannot be printed: in a launch file $( stands for an "
+        "x.yaml:7:50: processes.pager.config.raster: \"$(x)\" cannot be printed: in a launch file $( stands for an "
         "argument");
   folder.add("world.yaml", replaced(kWorld, "site: {", "site: {name: cost $(x), "));
   CHECK(refused({}) ==
