@@ -43,7 +43,7 @@ class Print(SystemTest):
     def test_what_no_launch_file_could_say_is_refused(self):
         demo = SOURCE / "launch/demo.yaml"
         for change, problem in (("site.name=b\udcff", "--set site.name=b?: is not UTF-8"),
-                                ("site.name=cost $(x)", '--set site.name: scenario.site.name: "cost $(x)" cannot be printed')):
+                                ("site.name=cost $(x)", '--set site.name: "cost $(x)" cannot be printed')):
             done = self.tool("check", demo, "--print", "--set", change)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(problem, done.stderr)
