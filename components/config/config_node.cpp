@@ -161,7 +161,8 @@ bool reads_as_plain(const std::string& text) {
     return (c < 0x80 && std::isalnum(c) != 0) || kSafe.find(static_cast<char>(c)) != std::string::npos;
   });
   const bool starts_well = !text.empty() && std::isalnum(static_cast<unsigned char>(text[0])) != 0;
-  return safe && starts_well && text.find(": ") == std::string::npos && text.back() != ':' && text != "null";
+  return safe && starts_well && text.find(": ") == std::string::npos && text.back() != ':' &&
+         bare_word(text) != BareWord::kNull;
 }
 
 std::string canonical_scalar(const ConfigNode& node) {
@@ -172,7 +173,7 @@ std::string canonical_scalar(const ConfigNode& node) {
   if (text.size() > 1 && text[0] == '/') {
     text = text.substr(text.find_last_not_of('/') == std::string::npos ? 0 : text.rfind('/', text.size() - 2) + 1);
   }
-  const bool reads_as_value = text == "true" || text == "false" || parse_integer(text) || parse_number(text);
+  const bool reads_as_value = bare_word(text) == BareWord::kBool || parse_integer(text) || parse_number(text);
   return reads_as_plain(text) && !(node.quoted && reads_as_value) ? text : json_text(text);
 }
 
@@ -254,6 +255,16 @@ std::optional<double> parse_number(const std::string& text) {
 std::optional<std::int64_t> parse_integer(const std::string& text) { return parse_whole<std::int64_t>(text); }
 
 std::optional<std::uint64_t> parse_natural(const std::string& text) { return parse_whole<std::uint64_t>(text); }
+
+BareWord bare_word(const std::string& text) {
+  std::string word = text;
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (word.empty() || word == "~" || word == "null") return BareWord::kNull;
+  for (const char* of : {"true", "false", "yes", "no", "on", "off"}) {
+    if (word == of) return BareWord::kBool;
+  }
+  return BareWord::kText;
+}
 
 std::string shortest_number(double value) {
   char text[64];

@@ -51,8 +51,11 @@ struct ConfigDocument {
   std::vector<ConfigProblem> problems;
 };
 
-/// Parses one YAML document. `file` is the name that problems show. Throws ConfigError when the text is not YAML, holds
-/// no or several documents, has a root that is not a map, or grows beyond 200000 values through its aliases.
+inline constexpr const char* kNotUtf8 = "is not UTF-8";
+
+/// Parses one YAML document. `file` is the name that problems show. Throws ConfigError when the text is not YAML or
+/// UTF-8, holds no or several documents, has a root that is not a map, or grows beyond 200000 values through its
+/// aliases.
 ConfigDocument parse_config(const std::string& text, const std::string& file);
 
 /// Reads and parses a file of at most 16 MiB. Throws ConfigError, also when it cannot be read.
@@ -84,6 +87,11 @@ std::optional<double> parse_number(const std::string& text);
 /// The whole of `text` as a whole number, decimal or 0x hexadecimal.
 std::optional<std::int64_t> parse_integer(const std::string& text);
 std::optional<std::uint64_t> parse_natural(const std::string& text);
+
+/// What a YAML reader makes of a bare word, by its own rules or those of YAML 1.1: nothing (null, ~), a truth value
+/// (true, no, on) or a text. Every spelling counts: Null, NULL, nULL.
+enum class BareWord { kText, kNull, kBool };
+BareWord bare_word(const std::string& text);
 
 /// "100000", "1e+06": as %g writes it when that is exact, else with as many digits as distinguish it from its
 /// neighbours.

@@ -32,8 +32,9 @@ ConfigReader ConfigReader::child(const ConfigNode& node, const std::string& path
     state.short_key = short_key;
     return ConfigReader(std::shared_ptr<State>(state_, &state));
   }
-  if (!node.is_map() && !node.is_null()) {
-    state_->documents->problems.push_back({node.place, path, described(node) + ", not a map of keys"});
+  if (!node.is_map()) {
+    const std::string allowed = node.is_null() ? "; allowed: a map of keys" : ", not a map of keys";
+    state_->documents->problems.push_back({node.place, path, described(node) + allowed});
   }
   auto& maps = state_->documents->maps;
   maps.push_back({state_->documents, node.is_map() ? &node : nullptr, path});
@@ -58,9 +59,10 @@ const ConfigNode* ConfigReader::take(std::string_view key, bool must, const std:
 }
 
 ConfigReader ConfigReader::section(std::string_view key) const {
-  static const ConfigNode kMissing;
-  const ConfigNode* found = take(key, true, "a map of keys");
-  return child(found != nullptr ? *found : kMissing, state_->path_of(key));
+  if (const ConfigNode* found = take(key, true, "a map of keys")) return child(*found, state_->path_of(key));
+  auto& maps = state_->documents->maps;
+  maps.push_back({state_->documents, nullptr, state_->path_of(key)});
+  return ConfigReader(std::shared_ptr<State>(state_, &maps.back()));
 }
 
 std::optional<ConfigReader> ConfigReader::optional_section(std::string_view key, std::string_view short_key) const {
@@ -96,7 +98,10 @@ std::vector<std::pair<std::string, ConfigReader>> ConfigReader::named_sections(s
     return readers;
   }
   for (const auto& entry : found->entries) {
-    readers.emplace_back(entry.key, child(entry.value, state_->path_of(key) + "." + entry.key, short_key));
+    ConfigNode none;
+    none.place = entry.place;  // nothing has the place of what follows it
+    const ConfigNode& value = entry.value.is_null() ? none : entry.value;
+    readers.emplace_back(entry.key, child(value, state_->path_of(key) + "." + entry.key, short_key));
   }
   return readers;
 }

@@ -295,4 +295,16 @@ TEST_CASE("names are found again after slips of the fingers, and only then") {
   CHECK(nearest_name("zebra", {"frequency", "pulse"}) == "");
 }
 
+TEST_CASE("a record's text keeps apart what YAML would read as nothing or as a truth value") {
+  const ConfigNode root = parse_config("a: \"NULL\"\nb: Off\nc: \"off\"\n\"Null\": \"~\"\non: null\n", "a.yaml").root;
+  const std::string text = to_canonical_yaml(root);
+  CHECK(text == "a: \"NULL\"\nb: Off\nc: \"off\"\n\"Null\": \"~\"\non: null\n");
+  CHECK(to_canonical_yaml(parse_config(text, "b.yaml").root) == text);
+}
+
+TEST_CASE("bytes that are not UTF-8 are refused with their place") {
+  CHECK_THROWS_WITH(parse_config("a: 1\nb: \"x\xff\"\n", "a.yaml"), "a.yaml:2:4: is not UTF-8");
+  CHECK_THROWS_WITH(parse_config("a: 1\n\"b\xff\": 1\n", "a.yaml"), "a.yaml:2:1: is not UTF-8");
+}
+
 }  // namespace ensonify

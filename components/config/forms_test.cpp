@@ -32,6 +32,17 @@ struct Bars {
     visit("tilt_deg", "deg", in(0, 90), "how far they lean", self.tilt_rad);
   }
 };
+struct Post {
+  double post_m = 0.0, tilt_rad = 0.0;
+  static void parameters(auto& self, auto&& visit) {
+    visit("post_m", "m", must(in(0, 10)), "one post", self.post_m);
+    visit("tilt_deg", "deg", in(0, 90), "how far they lean", self.tilt_rad);
+  }
+};
+struct Fence {
+  std::variant<Bars, Post> of;
+  static void parameters(auto& self, auto&& visit) { visit(one_form(), self.of); }
+};
 struct Nothing {
   static void parameters(auto&, auto&&) {}
 };
@@ -41,6 +52,15 @@ struct Start {
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", in(0, 30), "speed there", self.speed_mps);
   }
+};
+
+struct Rest {
+  std::optional<double> for_s;
+  static void parameters(auto& self, auto&& visit) { visit("for_s", "s", any(), "how long", self.for_s); }
+};
+struct Stop {
+  Rest rest;
+  static void parameters(auto& self, auto&& visit) { visit("rest", "", must(any()), "what is done there", self.rest); }
 };
 
 struct Mask {
@@ -67,9 +87,10 @@ struct Site {
   std::variant<Drawn, Imported> ground;
   std::optional<Cast> cast;
   std::variant<Wall, Bars> stands;
-  std::vector<std::variant<Wall, Start>> steps;
+  std::vector<std::variant<Wall, Bars, Start>> steps;
   std::map<std::uint8_t, Start> classes = {{0, Start{1.0}}};
   std::map<std::string, Cast> casts;
+  std::map<std::string, Stop> stops;
   std::optional<double> rate;
   std::optional<Start> start;
   std::vector<std::uint8_t> on;
@@ -84,6 +105,7 @@ struct Site {
     visit("steps", "in their order", self.steps);
     visit("classes", "", called("a class", in(0, 255)), "by number", self.classes);
     visit("casts", "by names", self.casts);
+    visit("stops", "by names", self.stops);
     visit("rate", "", or_word("free", in(1, 10)), "pace", self.rate);
     visit("start", "", or_word("anywhere"), "where it starts", self.start);
     visit("on", "", called("a class", in(0, 255)), "classes", self.on);
@@ -124,9 +146,12 @@ TEST_CASE("what is written of values reads as the same values, for each form") {
        {"row_m: 3", "bars: 3\ntilt_deg: 7.1", "bars: 3\ncast: x.csv", "row_m: 3\nkind: imported\nraster: x.tif",
         "row_m: 3\nkind: drawn\nsize_m: 7", "row_m: 3\ncast: {file: x.csv, column: z}",
         "row_m: 3\nsteps: [{row_m: 1}, {speed_mps: 0.1}, {}]", "row_m: 3\nsteps: []",
+        "row_m: 3\ncasts: {\"no\": \"NULL\", \"Null\": \"~\", \"On\": {file: \"off\", column: \"Yes\"}, \"TRUE\": "
+        "\"null\"}",
         "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}", "row_m: 3\ncasts: {a b: x, c: {file: y}}",
-        "row_m: 3\nrate: free\nstart: anywhere", "row_m: 3\nrate: 2\nstart: {}",
-        "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3", "row_m: 3\nheight_m: 0.5",
+        "row_m: 3\nstops: {a: {rest: {}}, b: {rest: {for_s: 1}}}", "row_m: 3\nrate: free\nstart: anywhere",
+        "row_m: 3\nrate: 2\nstart: {}", "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3",
+        "row_m: 3\nheight_m: 0.5",
         "row_m: 3\nmask: {any_of: [{any_of: [{any_of: [{any_of: [{scale_m: 1}]}]}]}, {}]}"}) {
     const Read once = read(text);
     INFO(text << "\n" << once.written);
@@ -159,6 +184,23 @@ mask:              # where
 )");
 }
 
+TEST_CASE("a text that YAML reads as nothing or a truth value is written in quotes, as a key too") {
+  const std::string written = read("row_m: 3\ncasts: {\"no\": \"NULL\", a: \"Off\"}").written;
+  INFO(written);
+  CHECK(written.find("\n  \"no\":\n    file: \"NULL\"") != std::string::npos);
+  CHECK(written.find("\n  a:\n    file: \"Off\"") != std::string::npos);
+}
+
+TEST_CASE("a table says of a form's keys that the form has them, and has no row twice") {
+  const std::string table = parameter_table(parameters_of<Site>());
+  INFO(table);
+  CHECK(table.find("| `row_m` | m | of its form |") != std::string::npos);
+  CHECK(table.find("| `cast.file` |  | required |") != std::string::npos);
+  const std::string fence = parameter_table(parameters_of<Fence>()), row = "| `tilt_deg` |";  // both forms have it
+  CHECK(fence.find(row) != std::string::npos);
+  CHECK(fence.find(row) == fence.rfind(row));
+}
+
 TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("speed_mps: 1") == "site.yaml:1:1: needs one of row_m, bars");
   CHECK(problems_of("row_m: 1\nbars: 1") == "site.yaml:2:7: bars: stands beside row_m; give one or the other");
@@ -176,9 +218,14 @@ TEST_CASE("a wrong form is named with its place and what is allowed") {
   CHECK(problems_of("row_m: 1\nrate: fast") == "site.yaml:2:7: rate: is \"fast\", not a number in [1, 10]");
   CHECK(problems_of("row_m: 1\nstart: here") == "site.yaml:2:8: start: is neither anywhere nor a map of speed_mps");
   CHECK(problems_of("row_m: 1\ncast: {column: z}") == "site.yaml:2:7: cast.file: is missing; allowed: text");
+  CHECK(problems_of("row_m: 1\nclasses: {0: }") == "site.yaml:2:11: classes.0: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\ncasts: {a: }") == "site.yaml:2:9: casts.a: has no value; allowed: a map of keys");
+  CHECK(problems_of("row_m: 1\nsteps: [null]") == "site.yaml:2:9: steps[0]: has no value; allowed: a map of keys");
   CHECK(problems_of("row_m: 1\ncast: [x]") == "site.yaml:2:7: cast: is a list, not a map of keys");
-  CHECK(problems_of("row_m: 1\nsteps: [{bars: 1}]") ==
-        "site.yaml:2:10: steps[0].bars: is not a known key; known keys: row_m, speed_mps");
+  CHECK(problems_of("row_m: 1\nsteps: [{bars: 1, row_m: 2}]") ==
+        "site.yaml:2:16: steps[0].bars: stands beside row_m; give one or the other");
+  CHECK(problems_of("row_m: 1\nsteps: [{row_m: 1, speed_mps: 1}]") ==
+        "site.yaml:2:20: steps[0].speed_mps: is not a known key; known keys: bars, row_m");
 }
 
 TEST_CASE("a schema has the forms: one of several, a word or a map, a value or a map") {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <sstream>
 
 #include "components/config/config_node.h"
 
@@ -25,20 +27,27 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string default_text(const ParameterInfo& p) {
-  if (p.allowed.required) return "required";
+std::string default_text(const ParameterInfo& p, bool in_form) {
+  if (p.allowed.required) return in_form ? "of its form" : "required";
   if (p.left_out) return "";
   return "`" +
          (p.value.is_scalar() ? p.value.quoted && p.value.scalar.empty() ? "\"\"" : p.value.scalar : to_json(p.value)) +
          "`";
 }
 
-void add_rows(const ParameterList& list, const std::string& path, std::string& table) {
+/// `in_form`: the list is that of one form of several, so that nothing in it must always be there.
+void add_rows(const ParameterList& list, const std::string& path, bool in_form, std::string& table) {
   using Kind = ParameterInfo::Kind;
   for (const ParameterInfo& p : list) {
     const std::string key = path + p.key;
     if (p.kind == Kind::kForms) {
-      for (const ParameterList& form : p.forms) add_rows(form, path, table);
+      std::string rows;
+      for (const ParameterList& form : p.forms) add_rows(form, path, true, rows);
+      std::istringstream lines(rows);
+      std::set<std::string> known;  // several forms may have a key
+      for (std::string line; std::getline(lines, line);) {
+        if (known.insert(line).second) table += line + "\n";
+      }
     } else if (p.kind == Kind::kSection || p.kind == Kind::kList || p.kind == Kind::kNamed) {
       const std::string inner = key + (p.kind == Kind::kList    ? "[]."
                                        : p.numbered             ? ".NUMBER."
@@ -49,10 +58,10 @@ void add_rows(const ParameterList& list, const std::string& path, std::string& t
                 : p.entries.empty()      ? "none"
                                          : "as below") +
                " | | " + cell(p.about) + " |\n";
-      add_rows(p.members, inner, table);
+      add_rows(p.members, inner, false, table);
     } else {
-      table += "| `" + key + "` | " + p.unit + " | " + cell(default_text(p)) + " | " + cell(allowed_text(p)) + " | " +
-               cell(p.about) + " |\n";
+      table += "| `" + key + "` | " + p.unit + " | " + cell(default_text(p, in_form)) + " | " + cell(allowed_text(p)) +
+               " | " + cell(p.about) + " |\n";
     }
   }
 }
@@ -95,7 +104,7 @@ std::string allowed_text(const ParameterInfo& parameter) {
 
 std::string parameter_table(const ParameterList& list) {
   std::string table = "| parameter | unit | default | allowed | meaning |\n|---|---|---|---|---|\n";
-  add_rows(list, "", table);
+  add_rows(list, "", false, table);
   return table;
 }
 

@@ -23,7 +23,7 @@ bool reads_as_text(const std::string& text) {
   static const std::string kSafe = "_-./";
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || kSafe.find(static_cast<char>(c)) < 4; };
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-         std::all_of(text.begin(), text.end(), plain) && text != "true" && text != "false" && text != "null";
+         std::all_of(text.begin(), text.end(), plain) && bare_word(text) == BareWord::kText;
 }
 
 std::string flow_text(const ConfigNode& node) {
@@ -111,7 +111,7 @@ class ValueWriter {
       } else if (p.kind == Kind::kSection && p.left_out) {
         if (!p.allowed.instead.empty()) all.push_back(&p);
       } else if (p.kind == Kind::kSection) {
-        if (p.optional || !written(p.members).empty()) all.push_back(&p);
+        if (p.optional || p.allowed.required || !written(p.members).empty()) all.push_back(&p);
       } else if (!p.left_out) {
         all.push_back(&p);
       }

@@ -175,7 +175,7 @@ struct IsForms<std::variant<Form...>> : std::bool_constant<(HasParameters<Form> 
 /// A variant is the list of whichever form is there, in a list of maps or under a key of its own.
 template <class... Form>
 requires(HasParameters<Form>&&...) struct ParametersOf<std::variant<Form...>> {
-  static void parameters(auto& self, auto&& visit) { visit(Forms{}, self); }
+  static void parameters(auto& self, auto&& visit) { visit(one_form(), self); }
 };
 
 /// A struct with `static constexpr const char* kShort = "path";`: where a file has a single value instead of the map,

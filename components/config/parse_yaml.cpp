@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "components/config/config_node.h"
+#include "components/errors/printable.h"
 
 namespace ensonify {
 namespace {
@@ -37,6 +38,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
+    if (!is_utf8(value)) fail(place(mark), kNotUtf8);
     ConfigNode node = value_at(mark);
     node.kind = ConfigNode::Kind::kScalar;
     node.scalar = value;

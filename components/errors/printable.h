@@ -10,4 +10,7 @@ namespace ensonify {
 /// too.
 std::string printable(std::string_view text);
 
+/// Whether the bytes are UTF-8 as RFC 3629 has it.
+bool is_utf8(std::string_view text);
+
 }  // namespace ensonify

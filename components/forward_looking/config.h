@@ -46,7 +46,9 @@ struct ForwardLookingConfig : HeadConfig {
           self.electronic_noise_db);
     visit("pulse", "", one_of({{"tone", false}, {"chirp", true}}), "a linear sweep and its matched filter, or a tone",
           self.pulse.chirp);
-    visit("bandwidth_hz", "Hz", in(1e3, 1e6), "that a chirp sweeps at most", self.pulse.bandwidth_hz);
+    const Allowed bandwidths = in(1e3, 1e6);  // of a tone it is not said
+    visit("bandwidth_hz", "Hz", self.pulse.chirp ? bandwidths : computed(bandwidths), "that a chirp sweeps at most",
+          self.pulse.bandwidth_hz);
     visit("window", "", filter_windows(), "of a chirp's matched filter", self.pulse.window);
     PulseDesign::parameters(self.pulse, visit);
     visit("source_level_db", "dB", in(-300, kHighest_db),

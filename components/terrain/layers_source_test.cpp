@@ -14,7 +14,7 @@
 #include "components/terrain/tile_set_source.h"
 #include "kernels/base/random/stream.h"
 #include "kernels/seabed/statistics/surface.h"
-#include "scenarios/world/sections.h"
+#include "scenarios/world/testing/sections.h"
 
 using namespace ensonify;
 using namespace ensonify::source;

@@ -11,7 +11,7 @@
 #include "components/config/config_reader.h"
 #include "components/terrain/layers_source.h"
 #include "scenarios/world/seabed.h"
-#include "scenarios/world/sections.h"
+#include "scenarios/world/testing/sections.h"
 
 using namespace ensonify;
 using namespace ensonify::source;

@@ -62,6 +62,7 @@ void read_wiring(const ConfigReader& from, const std::vector<ConnectionKeys>& ke
   std::vector<std::string> names;
   for (const auto& process : launch.processes) names.push_back(process.name);
   for (const ConnectionKeys& key : keys) {
+    if (key.topic.empty() && !from.good()) continue;  // an entry without a value: that is said already
     Connection connection;
     connection.place = key.place;
     const std::size_t dot = key.input.find('.');

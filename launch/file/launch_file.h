@@ -56,7 +56,7 @@ struct ProcessConfig : ConfigDocument {
   static std::string schema() { return R"({"anyOf": [{"type": "string"}, {"type": "object"}]})"; }
 };
 
-/// EnvironmentVariables variables.
+/// Environment variables of a process.
 struct EnvironmentVariables : std::map<std::string, std::string> {
   void read(ConfigReader& from, const char* key);
   ConfigNode in_file() const;
@@ -191,11 +191,12 @@ std::string canonical_text(const Launch& launch);
 /// A process's configuration with every value, as lines of YAML; "": as it was given.
 using WrittenConfig = std::function<std::string(const ProcessSpec&)>;
 /// What a launch file would have with every value and its sentence. `scenario` is read_world()'s `written`, and stands
-/// in it; "": it names none.
+/// in it; "": it names none. Throws ConfigError where a value holds $(, but for $(out).
 std::string written_launch(const Launch& launch, const std::string& scenario, const WrittenConfig& config_of);
 
 /// JSON Schema of launch files, for editors. `components` has the JSON Schema of each component's parameters by its
-/// name; others' `config` may hold anything. Every value may be an argument, $(name).
-std::string launch_schema(const std::map<std::string, std::string>& components);
+/// name; others' `config` may hold anything. `scenario` is that of scenario files. Every value may be an argument,
+/// $(name).
+std::string launch_schema(const std::map<std::string, std::string>& components, const std::string& scenario);
 
 }  // namespace ensonify

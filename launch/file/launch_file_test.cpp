@@ -278,6 +278,57 @@ TEST_CASE("other mistakes in a launch file") {
   CHECK(folder.problems() == "x.yaml:2:12: processes: names no process; a launch needs at least one");
 }
 
+TEST_CASE("an entry without a value is refused with its place, a wiring without entries is none") {
+  const Folder folder;
+  const auto with = [&](const std::string& old_part, const std::string& new_part) {
+    folder.add("x.yaml", replaced(kLaunch, old_part, new_part));
+    return folder.problems();
+  };
+  CHECK(with("  auv.command: { topic: agent/command, delay_ms: 100 }\n  bow.pose: auv/pose\n", "") == "");
+  CHECK(with("bow.pose: auv/pose", "bow.pose:") ==
+        "x.yaml:11:3: wiring.bow.pose: has no value; allowed: a map of keys");
+  CHECK(with("{ run: multibeam, config: head.yaml }", "") ==
+        "x.yaml:6:3: processes.bow: has no value; allowed: a map of keys");
+
+  folder.add("x.yaml", kLaunch);
+  folder.add("y.yaml", "ensonify: launch/1\ninclude: x.yaml\nwiring:\n");
+  CHECK(folder.read({.file = "y.yaml"}).wiring.size() == 2);
+}
+
+TEST_CASE("bytes that are not UTF-8 are refused on the command line") {
+  const Folder folder;
+  CHECK(folder.problems({.args = {"raster=b\xff"}}) == "--arg raster=b?: is not UTF-8");
+  CHECK(folder.problems({.args = {"r\xffster=b"}}) == "--arg r?ster=b: is not UTF-8");
+  CHECK(folder.problems({.sets = {"bow.name=b\xff"}}) == "--set bow.name=b?: is not UTF-8");
+}
+
+TEST_CASE("a launch that no file could say is not written: one with $( in a value") {
+  const Folder folder;
+  const auto refused = [&](const LaunchOptions& options) {
+    try {
+      LaunchOptions printed = options;
+      printed.out = "$(out)";
+      const Launch launch = folder.read(printed);
+      const std::string text =
+          written_launch(launch, to_canonical_yaml(launch.scenario.document.root), [](const auto&) { return ""; });
+      folder.add("again.yaml", text);
+      CHECK(folder.problems({.file = "again.yaml"}) == "");
+      return std::string();
+    } catch (const ConfigError& error) {
+      const std::string text = error.what();
+      return text.substr(text.rfind('/', text.find(':')) + 1);
+    }
+  };
+  CHECK(refused({}) == "");
+  CHECK(refused({.args = {"raster=$(x)"}}) ==
+        "x.yaml:7:50: processes.pager.config.raster: \"$(x)\" cannot be printed: in a launch file $( stands for an "
+        "argument");
+  folder.add("world.yaml", replaced(kWorld, "site: {", "site: {name: cost $(x), "));
+  CHECK(refused({}) ==
+        "world.yaml:2:14: scenario.site.name: \"cost $(x)\" cannot be printed: in a launch file $( stands for an "
+        "argument");
+}
+
 TEST_CASE("the options of a launch survive being handed to another program") {
   LaunchOptions given{
       .file = "x.yaml", .args = {"a=b c"}, .sets = {"bow.x=[1, 2]", "seed=3"}, .record = "r.mcap", .out = "o"};

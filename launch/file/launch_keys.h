@@ -17,7 +17,7 @@ struct ScenarioPlace {
 
   void read(ConfigReader& from, const char* key);
   ConfigNode in_file() const { return map; }
-  static std::string schema() { return R"({"type": ["string", "object"]})"; }
+  static std::string schema() { return R"({"type": ["string", "object"]})"; }  // launch_schema() says more
 };
 
 // What the tree has lost before it is read: includes and arguments are put in, overrides applied (tree.h).

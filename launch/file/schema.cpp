@@ -48,7 +48,7 @@ Json expectations(const Json& component) {
 
 }  // namespace
 
-std::string launch_schema(const std::map<std::string, std::string>& components) {
+std::string launch_schema(const std::map<std::string, std::string>& components, const std::string& scenario) {
   Json schema = Json::parse(parameter_schema("Ensonify launch file", parameters_of<LaunchKeys>()));
   Json forms = Json::array(), lists = Json::object();
   for (const auto& [name, text] : components) {
@@ -62,6 +62,12 @@ std::string launch_schema(const std::map<std::string, std::string>& components) 
     forms.push_back({{"if", {{"properties", {{"run", {{"const", name}}}}}, {"required", {"run"}}}},
                      {"then", {{"properties", {{"config", parameters}}}}}});
   }
+  lists["scenario"] = Json::parse(scenario);
+  lists["scenario"].erase("$schema");
+  lists["scenario"].erase("title");
+  Json& place = schema["properties"]["scenario"];
+  place.erase("type");
+  place["anyOf"] = {{{"type", "string"}}, {{"$ref", "#/$defs/scenario"}}};
   schema["$defs"] = std::move(lists);
   Json changed = with_arguments(schema);
   if (!forms.empty()) changed["properties"]["processes"]["additionalProperties"]["allOf"] = std::move(forms);

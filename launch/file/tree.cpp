@@ -5,6 +5,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/errors/nearest_name.h"
+#include "components/errors/printable.h"
 
 namespace ensonify {
 
@@ -21,6 +22,13 @@ std::string folder_of(const std::string& file) { return fs::path(file).parent_pa
 std::string hint(const std::string& name, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+/// Bytes that are not ASCII become "?".
+std::string ascii(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c >= 0x80; }, '?');
+  return text;
 }
 
 /// The file's declared arguments with what was given for them.
@@ -92,6 +100,7 @@ void merge(ConfigNode& into, ConfigNode from, Problems& problems) {
   static const std::vector<std::string> kMaps = {"processes", "wiring"};
   static const std::vector<std::string> kLists = {"expect", "after"};
   for (auto& entry : from.entries) {
+    if (entry.key == "wiring" && entry.value.is_null()) continue;  // all of it is commented out
     ConfigNode* old = into.find(entry.key);
     if (old == nullptr) {
       into.entries.push_back(std::move(entry));
@@ -245,7 +254,9 @@ ConfigDocument load_launch_tree(const std::string& file, const std::vector<std::
   Loader loader;
   Values given;
   for (const auto& arg : args) {
-    if (const auto assignment = split_assignment(arg)) {
+    if (!is_utf8(arg)) {
+      loader.problems.push_back({{"--arg " + ascii(arg)}, "", kNotUtf8});
+    } else if (const auto assignment = split_assignment(arg)) {
       ConfigNode value = ConfigNode::text(assignment->second, {"--arg " + assignment->first});
       value.from_command = true;
       given[assignment->first] = value;
@@ -276,6 +287,10 @@ Overrides overrides_of(const ConfigNode& root, const std::vector<std::string>& s
     }
   }
   for (const auto& text : sets) {
+    if (!is_utf8(text)) {
+      problems.push_back({{"--set " + ascii(text)}, "", kNotUtf8});
+      continue;
+    }
     const auto assignment = split_assignment(text);
     const ConfigPlace place{"--set " + (assignment ? assignment->first : text)};
     if (!assignment) {

@@ -36,6 +36,38 @@ ProcessSpec with_own_paths(ProcessSpec process, const std::string& launch_file) 
   return process;
 }
 
+/// The place of what stands in a launch under "scenario.site.name" or "processes.bow.config.file"; that of its file
+/// where it came from elsewhere, such as a mission of its own.
+ConfigPlace place_in(const Launch& launch, const std::string& path) {
+  const auto found = [&](const std::string& top, const ConfigNode& root) -> std::optional<ConfigPlace> {
+    if (!path.starts_with(top + ".")) return std::nullopt;
+    const ConfigPlace place = ConfigReader({root, {}}).problem_at(path.substr(top.size() + 1), "").place;
+    return place.file.empty() ? std::nullopt : std::optional(place);
+  };
+  if (const auto place = found("scenario", launch.scenario.document.root)) return *place;
+  for (const ProcessSpec& process : launch.processes) {
+    const std::string top = "processes." + process.name;
+    if (const auto place = found(top + ".config", process.config.root)) return *place;
+    if (path.starts_with(top + ".")) return process.place;
+  }
+  return {launch.file, 0, 0};
+}
+
+/// A launch file puts arguments in for $(: there is no way to write it.
+void find_unwritable(const Launch& launch, const ConfigNode& node, const std::string& path,
+                     std::vector<ConfigProblem>& problems) {
+  for (std::size_t at = 0; (at = node.scalar.find("$(", at)) != std::string::npos; at += 2) {
+    if (node.scalar.compare(at, 6, "$(out)") == 0) continue;
+    problems.push_back({place_in(launch, path), path,
+                        "\"" + node.scalar + "\" cannot be printed: in a launch file $( stands for an argument"});
+    break;
+  }
+  for (const auto& entry : node.entries)
+    find_unwritable(launch, entry.value, path + (path.empty() ? "" : ".") + entry.key, problems);
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    find_unwritable(launch, node.items[i], path + "[" + std::to_string(i) + "]", problems);
+}
+
 }  // namespace
 
 std::string written_launch(const Launch& launch, const std::string& scenario, const WrittenConfig& config_of) {
@@ -77,7 +109,11 @@ std::string written_launch(const Launch& launch, const std::string& scenario, co
   ConfigNode exits;
   exits.kind = ConfigNode::Kind::kList;
   for (const ExitExpectation& exit : launch.exits) exits.items.push_back(exit.given);
-  return text + expect + block_yaml(exits, kMargin);
+  text += expect + block_yaml(exits, kMargin);
+  std::vector<ConfigProblem> problems;
+  find_unwritable(launch, parse_config(text, launch.file).root, "", problems);
+  if (!problems.empty()) throw ConfigError(std::move(problems));
+  return text;
 }
 
 }  // namespace ensonify

@@ -4,7 +4,7 @@
 
 #include "components/config/config_reader.h"
 #include "scenarios/world/seabed.h"
-#include "scenarios/world/sections.h"
+#include "scenarios/world/testing/sections.h"
 
 namespace ensonify {
 namespace {

@@ -145,7 +145,7 @@ struct SetSonar {
 
   static void parameters(auto& self, auto&& visit) {
     visit("set_sonar", "", must(any()), "the head", self.head);
-    setting_parameters(self.settings, visit);
+    setting_parameters(self.settings, visit, [&](const char* name) { return self.given.contains(name); });
   }
   void complete(ConfigReader& from);
 };

@@ -143,6 +143,10 @@ TEST_CASE("what cannot be run is reported before time starts") {
             .find("mission: step 2: altitude_m 4 is below least_altitude_m 5") != std::string::npos);
   CHECK(problems_of("  depth_m: -3\n  steps:\n    - line: [[0, 0], [0, 90]]\n")
             .find("mission.depth_m: -3 is outside [0, 11000]") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - {line: [[0, 0], [0, 90]], wait_s: 3, mark: x}\n")
+            .find("steps[0].wait_s: stands beside line; give one or the other") != std::string::npos);
+  CHECK(problems_of("  steps:\n    - {line: [[0, 0], [0, 90]], wait_s: 3, mark: x}\n")
+            .find("steps[0].mark: stands beside line; give one or the other") != std::string::npos);
   CHECK(problems_of("  steps:\n    - {hover: 3}\n").find("is no step; allowed: line, pass, keep") != std::string::npos);
   CHECK(problems_of("  steps:\n    - mark: x\n  lawnmower: {length_m: 9, spacing_m: 9, count: 1}\n")
             .find("has several plans; give one of runlines, lawnmower, auto, adaptive, steps") != std::string::npos);

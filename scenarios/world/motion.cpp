@@ -5,8 +5,8 @@
 
 #include "components/config/read_parameters.h"
 #include "kernels/vehicle/vertical/tide.h"
+#include "scenarios/scenario_file.h"
 #include "scenarios/world/motion_keys.h"
-#include "scenarios/world/sections.h"
 
 namespace ensonify {
 namespace {

@@ -8,7 +8,6 @@
 #include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
 #include "scenarios/world/seabed_keys.h"
-#include "scenarios/world/sections.h"
 
 namespace ensonify {
 
@@ -89,12 +88,6 @@ Seabed SeabedKeys::seabed() const {
   if (const auto* of = std::get_if<SeabedOfRaster>(&kind)) seabed.raster = of->raster;
   if (const auto* of = std::get_if<SeabedOfTiles>(&kind)) seabed.tiles_folder = of->tiles.folder;
   return seabed;
-}
-
-Seabed read_seabed(ConfigReader from) {
-  SeabedKeys keys;
-  read_parameters(from, keys);
-  return keys.seabed();
 }
 
 seabed::MeshedSediment on_facets(const std::variant<seabed::SedimentParameters, seabed::CappedSediment>& whole,

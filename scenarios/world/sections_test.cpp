@@ -1,4 +1,4 @@
-#include "scenarios/world/sections.h"
+#include "scenarios/world/testing/sections.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -36,12 +36,12 @@ struct SettingInFile {
 };
 SettingInFile setting_in_file(const std::string& name, const std::string& unit);
 
-/// The settings as a list of parameters, all of which may be left out.
-template <class Settings, class Visit>
-void setting_parameters(Settings& settings, Visit&& visit) {
+/// The settings as a list of parameters, all of which may be left out. `is_given(name)`: which were not.
+template <class Settings, class Visit, class Given>
+void setting_parameters(Settings& settings, Visit&& visit, const Given& is_given) {
   for_settings(settings, [&](const char* name, const char* unit, const char* about, auto& member) {
     const SettingInFile file = setting_in_file(name, unit);
-    visit(file.key.c_str(), file.unit.c_str(), computed(any()), about, member);
+    visit(file.key.c_str(), file.unit.c_str(), is_given(name) ? any() : computed(any()), about, member);
   });
 }
 

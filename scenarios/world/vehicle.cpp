@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "components/config/read_parameters.h"
-#include "scenarios/world/sections.h"
 #include "scenarios/world/vehicle_keys.h"
 
 namespace ensonify {

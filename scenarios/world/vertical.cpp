@@ -10,7 +10,6 @@
 
 #include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
-#include "scenarios/world/sections.h"
 #include "scenarios/world/vertical_keys.h"
 
 namespace ensonify {

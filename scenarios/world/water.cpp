@@ -5,7 +5,6 @@
 #include "components/config/config_error.h"
 #include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
-#include "scenarios/world/sections.h"
 #include "scenarios/world/water_keys.h"
 
 namespace ensonify {
@@ -92,12 +91,6 @@ Water WaterKeys::water() const {
     water.scattering_layers.push_back({layer.depths_m[0], layer.depths_m[1], layer.sv_db});
   }
   return water;
-}
-
-Water read_water(ConfigReader from) {
-  WaterKeys keys;
-  read_parameters(from, keys);
-  return keys.water();
 }
 
 }  // namespace ensonify

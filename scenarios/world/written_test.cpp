@@ -119,4 +119,21 @@ TEST_CASE("a speed in knots, a mission of its own and places in degrees are writ
   CHECK(once.find("file:") == std::string::npos);
 }
 
+TEST_CASE("settings of a head in a mission of its own are written, and no others") {
+  const fs::path mission = fs::temp_directory_path() / "ensonify_written_settings.yaml";
+  std::ofstream(mission) << "ensonify: mission/1\nsteps: [{line: [[0, 0], [0, 90]]}, {set_sonar: bow, range_m: 40, "
+                            "swath_deg: 90}]\n";
+  const std::string text =
+      "ensonify: scenario/1\nsite: {latitude_deg: 42.5, longitude_deg: -70.5}\nseabed: {kind: layers}\n"
+      "vehicles: {boat: {mountings: {bow: {actual: {}}}}}\nmission: {file: " +
+      mission.string() + "}\n";
+  const std::string once = written(text);
+  fs::remove(mission);
+  INFO(once);
+  CHECK(written(once) == once);
+  CHECK(once.find("range_m: 40") != std::string::npos);
+  CHECK(once.find("swath_deg: 90") != std::string::npos);
+  CHECK(once.find("source_level_db") == std::string::npos);
+}
+
 }  // namespace ensonify

@@ -31,6 +31,23 @@ class Print(SystemTest):
                 again = self.printed(self.write(file.name, once))
                 self.assertEqual(once, again)
 
+    def test_each_shipped_preset_is_printed_and_reads_as_the_same(self):
+        presets = sorted((SOURCE / "launch/presets").glob("*/*.yaml"))
+        self.assertGreater(len(presets), 5)
+        for preset in presets:
+            with self.subTest(preset=preset.name):
+                launch = bay(1).replace("run: multibeam", f"run: {preset.parent.name}, config: {preset}")
+                once = self.printed(self.write("preset.yaml", launch))
+                self.assertEqual(once, self.printed(self.write("printed.yaml", once)))
+
+    def test_what_no_launch_file_could_say_is_refused(self):
+        demo = SOURCE / "launch/demo.yaml"
+        for change, problem in (("site.name=b\udcff", "--set site.name=b?: is not UTF-8"),
+                                ("site.name=cost $(x)", '--set site.name: "cost $(x)" cannot be printed')):
+            done = self.tool("check", demo, "--print", "--set", change)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(problem, done.stderr)
+
     def test_every_value_has_a_sentence(self):
         text = self.printed(SOURCE / "launch/demo.yaml", "--set", "bow.swath_deg=100", "--set", "water.wind_speed_mps=7.5")
         self.assertRegex(text, r"\n  water:.*#.*(\n    .*)*\n    wind_speed_mps: 7.5 +# wind 10 m above the sea")

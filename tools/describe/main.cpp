@@ -321,13 +321,13 @@ std::string scenario_schema() {
       section.erase(rule);
     }
   }
-  return schema_text(schema.dump());
+  return schema.dump();
 }
 
 /// The parameters of a component or a file, as a schema for editors or a table for pages.
 std::string parameters_of_name(const std::string& name, bool as_schema) {
-  if (name == "scenario" && as_schema) return scenario_schema();
-  if (name == "launch" && as_schema) return launch_schema(component_schemas());
+  if (name == "scenario" && as_schema) return schema_text(scenario_schema());
+  if (name == "launch" && as_schema) return launch_schema(component_schemas(), scenario_schema());
   if (const auto list = list_of_file(name)) {
     return as_schema ? schema_text(parameter_schema("Ensonify " + name, *list)) : parameter_table(*list);
   }

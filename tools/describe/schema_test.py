@@ -193,7 +193,11 @@ SECTIONS = [  # section, value, whether it is valid
     ("mission", {**WORLD["mission"], "steps": []}, False), ("mission", {"steps": [{"line": LINE}]}, True),
     ("mission", {"steps": [{"line": LINE, "radius_m": 3}]}, False), ("mission", {"steps": [{"line": LINE}, {"keep": [0, 0]}]}, False),
     ("mission", {"steps": [{"line": LINE}, {"keep": [0, 0], "for_s": 3}, {"wait_s": 3}, {"speed_mps": 1}, {"mark": "x"}]}, True),
-    ("mission", {"lawnmower": {"length_m": 50, "spacing_m": 5, "count": 2}}, True), ("mission", {"lawnmower": {}}, False)]
+    ("mission", {"lawnmower": {"length_m": 50, "spacing_m": 5, "count": 2}}, True), ("mission", {"lawnmower": {}}, False),
+    ("mission", {"steps": [{"line": LINE, "wait_s": 3}]}, False), ("mission", {"steps": [{"line": LINE}, None]}, False),
+    ("seabed", seabed(sediments={"0": None}), False), ("seabed", seabed(layers={"a": None}), False),
+    ("seabed", seabed(meshes={"a": {"bars": [None]}}), False), ("water", {"sound_speed_mps": 1500, "scattering_layers": [None]}, False),
+    ("vehicles", {"boat": {"mountings": {"bow": None}}}, False)]
 PROCESS = {"run": "recorder", "observer": True}
 LAUNCHES = [  # keys over those of a launch of one observer, whether they are valid
     ({"processes": {"a": {**PROCESS, "cpus": [0]}}}, True), ({"processes": {"a": {**PROCESS, "cpus": [0.5]}}}, False),
@@ -205,7 +209,9 @@ LAUNCHES = [  # keys over those of a launch of one observer, whether they are va
     ({"expect": [{"exit": {"process": "a", "code": 0}}]}, True), ({"expect": [{"cuont": {"topic": "a/b", "min": 1}}]}, False),
     ({"expect": [{"count": {"topic": "a/b", "min": 1}}]}, True), ({"expect": [{"count": {"tpoic": "a/b", "min": 1}}]}, False),
     ({"expect": [{"bounds": {"topic": "a/b", "field": "x", "max": "high"}}]}, False),
-    ({"scenario": {"ensonify": "scenario/1", **WORLD}}, True), ({"scenario": ["x.yaml"]}, False)]
+    ({"scenario": {"ensonify": "scenario/1", **WORLD}}, True), ({"scenario": ["x.yaml"]}, False),
+    ({"scenario": {"ensonify": "scenario/1", **WORLD, "site": {"latitude_deg": 91, "longitude_deg": 0}}}, False),
+    ({"wiring": {"a.b": None}}, False), ({"processes": {"a": PROCESS, "b": None}}, False)]
 
 
 def read(document):
