@@ -146,8 +146,8 @@ TEST_CASE("what is written of values reads as the same values, for each form") {
        {"row_m: 3", "bars: 3\ntilt_deg: 7.1", "bars: 3\ncast: x.csv", "row_m: 3\nkind: imported\nraster: x.tif",
         "row_m: 3\nkind: drawn\nsize_m: 7", "row_m: 3\ncast: {file: x.csv, column: z}",
         "row_m: 3\nsteps: [{row_m: 1}, {speed_mps: 0.1}, {}]", "row_m: 3\nsteps: []",
-        "row_m: 3\ncasts: {\"no\": \"NULL\", \"Null\": \"~\", \"On\": {file: \"off\", column: \"Yes\"}, \"TRUE\": "
-        "\"null\"}",
+        R"(row_m: 3
+casts: {"no": "NULL", "Null": "~", "On": {file: "off", column: "Yes"}, "TRUE": "null"})",
         "row_m: 3\nclasses: {7: {speed_mps: 3}, 0: {}}", "row_m: 3\ncasts: {a b: x, c: {file: y}}",
         "row_m: 3\nstops: {a: {rest: {}}, b: {rest: {for_s: 1}}}", "row_m: 3\nrate: free\nstart: anywhere",
         "row_m: 3\nrate: 2\nstart: {}", "row_m: 3\nstart: {speed_mps: 1}\non: [0, 255]", "row_m: 3\nspeed_kn: 3",
