@@ -1,4 +1,4 @@
-"""`ensonify run --profile`: where the time goes is told for every process, adds up, and changes no message."""
+"""`ensonify run --profile`: the stages of every process are reported, add up, and change no message."""
 import json
 import unittest
 

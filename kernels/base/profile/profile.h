@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Where the time of a process goes, by stage of its work. Off until start(): then a span is one test of a flag. On, it
-/// costs two readings of a clock (50 ns), of a stage of its own two of the processor's (1 us).
+/// reads the machine's clock and the processor's at its beginning and at its end.
 namespace ensonify::profile {
 
 enum class Stage : std::uint8_t {
