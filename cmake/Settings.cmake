@@ -60,6 +60,10 @@ if(ENSONIFY_SANITIZE)
   # and the address sanitizer (Targets.cmake) when a shared library allocates.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-mismatched-new-delete>)
 endif()
+if(ENSONIFY_SANITIZE MATCHES thread)
+  # In place of oneTBB, into whose library the thread sanitizer does not see.
+  target_include_directories(ensonify_settings BEFORE INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/cmake/thread_sanitizer>)
+endif()
 if(ENSONIFY_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage, by which libFuzzer finds its way
 endif()

@@ -23,6 +23,7 @@ function(ensonify_library name)
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ensonify_settings ${ARG_DEPS})
   endif()
+  ensonify_find_threads(${name} ${ARG_SOURCES} ${ARG_DEPS} ${ARG_PRIVATE_DEPS})
   if(ARG_HEADERS)
     target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ARG_HEADERS})
   endif()
@@ -33,6 +34,27 @@ function(ensonify_library name)
       target_link_libraries(ensonify_kernels INTERFACE ${name})
     endif()
   endif()
+endfunction()
+
+# ensonify_find_threads(NAME SOURCES... LIBRARIES...): notes of a target (ENSONIFY_THREADS) whether one of its units starts
+# threads, by itself, TBB or ZeroMQ, or a library of ours that it links.
+function(ensonify_find_threads name)
+  set(starts OFF)
+  foreach(one ${ARGN})
+    if(TARGET ${one})
+      get_property(found TARGET ${one} PROPERTY ENSONIFY_THREADS)
+    else()
+      cmake_path(ABSOLUTE_PATH one BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+      set(found "")
+      if(EXISTS ${one})
+        file(STRINGS ${one} found REGEX "#include <(tbb/parallel_.*|thread|zmq.*)>" LIMIT_COUNT 1)
+      endif()
+    endif()
+    if(found)
+      set(starts ON)
+    endif()
+  endforeach()
+  set_target_properties(${name} PROPERTIES ENSONIFY_THREADS ${starts})
 endfunction()
 
 # Makes a library one that other projects can link as ensonify::<short name> (InstallRules.cmake).
@@ -94,9 +116,9 @@ endif()
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
 # Labels: unit, physics, system, determinism, golden, wire, bench. `sanitize`: also runs under the address sanitizer, for
-# it handles memory, files or the bytes of others, and does not only compute. `threads`: starts threads of our own and
-# runs under the thread sanitizer, which cannot follow those of TBB or ZeroMQ into their libraries (presets asan and tsan
-# build those only). Cases tagged [long] repeat for their numbers what their neighbours do once: sanitizers leave them out.
+# it handles memory, files or the bytes of others, and does not only compute. `threads` is found, not written: a unit test
+# of code that starts threads also runs under the thread sanitizer. (The presets asan and tsan build those only.) Cases
+# tagged [long] repeat for their numbers what their neighbours do once: sanitizers leave them out.
 function(ensonify_test name)
   if(NOT ENSONIFY_TESTS)
     return()
@@ -106,6 +128,11 @@ function(ensonify_test name)
   target_link_libraries(${name} PRIVATE test_pch ${ARG_DEPS})
   target_precompile_headers(${name} REUSE_FROM test_pch)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  ensonify_find_threads(${name} ${ARG_SOURCES} ${ARG_DEPS})
+  get_property(threads TARGET ${name} PROPERTY ENSONIFY_THREADS)
+  if(threads AND "unit" IN_LIST ARG_LABELS)
+    list(APPEND ARG_LABELS threads)
+  endif()
   set(cases "")
   if(ENSONIFY_SANITIZE)
     set(cases ~[long])

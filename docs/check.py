@@ -7,8 +7,12 @@
 
 A sentence has at most 35 words. Code, formulas and addresses count as one word each; a cell of a table, an item of a list and
 a heading are units of their own. Generated pages are checked for links only.
+
+What is said of a parameter (launch/schema) or of a message's field (messages.md) is shown alone, as hover text or as a row: it
+begins with a noun, and points at no neighbour.
 """
 import functools
+import json
 import pathlib
 import re
 import subprocess
@@ -39,6 +43,13 @@ ROT = (
 )
 SPOKEN = [(re.compile(rf"\b(?:{bad})\b", re.I), f'say "{good}"') for bad, good in WORDS]  # in launch files, too
 FORBIDDEN = SPOKEN + [(re.compile(bad, re.I), f"{what} goes out of date") for bad, what in ROT]
+
+# What a sentence that stands alone does not begin with, and does not hold.
+LEANING = re.compile(
+    r"(?:of|its|it|as|to|beyond|farther|nearer|that|they|he|how|when|where|at|in|on|from|for|with|by|after|before|between|below"
+    r"|above|than|which|what|whether|such|instead|also|else|and|or|so|there|these|those|them|this|do|does|is|are|if|while|under"
+    r"|without|over|off|true:|never|likewise|re|\[)(?![\w-])|-\d", re.I)
+POINTING = re.compile(r"\b(?:the same(?! (?:as|for|of all))|likewise|such an?|as above|(?<=of )that (?!are|is))\b")
 
 LIST_ITEM = re.compile(r"\s{0,3}(?:[-*+]|\d+\.) ")
 # A full stop that ends no sentence.
@@ -161,8 +172,37 @@ def pages(root, pattern="*.md"):
     return sorted(p for p in map(root.joinpath, set(listed.stdout.splitlines())) if p.exists())
 
 
+def problem_of_sentence(sentence):
+    """Why a parameter's or field's sentence does not stand alone; "" if it does."""
+    if LEANING.match(sentence):
+        return f'"{sentence}": begin with a noun'
+    pointing = POINTING.search(sentence)
+    return f'"{sentence}": "{pointing[0]}" points at a neighbour' if pointing else ""
+
+
+def described(schema, path=""):
+    """(path of keys, sentence) of every description in a JSON Schema."""
+    for key, value in schema.items() if isinstance(schema, dict) else enumerate(schema):
+        if key == "description" and isinstance(value, str):
+            yield path, value
+        elif isinstance(value, (dict, list)):
+            yield from described(value, path if key in ("properties", "anyOf", "items") else f"{path}.{key}".lstrip("."))
+
+
+def problems_of_sentences(root):
+    for file in sorted(root.glob("launch/schema/*.json")):
+        for key, sentence in described(json.loads(file.read_text(encoding="utf-8"))):
+            if key and (problem := problem_of_sentence(sentence)):
+                yield f"{file.relative_to(root).as_posix()}: {key}: {problem}"
+    fields = root / "docs/manual/messages.md"
+    for number, line in enumerate(fields.read_text(encoding="utf-8").splitlines() if fields.exists() else [], 1):
+        row = re.fullmatch(r"\| `\w+` \|[^|]*\|[^|]*\| (.*) \|", line)
+        if row and (problem := problem_of_sentence(row[1])):
+            yield f"docs/manual/messages.md:{number}: {problem}"
+
+
 def problems(root):
-    found, count = [], 0
+    found, count = list(problems_of_sentences(root)), 0
     for page in pages(root):
         count += 1
         name = page.relative_to(root).as_posix()
@@ -205,12 +245,18 @@ def self_test():
         (root / "page.md").write_text("\n".join(line for line, _ in PLANTED) + "\n", encoding="utf-8")
         (root / "launch").mkdir()
         (root / "launch/x.yaml").write_text("a: 1  # the head hears it\n", encoding="utf-8")
+        (root / "launch/schema").mkdir()
+        (root / "launch/schema/x.json").write_text(json.dumps({"properties": {
+            "depth_m": {"description": "of the body"}, "width_m": {"description": "the same of its sides"},
+            "height_m": {"description": "height of the body", "anyOf": [{"properties": {"a": {"description": "-3 dB"}}}]}}}))
         found = {}
         for text in problems(root)[0]:
-            place, problem = text.split(": ", 1)
+            place, problem = re.fullmatch(r"(\S+\.json: \S+|\S+?): (.*)", text, re.S).groups()
             found.setdefault(place, []).append(problem)
     expected = {f"page.md:{number}": part for number, (_, part) in enumerate(PLANTED, 1) if part}
     expected["launch/x.yaml:1"] = "receives"
+    for key, part in (("depth_m", "noun"), ("width_m", "neighbour"), ("height_m.0.a", "noun")):
+        expected[f"launch/schema/x.json: {key}"] = part
     wrong = [f"not found: {place} ({part})" for place, part in expected.items()
              if not any(part in problem for problem in found.get(place, []))]
     wrong += [f"found by mistake: {place}: {problem}" for place, all_found in found.items() for problem in all_found

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "components/config/config_text.h"
 #include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
 #include "components/runtime/bus/keys.h"

@@ -43,6 +43,9 @@ class Supervisor {
   /// Ending of the run; each step has a deadline after which the next begins.
   enum class Ending { kNo, kAsked, kTerminated, kForeignKilled, kKilled };
 
+  static constexpr std::chrono::milliseconds kAnswerPatience{50};
+  static double elapsed_s(WallTime from, WallTime to) { return std::chrono::duration<double>(to - from).count(); }
+
   void make_keys();
   void start_clock();
   void say_where() const;

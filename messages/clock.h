@@ -46,10 +46,10 @@ struct ClockHealth {
     visit("wall_s", "s", "wall time since sim time started", self.wall_s);
     visit("rate", "1", "sim seconds per wall second asked for; 0: as fast as possible", self.rate);
     visit("rate_factor", "1", "sim seconds per wall second achieved since the report before", self.rate_factor);
-    visit("lateness_s", "s", "how far the run stands behind paced time, sim time", self.lateness_s);
-    visit("slips", "1", "how often lost time was given up (slip_after_s)", self.slips);
+    visit("lateness_s", "s", "time that the run stands behind paced time, sim time", self.lateness_s);
+    visit("slips", "1", "number of times that lost time was given up (slip_after_s)", self.slips);
     visit("slip_s", "s", "sim time given up in all", self.slip_s);
-    visit("participants", "", "by rank", self.participants);
+    visit("participants", "", "participants by rank", self.participants);
   }
 };
 

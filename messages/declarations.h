@@ -31,7 +31,7 @@ struct SettingDeclaration {
     visit("setting", "", "field of sonar_settings/1", self.setting);
     visit("least", "unit of that field", "least value of a number; equal to the most: it is fixed", self.least);
     visit("most", "unit of that field", "greatest value of a number", self.most);
-    visit("chosen", "1", "whether 0 lets the head choose", self.chosen);
+    visit("chosen", "1", "true where 0 lets the head choose", self.chosen);
     visit("words", "", "values of a text; empty for a number", self.words);
   }
 };
@@ -74,7 +74,7 @@ struct HeadDeclaration {
           self.near_field_m);
     visit("reach_m", "m", "distance from the vehicle's origin to which the longest range reaches; 0: it has no range",
           self.reach_m);
-    visit("auto_range", "1", "whether the range follows the depth in every channel", self.auto_range);
+    visit("auto_range", "1", "true where the range follows the depth in every channel", self.auto_range);
     visit("position_body_m", "m", "transducer, as measured: forward, starboard, down", self.position_body_m);
     visit("body_from_head", "1", "rotation, as measured: quaternion w, x, y, z", self.body_from_head);
     visit("channels", "", "channels that ping together", self.channels);

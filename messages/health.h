@@ -12,8 +12,8 @@ struct Counter {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("name", "", "what is counted", self.name);
-    visit("count", "1", "how often since the start", self.count);
+    visit("name", "", "name of what is counted", self.name);
+    visit("count", "1", "number of times since the start", self.count);
   }
 };
 
@@ -31,7 +31,7 @@ struct Health {
     visit("stamp_ns", "ns", "time of the report, sim time", self.stamp_ns);
     visit("state", "", "ok, degraded or failed", self.state);
     visit("message", "", "why, in one line", self.message);
-    visit("counters", "", "what happened how often", self.counters);
+    visit("counters", "", "counts of what happened", self.counters);
   }
 };
 

@@ -18,7 +18,7 @@ struct Mark {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the mark, sim time", self.stamp_ns);
-    visit("text", "", "what it is", self.text);
+    visit("text", "", "description of the mark", self.text);
     visit("position_enu_m", "m", "estimated position of the vehicle then: east, north, up", self.position_enu_m);
   }
 };
@@ -36,9 +36,9 @@ struct NextLine {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the decision, sim time", self.stamp_ns);
     visit("number", "1", "index of the line in the survey, the first is 0 and known beforehand", self.number);
-    visit("done", "", "whether nothing is left to run; the line means nothing then", self.done);
-    visit("start_enu_m", "m", "where to begin it: east, north", self.start_enu_m);
-    visit("end_enu_m", "m", "where to end it", self.end_enu_m);
+    visit("done", "", "true when nothing is left to run; the line means nothing then", self.done);
+    visit("start_enu_m", "m", "start of the line: east, north", self.start_enu_m);
+    visit("end_enu_m", "m", "end of the line: east, north", self.end_enu_m);
   }
 };
 
@@ -69,7 +69,7 @@ struct Coverage {
     visit("covered", "1", "share of the cells that are covered", self.covered);
     visit("overlapped", "1", "redundancy: how often a covered cell was covered, by lines, on average", self.overlapped);
     visit("track_m", "m", "length of all lines run, without turns", self.track_m);
-    visit("elapsed_s", "s", "from the first sounding to the last", self.elapsed_s);
+    visit("elapsed_s", "s", "time from the first sounding to the last", self.elapsed_s);
     visit("soundings", "1", "accepted soundings of each cell (starboard x forward), as far as it can count",
           self.soundings);
     visit("height_m", "m", "mean height of each cell's accepted soundings, up from chart datum; NaN: none",

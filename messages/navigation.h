@@ -44,15 +44,15 @@ struct Position {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of measurement, sim time", self.stamp_ns);
     visit("position_enu_m", "m", "measured body origin in the world frame: east, north, up", self.position_enu_m);
-    visit("latitude_deg", "deg", "geodetic latitude of the same point, WGS 84, positive north", self.latitude_deg);
-    visit("longitude_deg", "deg", "longitude of the same point, WGS 84, positive east", self.longitude_deg);
+    visit("latitude_deg", "deg", "geodetic latitude of the position, WGS 84, positive north", self.latitude_deg);
+    visit("longitude_deg", "deg", "longitude of the position, WGS 84, positive east", self.longitude_deg);
     visit("sigma_horizontal_m", "m", "stated standard deviation, each horizontal axis", self.sigma_horizontal_m);
     visit("sigma_vertical_m", "m", "stated standard deviation, up", self.sigma_vertical_m);
-    visit("quality", "1", "as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given",
+    visit("quality", "1", "quality as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given",
           self.quality);
     visit("hdop", "1", "horizontal dilution of precision; 0 not given", self.hdop);
-    visit("height_above_geoid_m", "m", "of the body origin, as in NMEA's GGA", self.height_above_geoid_m);
-    visit("geoid_above_ellipsoid_m", "m", "undulation at the same place, WGS 84, as in NMEA's GGA",
+    visit("height_above_geoid_m", "m", "height of the body origin, as in NMEA's GGA", self.height_above_geoid_m);
+    visit("geoid_above_ellipsoid_m", "m", "undulation of the geoid at the position, WGS 84, as in NMEA's GGA",
           self.geoid_above_ellipsoid_m);
   }
 };
@@ -91,9 +91,10 @@ struct Estimate {
     visit("velocity_enu_mps", "m/s", "estimated velocity of the body origin", self.velocity_enu_mps);
     visit("position_covariance_enu_m2", "m2", "covariance of the position's error, row by row; all zero: not given",
           self.position_covariance_enu_m2);
-    visit("velocity_covariance_enu_m2ps2", "m2/s2", "the same of the velocity", self.velocity_covariance_enu_m2ps2);
+    visit("velocity_covariance_enu_m2ps2", "m2/s2", "covariance of the velocity, row by row: east, north, up",
+          self.velocity_covariance_enu_m2ps2);
     visit("rotation_covariance_enu_rad2", "rad2",
-          "the same of the attitude: of the small rotation about east, north, up from estimate to truth",
+          "covariance of the small rotation about east, north, up from estimate to truth, row by row",
           self.rotation_covariance_enu_rad2);
   }
 };
@@ -135,7 +136,7 @@ struct InertialIncrements {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "end of the interval, sim time", self.stamp_ns);
-    visit("interval_s", "s", "over which is integrated", self.interval_s);
+    visit("interval_s", "s", "interval that is integrated over", self.interval_s);
     visit("angle_rad", "rad", "turn rate against inertial space, integrated, along the unit's axes", self.angle_rad);
     visit("velocity_mps", "m/s", "specific force, integrated, along the unit's axes", self.velocity_mps);
   }
@@ -157,16 +158,19 @@ struct VelocityLog {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
-    visit("bottom_lock", "", "whether velocity is known over ground; else it is zero", self.bottom_lock);
+    visit("bottom_lock", "", "true when velocity is known over ground; else it is zero", self.bottom_lock);
     visit("velocity_body_mps", "m/s",
-          "of the transducer over ground, turned to the body's axes as mounting was measured", self.velocity_body_mps);
+          "velocity of the transducer over ground, turned to the body's axes as mounting was measured",
+          self.velocity_body_mps);
     visit("sigma_body_mps", "m/s", "stated standard deviation of each", self.sigma_body_mps);
     visit("range_m", "m", "along each beam to the bottom; 0: no lock", self.range_m);
-    visit("altitude_m", "m", "of the transducer above the bottom; 0: no beam has lock", self.altitude_m);
-    visit("error_velocity_mps", "m/s", "what four beams disagree about", self.error_velocity_mps);
-    visit("water_lock", "", "whether velocity is known through the water; else it is zero", self.water_lock);
-    visit("water_velocity_body_mps", "m/s", "of the transducer through the water that is tracked, along the same axes",
-          self.water_velocity_body_mps);
+    visit("altitude_m", "m", "altitude of the transducer above the bottom; 0: no beam has lock", self.altitude_m);
+    visit("error_velocity_mps", "m/s", "difference in which four beams disagree", self.error_velocity_mps);
+    visit("water_lock", "", "true when velocity is known through the water; else it is zero", self.water_lock);
+    visit(
+        "water_velocity_body_mps", "m/s",
+        "velocity of the transducer through the water that is tracked, along the body's axes as mounting was measured",
+        self.water_velocity_body_mps);
   }
 };
 
@@ -179,7 +183,7 @@ struct Depth {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
-    visit("depth_m", "m", "of the sensor below the water level", self.depth_m);
+    visit("depth_m", "m", "depth of the sensor below the water level", self.depth_m);
   }
 };
 
@@ -193,7 +197,7 @@ struct Altitude {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
-    visit("valid", "", "whether anything answered", self.valid);
+    visit("valid", "", "true when anything answered", self.valid);
     visit("range_m", "m", "along the beam to the bottom; 0: no answer", self.range_m);
   }
 };
@@ -230,9 +234,9 @@ struct Ctd {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of measurement, by the instrument's clock", self.stamp_ns);
-    visit("depth_m", "m", "of the probe below the water level", self.depth_m);
-    visit("temperature_degc", "degC", "of the water", self.temperature_degc);
-    visit("salinity_psu", "psu", "of the water, practical salinity", self.salinity_psu);
+    visit("depth_m", "m", "depth of the probe below the water level", self.depth_m);
+    visit("temperature_degc", "degC", "temperature of the water", self.temperature_degc);
+    visit("salinity_psu", "psu", "practical salinity of the water", self.salinity_psu);
     visit("sound_speed_mps", "m/s", "computed from the three before", self.sound_speed_mps);
   }
 };
@@ -250,8 +254,8 @@ struct UsblFix {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time that the place belongs to, by the instrument's clock", self.stamp_ns);
-    visit("valid", "", "whether the transponder replied; else the rest is zero", self.valid);
-    visit("range_m", "m", "from array to transponder, by the sound speed that the system uses", self.range_m);
+    visit("valid", "", "true when the transponder replied; else the rest is zero", self.valid);
+    visit("range_m", "m", "range from array to transponder, by the sound speed that the system uses", self.range_m);
     visit("place_body_m", "m", "transponder less array, along the carrier's body axes as mounting was measured",
           self.place_body_m);
     visit("position_enu_m", "m", "transponder in the world frame, by the carrier's own estimate", self.position_enu_m);

@@ -23,7 +23,7 @@ struct TransmitSector {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("frequency_hz", "Hz", "centre frequency", self.frequency_hz);
-    visit("pulse", "", "as of the ping", self.pulse);
+    visit("pulse", "", "pulse shape of the ping", self.pulse);
     visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
@@ -62,7 +62,7 @@ struct AppliedSettings {
     visit("pulse", "", "cw (rectangular), cw_tapered, fm_up or fm_down", self.pulse);
     visit("pulse_length_s", "s", "pulse length in force", self.pulse_length_s);
     visit("tapered_fraction", "1",
-          "of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others",
+          "part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others",
           self.tapered_fraction);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level in force, on the axis, rms", self.source_level_db);
@@ -73,8 +73,9 @@ struct AppliedSettings {
     visit("gain_spreading_db", "dB",
           "S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed",
           self.gain_spreading_db);
-    visit("gain_absorption_dbpm", "dB/m", "A of that gain: the operator's absorption", self.gain_absorption_dbpm);
-    visit("gain_offset_db", "dB", "O of that gain", self.gain_offset_db);
+    visit("gain_absorption_dbpm", "dB/m", "operator's absorption: A of the gain S log10(R) + 2 A R + O",
+          self.gain_absorption_dbpm);
+    visit("gain_offset_db", "dB", "offset: O of the gain S log10(R) + 2 A R + O", self.gain_offset_db);
     visit("transmit_beamwidth_rad", "rad", "along-track, one-way, -3 dB", self.transmit_beamwidth_rad);
     visit("receive_beamwidth_rad", "rad", "across-track, -3 dB, not steered", self.receive_beamwidth_rad);
     visit("roll_stabilised", "", "beams are steered against the measured roll", self.roll_stabilised);
@@ -139,7 +140,7 @@ struct Ping {
           self.amplitude_upa);
     visit("beam_sector", "1", "index of each beam's transmit sector; empty: 0", self.beam_sector);
     visit("amplitude_count", "1",
-          "instead of amplitude_upa: digitised amplitude (beam x sample), linear, the gain still in it",
+          "digitised amplitude (beam x sample) instead of amplitude_upa, linear, the gain still in it",
           self.amplitude_count);
     visit("count_upa", "uPa", "amplitude at the receiver of one count where the gain is 0 dB", self.count_upa);
     visit(
@@ -169,10 +170,10 @@ struct BottomTrack {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of transmission, sim time", self.stamp_ns);
     visit("ping", "1", "ping number of this head, from 0", self.ping);
-    visit("valid", "", "whether the bottom was found; the rest means nothing if not", self.valid);
+    visit("valid", "", "true when the bottom was found; the rest means nothing if not", self.valid);
     visit("travel_time_s", "s", "two-way time of the first bottom return, over all beams and smoothed",
           self.travel_time_s);
-    visit("altitude_m", "m", "half of that time at the head's sound speed", self.altitude_m);
+    visit("altitude_m", "m", "altitude: half of the two-way time at the head's sound speed", self.altitude_m);
     visit("quality_db", "dB", "step of the level at the return, over the water column's", self.quality_db);
     visit("sound_speed_mps", "m/s", "sound speed that the head used", self.sound_speed_mps);
     visit("beam_travel_time_s", "s", "first bottom return of each beam (sidescan: port, starboard), NaN: none",
@@ -195,12 +196,12 @@ struct Transmit {
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of transmission, sim time; of a sector that is sent later in the ping, its own",
           self.stamp_ns);
-    visit("ping", "1", "ping number of this head, from 0; the same of all sectors of a ping", self.ping);
+    visit("ping", "1", "ping number of this head, from 0; equal for all sectors of a ping", self.ping);
     visit("frequency_hz", "Hz", "centre frequency", self.frequency_hz);
     visit("pulse_length_s", "s", "pulse length", self.pulse_length_s);
     visit("bandwidth_hz", "Hz", "band that an fm pulse sweeps, 0 for cw", self.bandwidth_hz);
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
-    visit("next_ns", "ns", "when the head intends to transmit next, sim time; 0: unknown", self.next_ns);
+    visit("next_ns", "ns", "sim time at which the head intends to transmit next; 0: unknown", self.next_ns);
   }
 };
 
@@ -229,8 +230,9 @@ struct SonarSettings {
     visit("source_level_db", "dB re 1 uPa^2 at 1 m", "source level on the axis, rms", self.source_level_db);
     visit("pulse_length_s", "s", "pulse length; 0: the head chooses, where it can", self.pulse_length_s);
     visit("gain_spreading_db", "dB", "S of the gain S log10(R) + 2 A R + O at range R in m", self.gain_spreading_db);
-    visit("gain_absorption_dbpm", "dB/m", "A of that gain", self.gain_absorption_dbpm);
-    visit("gain_offset_db", "dB", "O of that gain", self.gain_offset_db);
+    visit("gain_absorption_dbpm", "dB/m", "operator's absorption: A of the gain S log10(R) + 2 A R + O",
+          self.gain_absorption_dbpm);
+    visit("gain_offset_db", "dB", "offset: O of the gain S log10(R) + 2 A R + O", self.gain_offset_db);
     visit("swath_rad", "rad", "full angle to spread the beams over", self.swath_rad);
     visit("ping_rate_hz", "Hz", "highest ping rate", self.ping_rate_hz);
     visit("mode", "", "operating mode, in the words of the head's documentation", self.mode);

@@ -82,7 +82,7 @@ struct Soundings {
     visit("tvu_m", "m",
           "predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not given",
           self.tvu_m);
-    visit("thu_m", "m", "the same of the horizontal error, as a radius; empty: not given", self.thu_m);
+    visit("thu_m", "m", "stated 95 % of the horizontal error, as a radius; empty: not given", self.thu_m);
     AppliedSettings::fields(self.applied, visit);
     HeadTrack::fields(self.track, visit);
   }
@@ -110,7 +110,7 @@ struct Snippets {
     visit("beam", "1", "index of each snippet's beam, rising; beams without a detection have none", self.beam);
     visit("first_sample_s", "s", "time of each snippet's first sample after transmission", self.first_sample_s);
     visit("centre", "1", "sample of the detection, counted from its snippet's first", self.centre);
-    visit("offset", "1", "where each snippet starts in amplitude_upa, and last the number of all samples", self.offset);
+    visit("offset", "1", "start of each snippet in amplitude_upa, and last the number of all samples", self.offset);
     visit("amplitude_upa", "uPa", "rms pressure amplitudes at the receiver, linear, snippet after snippet",
           self.amplitude_upa);
     AppliedSettings::fields(self.applied, visit);
@@ -146,12 +146,13 @@ struct SeabedImage {
     visit("beam", "1", "index of each series' beam, rising; beams without a detection have none", self.beam);
     visit("first_sample_s", "s", "time of each series' first sample after transmission", self.first_sample_s);
     visit("centre", "1", "sample of the detection, counted from its series' first", self.centre);
-    visit("offset", "1", "where each series starts in strength_db, and last the number of all samples", self.offset);
+    visit("offset", "1", "start of each series in strength_db, and last the number of all samples", self.offset);
     visit("strength_db", "dB", "strength re 1 m^2 per m^2 after the corrections, series after series",
           self.strength_db);
     visit("spreading_db", "dB", "S of the two-way loss S log10(R) + 2 A R that was made up for, R in m",
           self.spreading_db);
-    visit("absorption_dbpm", "dB/m", "A of that loss: the operator's absorption", self.absorption_dbpm);
+    visit("absorption_dbpm", "dB/m", "operator's absorption: A of the two-way loss that was made up for",
+          self.absorption_dbpm);
     visit("normal_incidence_range_m", "m", "range of the first return, about which strengths are flattened",
           self.normal_incidence_range_m);
     visit("normal_incidence_strength_db", "dB", "strength at normal incidence that was assumed for it",
@@ -160,7 +161,7 @@ struct SeabedImage {
           self.oblique_strength_db);
     visit("crossover_angle_rad", "rad", "incidence up to which the first return is flattened, 0: not at all",
           self.crossover_angle_rad);
-    visit("lambert_removed", "", "whether Lambert's law beyond the crossover angle was taken out too",
+    visit("lambert_removed", "", "true when Lambert's law beyond the crossover angle was taken out too",
           self.lambert_removed);
     AppliedSettings::fields(self.applied, visit);
   }

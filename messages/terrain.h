@@ -29,11 +29,10 @@ struct Tile {
     visit("spacing_m", "m", "distance between posts, both axes", self.spacing_m);
     visit("height_m", "m", "posts (north x east, south-west first), up from chart datum; NaN is a hole", self.height_m);
     visit("sediment", "1", "sediment class of each post, as height_m", self.sediment);
-    visit(
-        "facet_mean_square_slope", "1",
-        "by class, of all the seabed: mean square slope that facets have of relief which the sediment's law counts too "
-        "and must not count again; 0 or not listed: none that is known",
-        self.facet_mean_square_slope);
+    visit("facet_mean_square_slope", "1",
+          "mean square slope, by class of all the seabed, that facets have of relief which the sediment's law counts "
+          "too and must not count again; 0 or not listed: none that is known",
+          self.facet_mean_square_slope);
   }
 };
 
@@ -70,17 +69,17 @@ struct Mesh {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("number", "1", "by which it is released", self.number);
-    visit("name", "", "in the scenario", self.name);
+    visit("number", "1", "number by which the object is released", self.number);
+    visit("name", "", "name in the scenario", self.name);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
-    visit("origin_enu_m", "m", "what its vertices count from", self.origin_enu_m);
+    visit("origin_enu_m", "m", "origin that the vertices count from", self.origin_enu_m);
     visit("vertex_m", "m", "east, north, up of each vertex", self.vertex_m);
     visit("triangle", "1", "three vertices each", self.triangle);
     visit("split", "1",
           "coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: "
           "none), first and number of the triangles that come with it, in `born`",
           self.split);
-    visit("split_deviation_m", "m", "how far the surface is off without it and what is below it, an estimate",
+    visit("split_deviation_m", "m", "estimate of the surface's distance without it and what is below it",
           self.split_deviation_m);
     visit("split_box_m", "m", "least and greatest east, north, up, as vertices, of all triangles that change below it",
           self.split_box_m);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "components/config/data_paths.h"
+#include "components/config/parse_yaml.h"
 #include "components/config/read_parameters.h"
 
 namespace ensonify {

@@ -7,6 +7,7 @@
 #include "components/config/config_node.h"
 #include "components/config/config_reader.h"
 #include "components/config/parameters.h"
+#include "components/config/parse_yaml.h"
 
 namespace ensonify {
 
@@ -42,8 +43,8 @@ struct HeaderKeys {
   TimeKeys time;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("seed", "", any(), "of everything random", self.seed);
-    visit("time", "when the run starts", self.time);
+    visit("seed", "", any(), "seed of everything random", self.seed);
+    visit("time", "start of the run", self.time);
   }
   ScenarioHeader header() const;
 };

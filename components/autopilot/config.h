@@ -21,9 +21,9 @@ struct AutopilotParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
-    visit("command_rate_hz", "Hz", in(1, 100), "how often a command is published", self.command_rate_hz);
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("command_rate_hz", "Hz", in(1, 100), "commands published per second", self.command_rate_hz);
     visit("lookahead_radii", "", in(0.2, 20),
           "line-of-sight distance in turning radii, of at least 2 s of way; smaller steers harder",
           self.lookahead_radii);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,56 +43,14 @@ struct ConfigNode::Entry {
   ConfigNode value;
 };
 
-/// A parsed file, with the problems that the tree itself cannot show (duplicate keys).
-struct ConfigDocument {
-  ConfigNode root;
-  std::vector<ConfigProblem> problems;
-};
-
-inline constexpr const char* kNotUtf8 = "is not UTF-8";
-
-/// Parses one YAML document. `file` is the name that problems show. Throws ConfigError when the text is not YAML or
-/// UTF-8, holds no or several documents, has a root that is not a map, or grows beyond 200000 values through its
-/// aliases.
-ConfigDocument parse_config(const std::string& text, const std::string& file);
-
-/// Reads and parses a file of at most 16 MiB. Throws ConfigError, also when it cannot be read.
-ConfigDocument parse_config_file(const std::string& path);
-
-/// Parses a value as typed in `--set key=VALUE`: any YAML value, `place` given to all of it. Throws ConfigError.
-ConfigNode parse_config_value(const std::string& text, const ConfigPlace& place);
-
 /// Applies `path` (dots between keys, numbers index lists: "runlines.0.to_m") to a tree, making maps on the way.
 /// Returns "" or why it cannot be done.
 std::string set_config_value(ConfigNode& root, const std::string& path, ConfigNode value);
-
-/// Compact JSON with the types that YAML 1.2 gives to plain scalars (null, true, false, numbers).
-std::string to_json(const ConfigNode& node);
-
-/// YAML in one fixed layout without places, for records: equal trees give equal bytes. A scalar that is an absolute
-/// path is reduced to its last part, so no record knows on which machine it was made.
-std::string to_canonical_yaml(const ConfigNode& node);
 
 /// Values to set before reading: ("water.salinity_psu", value). Their places appear in messages.
 using Overrides = std::vector<std::pair<std::string, ConfigNode>>;
 
 /// Applies overrides to a tree; a path that leads nowhere is a problem.
 std::vector<ConfigProblem> apply(const Overrides& overrides, ConfigNode& root);
-
-/// The whole of `text` as a decimal number; infinities and NaN (".inf", ".nan", "inf", "nan") come back as such.
-std::optional<double> parse_number(const std::string& text);
-
-/// The whole of `text` as a whole number, decimal or 0x hexadecimal.
-std::optional<std::int64_t> parse_integer(const std::string& text);
-std::optional<std::uint64_t> parse_natural(const std::string& text);
-
-/// What a YAML reader makes of a bare word, by its own rules or those of YAML 1.1: nothing (null, ~), a truth value
-/// (true, no, on) or a text. Every spelling counts: Null, NULL, nULL.
-enum class BareWord { kText, kNull, kBool };
-BareWord bare_word(const std::string& text);
-
-/// "100000", "1e+06": as %g writes it when that is exact, else with as many digits as distinguish it from its
-/// neighbours.
-std::string shortest_number(double value);
 
 }  // namespace ensonify

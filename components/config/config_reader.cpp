@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "components/config/parse_yaml.h"
 #include "components/config/reader_state.h"
 #include "components/errors/nearest_name.h"
 

@@ -14,6 +14,7 @@
 
 #include "components/config/config_error.h"
 #include "components/config/config_node.h"
+#include "components/config/parse_yaml.h"
 
 namespace ensonify {
 

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <functional>
 
+#include "components/config/config_text.h"
+#include "components/config/parse_yaml.h"
 #include "components/errors/nearest_name.h"
 
 namespace ensonify {

@@ -7,6 +7,7 @@
 #include "components/config/data_paths.h"
 #include "components/config/read_parameters.h"
 #include "components/config/reader_state.h"
+#include "components/config/scalar_text.h"
 
 namespace ensonify {
 

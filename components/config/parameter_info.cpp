@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "components/config/config_node.h"
+#include "components/config/config_text.h"
+#include "components/config/scalar_text.h"
 
 namespace ensonify {
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "components/config/config_text.h"
+
 namespace ensonify {
 
 namespace {

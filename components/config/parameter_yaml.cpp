@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "components/config/config_text.h"
 #include "components/config/parameter_info.h"
+#include "components/config/scalar_text.h"
 
 namespace ensonify {
 

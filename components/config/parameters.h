@@ -22,7 +22,8 @@
 ///     template <class Self, class Visit>
 ///     static void parameters(Self& self, Visit&& visit) {
 ///       visit("swath_deg", "deg", in(10, 160), "width of the swath", self.swath_rad);
-///       visit("trigger", "what starts a ping", self.trigger);  // a section: its struct has a list of its own
+///       visit("trigger", "start of a ping: what transmissions follow", self.trigger);  // a section: its struct has a
+///       list of its own
 ///     }
 ///     void check(const ConfigReader& from) const;  // optional: what no single range says; adds problems
 ///     void complete(ConfigReader& from);           // optional, after it: what is kept besides the list

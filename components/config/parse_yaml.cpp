@@ -1,4 +1,6 @@
 // The only file that knows yaml-cpp: turns its events into ConfigNodes that carry their places.
+#include "components/config/parse_yaml.h"
+
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -10,7 +12,6 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "components/config/config_node.h"
 #include "components/errors/printable.h"
 
 namespace ensonify {
@@ -210,6 +211,18 @@ TreeBuilder build(const std::string& text, const std::string& file) {
   return builder;
 }
 
+void give_place(ConfigNode& node, const ConfigPlace& place) {
+  node.place = place;
+  node.from_command = place.line == 0;
+  for (auto& item : node.items) {
+    give_place(item, place);
+  }
+  for (auto& entry : node.entries) {
+    entry.place = place;
+    give_place(entry.value, place);
+  }
+}
+
 }  // namespace
 
 ConfigDocument parse_config(const std::string& text, const std::string& file) {
@@ -249,22 +262,6 @@ ConfigDocument parse_config_file(const std::string& path) {
   }
   return parse_config(text, path);
 }
-
-namespace {
-
-void give_place(ConfigNode& node, const ConfigPlace& place) {
-  node.place = place;
-  node.from_command = place.line == 0;
-  for (auto& item : node.items) {
-    give_place(item, place);
-  }
-  for (auto& entry : node.entries) {
-    entry.place = place;
-    give_place(entry.value, place);
-  }
-}
-
-}  // namespace
 
 ConfigNode parse_config_value(const std::string& text, const ConfigPlace& place) {
   ConfigNode node;

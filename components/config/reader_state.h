@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/config/config_reader.h"
+#include "components/config/parse_yaml.h"
 
 /// Internal to this folder: what readers of one document share.
 namespace ensonify {

@@ -19,14 +19,14 @@ struct CoverageParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
+          self.vehicle);
     visit("rate_hz", "Hz", in(1, 10), "rate of coverage messages", self.rate_hz);
     visit("head_depth_m", "m", in(-10, 11000),
           "depth of the transducer below chart datum: swaths are counted from there", self.head_depth_m);
-    visit("cost_per_day", "", in(0, 1e12), "of 24 h, in any currency", self.cost_per_day);
+    visit("cost_per_day", "", in(0, 1e12), "cost of 24 h, in any currency", self.cost_per_day);
     visit("cube_step_m", "m", in(0.01, 100),
-          "how finely soundings are counted to give the smallest cube that is found; at most 32 million cells",
+          "step in which soundings are counted to give the smallest cube that is found; at most 32 million cells",
           self.cube_step_m);
   }
 };

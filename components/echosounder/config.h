@@ -29,20 +29,23 @@ struct EchosounderConfig : HeadConfig {
   }
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("frequency_hz", "Hz", in(20e3, 1e6), "of the tone", self.frequency_hz);
-    visit("face", "", one_of({{"circular", Face::kCircular}, {"square", Face::kSquare}}), "of the piston", self.face);
-    visit("beamwidth_deg", "deg", in(0.5, 40), "-3 dB, one-way; of a square along its sides", self.beamwidth_rad);
+    visit("frequency_hz", "Hz", in(20e3, 1e6), "frequency of the tone", self.frequency_hz);
+    visit("face", "", one_of({{"circular", Face::kCircular}, {"square", Face::kSquare}}), "shape of the piston",
+          self.face);
+    visit("beamwidth_deg", "deg", in(0.5, 40), "beamwidth at -3 dB, one-way; of a square along its sides",
+          self.beamwidth_rad);
     visit("source_level_db", "dB", in(-300, kHighest_db),
           "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
-    visit("pulse_length_s", "s", in(10e-6, kLongestPulse_s), "of the tone; also the shortest that can be set",
+    visit("pulse_length_s", "s", in(10e-6, kLongestPulse_s), "length of the tone; also the shortest that can be set",
           self.pulse_length_s);
     visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
     visit("samples_per_pulse", "", in(kFewestPerPulse, kMostPerPulse), kSamplesAbout, self.samples_per_pulse);
     visit("range_m", "m", in(1, 2000), "the longest that can be set", self.range_m);
-    visit("electronic_noise_db", "dB", in(-200, 150), "as sound in the water, re 1 uPa^2/Hz", self.electronic_noise_db);
+    visit("electronic_noise_db", "dB", in(-200, 150), "electronic noise as sound in the water, re 1 uPa^2/Hz",
+          self.electronic_noise_db);
     visit("bottom_threshold_db", "dB", in(3, 40),
-          "of the bottom track: the first return over the water column that lasts", self.bottom_threshold_db);
-    visit("least_range_m", "m", in(kLeastColumn_m, 2000), "nearer, nothing is taken for the bottom",
+          "threshold of the bottom track: the first return over the water column that lasts", self.bottom_threshold_db);
+    visit("least_range_m", "m", in(kLeastColumn_m, 2000), "range below which nothing is taken for the bottom",
           self.least_range_m);
     HeadParameters::parameters(self, visit);
     sound_speed(self, visit);

@@ -13,6 +13,7 @@
 #include "components/config/config_node.h"
 #include "components/config/parameter_info.h"
 #include "components/config/read_parameters.h"
+#include "components/config/scalar_text.h"
 #include "components/errors/nearest_name.h"
 
 namespace ensonify {

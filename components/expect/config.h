@@ -52,7 +52,7 @@ struct Condition {
   static void parameters(auto& self, auto&& visit) {
     visit("field", "", must(any()), "path of a value in the message: position_enu_m.2", self.field);
     visit("equals", "", any(), "the value; a number compares as a number", self.equals);
-    visit("not", "", any(), "what the value is not", self.differs);
+    visit("not", "", any(), "value that must not be", self.differs);
     visit("above", "", any(), "the value is greater", self.above);
     visit("below", "", any(), "the value is less", self.below);
     visit("at_least", "", any(), "the value is this or greater", self.at_least);
@@ -108,8 +108,8 @@ struct Expectation {
     visit("after_s", "s", in(0, kLongest_s), "earlier messages do not count", self.after_s);
   }
   static void limits(auto& self, double least, auto&& visit) {
-    visit("min", "", in(least, 1e300), "at least so much; give min, max or both", self.min);
-    visit("max", "", in(least, 1e300), "at most so much", self.max);
+    visit("min", "", in(least, 1e300), "least that is allowed; give min, max or both", self.min);
+    visit("max", "", in(least, 1e300), "most that is allowed", self.max);
   }
   void check_limits(const ConfigReader& from) const;
   std::string limits_text() const;
@@ -130,8 +130,8 @@ struct RateExpected : Expectation {
   static constexpr Kind kKind = Kind::kRate;
   static void parameters(auto& self, auto&& visit) {
     topic_only(self, visit);
-    visit("hz", "Hz", must(in(1e-6, 1e6)), "of sim time", self.hz);
-    visit("tolerance", "", in(0, 1), "as a fraction of it", self.tolerance);
+    visit("hz", "Hz", must(in(1e-6, 1e6)), "rate in sim time", self.hz);
+    visit("tolerance", "", in(0, 1), "deviation allowed, as a fraction of the rate", self.tolerance);
     after(self, visit);
   }
   std::string text() const;
@@ -151,7 +151,7 @@ struct EventuallyExpected : Expectation {
   static constexpr Kind kKind = Kind::kEventually;
   static void parameters(auto& self, auto&& visit) {
     Messages::parameters(self.messages, visit);
-    visit("within_s", "s", must(in(0, kLongest_s)), "by this sim time", self.within_s);
+    visit("within_s", "s", must(in(0, kLongest_s)), "sim time by which it must have come", self.within_s);
   }
   std::string text() const;
 };
@@ -167,8 +167,8 @@ struct NeverExpected : Expectation {
 struct OrderExpected : Expectation {
   static constexpr Kind kKind = Kind::kOrder;
   static void parameters(auto& self, auto&& visit) {
-    visit("first", "what must come first", self.messages);
-    visit("then", "and what after it", self.then);
+    visit("first", "message that must come first", self.messages);
+    visit("then", "message that must come after it", self.then);
   }
   void check(const ConfigReader& from) const;
   std::string text() const;
@@ -182,7 +182,7 @@ struct SameAsExpected : Expectation {
   static constexpr Kind kKind = Kind::kSameAs;
   static void parameters(auto& self, auto&& visit) {
     visit("record", "", must(path()), "whose messages the run repeats", self.record);
-    visit("topics", "", any(), "only these; none: all of the record", self.topics);
+    visit("topics", "", any(), "topics to compare; none: all of the record", self.topics);
   }
   std::string text() const;
 };
@@ -200,8 +200,8 @@ struct ExpectEntry {
   std::optional<SameAsExpected> same_as;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("name", "", any(), "what the verdict calls it; left out: what it says", self.name);
-    visit("count", "how many messages came", self.count);
+    visit("name", "", any(), "name of the verdict; left out: what the entry says", self.name);
+    visit("count", "number of messages", self.count);
     visit("rate", "messages a second, from the first to the run's end", self.rate);
     visit("bounds", "limits of a field, in every message", self.bounds);
     visit("eventually", "a message that comes in time", self.eventually);
@@ -219,7 +219,7 @@ struct ExpectParameters {
   std::vector<ExpectEntry> entries;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("expect", "what must hold, each entry of one kind; the launch file's own list", self.entries);
+    visit("expect", "list of what must hold, each entry of one kind; the launch file's own", self.entries);
   }
 };
 

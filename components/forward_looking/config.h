@@ -33,28 +33,32 @@ struct ForwardLookingConfig : HeadConfig {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("frequency_hz", "Hz", in(50e3, 3e6), "centre frequency", self.frequency_hz);
-    visit("beams", "", in(16, 1024), "in azimuth", self.beams);
+    visit("beams", "", in(16, 1024), "number of beams, in azimuth", self.beams);
     visit("aperture_deg", "deg", in(10, 160),
-          "in azimuth: the beams are spread over it, the transmission is -3 dB at its edges", self.aperture_rad);
-    visit("beamwidth_deg", "deg", in(0.2, 10), "in azimuth, of the receive array; a steered beam is wider by 1 / cos",
-          self.beamwidth_rad);
-    visit("shading", "of the receive array, which is as long as it takes for its width", self.shading);
-    visit("transmit_vertical_deg", "deg", in(1, 90), "-3 dB, one-way", self.transmit_vertical_rad);
-    visit("receive_vertical_deg", "deg", in(1, 90), "-3 dB, one-way", self.receive_vertical_rad);
-    visit("tilt_deg", "deg", in(-90, 90), "of both vertical beams, down from the head's forward axis", self.tilt_rad);
-    visit("electronic_noise_db", "dB", in(-200, 150), "of each element, as sound in the water, re 1 uPa^2/Hz",
-          self.electronic_noise_db);
+          "width of the fan in azimuth: beams are spread over it, the transmission is -3 dB at its edges",
+          self.aperture_rad);
+    visit("beamwidth_deg", "deg", in(0.2, 10),
+          "beamwidth of the receive array in azimuth; a steered beam is wider by 1 / cos", self.beamwidth_rad);
+    visit("shading", "shading of the receive array, which is as long as it takes for its width", self.shading);
+    visit("transmit_vertical_deg", "deg", in(1, 90), "vertical beamwidth of the transmitter at -3 dB, one-way",
+          self.transmit_vertical_rad);
+    visit("receive_vertical_deg", "deg", in(1, 90), "vertical beamwidth of the receiver at -3 dB, one-way",
+          self.receive_vertical_rad);
+    visit("tilt_deg", "deg", in(-90, 90), "tilt of both vertical beams, down from the head's forward axis",
+          self.tilt_rad);
+    visit("electronic_noise_db", "dB", in(-200, 150),
+          "electronic noise of each element, as sound in the water, re 1 uPa^2/Hz", self.electronic_noise_db);
     visit("pulse", "", one_of({{"tone", false}, {"chirp", true}}), "a linear sweep and its matched filter, or a tone",
           self.pulse.chirp);
     const Allowed bandwidths = in(1e3, 1e6);  // of a tone it is not said
-    visit("bandwidth_hz", "Hz", self.pulse.chirp ? bandwidths : computed(bandwidths), "that a chirp sweeps at most",
-          self.pulse.bandwidth_hz);
-    visit("window", "", filter_windows(), "of a chirp's matched filter", self.pulse.window);
+    visit("bandwidth_hz", "Hz", self.pulse.chirp ? bandwidths : computed(bandwidths),
+          "bandwidth that a chirp sweeps at most", self.pulse.bandwidth_hz);
+    visit("window", "", filter_windows(), "window of a chirp's matched filter", self.pulse.window);
     PulseDesign::parameters(self.pulse, visit);
     visit("source_level_db", "dB", in(-300, kHighest_db),
           "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
-    visit("range_m", "m", in(0.5, 1000), "to start with", self.range_m);
-    visit("longest_range_m", "m", in(0.5, 1000), "that can be set", self.longest_range_m);
+    visit("range_m", "m", in(0.5, 1000), "range at the start", self.range_m);
+    visit("longest_range_m", "m", in(0.5, 1000), "longest range that can be set", self.longest_range_m);
     HeadParameters::parameters(self, visit);
     sound_speed(self, visit);
   }

@@ -25,10 +25,10 @@ struct MultibeamParameters {
 
     template <class Self, class Visit>
     static void parameters(Self& self, Visit&& visit) {
-      visit("share", "", in(0.01, 100), "of the swath, over the sum of all shares", self.share);
+      visit("share", "", in(0.01, 100), "share of the swath, over the sum of all shares", self.share);
       visit("frequency_hz", "Hz", computed(in(50e3, 1e6)), "left out: the head's", self.frequency_hz);
-      visit("tilt_deg", "deg", in(-20, 20), "of its fan, forward", self.tilt_rad);
-      visit("delay_s", "s", in(0, 0.1), "after the ping's time of transmission", self.delay_s);
+      visit("tilt_deg", "deg", in(-20, 20), "tilt of the sector's fan, forward", self.tilt_rad);
+      visit("delay_s", "s", in(0, 0.1), "delay after the ping's time of transmission", self.delay_s);
     }
   };
 
@@ -42,10 +42,12 @@ struct MultibeamParameters {
     template <class Self, class Visit>
     static void parameters(Self& self, Visit&& visit) {
       visit("published", "", any(), "seabed_image/1 for every ping", self.published);
-      visit("normal_strength_db", "dB", in(-80, 20), "of the seabed that it is flattened by, at normal incidence",
-            self.normal_strength_db);
-      visit("oblique_strength_db", "dB", in(-80, 20), "and by Lambert's law", self.oblique_strength_db);
-      visit("crossover_deg", "deg", in(1, 60), "from this incidence on", self.crossover_rad);
+      visit("normal_strength_db", "dB", in(-80, 20),
+            "strength of the seabed that it is flattened by, at normal incidence", self.normal_strength_db);
+      visit("oblique_strength_db", "dB", in(-80, 20),
+            "strength that it is flattened by at oblique incidence, with Lambert's law", self.oblique_strength_db);
+      visit("crossover_deg", "deg", in(1, 60), "incidence from which on the oblique strength holds",
+            self.crossover_rad);
     }
   };
 
@@ -70,24 +72,36 @@ struct MultibeamParameters {
 
     template <class Self, class Visit>
     static void parameters(Self& self, Visit&& visit) {
-      visit("position_m", "m", in(0, 1000), "of an estimate that does not state its own: east and north each",
+      visit("position_m", "m", in(0, 1000), "sigma of an estimate that does not state its own: east and north each",
             self.position_m);
-      visit("height_m", "m", in(0, 1000), "of such an estimate", self.height_m);
-      visit("level_deg", "deg", in(0, 10), "of such an estimate: roll and pitch", self.level_rad);
-      visit("heading_deg", "deg", in(0, 10), "of such an estimate", self.heading_rad);
-      visit("heave_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.heave_m);
-      visit("draught_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.draught_m);
-      visit("squat_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.squat_m);
-      visit("tide_m", "m", in(0, 10), "where the estimate's height does not hold it", self.sources.tide_m);
-      visit("cast_mps", "m/s", in(0, 100), "of the applied sound speed profile, all of it", self.sources.cast_mps);
-      visit("face_mps", "m/s", in(0, 100), "of the speed at the face", self.sources.face_mps);
+      visit("height_m", "m", in(0, 1000), "sigma of the height, of an estimate that does not state its own",
+            self.height_m);
+      visit("level_deg", "deg", in(0, 10), "sigma of roll and pitch, of an estimate that does not state its own",
+            self.level_rad);
+      visit("heading_deg", "deg", in(0, 10), "sigma of the heading, of an estimate that does not state its own",
+            self.heading_rad);
+      visit("heave_m", "m", in(0, 10), "sigma of heave, where the estimate's height does not hold it",
+            self.sources.heave_m);
+      visit("draught_m", "m", in(0, 10), "sigma of the draught, where the estimate's height does not hold it",
+            self.sources.draught_m);
+      visit("squat_m", "m", in(0, 10), "sigma of squat, where the estimate's height does not hold it",
+            self.sources.squat_m);
+      visit("tide_m", "m", in(0, 10), "sigma of the tide, where the estimate's height does not hold it",
+            self.sources.tide_m);
+      visit("cast_mps", "m/s", in(0, 100), "sigma of the applied sound speed profile, all of it",
+            self.sources.cast_mps);
+      visit("face_mps", "m/s", in(0, 100), "sigma of the sound speed at the face", self.sources.face_mps);
       visit("lever_arm_m", "m", in(0, 10), "forward, starboard, down", self.sources.lever_arm_m);
-      visit("roll_deg", "deg", in(0, 10), "of the mounting, as a patch test leaves it", self.sources.roll_rad);
-      visit("pitch_deg", "deg", in(0, 10), "of the mounting", self.sources.pitch_rad);
-      visit("yaw_deg", "deg", in(0, 10), "of the mounting", self.sources.yaw_rad);
-      visit("position_latency_s", "s", in(0, 10), "of east and north", self.sources.position_latency_s);
-      visit("attitude_latency_s", "s", in(0, 10), "of attitude and heave", self.sources.attitude_latency_s);
-      visit("along_deg", "deg", in(0, 10), "from the plane of the transmit beam to where the echo came from",
+      visit("roll_deg", "deg", in(0, 10), "sigma of the mounting's roll, as a patch test leaves it",
+            self.sources.roll_rad);
+      visit("pitch_deg", "deg", in(0, 10), "sigma of the mounting's pitch", self.sources.pitch_rad);
+      visit("yaw_deg", "deg", in(0, 10), "sigma of the mounting's yaw", self.sources.yaw_rad);
+      visit("position_latency_s", "s", in(0, 10), "sigma of the latency of east and north",
+            self.sources.position_latency_s);
+      visit("attitude_latency_s", "s", in(0, 10), "sigma of the latency of attitude and heave",
+            self.sources.attitude_latency_s);
+      visit("along_deg", "deg", in(0, 10),
+            "sigma of the angle from the plane of the transmit beam to where the echo came from",
             self.sources.along_rad);
     }
   };
@@ -140,34 +154,35 @@ struct MultibeamParameters {
   static void parameters(Self& self, Visit&& visit) {
     visit("frequency_hz", "Hz", in(50e3, 1e6), "centre frequency", self.frequency_hz);
     visit("beams", "", in(2, 1024), "across the track", self.beams);
-    visit("swath_deg", "deg", in(1, 170), "to start with", self.swath_rad);
+    visit("swath_deg", "deg", in(1, 170), "width of the swath at the start", self.swath_rad);
     visit("spacing", "",
           one_of({{"equiangle", Spacing::kEquiangle},
                   {"equidistant", Spacing::kEquidistant},
                   {"high_density", Spacing::kHighDensity}}),
           "equidistant: equal distances on a flat seabed; high_density: equiangle beams, soundings equidistant",
           self.spacing);
-    visit("soundings", "", in(0, 2048), "of high_density: how many, at least as many as beams; 0: twice as many",
-          self.soundings);
-    visit("detections_per_beam", "", in(1, 8), "at most", self.detections_per_beam);
+    visit("soundings", "", in(0, 2048),
+          "number of soundings with high_density, at least as many as beams; 0: twice as many", self.soundings);
+    visit("detections_per_beam", "", in(1, 8), "detections of a beam, at most", self.detections_per_beam);
     visit("transmit_beamwidth_deg", "deg", in(0.1, 20), "along-track, one-way, -3 dB", self.transmit_beamwidth_rad);
     visit("receive_beamwidth_deg", "deg", in(0.1, 20), "across-track at nadir; a steered beam is wider by 1 / cos",
           self.receive_beamwidth_rad);
-    visit("transmit_shading", "of the transmit line, which is as long as it takes for its width",
+    visit("transmit_shading", "shading of the transmit line, which is as long as it takes for its width",
           self.transmit_shading);
-    visit("receive_shading", "of the receive line, likewise", self.receive_shading);
+    visit("receive_shading", "shading of the receive line, which is as long as it takes for its width",
+          self.receive_shading);
     visit("back_loss_db", "dB", in(0, 100), "one-way, behind the face", self.back_loss_db);
-    visit("electronic_noise_db", "dB", in(-200, 150), "of each element, as sound in the water, re 1 uPa^2/Hz",
-          self.electronic_noise_db);
+    visit("electronic_noise_db", "dB", in(-200, 150),
+          "electronic noise of each element, as sound in the water, re 1 uPa^2/Hz", self.electronic_noise_db);
     visit("sectors", "transmissions of a ping, from port to starboard; none: one over the whole swath", self.sectors);
     visit("sector_rejection_db", "dB", in(0, 200),
-          "by each sector's filter, of the other sectors' echoes outside its band", self.sector_rejection_db);
+          "rejection by each sector's filter, of the other sectors' echoes outside its band", self.sector_rejection_db);
     visit("pulse", "", one_of({{"tone", false}, {"chirp", true}}), "a linear sweep and its matched filter, or a tone",
           self.chirp);
-    visit("pulse_length_s", "s", in(5e-6, kLongestPulse_s), "to start with", self.pulse_length_s);
+    visit("pulse_length_s", "s", in(5e-6, kLongestPulse_s), "length of the pulse at the start", self.pulse_length_s);
     visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
-    visit("bandwidth_hz", "Hz", in(0, 500e3), "that a chirp sweeps; it resolves c / 2B", self.bandwidth_hz);
-    visit("window", "", filter_windows(), "of a chirp's matched filter", self.window);
+    visit("bandwidth_hz", "Hz", in(0, 500e3), "bandwidth that a chirp sweeps; it resolves c / 2B", self.bandwidth_hz);
+    visit("window", "", filter_windows(), "window of a chirp's matched filter", self.window);
     visit("source_level_db", "dB", in(-300, HeadParameters::kHighest_db),
           "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
     visit("roll_stabilised", "", any(),
@@ -175,18 +190,19 @@ struct MultibeamParameters {
     visit("pitch_stabilised", "", any(), "fans are steered against the measured pitch", self.pitch_stabilised);
     visit("yaw_stabilised", "", any(), "the fans of sectors are steered against the measured heading, from its mean",
           self.yaw_stabilised);
-    visit("heading_mean_s", "s", in(0.1, 1000), "time constant of that mean", self.heading_mean_s);
-    visit("attitude_latency_s", "s", in(0, 1), "of the motion sensor", self.attitude_latency_s);
+    visit("heading_mean_s", "s", in(0.1, 1000), "time constant of the mean heading", self.heading_mean_s);
+    visit("attitude_latency_s", "s", in(0, 1), "latency of the motion sensor", self.attitude_latency_s);
     visit("auto_range", "", any(), "range follows the last detections, never beyond range_m; false: range_m",
           self.auto_range);
     visit("range_m", "m", in(1, 2000), "the longest range of reception", self.range_m);
     visit("sample_rate_hz", "Hz", in(1e3, 1e6),
-          "of the complex envelope, at least 2 / pulse length of a tone, 2 x bandwidth of a chirp",
+          "rate of the complex envelope, at least 2 / pulse length of a tone, 2 x bandwidth of a chirp",
           self.sample_rate_hz);
     visit("detection_threshold_db", "dB", in(0, 60), "signal to noise ratio of a sounding, at least",
           self.detection_threshold_db);
     visit("least_range_m", "m", in(0, 2000),
-          "nearer, nothing is taken for the seabed: the surface above a shallow head, ringing", self.least_range_m);
+          "range below which nothing is taken for the seabed: the surface above a shallow head, ringing",
+          self.least_range_m);
     visit("refuse_second_echo", "", any(),
           "a return from twice the depth that the beams about it detect is not the seabed", self.refuse_second_echo);
     visit("mode", "", one_of({"bathymetry", "water_column"}), "water_column: ping/1 for every ping, with phase",

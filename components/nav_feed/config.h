@@ -26,18 +26,19 @@ struct NavFeedParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
+          self.vehicle);
     visit("port", "", in(1024, 65535), "UDP port on the loopback interface", self.port);
-    visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
+    visit("pose_rate_hz", "Hz", in(1, 1000), "true poses published per second", self.pose_rate_hz);
     visit("delay_s", "s", in(0, 60),
-          "of the vehicle behind the feed; with less than two intervals between fixes its velocity jumps as they come",
+          "delay of the vehicle behind the feed; with less than two intervals between fixes its velocity jumps as they "
+          "come",
           self.delay_s);
     visit("fastest_mps", "m/s", in(0.1, 1000), "fixes that ask for more are not accepted", self.fastest_mps);
     visit("antenna_position_m", "m", in(-500, 500),
           "the place on the body that GGA is of: forward, starboard, down (up is negative)", self.antenna_body_m);
     visit("height", "", one_of({{"water", Height::kWater}, {"gga", Height::kGga}}),
-          "of the vehicle: on the scenario's water level, or as the fixes' heights have it", self.height);
+          "height of the vehicle: on the scenario's water level, or as the fixes' heights have it", self.height);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "components/config/data_paths.h"
+#include "components/config/parse_yaml.h"
 #include "components/config/read_parameters.h"
 #include "components/sonar/environment.h"
 #include "scenarios/world/world.h"

@@ -58,11 +58,11 @@ struct NavigationParameters {
   Instruments instruments;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
+          self.vehicle);
     visit("attitude_rate_hz", "Hz", in(1, 1000), "attitude and estimate", self.attitude_rate_hz);
     visit("position_rate_hz", "Hz", in(1, 100), "fixes", self.position_rate_hz);
-    visit("position_gain", "", in(0.001, 1), "how much of a fix's difference from the estimate is taken over",
+    visit("position_gain", "", in(0.001, 1), "part of a fix's difference from the estimate that is taken over",
           self.position_gain);
     visit("motion_latency_s", "s", in(0, 10), "age of attitude, heave and velocity at their stamp",
           self.motion_latency_s);
@@ -70,22 +70,27 @@ struct NavigationParameters {
           self.position_latency_s);
     visit("sigma_roll_deg", "deg", in(0, 10), "white noise where no instrument is listed, each sample on its own",
           self.sigma.roll_rad);
-    visit("sigma_pitch_deg", "deg", in(0, 10), "the same", self.sigma.pitch_rad);
-    visit("sigma_heading_deg", "deg", in(0, 10), "the same", self.sigma.heading_rad);
-    visit("sigma_heave_m", "m", in(0, 5), "the same", self.sigma.heave_m);
-    visit("sigma_horizontal_m", "m", in(0, 100), "the same, each of east and north", self.sigma.horizontal_m);
-    visit("sigma_vertical_m", "m", in(0, 100), "the same", self.sigma.vertical_m);
-    visit("sigma_velocity_mps", "m/s", in(0, 5), "the same, each axis", self.sigma.velocity_mps);
+    visit("sigma_pitch_deg", "deg", in(0, 10), "standard deviation of the pitch's white noise", self.sigma.pitch_rad);
+    visit("sigma_heading_deg", "deg", in(0, 10), "standard deviation of the heading's white noise",
+          self.sigma.heading_rad);
+    visit("sigma_heave_m", "m", in(0, 5), "standard deviation of the heave's white noise", self.sigma.heave_m);
+    visit("sigma_horizontal_m", "m", in(0, 100),
+          "standard deviation of the position's white noise, each of east and north", self.sigma.horizontal_m);
+    visit("sigma_vertical_m", "m", in(0, 100), "standard deviation of the height's white noise", self.sigma.vertical_m);
+    visit("sigma_velocity_mps", "m/s", in(0, 5), "standard deviation of the velocity's white noise, each axis",
+          self.sigma.velocity_mps);
     visit("sound_speed_position_m", "m", in(-500, 500),
-          "of the probe, meant to sit beside the transducers' faces: forward, starboard, down from the body's origin",
+          "position of the probe, meant to sit beside the transducers' faces: forward, starboard, down from the body's "
+          "origin",
           self.probe.position_body_m);
-    visit("sound_speed_rate_hz", "Hz", in(1, 100), "of the probe", self.probe.rate_hz);
-    visit("sound_speed_bias_mps", "m/s", in(-50, 50), "measured minus true, the same all through a run",
+    visit("sound_speed_rate_hz", "Hz", in(1, 100), "measurements of the probe per second", self.probe.rate_hz);
+    visit("sound_speed_bias_mps", "m/s", in(-50, 50), "measured minus true sound speed, constant through a run",
           self.probe.bias_mps);
     visit("sigma_sound_speed_mps", "m/s", in(0, 10), "white noise of the probe", self.probe.sigma_mps);
-    visit("sound_speed_latency_s", "s", in(0, 10), "from the measurement to its report", self.probe.latency_s);
-    visit("centre_of_rotation_m", "m", in(-500, 500), "of the body; positions of the instruments count from it",
-          self.centre_body_m);
+    visit("sound_speed_latency_s", "s", in(0, 10), "time from the probe's measurement to its report",
+          self.probe.latency_s);
+    visit("centre_of_rotation_m", "m", in(-500, 500),
+          "centre of rotation of the body; positions of the instruments count from it", self.centre_body_m);
     Instruments::parameters(self.instruments, visit);
   }
   static NavigationParameters read(ConfigReader& from);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "components/navigation/estimator.h"
+#include "components/navigation/motion_sensor.h"
 #include "components/navigation/sensors.h"
 #include "components/navigation/suite.h"
 #include "components/runtime/ports.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "components/record/value_difference.h"
 #include "components/record/writer.h"
 #include "messages/codec.h"
 #include "messages/health.h"

@@ -14,7 +14,7 @@ struct KeptEvery {
   std::int64_t every = 1;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("every", "", in(1, kMostSkipped), "so many messages are there for one that is kept", self.every);
+    visit("every", "", in(1, kMostSkipped), "number of messages there are for one that is kept", self.every);
   }
 };
 

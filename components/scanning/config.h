@@ -55,24 +55,29 @@ struct ScanningConfig : HeadConfig {
   static constexpr double kFastest_hz = 200.0;
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("frequency_hz", "Hz", in(50e3, 3e6), "of the tone", self.frequency_hz);
-    visit("horizontal_beamwidth_deg", "deg", in(0.2, 20), "-3 dB, one-way", self.horizontal_beamwidth_rad);
-    visit("shading", "of the transducer across that width, which is as wide as it takes", self.shading);
-    visit("vertical_beamwidth_deg", "deg", in(0.2, 90), "-3 dB, one-way", self.vertical_beamwidth_rad);
+    visit("frequency_hz", "Hz", in(50e3, 3e6), "frequency of the tone", self.frequency_hz);
+    visit("horizontal_beamwidth_deg", "deg", in(0.2, 20), "horizontal beamwidth at -3 dB, one-way",
+          self.horizontal_beamwidth_rad);
+    visit("shading", "shading of the transducer across its beam, which is as wide as it takes for the beamwidth",
+          self.shading);
+    visit("vertical_beamwidth_deg", "deg", in(0.2, 90), "vertical beamwidth at -3 dB, one-way",
+          self.vertical_beamwidth_rad);
     visit("tilt_deg", "deg", in(-90, 90), "down from the plane that the transducer turns in", self.tilt_rad);
-    visit("sector_centre_deg", "deg", in(-180, 180), "from the head's forward axis, positive to starboard",
-          self.scan.centre_rad);
-    visit("sector_width_deg", "deg", in(0.1, 360), "to start with; 360: it turns without an end", self.scan.width_rad);
-    visit("step_deg", "deg", in(0.05, 30), "of the transducer", self.scan.step_rad);
+    visit("sector_centre_deg", "deg", in(-180, 180),
+          "middle of the sector from the head's forward axis, positive to starboard", self.scan.centre_rad);
+    visit("sector_width_deg", "deg", in(0.1, 360),
+          "width of the sector at the start; 360: the transducer turns without an end", self.scan.width_rad);
+    visit("step_deg", "deg", in(0.05, 30), "step of the transducer", self.scan.step_rad);
     visit("steps_per_ping", "", in(1, 100), "turned between two pings", self.scan.steps_per_ping);
     visit("turning", "", one_of({{"continuous", false}, {"reversing", true}}), "always to starboard, or back and forth",
           self.scan.reversing);
     PulseDesign::parameters(self.pulse, visit);
     visit("source_level_db", "dB", in(-300, kHighest_db),
           "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
-    visit("range_m", "m", in(0.5, 1000), "to start with", self.range_m);
-    visit("longest_range_m", "m", in(0.5, 1000), "that can be set", self.longest_range_m);
-    visit("electronic_noise_db", "dB", in(-200, 150), "as sound in the water, re 1 uPa^2/Hz", self.electronic_noise_db);
+    visit("range_m", "m", in(0.5, 1000), "range at the start", self.range_m);
+    visit("longest_range_m", "m", in(0.5, 1000), "longest range that can be set", self.longest_range_m);
+    visit("electronic_noise_db", "dB", in(-200, 150), "electronic noise as sound in the water, re 1 uPa^2/Hz",
+          self.electronic_noise_db);
     HeadParameters::parameters(self, visit);
     sound_speed(self, visit);
   }

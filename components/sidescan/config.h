@@ -44,33 +44,36 @@ struct SidescanChannel {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("name", "", must(any()), "its ports are ping_NAME and bottom_NAME", self.name);
+    visit("name", "", must(any()), "name of the channel, whose ports are ping_NAME and bottom_NAME", self.name);
     visit("frequency_hz", "Hz", must(in(50e3, 1e6)), "centre frequency", self.frequency_hz);
-    visit("horizontal_beamwidth_deg", "deg", in(0.05, 10), "-3 dB, of the line along x that transmits and receives",
-          self.horizontal_beamwidth_rad);
+    visit("horizontal_beamwidth_deg", "deg", in(0.05, 10),
+          "beamwidth at -3 dB of the line along x that transmits and receives", self.horizontal_beamwidth_rad);
     visit("horizontal_beamwidth_is", "", one_of({{"one_way", false}, {"two_way", true}}),
           "two_way: of both together, 0.72 times as wide", self.two_way);
-    visit("shading", "of that line, which is as long as it takes for its width; with focus: ideal", self.shading);
-    visit("vertical_beamwidth_deg", "deg", in(5, 150), "-3 dB, one-way", self.vertical_beamwidth_rad);
-    visit("depression_deg", "deg", in(0, 90), "of each side's axis, below the horizontal of the head",
+    visit("shading", "shading of the line, which is as long as it takes for its width; with focus: ideal",
+          self.shading);
+    visit("vertical_beamwidth_deg", "deg", in(5, 150), "vertical beamwidth at -3 dB, one-way",
+          self.vertical_beamwidth_rad);
+    visit("depression_deg", "deg", in(0, 90), "depression of each side's axis, below the horizontal of the head",
           self.depression_rad);
     visit("back_loss_db", "dB", in(0, 100), "one-way, behind the face: what keeps the sides apart", self.back_loss_db);
     visit("focus", "",
           one_of({{"ideal", Focus::kIdeal}, {"echo", Focus::kEcho}, {"fixed", Focus::kFixed}, {"off", Focus::kOff}}),
-          "of the line inside L^2 / lambda", self.focus);
+          "focus of the line inside L^2 / lambda", self.focus);
     visit("focus_m", "m", in(0, 1000), "range at which focus: fixed is focused", self.focus_m);
     visit("source_level_db", "dB", in(-300, HeadParameters::kHighest_db),
           "rms during the pulse, re 1 uPa at 1 m; the most that can be set", self.source_level_db);
     visit("pulse", "", one_of({{"tone", false}, {"chirp", true}}), "a linear sweep and its matched filter, or a tone",
           self.chirp);
-    visit("pulse_length_s", "s", in(5e-6, kLongestPulse_s), "of the pulse; of a tone also the shortest that can be set",
-          self.pulse_length_s);
+    visit("pulse_length_s", "s", in(5e-6, kLongestPulse_s),
+          "length of the pulse; of a tone also the shortest that can be set", self.pulse_length_s);
     visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
-    visit("bandwidth_hz", "Hz", in(0, 500e3), "that a chirp sweeps", self.bandwidth_hz);
-    visit("window", "", filter_windows(), "of a chirp's matched filter", self.window);
+    visit("bandwidth_hz", "Hz", in(0, 500e3), "bandwidth that a chirp sweeps", self.bandwidth_hz);
+    visit("window", "", filter_windows(), "window of a chirp's matched filter", self.window);
     visit("samples_per_pulse", "", in(kFewestPerPulse, kMostPerPulse), kSamplesAbout, self.samples_per_pulse);
     visit("range_m", "m", in(1, 1000), "slant; the longest that can be set", self.range_m);
-    visit("electronic_noise_db", "dB", in(-200, 150), "as sound in the water, re 1 uPa^2/Hz", self.electronic_noise_db);
+    visit("electronic_noise_db", "dB", in(-200, 150), "electronic noise as sound in the water, re 1 uPa^2/Hz",
+          self.electronic_noise_db);
   }
   void check(const ConfigReader& from) const;
 
@@ -97,8 +100,8 @@ struct SidescanConfig : HeadConfig {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("channels", "each frequency; all ping together", self.channels);
-    visit("bottom_threshold_db", "dB", in(3, 40), "of the bottom track: the first return over the water column",
-          self.bottom_threshold_db);
+    visit("bottom_threshold_db", "dB", in(3, 40),
+          "threshold of the bottom track: the first return over the water column", self.bottom_threshold_db);
     HeadParameters::parameters(self, visit);
     sound_speed(self, visit);
   }

@@ -24,20 +24,22 @@ struct Effects {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("refraction", "", any(), "off: straight paths, at the speed of sound at the head", self.refraction);
-    visit("absorption", "", any(), "off: the water absorbs nothing; the operator's gain still assumes it does",
+    visit("refraction", "", any(), "bent paths; off: straight ones, at the speed of sound at the head",
+          self.refraction);
+    visit("absorption", "", any(), "absorption by the water; off: none, though the operator's gain still assumes it",
           self.absorption);
     visit("directivity", "", any(),
-          "off: faces transmit and receive alike in all directions; what makes narrow beams stays", self.directivity);
-    visit("side_lobes", "", any(), "off: narrow beams end at their first nulls", self.side_lobes);
-    visit("speckle", "", any(), "off: the mean level of the seabed, as sums of mean squares", self.speckle);
-    visit("noise", "", any(), "off: neither ambient nor electronic noise", self.noise);
-    visit("volume", "", any(), "off: the water does not scatter", self.volume);
-    visit("multipath", "", any(), "off: no sound by way of the surface", self.multipath);
-    visit("interference", "", any(), "off: no sound of other heads", self.interference);
-    visit("motion", "", any(), "off: the head rests during each ping, at its pose of transmission", self.motion);
-    visit("tvg", "", any(), "off: no gain that varies with time", self.tvg);
-    visit("quantisation", "", any(), "off: no converter; amplitudes are numbers", self.quantisation);
+          "patterns of the faces; off: alike in all directions, but what makes narrow beams stays", self.directivity);
+    visit("side_lobes", "", any(), "side lobes of narrow beams; off: these end at their first nulls", self.side_lobes);
+    visit("speckle", "", any(), "speckle; off: the mean level of the seabed, as sums of mean squares", self.speckle);
+    visit("noise", "", any(), "noise; off: neither ambient nor electronic noise", self.noise);
+    visit("volume", "", any(), "scattering by the water; off: none", self.volume);
+    visit("multipath", "", any(), "paths by way of the surface; off: none", self.multipath);
+    visit("interference", "", any(), "sound of other heads; off: none", self.interference);
+    visit("motion", "", any(), "motion of the head during a ping; off: it rests at its pose of transmission",
+          self.motion);
+    visit("tvg", "", any(), "gain that varies with time; off: none", self.tvg);
+    visit("quantisation", "", any(), "converter; off: amplitudes are numbers", self.quantisation);
   }
 };
 

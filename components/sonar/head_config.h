@@ -29,11 +29,12 @@ struct OtherHead {
   static constexpr auto kNamedBy = &OtherHead::process;
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("isolation_db", "dB", in(0, 300), "of its source level, what does not come straight to this head",
+    visit("isolation_db", "dB", in(0, 300), "part of its source level that does not come straight to this head",
           self.isolation_db);
-    visit("bottom_loss_db", "dB", in(0, 300), "of its source level, what the seabed below does not mirror",
+    visit("bottom_loss_db", "dB", in(0, 300), "part of its source level that the seabed below does not mirror",
           self.bottom_loss_db);
-    visit("rejection_db", "dB", in(0, 300), "by our receiver, of what lies outside its band", self.rejection_db);
+    visit("rejection_db", "dB", in(0, 300), "rejection by our receiver of what lies outside its band",
+          self.rejection_db);
   }
 };
 
@@ -58,12 +59,12 @@ struct Trigger {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("mode", "", one_of({{"free", Mode::kFree}, {"slave", Mode::kSlave}, {"interleaved", Mode::kInterleaved}}),
-          "at the ping rate, after another head's transmissions, or in turns", self.mode);
-    visit("offset_s", "s", in(0, 10), "of a slave: after its master's transmission", self.offset_s);
-    visit("patience_s", "s", in(0.1, 1000), "of a slave: without its master for longer, health says so",
+          "order of transmissions: at the ping rate, after another head's, or in turns", self.mode);
+    visit("offset_s", "s", in(0, 10), "delay of a slave after its master's transmission", self.offset_s);
+    visit("patience_s", "s", in(0.1, 1000), "time without its master after which a slave's health says so",
           self.patience_s);
-    visit("cycle_s", "s", in(1e-3, 100), "of heads in turns", self.cycle_s);
-    visit("slot_s", "s", in(0, 100), "of this head in turns, from the start of the cycle", self.slot_s);
+    visit("cycle_s", "s", in(1e-3, 100), "length of the cycle of heads in turns", self.cycle_s);
+    visit("slot_s", "s", in(0, 100), "time of this head in turns, from the start of the cycle", self.slot_s);
   }
   void check(const ConfigReader& from) const;
 };
@@ -114,22 +115,23 @@ struct HeadParameters {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("ping_rate_hz", "Hz", in(kSlowest_hz, Self::kFastest_hz),
-          "at most; the interval is never less than 2 R / c + dead time", self.ping_rate_hz);
-    visit("dead_time_s", "s", in(0, 1), "between the end of reception and the next transmission", self.dead_time_s);
-    visit("processing_latency_s", "s", in(0, 10), "from the last echo to the published ping",
+          "pings per second, at most; the interval is never less than 2 R / c + dead time", self.ping_rate_hz);
+    visit("dead_time_s", "s", in(0, 1), "time between the end of reception and the next transmission",
+          self.dead_time_s);
+    visit("processing_latency_s", "s", in(0, 10), "time from the last echo to the published ping",
           self.processing_latency_s);
     visit("gain_spreading_db", "dB", in(kSpreading_db.least, kSpreading_db.most),
           "gain in dB at range R: S log10(R / m) + 2 A R + O; this is S", self.gain_spreading_db);
     visit("gain_absorption_db_per_km", "dB/km", in(1e3 * kAbsorption_dbpm.least, 1e3 * kAbsorption_dbpm.most),
           "A: the operator's absorption", self.gain_absorption_dbpm);
     visit("gain_offset_db", "dB", in(kOffset_db.least, kOffset_db.most), "O", self.gain_offset_db);
-    visit("converter", "of amplitudes into counts", self.converter);
+    visit("converter", "converter of amplitudes into counts", self.converter);
     visit("quality", "", any(),
           "rays, 0.05 to 10: 0.25 is a preview, 1 gives 12 to a resolution cell; or reference, exact and slow, to "
           "compare with",
           self.quality);
     visit("lod", "level of detail of the seabed", self.lod);
-    visit("trigger", "of transmissions", self.trigger);
+    visit("trigger", "trigger of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);
     visit("effects", "each can be switched off alone; no other random draw moves", self.effects);
   }
@@ -137,7 +139,8 @@ struct HeadParameters {
   template <class Self, class Visit>
   static void sound_speed(Self& self, Visit&& visit) {
     visit("sound_speed_mps", "m/s", in(1300, 1700),
-          "by which the instrument takes time for range, until a probe at its face reports", self.sound_speed_mps);
+          "sound speed by which the instrument takes time for range, until a probe at its face reports",
+          self.sound_speed_mps);
   }
 };
 

@@ -35,9 +35,9 @@ struct ParametersOf<array::Shading> {
                   {"dolph_chebyshev", Window::kDolphChebyshev},
                   {"taylor", Window::kTaylor}}),
           "weights along the line", self.window);
-    visit("side_lobe_db", "dB", in(13, 100), "of dolph_chebyshev and taylor: one-way, below the main lobe",
+    visit("side_lobe_db", "dB", in(13, 100), "side lobes of dolph_chebyshev and taylor: one-way, below the main lobe",
           self.side_lobe_db);
-    visit("nbar", "", in(1, 100), "of taylor: how many side lobes are level, the next ones fall", self.nbar);
+    visit("nbar", "", in(1, 100), "number of side lobes that are level with taylor; the next ones fall", self.nbar);
   }
   static void check(const ConfigReader& from, const array::Shading& shading);
 };

@@ -4,6 +4,7 @@
 
 #include "components/config/config_reader.h"
 #include "components/config/parameter_info.h"
+#include "components/config/scalar_text.h"
 
 namespace ensonify {
 namespace {

@@ -14,9 +14,10 @@ namespace ensonify {
 constexpr double kFewestPerPulse = 2.0, kMostPerPulse = 20.0;
 
 // Sentences of parameters that several heads have.
-inline constexpr const char* kTaperAbout = "of a tone's length that rises and falls as a raised cosine";
+inline constexpr const char* kTaperAbout = "part of a tone's length that rises and falls as a raised cosine";
 inline constexpr const char* kSamplesAbout =
-    "of a tone, or per 1 / bandwidth of a chirp; from 6 on, points 1.2 cells apart are two wherever they lie";
+    "samples per pulse of a tone, or per 1 / bandwidth of a chirp; from 6 on, points 1.2 cells apart are two wherever "
+    "they lie";
 
 /// The pulse of a head that records a limited number of samples per beam, whatever its range: an imaging head, whose
 /// operator sees a picture of some hundred rows. samples_per_pulse are taken per 1 / B; where they would not reach the
@@ -38,8 +39,9 @@ struct PulseDesign {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("pulse_length_s", "s", in(kShortest_s, kLongest_s),
-          "of the pulse, unless a command holds one; of a tone the shortest", self.length_s);
-    visit("longest_pulse_length_s", "s", in(kShortest_s, kLongest_s), "that can be held", self.longest_s);
+          "length of the pulse, unless a command holds one; of a tone the shortest", self.length_s);
+    visit("longest_pulse_length_s", "s", in(kShortest_s, kLongest_s), "longest length of the pulse that can be held",
+          self.longest_s);
     visit("tapered_fraction", "", in(0, 1), kTaperAbout, self.tapered_fraction);
     visit("samples_per_pulse", "", in(kFewestPerPulse, kMostPerPulse), kSamplesAbout, self.samples_per_pulse);
     visit("most_samples", "", in(64, 20000),

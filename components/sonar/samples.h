@@ -20,7 +20,7 @@ struct Converter {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("bits", "", in(0, 16), "of the counts in pings, with the gain in them; 0: amplitudes in uPa", self.bits);
+    visit("bits", "", in(0, 16), "bits of the counts in pings, with the gain in them; 0: amplitudes in uPa", self.bits);
     visit("full_scale_upa", "uPa", in(1, 1e15), "the highest count, behind the gain", self.full_scale_upa);
   }
 };

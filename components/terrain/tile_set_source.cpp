@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "components/terrain/tiles/overview.h"
 #include "components/terrain/tiles/tile_set.h"
 
 namespace ensonify::source {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "components/terrain/tiles/overview.h"
 #include "components/terrain/tiles/tile_set.h"
 
 using namespace ensonify;

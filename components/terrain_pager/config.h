@@ -30,15 +30,16 @@ struct TerrainPagerParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("rate_hz", "Hz", in(1, 20), "how often it checks where the vehicle is", self.rate_hz);
+    visit("rate_hz", "Hz", in(1, 20), "checks per second of where the vehicle is", self.rate_hz);
     visit("feed_margin_m", "m", in(0, 50e3),
           "heads hold tiles nearer than this to the vehicle; 0: as far as they can receive", self.feed_margin_m);
-    visit("release_hysteresis_m", "m", in(0, 50e3), "and give them up when farther than the feed margin + this",
+    visit("release_hysteresis_m", "m", in(0, 50e3), "distance beyond the feed margin at which tiles are given up",
           self.release_hysteresis_m);
     visit("wide_margin_m", "m", in(0, 50e3),
           "tiles are fetched into memory that come nearer than feed margin + this to the predicted track",
           self.wide_margin_m);
-    visit("load_ahead_s", "s", in(1, 3600), "which is followed for so long", self.load_ahead_s);
+    visit("load_ahead_s", "s", in(1, 3600), "time for which the vehicle's velocity is followed ahead",
+          self.load_ahead_s);
     visit("threads", "", in(1, 64), "threads that fetch", self.threads);
     visit("budget_mb", "MB", in(1, 1e6),
           "tiles in memory weigh at most so much; the least recently needed or insonified go first", self.budget_mb);
@@ -51,7 +52,8 @@ struct TerrainPagerParameters {
           "tiles of a generated seabed are kept on disk, up to so much, for the next start; 0: none are",
           self.cache_mb);
     visit("cache_folder", "", any(),
-          "where; \"\": $XDG_CACHE_HOME/ensonify/tiles, or ~/.cache/ensonify/tiles. May be deleted at any time",
+          "folder of the cache; \"\": $XDG_CACHE_HOME/ensonify/tiles, or ~/.cache/ensonify/tiles. May be deleted at "
+          "any time",
           self.cache_folder);
     visit("raster_crs", "", any(), "reference system of a raster that names none (or a wrong one), e.g. EPSG:32619",
           self.terrain.raster_crs);

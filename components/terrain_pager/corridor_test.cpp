@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "components/config/config_error.h"
+#include "components/terrain_pager/corridors.h"
 #include "components/terrain_pager/mission_track.h"
 
 using namespace ensonify;

@@ -3,6 +3,8 @@
 #include <fstream>
 
 #include "components/config/config_node.h"
+#include "components/config/config_text.h"
+#include "components/config/parse_yaml.h"
 #include "components/terrain_pager/mission_track.h"
 
 using namespace ensonify;

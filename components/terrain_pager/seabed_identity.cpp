@@ -13,6 +13,8 @@
 #include <variant>
 
 #include "components/config/config_node.h"
+#include "components/config/config_text.h"
+#include "components/config/parse_yaml.h"
 #include "components/terrain/raster_file.h"
 #include "components/terrain/tiles/tile_set.h"
 

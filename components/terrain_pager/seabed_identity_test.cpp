@@ -9,6 +9,8 @@
 #include <regex>
 
 #include "components/config/config_reader.h"
+#include "components/config/config_text.h"
+#include "components/config/parse_yaml.h"
 #include "components/terrain/tiles/tile_set.h"
 
 using namespace ensonify;

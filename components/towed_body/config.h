@@ -30,7 +30,8 @@ struct TowPositioning {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("by", "", one_of({{"layback", By::kLayback}, {"usbl", By::kUsbl}}),
-          "from the cable out and the depth, or from fixes of an acoustic array under the vessel", self.by);
+          "source of the body's position: the cable out and the depth, or fixes of an acoustic array under the vessel",
+          self.by);
     visit("cable_scale", "", in(-0.5, 0.5), "relative error of the cable counter, as it is", self.cable_scale);
     visit("layback_factor", "", in(0.1, 1.5), "layback over that of a straight cable, as it is assumed",
           self.layback_factor);
@@ -38,8 +39,9 @@ struct TowPositioning {
           self.usbl_gain);
     visit("depth_white_m", "m", in(0, 100), "standard deviation of the body's own depth, each sample",
           self.depth_white_m);
-    visit("heading_white_deg", "deg", in(0, 90), "of its own heading", self.heading_white_rad);
-    visit("level_white_deg", "deg", in(0, 90), "of its own roll and pitch, each", self.level_white_rad);
+    visit("heading_white_deg", "deg", in(0, 90), "white noise of the body's own heading", self.heading_white_rad);
+    visit("level_white_deg", "deg", in(0, 90), "white noise of the body's own roll and pitch, each",
+          self.level_white_rad);
   }
 };
 
@@ -48,10 +50,11 @@ struct ParametersOf<motion::TowCable> {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("out_m", "m", in(1, 10000), "length from the sheave", self.out_m);
-    visit("diameter_m", "m", in(1e-4, 1), "of the cable", self.diameter_m);
+    visit("diameter_m", "m", in(1e-4, 1), "diameter of the cable", self.diameter_m);
     visit("weight_npm", "N/m", in(0, 1000), "weight in water", self.weight_npm);
     visit("normal_drag", "", in(0, 10), "drag coefficient of the flow across it", self.normal_drag);
-    visit("tangential_drag", "", in(0, 10), "of the flow along it, on the circumference", self.tangential_drag);
+    visit("tangential_drag", "", in(0, 10), "drag of the flow along the cable, on the circumference",
+          self.tangential_drag);
   }
   static void check(const ConfigReader&, const motion::TowCable&) {}
 };
@@ -77,8 +80,7 @@ struct TowedBodyParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles it is; \"\": the one with the process's name, or the only one",
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
           self.vehicle);
     visit("pose_rate_hz", "Hz", in(10, 200), "rate of the true pose and of the estimate", self.pose_rate_hz);
     visit("cable", "the cable from the vessel to the body", self.cable);
@@ -87,7 +89,7 @@ struct TowedBodyParameters {
     visit("depth_lag_s", "s", in(0.1, 10000),
           "time constant with which depth and layback follow speed: about the cable over its sinking speed",
           self.depth_lag_s);
-    visit("positioning", "how the body is positioned aboard the vessel", self.positioning);
+    visit("positioning", "positioning of the body aboard the vessel", self.positioning);
   }
 };
 

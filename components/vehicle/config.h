@@ -4,24 +4,10 @@
 #include <string>
 
 #include "components/config/parameters.h"
-#include "kernels/vehicle/motion/helm.h"
+#include "components/vehicle/dynamics_file.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
-
-/// A vehicle as its forces describe it, and what steers it.
-struct HydrodynamicVehicle {
-  motion::HydrodynamicParameters body;
-  motion::HelmParameters helm;
-};
-
-inline constexpr const char* kDynamicsFormat = "dynamics/1";
-
-/// Reads such a vehicle's file (remus_100.yaml beside this one explains the keys). Throws ConfigError with every
-/// problem.
-HydrodynamicVehicle read_dynamics(const std::string& path);
-
-class ConfigReader;
 
 /// The water that a vehicle is in.
 struct VehicleWater {
@@ -36,9 +22,9 @@ struct VehicleParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("vehicle", "", any(),
-          "which of the scenario's vehicles; \"\": the one with the process's name, or the only one", self.vehicle);
-    visit("pose_rate_hz", "Hz", in(1, 1000), "how often the true pose is published", self.pose_rate_hz);
+    visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
+          self.vehicle);
+    visit("pose_rate_hz", "Hz", in(1, 1000), "true poses published per second", self.pose_rate_hz);
   }
 };
 

@@ -17,7 +17,7 @@ struct GyroParameters {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("rate_hz", "Hz", in(1, 1000), "how often the heading is published", self.rate_hz);
+    visit("rate_hz", "Hz", in(1, 1000), "headings published per second", self.rate_hz);
     visit("bias_deg", "deg", in(-180, 180), "constant error of the heading", self.bias_rad);
     visit("sigma_deg", "deg", in(0, 90), "standard deviation of white noise, each sample on its own", self.sigma_rad);
   }

@@ -18,11 +18,11 @@ struct ProfilerConfig : HeadConfig {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("frequency_hz", "Hz", in(200e3, 2e6), "of the tone", self.frequency_hz);
-    visit("beamwidth_deg", "deg", in(0.5, 10), "-3 dB, one-way", self.beamwidth_rad);
+    visit("frequency_hz", "Hz", in(200e3, 2e6), "frequency of the tone", self.frequency_hz);
+    visit("beamwidth_deg", "deg", in(0.5, 10), "beamwidth at -3 dB, one-way", self.beamwidth_rad);
     visit("source_level_db", "dB", in(150, 230), "rms during the pulse, re 1 uPa at 1 m; the most that can be set",
           self.source_level_db);
-    visit("pulse_length_s", "s", in(10e-6, 1e-3), "of the tone", self.pulse_length_s);
+    visit("pulse_length_s", "s", in(10e-6, 1e-3), "length of the tone", self.pulse_length_s);
     visit("range_m", "m", in(1, 100), "the longest that can be set", self.range_m);
     HeadParameters::parameters(self, visit);
     sound_speed(self, visit);

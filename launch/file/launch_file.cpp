@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "components/config/config_text.h"
 #include "components/config/data_paths.h"
 #include "components/config/parameter_info.h"
+#include "components/config/parse_yaml.h"
 #include "components/config/read_parameters.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/address_list.h"

@@ -9,6 +9,7 @@
 #include "components/config/config_node.h"
 #include "components/config/config_reader.h"
 #include "components/config/parameters.h"
+#include "components/config/parse_yaml.h"
 #include "components/runtime/sim_time.h"
 #include "scenarios/scenario_file.h"
 
@@ -80,15 +81,15 @@ struct ProcessSpec : Program {
 
   static void parameters(auto& self, auto&& visit) {
     visit("run", "", computed(any()), "a component, or a program and its arguments as a list", self.program());
-    visit("external", "", any(), "true: not started by the launcher but awaited", self.external);
-    visit("join_s", "s", in(0.01, 86400), "how long an external process is awaited", self.join_s);
-    visit("observer", "", any(), "true: may be lost without ending the run", self.observer);
-    visit("respawn", "", any(), "true: an observer that is started again", self.respawn);
+    visit("external", "", any(), "process that the launcher does not start but awaits", self.external);
+    visit("join_s", "s", in(0.01, 86400), "time for which an external process is awaited", self.join_s);
+    visit("observer", "", any(), "process that may be lost without ending the run", self.observer);
+    visit("respawn", "", any(), "observer that is started again", self.respawn);
     visit("memory_mb", "MB", in(1, 1e9), "resident memory that it may hold, with what it starts; more ends the run",
           self.memory_mb);
     visit("cpus", "", computed(in(0, 4095)), "processors that it may run on", self.cpus);
     visit("env", "", computed(any()), "environment variables", self.env);
-    visit("config", "", computed(any()), "its own parameters, or the path of a file with them", self.config);
+    visit("config", "", computed(any()), "parameters of the component, or the path of a file with them", self.config);
   }
   void check(const ConfigReader& from) const;
   void complete(ConfigReader& from);
@@ -124,18 +125,18 @@ struct ClockSettings {
   static void parameters(auto& self, auto&& visit) {
     visit("rate", "", or_word("free", in(1e-3, 1e6)), "sim seconds per wall second, or free: as fast as it goes",
           self.rate);
-    visit("window_s", "s", in(0.01, 5.0), "how far a producer may run ahead of its consumers, sim time", self.window_s);
+    visit("window_s", "s", in(0.01, 5.0), "sim time that a producer may run ahead of its consumers", self.window_s);
     visit("slip_after_s", "s", in(0, 1000), "lateness beyond which the pacing origin moves", self.slip_after_s);
     visit("slip_policy", "", one_of({{"count", SlipPolicy::kCount}, {"fail", SlipPolicy::kFail}}),
-          "what a slip does to the run", self.slip_policy);
+          "consequence of a slip for the run", self.slip_policy);
     visit("progress_deadline_s", "s", in(0.01, 3600),
           "wall time; a stall is warned at 1x, dumped at 3x and ends the run at 10x", self.progress_deadline_s);
-    visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}), "between the processes",
-          self.transport);
+    visit("transport", "", one_of({{"ipc", Transport::kIpc}, {"tcp", Transport::kTcp}}),
+          "transport between the processes", self.transport);
     visit("connect_timeout_s", "s", in(0.01, 3600), "wall time until every process is there", self.connect_timeout_s);
     visit("address", "", computed(any()),
-          "of this machine, at which the clock and what runs beside it take part by tcp", self.address);
-    visit("port", "", computed(in(0, 65535)), "of the clock by tcp; 0: any that is free", self.port);
+          "address of this machine, at which the clock and what runs beside it take part by tcp", self.address);
+    visit("port", "", computed(in(0, 65535)), "port of the clock by tcp; 0: any that is free", self.port);
     visit("keys", "", computed(any()), "tcp: nobody takes part, or sees anything, without the run's keys", self.keys);
     visit("allow", "", computed(any()),
           "addresses or networks ([10.0.0.2, 10.0.1.0/24]) that may take part besides this machine", self.allow);

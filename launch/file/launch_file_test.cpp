@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "components/config/config_text.h"
 #include "launch/file/tree.h"
 #include "scenarios/world/world.h"
 

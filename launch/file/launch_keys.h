@@ -48,7 +48,7 @@ struct ConnectionKeys {
 
   static void parameters(auto& self, auto&& visit) {
     visit("topic", "", must(any()), "PROCESS/PORT of the output", self.topic);
-    visit("delay_ms", "ms", in(0, 1e7), "it may only lengthen the port's own", self.delay_s);
+    visit("delay_ms", "ms", in(0, 1e7), "delay in place of the port's own, which it may only lengthen", self.delay_s);
   }
   void complete(ConfigReader& from) { place = from.node().place; }
 };
@@ -90,11 +90,11 @@ struct LaunchKeys {
     visit("include", "", again(any()), "launch files that this one goes on from", self.include);
     visit("scenario", "", computed(any()), "path of the scenario, or the scenario itself", self.scenario);
     visit("set", "", again(any()), "changes of parameters: PROCESS.KEY or SECTION.KEY to a value", self.set);
-    visit("processes", "which processes run together, by names of your own", self.processes);
+    visit("processes", "processes that run together, by names of your own", self.processes);
     visit("wiring", "PROCESS.PORT of an input to the topic that it takes", self.wiring);
     visit("clock", "pacing and supervision", self.clock);
     visit("duration_s", "s", in(1e-3, 1e7), "the run's end, sim time", self.duration_s);
-    visit("expect", "", computed(any()), "what must hold for the run to succeed", self.expect);
+    visit("expect", "", computed(any()), "list of what must hold for the run to succeed", self.expect);
     visit("after", "", computed(any()), "commands to run when all went well", self.after);
   }
 };

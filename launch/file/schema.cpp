@@ -41,8 +41,7 @@ Json with_arguments(const Json& schema) {
 /// The list that the component `expect` has, and how a process ends, which the launcher judges.
 Json expectations(const Json& component) {
   Json list = component["properties"]["expect"];
-  list["items"]["properties"]["exit"] = {{"type", "object"},
-                                         {"description", "how a process ends: exit code or signal"}};
+  list["items"]["properties"]["exit"] = {{"type", "object"}, {"description", "end of a process: exit code or signal"}};
   return list;
 }
 

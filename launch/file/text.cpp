@@ -1,6 +1,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "components/config/config_text.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "components/config/data_paths.h"
+#include "components/config/parse_yaml.h"
 #include "components/errors/nearest_name.h"
 #include "components/errors/printable.h"
 

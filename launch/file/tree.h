@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/config/config_node.h"
+#include "components/config/parse_yaml.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {

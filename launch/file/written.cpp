@@ -3,6 +3,7 @@
 
 #include "components/config/data_paths.h"
 #include "components/config/parameter_info.h"
+#include "components/config/parse_yaml.h"
 #include "launch/file/launch_keys.h"
 
 namespace ensonify {

@@ -9,6 +9,7 @@
 
 #include "components/config/config_error.h"
 #include "components/config/config_node.h"
+#include "components/config/scalar_text.h"
 
 namespace ensonify {
 

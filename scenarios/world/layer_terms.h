@@ -42,7 +42,7 @@ struct Band {
 struct Patches : layers::Mask::Patches {
   static void parameters(auto& self, auto&& visit) {
     visit("length_m", "m", must(in(1e-2, kFarAway_m)), "typical size of a patch", self.length_m);
-    visit("share", "", in(0.001, 0.999), "of everything that patches cover", self.share);
+    visit("share", "", in(0.001, 0.999), "share of everything that patches cover", self.share);
     visit("soft", "", in(0, 10), "width of their border, in standard deviations of the noise that draws it",
           self.softness);
   }
@@ -64,17 +64,18 @@ struct Mask {
   static void parameters(auto& self, auto&& visit) {
     visit("of", "", computed(ensonify::any()), "layer up to which the seabed counts for depth, slope, curvature",
           self.of);
-    visit("scale_m", "m", in(1e-3, kFarAway_m), "at which these and sediment are looked at", self.scale_m);
+    visit("scale_m", "m", in(1e-3, kFarAway_m), "scale at which depth, slope, curvature and sediment are taken",
+          self.scale_m);
     visit("polygon_m", "m", place(), "corners: [[east, north], ...]", self.corners_m);
     visit("soft_m", "m", in(0, kFarAway_m), "width of the polygon's border", self.softness_m);
-    visit("reverse", "", ensonify::any(), "where all this does not hold", self.reverse);
-    visit("depth_m", "between these depths in m", self.depth_m);
-    visit("slope_deg", "between these slopes in degrees", self.slope_deg);
-    visit("curvature_1pm", "between these curvatures in 1/m", self.curvature_1pm);
+    visit("reverse", "", ensonify::any(), "complement: true where all the rest does not hold", self.reverse);
+    visit("depth_m", "depths in m between which it holds", self.depth_m);
+    visit("slope_deg", "slopes in degrees between which it holds", self.slope_deg);
+    visit("curvature_1pm", "curvatures in 1/m between which it holds", self.curvature_1pm);
     visit("sediment", "", computed(called("a class", in(0, 255))), "classes that the layers before this one gave",
           self.sediments);
     visit("patches", "irregular patches that cover a share of everything", self.patches);
-    visit("any", "at least one of these masks holds", self.any);
+    visit("any", "masks of which at least one must hold", self.any);
   }
   void check(const ConfigReader& from) const;
   layers::Mask mask() const;
@@ -89,7 +90,7 @@ struct Plane : relief::Plane {
   static void parameters(auto& self, auto&& visit) {
     visit("depth_m", "m", depth(), "depth at the origin", self.depth_m);
     visit("slope_deg", "", in(0, 60), "steepest slope, degrees", self.slope_deg);
-    visit("downhill_heading_deg", "deg", heading(), "where it falls to", self.downhill_heading_rad);
+    visit("downhill_heading_deg", "deg", heading(), "heading to which the plane falls", self.downhill_heading_rad);
   }
   layers::Form form() const;
 };
@@ -98,9 +99,9 @@ struct Ramp : relief::Ramp {
   static constexpr const char *kKey = "ramp", *kAbout = "a ramp or a step";
   static void parameters(auto& self, auto&& visit) {
     visit("middle_m", "m", place(), "east, north of its middle", self.middle_enu_m);
-    visit("heading_deg", "deg", heading(), "where it falls to", self.heading_rad);
+    visit("heading_deg", "deg", heading(), "heading to which the ramp falls", self.heading_rad);
     visit("depth_m", "m", depth(), "depth before it", self.depth_m);
-    visit("drop_m", "m", in(-1000, 1000), "how much deeper it is behind it", self.drop_m);
+    visit("drop_m", "m", in(-1000, 1000), "drop of the seabed behind the ramp", self.drop_m);
     visit("run_m", "m", in(0, kFarAway_m), "length of the ramp; 0: a step", self.run_m);
   }
   layers::Form form() const { return static_cast<const relief::Ramp&>(*this); }
@@ -110,8 +111,8 @@ struct Wave : relief::Wave {
   static constexpr const char *kKey = "wave", *kAbout = "a cosine";
   static void parameters(auto& self, auto&& visit) {
     visit("depth_m", "m", depth(), "mean depth", self.depth_m);
-    visit("amplitude_m", "m", in(0, 1000), "of a cosine with a crest at the origin", self.amplitude_m);
-    visit("wavelength_m", "m", must(in(1e-2, kFarAway_m)), "from crest to crest", self.wavelength_m);
+    visit("amplitude_m", "m", in(0, 1000), "amplitude of a cosine with a crest at the origin", self.amplitude_m);
+    visit("wavelength_m", "m", must(in(1e-2, kFarAway_m)), "distance from crest to crest", self.wavelength_m);
     visit("heading_deg", "deg", heading(), "across the crests", self.heading_rad);
   }
   layers::Form form() const { return static_cast<const relief::Wave&>(*this); }
@@ -153,7 +154,7 @@ struct SedimentStrength {
   std::string sediment;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("as_sediment", "", must(any()), "instead: the roughness of this sediment of APL-UW TR 9407, continued",
+    visit("as_sediment", "", must(any()), "sediment of APL-UW TR 9407 whose roughness is continued, instead",
           self.sediment);
   }
   void check(const ConfigReader& from) const;
@@ -169,8 +170,8 @@ struct Spectral : layers::Spectral {
           self.spectrum.inner_scale_m);
     visit("hurst", "", in(0.01, 1), "roughness: near 0 rough, near 1 smooth", self.spectrum.hurst);
     visit("mean_m", "m", in(-1000, 1000), "mean height", self.mean_m);
-    visit("intermittency", "", in(0, 0.7), "how much roughness differs from place to place", self.intermittency);
-    visit("height_gain", "", in(-1, 1), "how much rougher high places are", self.height_gain);
+    visit("intermittency", "", in(0, 0.7), "variation of roughness from one part to another", self.intermittency);
+    visit("height_gain", "", in(-1, 1), "gain of roughness with height: high parts are rougher", self.height_gain);
     visit("smooth_amplitude", "", computed(in(0, 1)), "amplitude where `rough` does not hold", self.smooth_amplitude);
     visit(one_form("needs rms_m, or as_sediment (a sediment whose roughness goes on)", ""), self.strength);
     visit("rough", "mask of rough places, octave by octave", self.rough_places);
@@ -184,15 +185,17 @@ struct Ripples : relief::RippleParameters {
   std::optional<double> crest_m;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("wavelength_m", "m", must(in(1e-2, 10000)), "from crest to crest", self.wavelength_m);
+    visit("wavelength_m", "m", must(in(1e-2, 10000)), "distance from crest to crest", self.wavelength_m);
     visit("height_m", "m", in(0, 100), "crest to trough, mean; left out: 0.65 of Flemming's", self.crest_m);
-    visit("travel_heading_deg", "deg", heading(), "where the lee sides face; crests run across it",
+    visit("travel_heading_deg", "deg", heading(), "heading that the lee sides face; crests run across it",
           self.travel_heading_rad);
-    visit("lee_fraction", "", in(0.3, 0.5), "of the wavelength under the lee side", self.lee_fraction);
-    visit("disorder", "", in(0, 1), "0: straight endless crests; towards 1 bent, short, forked ones", self.disorder);
+    visit("lee_fraction", "", in(0.3, 0.5), "part of the wavelength under the lee side", self.lee_fraction);
+    visit("disorder", "", in(0, 1),
+          "disorder of the crests: 0 straight and endless; towards 1 bent, short, forked ones", self.disorder);
     visit("patch_wavelengths", "", in(0.1, 1000), "wavelengths over which crests bend and heights change",
           self.patch_wavelengths);
-    visit("height_ln_sd", "", in(0, 1), "of the height's logarithm, from place to place", self.height_ln_sd);
+    visit("height_ln_sd", "", in(0, 1), "standard deviation of the height's logarithm, over the seabed",
+          self.height_ln_sd);
   }
   layers::Form form() const;
 };
@@ -210,13 +213,13 @@ struct Bodies : relief::BodyParameters {
   }
   static void parameters(auto& self, auto&& visit) {
     visit("per_km2", "1/km^2", must(in(0, 1e8)), "number of the smallest radius and above", self.per_km2);
-    visit("smallest_radius_m", "m", must(in(1e-3, 1000)), "of the bodies", self.smallest_radius_m);
-    visit("largest_radius_m", "m", must(in(1e-3, 1000)), "of the bodies", self.largest_radius_m);
+    visit("smallest_radius_m", "m", must(in(1e-3, 1000)), "radius of the smallest bodies", self.smallest_radius_m);
+    visit("largest_radius_m", "m", must(in(1e-3, 1000)), "radius of the largest bodies", self.largest_radius_m);
     visit("size_exponent", "", in(0.01, 20), "the number above a radius goes as radius to the power of minus this",
           self.size_exponent);
     visit("height_per_radius", "", computed(in(0, 10)), "mean; left out: boulders 0.8, else 0.2",
           self.height_per_radius);
-    visit("height_ln_sd", "", in(0, 2), "of that ratio's logarithm", self.height_ln_sd);
+    visit("height_ln_sd", "", in(0, 2), "standard deviation of the logarithm of height over radius", self.height_ln_sd);
     visit("elongation", "", in(1, 4), "longer over shorter half axis, at most; the area stays", self.elongation);
   }
   void check(const ConfigReader& from) const;
@@ -229,11 +232,11 @@ struct Marks : relief::MarkParameters {
 
   static void parameters(auto& self, auto&& visit) {
     visit("per_km2", "1/km^2", must(in(0, 1e5)), "number of tracks", self.tracks_per_km2);
-    visit("length_m", "m", in(0.1, 50000), "of a track", self.length_m);
+    visit("length_m", "m", in(0.1, 50000), "length of a track", self.length_m);
     visit("heading_deg", "deg", heading(), "mean of the tracks", self.heading_rad);
-    visit("heading_sd_deg", "deg", in(0, 180), "between tracks", self.heading_sd_rad);
+    visit("heading_sd_deg", "deg", in(0, 180), "standard deviation of the heading between tracks", self.heading_sd_rad);
     visit("curvature_sd_1pm", "1/m", in(0, 1), "curvature of the tracks, standard deviation", self.curvature_sd_1pm);
-    visit("half_width_m", "m", in(0, 10000), "[least, most]", self.half_width_m);
+    visit("half_width_m", "m", in(0, 10000), "half widths: [least, most]", self.half_width_m);
     visit("depth_m", "m", in(0, 100), "depth of a fresh one", self.depth_m);
     visit("faded", "", in(0, 1), "the share of its depth that a track has lost is uniform from 0 to this", self.faded);
     visit("spoil", "", in(0, 1), "height of the spoil, of the depth", self.spoil);
@@ -251,7 +254,7 @@ struct TrawlScars : Marks {
 
   static void parameters(auto& self, auto&& visit) {
     Marks::parameters(self, visit);
-    visit("spacing_m", "m", in(0, 10000), "[least, most] of a pair", self.spacing_m);
+    visit("spacing_m", "m", in(0, 10000), "spacings of a pair: [least, most]", self.spacing_m);
   }
   void check(const ConfigReader& from) const;
   layers::Form form() const { return si(spacing_m); }
@@ -265,7 +268,7 @@ struct Dredged {
 
   static void parameters(auto& self, auto&& visit) {
     visit("line_m", "m", must(place()), "two places or more: east, north, depth", self.line_m);
-    visit("half_width_m", "m", must(in(1e-2, kFarAway_m)), "of its bottom", self.half_width_m);
+    visit("half_width_m", "m", must(in(1e-2, kFarAway_m)), "half width of the track's bottom", self.half_width_m);
     visit("side_slope_deg", "", in(0.1, 80), "slope of its sides, degrees", self.side_slope_deg);
   }
   void check(const ConfigReader& from) const;
@@ -278,15 +281,15 @@ struct GuideRaster {
 
   static void parameters(auto& self, auto&& visit) {
     visit("raster", "", must(path()), "a file that GDAL reads", self.raster);
-    visit("values", "", must(one_of({{"elevation", false}, {"depth", true}})), "of a raster: positive up or down",
-          self.are_depths);
+    visit("values", "", must(one_of({{"elevation", false}, {"depth", true}})),
+          "sign of a raster's values: positive up or down", self.are_depths);
   }
 };
 struct GuideTiles {
   std::string tiles;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("tiles", "", must(path()), "instead: the folder of a tile set", self.tiles);
+    visit("tiles", "", must(path()), "folder of a tile set, instead of a raster", self.tiles);
   }
 };
 struct Guide {
@@ -296,7 +299,7 @@ struct Guide {
 
   static void parameters(auto& self, auto&& visit) {
     visit(one_form("needs one of raster (a file that GDAL reads) and tiles (the folder of a tile set)", ""), self.file);
-    visit("cell_m", "m", must(in(1e-2, 1000)), "of the smooth surface through it", self.cell_m);
+    visit("cell_m", "m", must(in(1e-2, 1000)), "cell of the smooth surface through the guide", self.cell_m);
   }
   void check(const ConfigReader& from) const;
   layers::Form form() const;
@@ -346,12 +349,14 @@ struct Layer {
   static void parameters(auto& self, auto&& visit) {
     visit("use", "", any(), "false: as if it were not there", self.use);
     visit("join", "", one_of({{"add", Join::kAdd}, {"cover", Join::kCover}, {"cut", Join::kCut}}),
-          "to what lies below: add to it, the higher of both, the lower of both", self.join);
+          "way to join the guide to what lies below: add to it, the higher of both, the lower of both", self.join);
     visit("sediment", "", in(0, 255), "class where the mask is a half or more and the layer moved the seabed",
           self.sediment);
-    visit("shows_above_m", "m", in(0, 1000), "by more than this", self.shows_above_m);
-    visit("above", "", computed(any()), "of cover and cut: heights count from the seabed up to this layer", self.above);
-    visit("mask", "where it applies; heights are multiplied by it", self.mask);
+    visit("shows_above_m", "m", in(0, 1000), "change of the seabed by the layer beyond which its class shows",
+          self.shows_above_m);
+    visit("above", "", computed(any()), "base of cover and cut: heights count from the seabed up to this layer",
+          self.above);
+    visit("mask", "mask where the layer applies; heights are multiplied by it", self.mask);
     visit(one_form("", "a layer is one thing, make two of it"), self.is);
   }
   void check(const ConfigReader& from) const;

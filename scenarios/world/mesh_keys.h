@@ -16,10 +16,12 @@ inline Allowed mesh_place() { return in(-kFarAway_m, kFarAway_m); }
 struct WallKeys : progressive::SheetPileWall {
   static void parameters(auto& self, auto&& visit) {
     visit("from_m", "m", must(mesh_place()), "east, north of one end", self.from_enu_m);
-    visit("to_m", "m", must(mesh_place()), "east, north of the other end", self.to_enu_m);
-    visit("foot_depth_m", "m", in(-100, 11000), "below chart datum: in the seabed", self.foot_depth_m);
-    visit("top_height_m", "m", in(-11000, 100), "above chart datum", self.top_height_m);
-    visit("pile_width_m", "m", in(0.1, 10), "from interlock to interlock, along the wall", self.pile_width_m);
+    visit("to_m", "m", must(mesh_place()), "east, north of the line's other end", self.to_enu_m);
+    visit("foot_depth_m", "m", in(-100, 11000), "depth of the foot below chart datum: in the seabed",
+          self.foot_depth_m);
+    visit("top_height_m", "m", in(-11000, 100), "height of the top above chart datum", self.top_height_m);
+    visit("pile_width_m", "m", in(0.1, 10), "width of a pile from interlock to interlock, along the wall",
+          self.pile_width_m);
     visit("profile_depth_m", "m", in(0.01, 10), "across the wall, from pan to pan", self.profile_depth_m);
     visit("out_of_line_m", "m", in(0, 1), "standard deviation of a pile's place across the wall", self.out_of_line_m);
     visit("row_m", "m", in(0.05, 100), "vertices up a pile are so far apart, or less", self.row_m);
@@ -30,21 +32,22 @@ struct WallKeys : progressive::SheetPileWall {
 struct RepeatKeys : progressive::Repeat {
   static void parameters(auto& self, auto&& visit) {
     visit("count", "", must(in(1, 10'000)), "number of bars in the row", self.count);
-    visit("step_m", "m", must(mesh_place()), "from one to the next: east, north, up", self.step_m);
+    visit("step_m", "m", must(mesh_place()), "step from one bar to the next: east, north, up", self.step_m);
   }
 };
 struct RoundBar {
   double diameter_m = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("diameter_m", "m", must(in(1e-3, 1e3)), "of a round one", self.diameter_m);
+    visit("diameter_m", "m", must(in(1e-3, 1e3)), "diameter of a round bar", self.diameter_m);
   }
 };
 struct SquareBar {
   frames::Vec2 section_m = frames::Vec2::Zero();
 
   static void parameters(auto& self, auto&& visit) {
-    visit("section_m", "m", must(in(1e-3, 1e3)), "instead: how wide it is, level and across it, and across both",
+    visit("section_m", "m", must(in(1e-3, 1e3)),
+          "section of an angular bar instead of a diameter: width, level and across it, and across both",
           self.section_m);
   }
 };
@@ -74,8 +77,10 @@ struct StrewnKeys {
     visit("count", "", must(in(1, 100'000)), "number of copies", self.count);
     visit("from_m", "m", must(mesh_place()), "east, north of one end of the rectangle's middle line",
           self.where.from_enu_m);
-    visit("to_m", "m", must(mesh_place()), "east, north of its other end", self.where.to_enu_m);
-    visit("width_m", "m", must(in(0, kFarAway_m)), "of the rectangle, across that line", self.where.width_m);
+    visit("to_m", "m", must(mesh_place()), "east, north of the other end of the rectangle's middle line",
+          self.where.to_enu_m);
+    visit("width_m", "m", must(in(0, kFarAway_m)), "width of the rectangle, across its middle line",
+          self.where.width_m);
     visit("scale", "", in(1e-3, 1e3), "sizes: [least, most]", self.scale);
     visit("size_exponent", "", in(0.1, 10), "the number above a size goes as size to the power of minus this",
           self.where.size_exponent);
@@ -101,8 +106,9 @@ struct MeshPose {
 
   static void parameters(auto& self, auto&& visit) {
     // A file may have a map's coordinates.
-    visit("position_m", "m", in(-1e7, 1e7), "of the file's origin, or the bars': east, north, up", self.position_m);
-    visit("heading_deg", "deg", in(-360, 360), "of its y axis, clockwise from north", self.heading_rad);
+    visit("position_m", "m", in(-1e7, 1e7), "position of the file's origin, or the bars': east, north, up",
+          self.position_m);
+    visit("heading_deg", "deg", in(-360, 360), "heading of the file's y axis, clockwise from north", self.heading_rad);
     visit("tilt_deg", "deg", in(0, 180), "angle by which it leans from the upright", self.tilt_rad);
     visit("tilt_heading_deg", "deg", in(-360, 360), "direction to which it leans, clockwise from north",
           self.tilt_heading_rad);

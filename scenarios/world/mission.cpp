@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/config/parse_yaml.h"
 #include "components/config/read_parameters.h"
 #include "components/errors/assert.h"
 #include "scenarios/world/mission_keys.h"

@@ -36,10 +36,11 @@ struct AutoPlan {
   static void parameters(auto& self, auto&& visit) {
     visit("count", "", in(1, 1000), "number of lines", self.count);
     visit("longest_m", "m", in(1, kFarAway_m), "a line is not longer", self.longest_m);
-    visit("overlap", "", in(0, 0.95), "of neighbouring swaths", self.overlap);
+    visit("overlap", "", in(0, 0.95), "overlap of neighbouring swaths", self.overlap);
     visit("swath_deg", "deg", in(1, 170), "full angle of the swath, from which the spacing follows", self.swath_rad);
-    visit("spacing_m", "m", in(0.1, kFarAway_m), "instead of the overlap", self.spacing_m);
-    visit("heading_deg", "deg", in(-360, 360), "instead of along the longer side of the data", self.heading_rad);
+    visit("spacing_m", "m", in(0.1, kFarAway_m), "spacing of lines, instead of the overlap", self.spacing_m);
+    visit("heading_deg", "deg", in(-360, 360), "heading of the lines, instead of along the longer side of the data",
+          self.heading_rad);
   }
 };
 
@@ -58,14 +59,14 @@ struct AdaptivePlan {
   void check(const ConfigReader& from) const;
   static void parameters(auto& self, auto&& visit) {
     visit("centre_m", "", must(place()), "middle of the rectangle, as positions says", self.centre_enu_m);
-    visit("heading_deg", "deg", in(-360, 360), "of the first line; the survey goes on to starboard of it",
+    visit("heading_deg", "deg", in(-360, 360), "heading of the first line; the survey goes on to starboard of it",
           self.heading_rad);
     visit("length_m", "m", must(in(kShortest_m, kFarAway_m)), "length of a line", self.length_m);
-    visit("width_m", "m", must(in(1, kFarAway_m)), "of the rectangle, across the lines", self.width_m);
+    visit("width_m", "m", must(in(1, kFarAway_m)), "width of the rectangle, across the lines", self.width_m);
     visit("first_line_m", "m", must(in(0, kFarAway_m)), "distance of the first line from the rectangle's port edge",
           self.first_line_m);
     visit("swath_deg", "deg", in(10, 160), "full angle of the swath that counts", self.swath_rad);
-    visit("overlap", "", in(0, 0.9), "of a half swath with what is covered", self.overlap);
+    visit("overlap", "", in(0, 0.9), "overlap of a half swath with what is covered", self.overlap);
     visit("cell_m", "m", in(0.1, 1000), "side of a cell of the coverage", self.cell_m);
     visit("soundings", "", in(1, 10000), "accepted ones that a covered cell has at least", self.soundings);
   }
@@ -105,11 +106,11 @@ struct KeepPlace {
   static void parameters(auto& self, auto&& visit) {
     if (self.place_enu_m) {
       visit("keep", "", must(place()), "a place to stop and stay at, as positions says", *self.place_enu_m);
-      visit("for_s", "s", must(in(0, 1e6)), "how long the vehicle stays at the place", self.for_s);
+      visit("for_s", "s", must(in(0, 1e6)), "time that the vehicle stays at the position", self.for_s);
     } else {
-      visit("wait_s", "s", must(in(0, 1e6)), "how long the vehicle stays where it is", self.for_s);
+      visit("wait_s", "s", must(in(0, 1e6)), "time that the vehicle stays where it is", self.for_s);
     }
-    visit("within_m", "m", in(0.5, 1000), "how near to the place the vehicle stays", self.within_m);
+    visit("within_m", "m", in(0.5, 1000), "distance from the position within which the vehicle stays", self.within_m);
   }
 };
 struct FollowOrbit {
@@ -180,10 +181,10 @@ struct AbortRules {
   std::optional<double> too_low_s;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("after_s", "s", in(0, 1e9), "so long after the start of the run", self.after_s);
+    visit("after_s", "s", in(0, 1e9), "time after the start of the run", self.after_s);
     visit("position_sd_m", "m", in(0.01, 1e6), "estimated standard deviation of position, the larger horizontal axis",
           self.position_sd_m);
-    visit("too_low_s", "s", in(0, 1e6), "this long below the least altitude in one piece", self.too_low_s);
+    visit("too_low_s", "s", in(0, 1e6), "time below the least altitude in one piece", self.too_low_s);
   }
 };
 
@@ -204,10 +205,10 @@ struct Mission {
   /// What of it has one value; steps and plans are in MissionKeys.
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", in(0.01, 30), "speed through the water", self.speed_mps);
-    visit("speed_kn", "kn", again(in(0.02, 58)), "instead of speed_mps", self.speed_mps);
-    visit("depth_m", "m", in(0, 11000), "of the vehicle's reference point below the water level", self.depth_m);
+    visit("speed_kn", "kn", again(in(0.02, 58)), "speed in knots, instead of speed_mps", self.speed_mps);
+    visit("depth_m", "m", in(0, 11000), "depth of the vehicle's reference point below the water level", self.depth_m);
     visit("altitude_m", "m", in(0.5, 1000),
-          "above the bottom, by the altimeter; instead of the depth, once it is known", self.altitude_m);
+          "altitude above the bottom, by the altimeter; instead of the depth, once it is known", self.altitude_m);
     visit("least_altitude_m", "m", in(0, 1000), "obstacle floor; 0: none", self.least_altitude_m);
     visit("run_in_m", "m", in(0, 10000), "straight way before each line", self.run_in_m);
     visit("run_out_m", "m", in(0, 10000), "straight way behind each line", self.run_out_m);

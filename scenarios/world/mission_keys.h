@@ -27,9 +27,9 @@ struct LawnmowerKeys {
 
   static void parameters(auto& self, auto&& visit) {
     visit("centre_m", "", place(), "middle of all lines, as positions says; left out: the origin", self.centre);
-    visit("heading_deg", "deg", in(-360, 360), "of the first line", self.heading_rad);
+    visit("heading_deg", "deg", in(-360, 360), "heading of the first line", self.heading_rad);
     visit("length_m", "m", must(in(1, kFarAway_m)), "length of a line", self.length_m);
-    visit("spacing_m", "m", must(in(0.1, kFarAway_m)), "from line to line", self.spacing_m);
+    visit("spacing_m", "m", must(in(0.1, kFarAway_m)), "spacing from line to line", self.spacing_m);
     visit("count", "", must(in(1, 1000)), "number of lines", self.count);
   }
 };
@@ -58,7 +58,7 @@ struct PlanOfCoverage {
 };
 struct StepsPlan {
   std::vector<MissionStep> steps;
-  static void parameters(auto& self, auto&& visit) { visit("steps", "what is done, in order", self.steps); }
+  static void parameters(auto& self, auto&& visit) { visit("steps", "list of what is done, in order", self.steps); }
 };
 /// Another file has it.
 struct NoPlan {

@@ -15,12 +15,12 @@ namespace ensonify {
 void axis_parameters(auto& axis, auto&& visit, const char* oscillation, const char* wander, const char* unit,
                      double most) {
   visit(oscillation, unit, in(0, most), "standard deviation of the oscillation", axis.oscillation_sd);
-  visit("period_s", "s", in(0.2, 200), "of the oscillation's spectral peak", axis.period_s);
+  visit("period_s", "s", in(0.2, 200), "period of the oscillation's spectral peak", axis.period_s);
   visit("jitter", "", in(0.02, 0.5), "standard deviation of its frequency over the mean", axis.jitter);
-  visit("coherence", "", in(0, 1), "of the oscillation with the common wave", axis.coherence);
-  visit("lead_deg", "deg", in(-360, 360), "how far it is ahead of the common wave", axis.lead_rad);
+  visit("coherence", "", in(0, 1), "coherence of the oscillation with the common wave", axis.coherence);
+  visit("lead_deg", "deg", in(-360, 360), "lead of the oscillation over the common wave", axis.lead_rad);
   visit(wander, unit, in(0, most), "standard deviation of the fractional part", axis.wander_sd);
-  visit("hurst", "", in(0.01, 0.99), "roughness of that part: near 0 rough, near 1 smooth", axis.hurst);
+  visit("hurst", "", in(0.01, 0.99), "roughness of the fractional part: near 0 rough, near 1 smooth", axis.hurst);
   visit("return_s", "s", in(0.1, 1e6), "time constant with which it is pulled back", axis.return_s);
 }
 struct ShiftKeys : motion::AxisDisturbance {
@@ -58,11 +58,11 @@ struct DisturbanceKeys {
       presets.words.emplace_back(std::string(name).c_str());
     visit("preset", "", computed(presets), "a published motion; what stands beside it differs", self.preset);
     visit("highest_hz", "Hz", in(0.01, 50), "nothing moves faster", self.highest_hz);
-    visit("surge", "forward", self.surge);
-    visit("sway", "to starboard", self.sway);
-    visit("heave", "vertically", self.heave);
-    visit("roll", "about the forward axis", self.roll);
-    visit("pitch", "about the starboard axis", self.pitch);
+    visit("surge", "oscillation forward", self.surge);
+    visit("sway", "oscillation to starboard", self.sway);
+    visit("heave", "oscillation vertically", self.heave);
+    visit("roll", "oscillation about the forward axis", self.roll);
+    visit("pitch", "oscillation about the starboard axis", self.pitch);
     visit("heading", "about the vertical", self.heading);
   }
   void read_base(ConfigReader& from);
@@ -74,7 +74,8 @@ struct FlowKeys {
 
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", must(in(0, 10)), "speed of the water, of a stream the strongest", self.speed_mps);
-    visit("heading_deg", "deg", must(in(-360, 360)), "where it flows to, of a stream the flood", self.heading_rad);
+    visit("heading_deg", "deg", must(in(-360, 360)), "heading to which it flows, of a stream the flood",
+          self.heading_rad);
   }
 };
 struct FlowAtDepthKeys : FlowKeys {
@@ -93,7 +94,7 @@ struct ConstituentKeys {
 
   static void parameters(auto& self, auto&& visit) {
     visit("constituent", "", must(any()), "name of the tidal constituent, such as M2", self.constituent);
-    visit("phase_deg", "deg", in(-360, 360), "how far high water, or the strongest flood, comes after reference_utc",
+    visit("phase_deg", "deg", in(-360, 360), "phase of high water, or of the strongest flood, after reference_utc",
           self.phase_rad);
     visit("reference_utc", "", computed(any()), "time that the phase refers to; left out: the scenario's start",
           self.reference_utc);
@@ -118,7 +119,7 @@ struct CurrentKeys {
   std::vector<StreamKeys> streams;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("profile", "a steady current by depth, the same everywhere", self.profile);
+    visit("profile", "steady current by depth, equal everywhere", self.profile);
     visit("streams", "tidal streams, from the surface to the bed alike", self.streams);
   }
   void check(const ConfigReader& from) const;
@@ -128,7 +129,7 @@ struct CurrentKeys {
 struct SinkageKeys : vertical::Sinkage {
   static void parameters(auto& self, auto&& visit) {
     visit("speed_mps", "m/s", must(in(0, 30)), "speed through the water; speeds rise", self.speed_mps);
-    visit("lower_m", "m", must(in(-2, 5)), "how much deeper the reference point runs than at rest", self.lower_m);
+    visit("lower_m", "m", must(in(-2, 5)), "depth that the reference point runs deeper than at rest", self.lower_m);
   }
 };
 
@@ -138,7 +139,7 @@ struct LoadingKeys {
   std::vector<SinkageKeys> settlement;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("deeper_m", "m", in(-10, 10), "by the load at the start", self.deeper_m);
+    visit("deeper_m", "m", in(-10, 10), "depth that the load at the start adds", self.deeper_m);
     visit("deeper_m_per_hour", "", in(-1, 1), "m per hour; burnt fuel makes it negative", self.per_hour_m);
     visit("settlement", "settlement and squat by speed", self.settlement);
   }

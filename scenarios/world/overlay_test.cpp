@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "components/config/config_error.h"
+#include "components/config/parse_yaml.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {

@@ -22,15 +22,17 @@ struct OriginInRaster {
 
   static void parameters(auto& self, auto&& visit) {
     visit("origin", "", must(one_of({{"raster", true}})),
-          "instead of the two: the raster's centre, or the tile set's own origin", self.in_raster);
+          "origin instead of the two: the raster's centre, or the tile set's own", self.in_raster);
   }
 };
 struct OriginKeys {
   frames::Geodetic place;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("latitude_deg", "", must(in(-89.9, 89.9)), "of the world's origin, degrees north", self.place.latitude_deg);
-    visit("longitude_deg", "", must(in(-180, 180)), "of the world's origin, degrees east", self.place.longitude_deg);
+    visit("latitude_deg", "", must(in(-89.9, 89.9)), "latitude of the world's origin, degrees north",
+          self.place.latitude_deg);
+    visit("longitude_deg", "", must(in(-180, 180)), "longitude of the world's origin, degrees east",
+          self.place.longitude_deg);
   }
 };
 struct SiteKeys {
@@ -65,7 +67,7 @@ struct ScenarioKeys {
     visit("vertical", "water level, chart datum, geoid and ellipsoid", self.vertical);
     visit("current", "the current", self.current);
     visit("seabed", "", must(any()), "the seabed", self.seabed);
-    visit("vehicles", "by names of your own", self.vehicles);
+    visit("vehicles", "vehicles by names of your own", self.vehicles);
     visit("mission", "", must(any()), "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
           self.mission);
   }

@@ -43,8 +43,8 @@ struct LayeredSeabed {
   std::vector<layers::Layer> layers = {{.name = "ground", .form = relief::Plane{}}};  // level, 20 m deep
 
   static void parameters(auto& self, auto&& visit) {
-    visit("size_m", "m", in(0.1, kFarAway_m), "of a generated seabed: east, north", self.size_m);
-    visit("centre_m", "m", in(-kFarAway_m, kFarAway_m), "of that rectangle: east, north", self.centre_enu_m);
+    visit("size_m", "m", in(0.1, kFarAway_m), "size of a generated seabed: east, north", self.size_m);
+    visit("centre_m", "m", in(-kFarAway_m, kFarAway_m), "centre of a generated seabed: east, north", self.centre_enu_m);
   }
 };
 
@@ -89,7 +89,8 @@ struct Seabed {
   /// What of it has one value; the rest is in SeabedKeys.
   static void parameters(auto& self, auto&& visit) {
     visit("post_spacing_m", "m", in(0.005, 100), "distance between posts", self.post_spacing_m);
-    visit("lsb_m", "m", in(1e-6, 1), "heights are whole multiples of this; a tile set has its own", self.lsb_m);
+    visit("lsb_m", "m", in(1e-6, 1), "step of heights, which are whole multiples of it; a tile set has its own",
+          self.lsb_m);
   }
 };
 

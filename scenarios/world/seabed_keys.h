@@ -23,7 +23,7 @@ struct GeneratedSeabed {
   }
   static void parameters(auto& self, auto&& visit) {
     LayeredSeabed::parameters(self.values, visit);
-    visit("layers", "of a generated seabed, from the bottom up", self.layers);
+    visit("layers", "layers of a generated seabed, from the bottom up", self.layers);
   }
   void check(const ConfigReader& from) const;
 };
@@ -39,7 +39,7 @@ struct TilesKeys {
   std::string folder;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("folder", "", must(path()), "of the tile set", self.folder);
+    visit("folder", "", must(path()), "folder of the tile set", self.folder);
   }
 };
 struct SeabedOfTiles {
@@ -62,8 +62,8 @@ struct SeabedKeys {
     visit(form_by("kind", "generated from layers, or imported", "is not used by this kind of seabed", true), self.kind);
     Seabed::parameters(self.values, visit);
     visit("sediments", "", called("a class of the seabed", in(0, 255)),
-          "what the classes of posts are made of, by number", self.sediments);
-    visit("meshes", "what stands in the seabed", self.meshes);
+          "sediments that the classes of posts are made of, by number", self.sediments);
+    visit("meshes", "meshes that stand in the seabed", self.meshes);
   }
   void check(const ConfigReader& from) const;
   Seabed seabed() const;

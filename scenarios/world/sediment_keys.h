@@ -46,13 +46,14 @@ struct MeasuredSediment : FacetKeys {
   seabed::SedimentParameters six;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("density_ratio", "", must(in(1, 3)), "of the sediment over the water's", self.six.density_ratio);
-    visit("sound_speed_ratio", "", must(in(0.8, 3)), "of the sediment over the water's", self.six.sound_speed_ratio);
+    visit("density_ratio", "", must(in(1, 3)), "density of the sediment over the water's", self.six.density_ratio);
+    visit("sound_speed_ratio", "", must(in(0.8, 3)), "sound speed of the sediment over the water's",
+          self.six.sound_speed_ratio);
     visit("loss", "", must(in(1e-6, 0.1)), "imaginary over real wavenumber in the sediment", self.six.loss);
     visit("volume_parameter", "", must(in(0, 1)), "volume scattering over attenuation cross section",
           self.six.volume_parameter);
-    visit("spectral_exponent", "", in(2.4, 3.9), "of the relief spectrum", self.six.spectral_exponent);
-    visit("spectral_strength_cm4", "", must(in(1e-9, 1)), "of the relief spectrum, in cm^4",
+    visit("spectral_exponent", "", in(2.4, 3.9), "exponent of the relief spectrum", self.six.spectral_exponent);
+    visit("spectral_strength_cm4", "", must(in(1e-9, 1)), "strength of the relief spectrum, in cm^4",
           self.six.spectral_strength_cm4);
     FacetKeys::parameters(self, visit);
   }
@@ -75,11 +76,12 @@ struct GsabKeys {
     visit("specular_db", "dB", must(in(-100, 20)), "level at normal incidence", self.specular_db);
     visit("specular_width_deg", "deg", must(in(0.1, 90)), "width of the specular peak", self.curve.specular_width_rad);
     visit("diffuse_db", "dB", must(in(-100, 0)), "level of the diffuse part", self.diffuse_db);
-    visit("diffuse_exponent", "", in(0, 20), "of the cosine of incidence; 2 is Lambert's law",
+    visit("diffuse_exponent", "", in(0, 20), "exponent of the cosine of incidence; 2 is Lambert's law",
           self.curve.diffuse_exponent);
     visit("transition_db", "dB", in(-100, 20), "level of a shoulder at moderate incidence; left out: none",
           self.transition_db);
-    visit("transition_width_deg", "deg", in(0.1, 90), "width of that shoulder", self.curve.transition_width_rad);
+    visit("transition_width_deg", "deg", in(0.1, 90), "width of the shoulder at moderate incidence",
+          self.curve.transition_width_rad);
   }
 };
 struct GsabSediment {

@@ -17,11 +17,11 @@ struct MountingKeys {
   std::optional<double> roll_rad, pitch_rad, heading_rad;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("position_m", "m", in(-500, 500), "from the vehicle's reference point: forward, starboard, down",
+    visit("position_m", "m", in(-500, 500), "position from the vehicle's reference point: forward, starboard, down",
           self.position_m);
     visit("roll_deg", "deg", in(-180, 180), "starboard side down", self.roll_rad);
     visit("pitch_deg", "deg", in(-90, 90), "bow up", self.pitch_rad);
-    visit("heading_deg", "deg", in(-360, 360), "to starboard", self.heading_rad);
+    visit("heading_deg", "deg", in(-360, 360), "rotation to starboard", self.heading_rad);
   }
   /// What is not given is as it was.
   frames::Mounting mounting(frames::Mounting otherwise = {}) const;
@@ -31,8 +31,8 @@ struct HeadKeys {
   std::optional<MountingKeys> measured;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("actual", "", must(any()), "where the head truly is", self.actual);
-    visit("measured", "where it is taken to be; left out: as actual", self.measured);
+    visit("actual", "", must(any()), "position and rotation that the head truly has", self.actual);
+    visit("measured", "position and rotation that the head is taken to have; left out: the actual ones", self.measured);
   }
 };
 
@@ -71,7 +71,7 @@ struct MovesByForces {
   std::string dynamics;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("dynamics", "", must(path()), "of a hydrodynamic vehicle", self.dynamics);
+    visit("dynamics", "", must(path()), "file of a hydrodynamic vehicle's forces", self.dynamics);
   }
 };
 
@@ -97,20 +97,21 @@ struct VehicleKeys {
           self.kind);
     visit("acceleration_mps2", "m/s^2", in(1e-3, 20), "speeding up", self.limits.acceleration_mps2);
     visit("deceleration_mps2", "m/s^2", in(1e-3, 20), "slowing down", self.limits.deceleration_mps2);
-    visit("turning_radius_m", "m", in(0.1, 1000), "of the tightest circle", self.limits.turning_radius_m);
+    visit("turning_radius_m", "m", in(0.1, 1000), "radius of the tightest circle", self.limits.turning_radius_m);
     visit("turn_rate_dps", "deg/s", computed(in(0.01, 360)), "fastest turn; left out: none but the circle's",
           self.limits.turn_rate_radps);
-    visit("turn_acceleration_dps2", "deg/s^2", in(0.1, 10000), "how fast a turn begins and ends",
+    visit("turn_acceleration_dps2", "deg/s^2", in(0.1, 10000), "acceleration with which a turn begins and ends",
           self.limits.turn_acceleration_radps2);
     visit("vertical_speed_mps", "m/s", in(1e-3, 20), "up and down", self.limits.vertical_speed_mps);
-    visit("vertical_acceleration_mps2", "m/s^2", in(1e-3, 20), "how fast climbs and dives begin and end",
+    visit("vertical_acceleration_mps2", "m/s^2", in(1e-3, 20), "acceleration with which climbs and dives begin and end",
           self.limits.vertical_acceleration_mps2);
     visit("fastest_mps", "m/s", in(0.01, 30), "speed through the water, at most", self.fastest_mps);
     visit("roll", "a regular roll", self.roll);
     visit("heave", "a regular heave", self.heave);
     visit("disturbance", "an irregular sea", self.disturbance);
-    visit("floats", "it floats on the water level; left out: it is at the mission's depth", self.floats);
-    visit("start", "", or_word("first_runline"), "where it is at the start", self.start);
+    visit("floats", "loading of a vehicle that floats on the water level; left out: it is at the mission's depth",
+          self.floats);
+    visit("start", "", or_word("first_runline"), "position and heading at the start", self.start);
     visit("mountings", "heads that it carries, by their processes' names", self.mountings);
   }
   void check(const ConfigReader& from) const;

@@ -10,6 +10,7 @@
 
 #include "components/config/config_node.h"
 #include "components/config/read_parameters.h"
+#include "components/config/scalar_text.h"
 #include "scenarios/world/vertical_keys.h"
 
 namespace ensonify {

@@ -18,7 +18,7 @@ struct ConstantTide {
   double constant_m = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("constant_m", "m", must(in(-kHighestTide_m, kHighestTide_m)), "the same level always, above chart datum",
+    visit("constant_m", "m", must(in(-kHighestTide_m, kHighestTide_m)), "constant level above chart datum",
           self.constant_m);
   }
 };
@@ -27,7 +27,8 @@ struct TideConstituentKeys : ConstituentKeys {
 
   static void parameters(auto& self, auto&& visit) {
     ConstituentKeys::parameters(self, visit);
-    visit("amplitude_m", "m", must(in(0, kHighestTide_m)), "with the nodal factor of the year", self.amplitude_m);
+    visit("amplitude_m", "m", must(in(0, kHighestTide_m)), "amplitude, with the nodal factor of the year",
+          self.amplitude_m);
   }
 };
 struct HarmonicTideKeys {
@@ -58,28 +59,31 @@ struct GeoidConstant {
   double metres = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("geoid_above_ellipsoid_m", "m", apart(), "the same everywhere; left out: 0", self.metres);
+    visit("geoid_above_ellipsoid_m", "m", apart(), "height of the geoid, equal everywhere; left out: 0", self.metres);
   }
 };
 struct GeoidGrid {
   std::string file;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("geoid_above_ellipsoid_grid", "", must(path()), "or an Esri ASCII grid in metres of the world", self.file);
+    visit("geoid_above_ellipsoid_grid", "", must(path()),
+          "Esri ASCII grid of the geoid's height, in metres of the world", self.file);
   }
 };
 struct DatumConstant {
   double metres = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("datum_above_geoid_m", "m", apart(), "chart datum, the same everywhere; left out: 0", self.metres);
+    visit("datum_above_geoid_m", "m", apart(), "height of chart datum above the geoid, equal everywhere; left out: 0",
+          self.metres);
   }
 };
 struct DatumGrid {
   std::string file;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("datum_above_geoid_grid", "", must(path()), "or an Esri ASCII grid in metres of the world", self.file);
+    visit("datum_above_geoid_grid", "", must(path()),
+          "Esri ASCII grid of chart datum's height above the geoid, in metres of the world", self.file);
   }
 };
 /// Nothing is given.

@@ -64,9 +64,10 @@ struct Water {
   /// What of it has one value; the rest is in WaterKeys.
   static void parameters(auto& self, auto&& visit) {
     using namespace sample_limits;
-    visit("temperature_degc", "degC", in(kColdest_degc, kWarmest_degc), "of the water where the profile has none",
-          self.temperature_degc);
-    visit("salinity_psu", "psu", in(0, kSaltiest_psu), "of the water where the profile has none", self.salinity_psu);
+    visit("temperature_degc", "degC", in(kColdest_degc, kWarmest_degc),
+          "temperature of the water where the profile has none", self.temperature_degc);
+    visit("salinity_psu", "psu", in(0, kSaltiest_psu), "salinity of the water where the profile has none",
+          self.salinity_psu);
     visit("ph", "", in(6, 9), "acidity, for the absorption", self.ph);
     visit("sound_speed_law", "",
           one_of({{"mackenzie", water::SoundSpeedLaw::kMackenzie},
@@ -77,11 +78,11 @@ struct Water {
           one_of({{"francois_garrison", water::AbsorptionLaw::kFrancoisGarrison},
                   {"ainslie_mccolm", water::AbsorptionLaw::kAinslieMcColm}}),
           "absorption at a head's frequency", self.absorption_law);
-    visit("absorption_db_per_km", "dB/km", in(0, 2000), "instead of the law", self.absorption_dbpm);
+    visit("absorption_db_per_km", "dB/km", in(0, 2000), "absorption instead of the law", self.absorption_dbpm);
     visit("wind_speed_mps", "m/s", in(0, 40), "wind 10 m above the sea: its noise, the surface's roughness and bubbles",
           self.wind_speed_mps);
-    visit("noise_level_db", "dB", in(-100, 200), "re 1 uPa^2/Hz, omnidirectional, instead of thermal and wind noise",
-          self.noise_level_db);
+    visit("noise_level_db", "dB", in(-100, 200),
+          "noise re 1 uPa^2/Hz, omnidirectional, instead of thermal and wind noise", self.noise_level_db);
     visit("bubble_loss_db", "dB", in(0, 60), "loss one way, by bubbles under the hull", self.bubble_loss_db);
   }
 };

@@ -18,7 +18,7 @@ struct UniformProfile {
 
   static void parameters(auto& self, auto&& visit) {
     visit("sound_speed_mps", "m/s", must(in(sample_limits::kSlowest_mps, sample_limits::kFastest_mps)),
-          "the same everywhere; instead of a profile or a cast", self.sound_speed_mps);
+          "sound speed, equal everywhere; instead of a profile or a cast", self.sound_speed_mps);
   }
 };
 
@@ -72,7 +72,7 @@ struct ScatteringLayerKeys {
   double sv_db = 0.0;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("depth_m", "m", must(in(0, sample_limits::kDeepest_m)), "[top, bottom]", self.depths_m);
+    visit("depth_m", "m", must(in(0, sample_limits::kDeepest_m)), "depths of the layer: [top, bottom]", self.depths_m);
     visit("sv_db", "dB", must(in(-150, 0)), "volume scattering strength re 1/m", self.sv_db);
   }
   void check(const ConfigReader& from) const;

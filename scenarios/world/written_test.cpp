@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "components/config/config_reader.h"
+#include "components/config/parse_yaml.h"
+#include "components/config/scalar_text.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {

@@ -14,6 +14,7 @@
 
 #include "components/autopilot/testing/loop.h"
 #include "components/config/config_reader.h"
+#include "components/config/parse_yaml.h"
 #include "components/coverage/node.h"
 #include "components/terrain/source_of.h"
 

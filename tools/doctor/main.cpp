@@ -7,7 +7,9 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
+#include "tools/doctor/installation.h"
 #include "tools/doctor/machine.h"
+#include "tools/doctor/runs.h"
 
 namespace {
 

@@ -18,6 +18,7 @@
 #include "launch/file/launch_file.h"
 #include "launch/process/launch_wiring.h"
 #include "tools/graph/picture.h"
+#include "tools/graph/picture_text.h"
 
 extern char** environ;
 

@@ -39,11 +39,4 @@ Picture picture_of(const RunRegistry& registry);
 /// Without the topics of type health/1 that nobody reads: every process has one.
 Picture without_health(const Picture& picture);
 
-/// For people: each process with what it publishes, to whom, and what it reads.
-std::string to_text(const Picture& picture);
-/// For Graphviz: processes are boxes, topics are arrows, delayed ones dashed.
-std::string to_dot(const Picture& picture);
-/// For scripts: processes, topics and edges by name; delays in ns, sizes in bytes.
-std::string to_json(const Picture& picture);
-
 }  // namespace ensonify::graph_tool

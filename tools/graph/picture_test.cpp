@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tools/graph/picture_text.h"
+
 namespace ensonify::graph_tool {
 
 namespace {

@@ -11,6 +11,7 @@
 #include "components/runtime/tool.h"
 #include "kernels/survey/boresight/adjust.h"
 #include "tools/patch/record_soundings.h"
+#include "tools/patch/split_lines.h"
 
 namespace {
 

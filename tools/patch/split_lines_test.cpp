@@ -1,3 +1,5 @@
+#include "tools/patch/split_lines.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 

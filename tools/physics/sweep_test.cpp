@@ -1,3 +1,5 @@
+#include "tools/physics/sweep.h"
+
 #include <catch2/catch.hpp>
 #include <string>
 

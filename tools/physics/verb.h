@@ -92,15 +92,6 @@ class Verb {
 /// The verbs of the program.
 using Verbs = std::deque<Verb>;
 
-/// The values of an input as the user wrote it: a number, or `from:to:step`. A sweep begins at `from`, goes up or down
-/// as its step says, and ends at the last value that does not pass `to`.
-///
-/// std::invalid_argument with cause and what is allowed: for text that is neither, a step that never arrives, a value
-/// outside [low, high] or more than kMostRows values.
-std::vector<double> sweep(const std::string& text, double low, double high);
-
-constexpr double kMostRows = 1e6;
-
 /// 10 log10 of a ratio of intensities; -inf of 0.
 inline double db(double ratio) { return 10.0 * std::log10(ratio); }
 

@@ -19,6 +19,7 @@
 #include "components/terrain/terrain_source.h"
 #include "components/terrain/tile_set_source.h"
 #include "components/terrain/tiles/file_bytes.h"
+#include "components/terrain/tiles/overview.h"
 #include "components/terrain/tiles/tile_set.h"
 
 namespace ensonify::terrain_tool {

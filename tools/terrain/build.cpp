@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "components/config/config_node.h"
+#include "components/config/config_text.h"
 #include "components/config/data_paths.h"
+#include "components/config/parse_yaml.h"
 #include "components/errors/exit_error.h"
 #include "components/terrain/layers_source.h"
 #include "components/terrain/source_of.h"

@@ -20,10 +20,6 @@ std::string value_text(const msg::Value& value, const std::string& unit);
 /// The field at a path such as "position_enu_m.0", or null.
 const msg::FieldInfo* find_field(const msg::TypeInfo* type, std::string_view path);
 
-/// The topics named: each of `names` is a topic or a pattern such as "bow/*". Throws UserError for one that names none,
-/// with the nearest topic or, when none is near, all of them.
-std::vector<TopicEntry> select(const RunRegistry& registry, const std::vector<std::string>& names);
-
 /// "4.2 MB", "17 kB", "512 B": powers of ten, for people.
 std::string bytes_text(double bytes);
 

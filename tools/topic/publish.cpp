@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "components/config/config_node.h"
+#include "components/config/config_text.h"
+#include "components/config/parse_yaml.h"
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/clock_client.h"

@@ -1,3 +1,5 @@
+#include "tools/topic/select.h"
+
 #include <catch2/catch.hpp>
 
 #include "components/errors/exit_error.h"

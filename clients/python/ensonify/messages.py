@@ -82,10 +82,10 @@ class ClockHealth(Message):
     wall_s [s]: wall time since sim time started
     rate [1]: sim seconds per wall second asked for; 0: as fast as possible
     rate_factor [1]: sim seconds per wall second achieved since the report before
-    lateness_s [s]: how far the run stands behind paced time, sim time
-    slips [1]: how often lost time was given up (slip_after_s)
+    lateness_s [s]: time that the run stands behind paced time, sim time
+    slips [1]: number of times that lost time was given up (slip_after_s)
     slip_s [s]: sim time given up in all
-    participants: by rank
+    participants: participants by rank
     """
 
     TYPE = "clock_health/1"
@@ -119,7 +119,7 @@ class SettingDeclaration(Struct):
     setting: field of sonar_settings/1
     least [unit of that field]: least value of a number; equal to the most: it is fixed
     most [unit of that field]: greatest value of a number
-    chosen [1]: whether 0 lets the head choose
+    chosen [1]: true where 0 lets the head choose
     words: values of a text; empty for a number
     """
 
@@ -153,7 +153,7 @@ class HeadDeclaration(Message):
     finest_beam_rad [rad]: half-power width of the finest beam
     near_field_m [m]: range within which the unfocused receive array is in its near field; 0: not stated
     reach_m [m]: distance from the vehicle's origin to which the longest range reaches; 0: it has no range
-    auto_range [1]: whether the range follows the depth in every channel
+    auto_range [1]: true where the range follows the depth in every channel
     position_body_m [m]: transducer, as measured: forward, starboard, down
     body_from_head [1]: rotation, as measured: quaternion w, x, y, z
     channels: channels that ping together
@@ -188,8 +188,8 @@ class PagerDeclaration(Message):
 class Counter(Struct):
     """Part of a message: Counter.
 
-    name: what is counted
-    count [1]: how often since the start
+    name: name of what is counted
+    count [1]: number of times since the start
     """
 
     name: str = ""
@@ -203,7 +203,7 @@ class Health(Message):
     stamp_ns [ns]: time of the report, sim time
     state: ok, degraded or failed
     message: why, in one line
-    counters: what happened how often
+    counters: counts of what happened
     """
 
     TYPE = "health/1"
@@ -218,7 +218,7 @@ class Mark(Message):
     """Something worth finding again, as a mission or an agent notes it.
 
     stamp_ns [ns]: time of the mark, sim time
-    text: what it is
+    text: description of the mark
     position_enu_m [m]: estimated position of the vehicle then: east, north, up
     """
 
@@ -234,9 +234,9 @@ class NextLine(Message):
 
     stamp_ns [ns]: time of the decision, sim time
     number [1]: index of the line in the survey, the first is 0 and known beforehand
-    done: whether nothing is left to run; the line means nothing then
-    start_enu_m [m]: where to begin it: east, north
-    end_enu_m [m]: where to end it
+    done: true when nothing is left to run; the line means nothing then
+    start_enu_m [m]: start of the line: east, north
+    end_enu_m [m]: end of the line: east, north
     """
 
     TYPE = "next_line/1"
@@ -260,7 +260,7 @@ class Coverage(Message):
     covered [1]: share of the cells that are covered
     overlapped [1]: redundancy: how often a covered cell was covered, by lines, on average
     track_m [m]: length of all lines run, without turns
-    elapsed_s [s]: from the first sounding to the last
+    elapsed_s [s]: time from the first sounding to the last
     soundings [1]: accepted soundings of each cell (starboard x forward), as far as it can count
     height_m [m]: mean height of each cell's accepted soundings, up from chart datum; NaN: none
     """
@@ -368,14 +368,14 @@ class Position(Message):
 
     stamp_ns [ns]: time of measurement, sim time
     position_enu_m [m]: measured body origin in the world frame: east, north, up
-    latitude_deg [deg]: geodetic latitude of the same point, WGS 84, positive north
-    longitude_deg [deg]: longitude of the same point, WGS 84, positive east
+    latitude_deg [deg]: geodetic latitude of the position, WGS 84, positive north
+    longitude_deg [deg]: longitude of the position, WGS 84, positive east
     sigma_horizontal_m [m]: stated standard deviation, each horizontal axis
     sigma_vertical_m [m]: stated standard deviation, up
-    quality [1]: as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given
+    quality [1]: quality as in NMEA's GGA: 1 single, 2 differential, 4 RTK fixed, 5 RTK float; 0 not given
     hdop [1]: horizontal dilution of precision; 0 not given
-    height_above_geoid_m [m]: of the body origin, as in NMEA's GGA
-    geoid_above_ellipsoid_m [m]: undulation at the same place, WGS 84, as in NMEA's GGA
+    height_above_geoid_m [m]: height of the body origin, as in NMEA's GGA
+    geoid_above_ellipsoid_m [m]: undulation of the geoid at the position, WGS 84, as in NMEA's GGA
     """
 
     TYPE = "position/1"
@@ -413,8 +413,8 @@ class Estimate(Message):
     enu_from_body [1]: estimated attitude quaternion w, x, y, z (w >= 0), body FRD to ENU
     velocity_enu_mps [m/s]: estimated velocity of the body origin
     position_covariance_enu_m2 [m2]: covariance of the position's error, row by row; all zero: not given
-    velocity_covariance_enu_m2ps2 [m2/s2]: the same of the velocity
-    rotation_covariance_enu_rad2 [rad2]: the same of the attitude: of the small rotation about east, north, up from estimate to truth
+    velocity_covariance_enu_m2ps2 [m2/s2]: covariance of the velocity, row by row: east, north, up
+    rotation_covariance_enu_rad2 [rad2]: covariance of the small rotation about east, north, up from estimate to truth, row by row
     """
 
     TYPE = "estimate/1"
@@ -458,7 +458,7 @@ class InertialIncrements(Message):
     """What an inertial measurement unit reports: integrals of what it senses.
 
     stamp_ns [ns]: end of the interval, sim time
-    interval_s [s]: over which is integrated
+    interval_s [s]: interval that is integrated over
     angle_rad [rad]: turn rate against inertial space, integrated, along the unit's axes
     velocity_mps [m/s]: specific force, integrated, along the unit's axes
     """
@@ -475,14 +475,14 @@ class VelocityLog(Message):
     """What a Doppler log reports.
 
     stamp_ns [ns]: time of measurement, by the instrument's clock
-    bottom_lock: whether velocity is known over ground; else it is zero
-    velocity_body_mps [m/s]: of the transducer over ground, turned to the body's axes as mounting was measured
+    bottom_lock: true when velocity is known over ground; else it is zero
+    velocity_body_mps [m/s]: velocity of the transducer over ground, turned to the body's axes as mounting was measured
     sigma_body_mps [m/s]: stated standard deviation of each
     range_m [m]: along each beam to the bottom; 0: no lock
-    altitude_m [m]: of the transducer above the bottom; 0: no beam has lock
-    error_velocity_mps [m/s]: what four beams disagree about
-    water_lock: whether velocity is known through the water; else it is zero
-    water_velocity_body_mps [m/s]: of the transducer through the water that is tracked, along the same axes
+    altitude_m [m]: altitude of the transducer above the bottom; 0: no beam has lock
+    error_velocity_mps [m/s]: difference in which four beams disagree
+    water_lock: true when velocity is known through the water; else it is zero
+    water_velocity_body_mps [m/s]: velocity of the transducer through the water that is tracked, along the body's axes as mounting was measured
     """
 
     TYPE = "velocity_log/1"
@@ -502,7 +502,7 @@ class Depth(Message):
     """What a pressure sensor makes of its depth.
 
     stamp_ns [ns]: time of measurement, by the instrument's clock
-    depth_m [m]: of the sensor below the water level
+    depth_m [m]: depth of the sensor below the water level
     """
 
     TYPE = "depth/1"
@@ -515,7 +515,7 @@ class Altitude(Message):
     """What an altimeter measures: distance to the bottom.
 
     stamp_ns [ns]: time of measurement, by the instrument's clock
-    valid: whether anything answered
+    valid: true when anything answered
     range_m [m]: along the beam to the bottom; 0: no answer
     """
 
@@ -547,9 +547,9 @@ class Ctd(Message):
     """What a probe of conductivity, temperature and depth makes of the water.
 
     stamp_ns [ns]: time of measurement, by the instrument's clock
-    depth_m [m]: of the probe below the water level
-    temperature_degc [degC]: of the water
-    salinity_psu [psu]: of the water, practical salinity
+    depth_m [m]: depth of the probe below the water level
+    temperature_degc [degC]: temperature of the water
+    salinity_psu [psu]: practical salinity of the water
     sound_speed_mps [m/s]: computed from the three before
     """
 
@@ -566,8 +566,8 @@ class UsblFix(Message):
     """Where an ultra-short baseline system finds another vehicle's transponder.
 
     stamp_ns [ns]: time that the place belongs to, by the instrument's clock
-    valid: whether the transponder replied; else the rest is zero
-    range_m [m]: from array to transponder, by the sound speed that the system uses
+    valid: true when the transponder replied; else the rest is zero
+    range_m [m]: range from array to transponder, by the sound speed that the system uses
     place_body_m [m]: transponder less array, along the carrier's body axes as mounting was measured
     position_enu_m [m]: transponder in the world frame, by the carrier's own estimate
     sigma_enu_m [m]: stated standard deviation of each, of the array's measurement alone
@@ -587,7 +587,7 @@ class TransmitSector(Struct):
     """One of the transmissions that a ping consists of, where heads send several side by side or one after the other.
 
     frequency_hz [Hz]: centre frequency
-    pulse: as of the ping
+    pulse: pulse shape of the ping
     pulse_length_s [s]: pulse length
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
@@ -613,7 +613,7 @@ class AppliedSettings(Struct):
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
-    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
+    tapered_fraction [1]: part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -621,8 +621,8 @@ class AppliedSettings(Struct):
     swath_rad [rad]: full angle that the beams are spread over
     mode: operating mode, in the words of the head's documentation
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
-    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
     receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
     roll_stabilised: beams are steered against the measured roll
@@ -680,13 +680,13 @@ class Ping(Message):
     beam_angle_rad [rad]: receive beam axes of this ping in the head frame, positive to starboard: from its down axis, of heads that look forward (forward_looking, scanning) from its forward axis
     amplitude_upa [uPa]: rms pressure amplitude at the receiver (beam x sample), linear, the gain taken out again
     beam_sector [1]: index of each beam's transmit sector; empty: 0
-    amplitude_count [1]: instead of amplitude_upa: digitised amplitude (beam x sample), linear, the gain still in it
+    amplitude_count [1]: digitised amplitude (beam x sample) instead of amplitude_upa, linear, the gain still in it
     count_upa [uPa]: amplitude at the receiver of one count where the gain is 0 dB
     phase_rad [rad]: phase (beam x sample) of the starboard half of the receive array over the port half, -pi..pi, about the beam axis; empty: not formed
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
-    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
+    tapered_fraction [1]: part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -694,8 +694,8 @@ class Ping(Message):
     swath_rad [rad]: full angle that the beams are spread over
     mode: operating mode, in the words of the head's documentation
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
-    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
     receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
     roll_stabilised: beams are steered against the measured roll
@@ -751,9 +751,9 @@ class BottomTrack(Message):
 
     stamp_ns [ns]: time of transmission, sim time
     ping [1]: ping number of this head, from 0
-    valid: whether the bottom was found; the rest means nothing if not
+    valid: true when the bottom was found; the rest means nothing if not
     travel_time_s [s]: two-way time of the first bottom return, over all beams and smoothed
-    altitude_m [m]: half of that time at the head's sound speed
+    altitude_m [m]: altitude: half of the two-way time at the head's sound speed
     quality_db [dB]: step of the level at the return, over the water column's
     sound_speed_mps [m/s]: sound speed that the head used
     beam_travel_time_s [s]: first bottom return of each beam (sidescan: port, starboard), NaN: none
@@ -775,12 +775,12 @@ class Transmit(Message):
     """A head transmitted: other heads may receive it.
 
     stamp_ns [ns]: time of transmission, sim time; of a sector that is sent later in the ping, its own
-    ping [1]: ping number of this head, from 0; the same of all sectors of a ping
+    ping [1]: ping number of this head, from 0; equal for all sectors of a ping
     frequency_hz [Hz]: centre frequency
     pulse_length_s [s]: pulse length
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
-    next_ns [ns]: when the head intends to transmit next, sim time; 0: unknown
+    next_ns [ns]: sim time at which the head intends to transmit next; 0: unknown
     """
 
     TYPE = "transmit/1"
@@ -802,8 +802,8 @@ class SonarSettings(Message):
     source_level_db [dB re 1 uPa^2 at 1 m]: source level on the axis, rms
     pulse_length_s [s]: pulse length; 0: the head chooses, where it can
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O at range R in m
-    gain_absorption_dbpm [dB/m]: A of that gain
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     swath_rad [rad]: full angle to spread the beams over
     ping_rate_hz [Hz]: highest ping rate
     mode: operating mode, in the words of the head's documentation
@@ -845,11 +845,11 @@ class Soundings(Message):
     valid [1]: 1 where the beam has a sounding; where 0, position_enu_m is NaN, and so is what was not measured
     position_enu_m [m]: sounding (beam x 3): east, north, up from chart datum, by estimate and measured mounting
     tvu_m [m]: predicted total vertical uncertainty of position_enu_m: 95 % of the errors are within; empty: not given
-    thu_m [m]: the same of the horizontal error, as a radius; empty: not given
+    thu_m [m]: stated 95 % of the horizontal error, as a radius; empty: not given
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
-    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
+    tapered_fraction [1]: part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -857,8 +857,8 @@ class Soundings(Message):
     swath_rad [rad]: full angle that the beams are spread over
     mode: operating mode, in the words of the head's documentation
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
-    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
     receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
     roll_stabilised: beams are steered against the measured roll
@@ -927,12 +927,12 @@ class Snippets(Message):
     beam [1]: index of each snippet's beam, rising; beams without a detection have none
     first_sample_s [s]: time of each snippet's first sample after transmission
     centre [1]: sample of the detection, counted from its snippet's first
-    offset [1]: where each snippet starts in amplitude_upa, and last the number of all samples
+    offset [1]: start of each snippet in amplitude_upa, and last the number of all samples
     amplitude_upa [uPa]: rms pressure amplitudes at the receiver, linear, snippet after snippet
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
-    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
+    tapered_fraction [1]: part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -940,8 +940,8 @@ class Snippets(Message):
     swath_rad [rad]: full angle that the beams are spread over
     mode: operating mode, in the words of the head's documentation
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
-    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
     receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
     roll_stabilised: beams are steered against the measured roll
@@ -992,19 +992,19 @@ class SeabedImage(Message):
     beam [1]: index of each series' beam, rising; beams without a detection have none
     first_sample_s [s]: time of each series' first sample after transmission
     centre [1]: sample of the detection, counted from its series' first
-    offset [1]: where each series starts in strength_db, and last the number of all samples
+    offset [1]: start of each series in strength_db, and last the number of all samples
     strength_db [dB]: strength re 1 m^2 per m^2 after the corrections, series after series
     spreading_db [dB]: S of the two-way loss S log10(R) + 2 A R that was made up for, R in m
-    absorption_dbpm [dB/m]: A of that loss: the operator's absorption
+    absorption_dbpm [dB/m]: operator's absorption: A of the two-way loss that was made up for
     normal_incidence_range_m [m]: range of the first return, about which strengths are flattened
     normal_incidence_strength_db [dB]: strength at normal incidence that was assumed for it
     oblique_strength_db [dB]: strength at the crossover angle and beyond that was assumed for it
     crossover_angle_rad [rad]: incidence up to which the first return is flattened, 0: not at all
-    lambert_removed: whether Lambert's law beyond the crossover angle was taken out too
+    lambert_removed: true when Lambert's law beyond the crossover angle was taken out too
     frequency_hz [Hz]: centre frequency in force
     pulse: cw (rectangular), cw_tapered, fm_up or fm_down
     pulse_length_s [s]: pulse length in force
-    tapered_fraction [1]: of the length of a cw_tapered pulse: what rises and falls, as a raised cosine; 0 for others
+    tapered_fraction [1]: part of the length of a cw_tapered pulse that rises and falls, as a raised cosine; 0 for others
     bandwidth_hz [Hz]: band that an fm pulse sweeps, 0 for cw
     source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
     range_m [m]: range setting in force
@@ -1012,8 +1012,8 @@ class SeabedImage(Message):
     swath_rad [rad]: full angle that the beams are spread over
     mode: operating mode, in the words of the head's documentation
     gain_spreading_db [dB]: S of the gain S log10(R) + 2 A R + O that the receiver applies at range R in m, by its own sound speed
-    gain_absorption_dbpm [dB/m]: A of that gain: the operator's absorption
-    gain_offset_db [dB]: O of that gain
+    gain_absorption_dbpm [dB/m]: operator's absorption: A of the gain S log10(R) + 2 A R + O
+    gain_offset_db [dB]: offset: O of the gain S log10(R) + 2 A R + O
     transmit_beamwidth_rad [rad]: along-track, one-way, -3 dB
     receive_beamwidth_rad [rad]: across-track, -3 dB, not steered
     roll_stabilised: beams are steered against the measured roll
@@ -1072,7 +1072,7 @@ class Tile(Message):
     spacing_m [m]: distance between posts, both axes
     height_m [m]: posts (north x east, south-west first), up from chart datum; NaN is a hole
     sediment [1]: sediment class of each post, as height_m
-    facet_mean_square_slope [1]: by class, of all the seabed: mean square slope that facets have of relief which the sediment's law counts too and must not count again; 0 or not listed: none that is known
+    facet_mean_square_slope [1]: mean square slope, by class of all the seabed, that facets have of relief which the sediment's law counts too and must not count again; 0 or not listed: none that is known
     """
 
     TYPE = "tile/1"
@@ -1103,14 +1103,14 @@ class TileRelease(Message):
 class Mesh(Message):
     """A surface of triangles that stands in the seabed: a quay wall, a scanned object. Truth. Who wants all of it needs the vertices and triangles alone; the splits say how to coarsen it (docs/physics/mesh/irregular-meshes.md).
 
-    number [1]: by which it is released
-    name: in the scenario
+    number [1]: number by which the object is released
+    name: name in the scenario
     sediment [1]: sediment class of all of it
-    origin_enu_m [m]: what its vertices count from
+    origin_enu_m [m]: origin that the vertices count from
     vertex_m [m]: east, north, up of each vertex
     triangle [1]: three vertices each
     split [1]: coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: none), first and number of the triangles that come with it, in `born`
-    split_deviation_m [m]: how far the surface is off without it and what is below it, an estimate
+    split_deviation_m [m]: estimate of the surface's distance without it and what is below it
     split_box_m [m]: least and greatest east, north, up, as vertices, of all triangles that change below it
     born [1]: triangles by the split that brings them
     coarsest [1]: triangles that are there without any split

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "components/config/config_error.h"
+#include "components/terrain/tiles/faults.h"
+#include "components/terrain/tiles/overview.h"
 
 using namespace ensonify;
 using namespace ensonify::tiles;

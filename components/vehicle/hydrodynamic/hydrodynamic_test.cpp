@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "components/config/config_error.h"
+#include "components/vehicle/dynamics_file.h"
 #include "components/vehicle/testing/integrated.h"
 
 using namespace ensonify;

@@ -5,6 +5,7 @@
 #include "kernels/seabed/relief/seabed.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spline.h"
+#include "kernels/seabed/relief/spline_variance.h"
 #include "kernels/seabed/statistics/power_spectrum.h"
 #include "kernels/seabed/statistics/surface.h"
 #include "kernels/seabed/statistics/testing/exact_fbm.h"

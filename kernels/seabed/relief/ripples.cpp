@@ -10,6 +10,7 @@
 #include "kernels/seabed/relief/exponential.h"
 #include "kernels/seabed/relief/spectral_surface.h"
 #include "kernels/seabed/relief/spline.h"
+#include "kernels/seabed/relief/spline_variance.h"
 
 namespace ensonify::relief {
 namespace {

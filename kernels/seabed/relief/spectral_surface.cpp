@@ -9,6 +9,7 @@
 
 #include "kernels/seabed/relief/exponential.h"
 #include "kernels/seabed/relief/spline.h"
+#include "kernels/seabed/relief/spline_variance.h"
 
 namespace ensonify::relief {
 

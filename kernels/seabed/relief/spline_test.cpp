@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "kernels/seabed/relief/spline_variance.h"
+
 using namespace ensonify::relief;
 using Catch::WithinAbs;
 using ensonify::random::Stream;

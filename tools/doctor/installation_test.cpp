@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
+#include "tools/doctor/installation.h"
 
-#include "tools/doctor/machine.h"
+#include <catch2/catch.hpp>
 
 namespace ensonify::doctor {
 
