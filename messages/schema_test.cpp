@@ -66,9 +66,9 @@ TEST_CASE("the JSON Schema of a type names its fields, units and arrays") {
       R"("stamp_ns":{"description":"time of the report, sim time","unit":"ns","type":"integer"},)"
       R"("state":{"description":"ok, degraded or failed","type":"string"},)"
       R"("message":{"description":"why, in one line","type":"string"},)"
-      R"("counters":{"description":"what happened how often","type":"array","items":{"type":"object","properties":{)"
-      R"("name":{"description":"what is counted","type":"string"},)"
-      R"("count":{"description":"how often since the start","unit":"1","type":"integer"}}}}}})");
+      R"("counters":{"description":"counts of what happened","type":"array","items":{"type":"object","properties":{)"
+      R"("name":{"description":"name of what is counted","type":"string"},)"
+      R"("count":{"description":"number of times since the start","unit":"1","type":"integer"}}}}}})");
   CHECK_THAT(json_schema(find_type("ping/1")),
              Catch::Contains(R"("type":"object","properties":{"dtype":{"const":"f4"},"shape":{"type":"array",)"));
   CHECK_THAT(json_schema(find_type("pose/1")),

@@ -66,7 +66,7 @@ class Points(unittest.TestCase):
         text = self.root / "no.mcap"
         text.write_text("nothing")
         point = np.array([0.0, 0, 10, 0.1]).tobytes()
-        cases = [((), "FILE: is missing", None), ((text,), "is no MCAP file", None),
+        cases = [((), "FILE: is missing", None), ((text,), "is no record", None),
                  ((self.root / "none.mcap",), "none.mcap", None), ((self.root,), None, None),
                  (("--points", "-"), "no accepted sounding", b""), (("--points", "-"), "four doubles", point[:-4]),
                  (("--points", "-", "--out", "x.las"), "allowed: .tif or .bag", point),
@@ -106,7 +106,7 @@ class Records(unittest.TestCase):
         crs = osr.SpatialReference(raster.GetProjection())
         self.assertEqual((crs.GetProjParm("latitude_of_origin"), crs.GetProjParm("central_meridian")), (54.3, 10.2))
         west, cell_m, _, north, _, _ = raster.GetGeoTransform()
-        self.assertEqual(cell_m, 1.0)  # 5 % of some 21 m
+        self.assertEqual(cell_m, 0.5)  # 5 % of some 19 m, rounded down
         rows, columns = np.nonzero(np.nan_to_num(count) >= 5)
         error_m = up_m[rows, columns] - synthetic_record.seabed_up_m(west + (columns + 0.5) * cell_m, north - (rows + 0.5) * cell_m)
         self.assertLess(abs(np.median(error_m) - 0.02), 0.01)  # the record's bias

@@ -94,13 +94,16 @@ int main(int argc, char** argv) {
       "ensonify grid");
   Options options;
   app.add_option("FILE", options.files, "records with soundings/1, or runs' folders with one");
-  app.add_option("--out,-o", options.out, "files to write, .tif or .bag")->capture_default_str();
+  app.add_option("--out,-o", options.out, "file to write, .tif or .bag; may be given again")
+      ->allow_extra_args(false)
+      ->capture_default_str();
   app.add_option("--cell", options.cell_m, "side of the cells, m (default: 5 % of the depth, or less)")
       ->check(CLI::Range(1e-3, 1e5));
   app.add_option("--crs", options.crs,
                  "map of the grid: utm, or one in metres that GDAL knows, such as EPSG:32619\n"
                  "(default: transverse Mercator about the scenario's origin)");
-  app.add_option("--soundings", options.reading.topics, "topics of soundings (default: all)");
+  app.add_option("--soundings", options.reading.topics, "topic of soundings; may be given again (default: all)")
+      ->allow_extra_args(false);
   app.add_flag("--turns", options.reading.turns, "also what was sounded in turns, run-ins and run-outs");
   app.add_option("--points", options.points,
                  "points from another program, - for standard input: x, y, depth and its standard deviation (NaN:\n"

@@ -73,8 +73,7 @@ class Record : public SoundingFile {
   Record(const std::string& path, const ReadOptions& options) : file_(file_of(path)), options_(options) {
     facts_.file = file_;
     facts_.datum = "chart datum of the scenario";
-    find_topics();
-    survey_missions();
+    look_through();
   }
 
   const FileFacts& facts() const override { return facts_; }
@@ -96,22 +95,8 @@ class Record : public SoundingFile {
   }
 
  private:
-  void find_topics() {
-    record::RecordReader reader(file_);
-    std::set<std::string> there;
-    for (const auto& [id, channel] : reader.channels()) {
-      if (channel.type == msg::Soundings::kType) there.insert(channel.topic);
-    }
-    if (there.empty()) throw UserError(file_ + ": holds no soundings (no topic of type soundings/1 was recorded)");
-    for (const std::string& wanted : options_.topics) {
-      if (!there.contains(wanted))
-        throw UserError(fmt::format("{}: has no soundings on {}; there are {}", file_, wanted, fmt::join(there, ", ")));
-    }
-    topics_ = options_.topics.empty() ? there : std::set(options_.topics.begin(), options_.topics.end());
-  }
-
-  /// A first reading, for what a record says before or after the soundings that it is about.
-  void survey_missions() {
+  /// A first reading: what a record says behind the soundings that it is about, and topics that begin late.
+  void look_through() {
     record::RecordReader reader(file_);
     record::RecordedMessage message;
     while (reader.next(message)) {
@@ -123,6 +108,20 @@ class Record : public SoundingFile {
       }
     }
     if (!reader.truncated().empty()) fmt::print(stderr, "ensonify grid: {}: {}\n", file_, reader.truncated());
+    choose_topics(reader);
+  }
+
+  void choose_topics(const record::RecordReader& reader) {
+    std::set<std::string> there;
+    for (const auto& [id, channel] : reader.channels()) {
+      if (channel.type == msg::Soundings::kType) there.insert(channel.topic);
+    }
+    if (there.empty()) throw UserError(file_ + ": holds no soundings (no topic of type soundings/1 was recorded)");
+    for (const std::string& wanted : options_.topics) {
+      if (!there.contains(wanted))
+        throw UserError(fmt::format("{}: has no soundings on {}; there are {}", file_, wanted, fmt::join(there, ", ")));
+    }
+    topics_ = options_.topics.empty() ? there : std::set(options_.topics.begin(), options_.topics.end());
   }
 
   std::string file_;

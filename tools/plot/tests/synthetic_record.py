@@ -73,7 +73,8 @@ def write(file, lines=3, line_m=150.0, beams=64, spacing_m=35.0, noise_m=0.05, b
                 return
             if topic not in channels:
                 schema = writer.register_schema(message.TYPE, "jsonschema", b"{}")
-                channels[topic] = writer.register_channel(topic, "msgpack", schema)
+                facts = {"type": message.TYPE, "rank": str(len(channels)), "max_bytes": "1000000"}
+                channels[topic] = writer.register_channel(topic, "msgpack", schema, facts)
             writer.add_message(channels[topic], UTC_START_NS + t_ns, wire.encode_inline(message.to_map()), UTC_START_NS + t_ns, 0)
 
         put("pager/chart", ensonify.Chart(origin_latitude_deg=54.3, origin_longitude_deg=10.2), 0)
