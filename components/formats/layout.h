@@ -67,7 +67,7 @@ class LayoutSize {
     bytes_ += sizeof(Number);
   }
   template <class Count, class List>
-  void count(std::type_identity<Count>, const List&) {
+  void count(std::type_identity<Count>, const List&, std::size_t = 0) {
     bytes_ += sizeof(Count);
   }
   template <class Number>
@@ -111,9 +111,12 @@ class LayoutReader {
   void number(Number& field) {
     field = in_.number<Number>();
   }
+  /// `besides`: what the count counts more than the list's entries.
   template <class Count, class List>
-  void count(std::type_identity<Count>, List& list) {
-    resize(list, in_.number<Count>());
+  void count(std::type_identity<Count>, List& list, std::size_t besides = 0) {
+    const std::uint64_t counted = in_.number<Count>();
+    if (counted < besides) in_.fail();
+    resize(list, in_.failed() ? 0 : counted - besides);
   }
   /// A number that is the same in every file of this layout; another one: the layout is not this one.
   template <class Number>
@@ -174,11 +177,12 @@ class LayoutWriter {
     append_number(out_, field);
   }
   template <class Count, class List>
-  void count(std::type_identity<Count>, const List& list) {
-    ENSONIFY_ASSERT(list.size() <= std::numeric_limits<Count>::max(),
-                    std::to_string(list.size()) + " entries in a list of at most " +
+  void count(std::type_identity<Count>, const List& list, std::size_t besides = 0) {
+    const std::size_t counted = list.size() + besides;
+    ENSONIFY_ASSERT(counted <= std::numeric_limits<Count>::max(),
+                    std::to_string(list.size()) + " entries in a list whose count ends at " +
                         std::to_string(std::numeric_limits<Count>::max()));
-    append_number(out_, static_cast<Count>(list.size()));
+    append_number(out_, static_cast<Count>(counted));
   }
   template <class Number>
   void constant(Number value) {

@@ -58,4 +58,17 @@ void Window::load(std::uint64_t offset, std::size_t count) {
   memory_ = ByteView(buffer_).first(have);
 }
 
+std::uint64_t next_byte(Window& file, std::uint64_t from, std::byte mark, std::uint64_t before) {
+  constexpr std::size_t kPiece = 1U << 16U;
+  for (std::uint64_t offset = from; offset < file.size();) {
+    const ByteView bytes = file.at(offset, kPiece);
+    if (bytes.empty()) break;
+    if (const void* found = std::memchr(bytes.data(), std::to_integer<int>(mark), bytes.size())) {
+      return offset + static_cast<std::uint64_t>(static_cast<const std::byte*>(found) - bytes.data()) - before;
+    }
+    offset += bytes.size();
+  }
+  return file.size();
+}
+
 }  // namespace ensonify::formats

@@ -38,4 +38,7 @@ class Window {
   std::string error_;
 };
 
+/// Where `mark` stands next, `from` or later, less `before`; the size of the file where it does not.
+std::uint64_t next_byte(Window& file, std::uint64_t from, std::byte mark, std::uint64_t before);
+
 }  // namespace ensonify::formats

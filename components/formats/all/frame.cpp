@@ -1,6 +1,5 @@
 #include "components/formats/all/frame.h"
 
-#include <cstring>
 #include <numeric>
 
 #include "components/formats/all/header.h"
@@ -58,15 +57,7 @@ FrameCheck FrameFormat::check(Window& file, std::uint64_t offset) {
 }
 
 std::uint64_t FrameFormat::next_start(Window& file, std::uint64_t from) {
-  for (std::uint64_t offset = from; offset + kLengthBytes < file.size();) {
-    const ByteView bytes = file.at(offset + kLengthBytes, Window::kReadAhead / 16);
-    if (bytes.empty()) break;
-    if (const void* mark = std::memchr(bytes.data(), std::to_integer<int>(kStart), bytes.size())) {
-      return offset + static_cast<std::uint64_t>(static_cast<const std::byte*>(mark) - bytes.data());
-    }
-    offset += bytes.size();
-  }
-  return file.size();
+  return next_byte(file, from + kLengthBytes, kStart, kLengthBytes);
 }
 
 }  // namespace ensonify::formats::all

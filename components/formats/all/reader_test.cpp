@@ -5,6 +5,7 @@
 #include <set>
 
 #include "components/formats/all/writer.h"
+#include "components/formats/testing/contents.h"
 #include "components/formats/testing/sample.h"
 
 using namespace ensonify::formats;
@@ -12,18 +13,11 @@ using namespace ensonify::formats::all;
 
 namespace {
 
-struct Contents {
-  std::vector<Datagram> datagrams;
-  Faults faults;
-};
+using Contents = sample::Contents<Datagram>;
 
 Contents read(ByteView bytes) {
   Window file(bytes);
-  Reader reader(file);
-  Contents contents;
-  while (auto datagram = reader.next()) contents.datagrams.push_back(std::move(*datagram));
-  contents.faults = reader.faults();
-  return contents;
+  return sample::contents_of<Datagram, Reader>(file);
 }
 
 Bytes written(const std::vector<Datagram>& datagrams) {

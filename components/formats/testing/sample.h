@@ -22,6 +22,9 @@ struct File {
 /// Every datagram that we write, two pings among them, on a flat seabed 20 m below the transmit transducer.
 File all_file();
 
+/// The same as .kmall, water column and its heave in the same file.
+File kmall_file();
+
 /// `name` in the folder of data measured at sea; none where that folder is absent.
 std::optional<std::filesystem::path> genuine(const char* name);
 
