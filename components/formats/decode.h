@@ -13,9 +13,9 @@ enum class Decoded { unknown, known, malformed };
 
 /// Fills `body` with the alternative of the variant for which `wanted(type)` holds (called with a std::type_identity),
 /// and `rest` with the bytes behind its layout. Without one, or where the bytes are not of its layout: with Raw, the
-/// first alternative.
-template <class Body, class Wanted>
-Decoded decode(ByteView bytes, Body& body, Bytes& rest, Wanted&& wanted) {
+/// first alternative. `prepare` sets what the layout needs and the bytes do not have.
+template <class Body, class Wanted, class Prepare>
+Decoded decode(ByteView bytes, Body& body, Bytes& rest, Wanted&& wanted, Prepare&& prepare) {
   Decoded result = Decoded::unknown;
   rest.clear();
   const auto try_one = [&]<class One>(std::type_identity<One> type) {
@@ -23,6 +23,7 @@ Decoded decode(ByteView bytes, Body& body, Bytes& rest, Wanted&& wanted) {
       if (!wanted(type)) return false;
       LayoutReader in(bytes);
       One value;
+      prepare(value);
       in(value);
       result = in.failed() ? Decoded::malformed : Decoded::known;
       if (in.failed()) return true;
@@ -39,6 +40,11 @@ Decoded decode(ByteView bytes, Body& body, Bytes& rest, Wanted&& wanted) {
   (std::make_index_sequence<std::variant_size_v<Body>>{});
   if (result != Decoded::known) body = Raw{Bytes(bytes.begin(), bytes.end())};
   return result;
+}
+
+template <class Body, class Wanted>
+Decoded decode(ByteView bytes, Body& body, Bytes& rest, Wanted&& wanted) {
+  return decode(bytes, body, rest, wanted, [](auto&) {});
 }
 
 /// Appends a body.

@@ -25,6 +25,9 @@ File all_file();
 /// The same as .kmall, water column and its heave in the same file.
 File kmall_file();
 
+/// A sidescan of two channels and a multibeam echo sounder, as XTF.
+File xtf_file();
+
 /// `name` in the folder of data measured at sea; none where that folder is absent.
 std::optional<std::filesystem::path> genuine(const char* name);
 
