@@ -23,7 +23,8 @@ struct Datagram {
   char type = 0;             // as the specification prints it: 'X'
   Header header;
   Body body;
-  Bytes rest;  // behind what the layout knows; empty in every file seen
+  Bytes rest;          // behind what the layout knows; empty in every file seen
+  bool padded = true;  // with a zero where the length would be odd; of 'I', 'i' and Raw the bytes stay as they are
 
   std::int64_t unix_ns() const { return formats::unix_ns(header.date, header.time_ms); }
 };

@@ -26,8 +26,8 @@ std::optional<Datagram> Reader::next() {
                                           " bytes, shorter than its own counts say; kept as bytes");
   }
   // The spare zero that keeps the length even.
-  if (datagram.rest.size() == 1 && datagram.rest[0] == std::byte{0} && frame->bytes.size() % 2 == 0)
-    datagram.rest.clear();
+  datagram.padded = frame->bytes.size() % 2 == 0;
+  if (datagram.padded && datagram.rest.size() == 1 && datagram.rest[0] == std::byte{0}) datagram.rest.clear();
   return datagram;
 }
 

@@ -31,7 +31,7 @@ void append(Bytes& out, const Datagram& datagram) {
   const bool as_it_is =
       std::holds_alternative<Installation>(datagram.body) || std::holds_alternative<Raw>(datagram.body);
   const std::size_t unpadded = out.size() - begin + FrameFormat::kTrailerBytes;
-  if (unpadded % 2 == 1 && !as_it_is) out.push_back(std::byte{0});
+  if (unpadded % 2 == 1 && datagram.padded && !as_it_is) out.push_back(std::byte{0});
   const ByteView summed = ByteView(out).subspan(begin + FrameFormat::kLengthBytes + 1);
   const std::uint16_t sum = checksum(summed);
   out.push_back(FrameFormat::kEnd);

@@ -7,8 +7,7 @@
 
 namespace ensonify::formats::all {
 
-/// Appends a datagram in its frame: length, marks, checksum, and the spare zero that keeps its length even (of 'I'
-/// and 'i' and of Raw bodies the bytes are written as they are).
+/// Appends a datagram in its frame: length, marks, checksum, padding.
 void append(Bytes& out, const Datagram& datagram);
 
 /// Writes the datagrams of one system: gives them its model, serial and counters.

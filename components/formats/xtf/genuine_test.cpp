@@ -22,9 +22,10 @@ bool missing() {
 
 double mean(ByteView samples) {
   ByteSource in(samples);
+  const std::size_t count = samples.size() / sizeof(std::uint16_t);
   double sum = 0;
-  for (std::size_t i = 0; i < samples.size() / 2; ++i) sum += in.number<std::uint16_t>();
-  return sum / static_cast<double>(samples.size() / 2);
+  for (std::size_t i = 0; i < count; ++i) sum += in.number<std::uint16_t>();
+  return sum / static_cast<double>(count);
 }
 
 }  // namespace
