@@ -22,7 +22,7 @@ std::string rate_text(const Stream& stream) {
     text += fmt::format(" at {:.3g} Hz, longest gap {:.3f} s from {}", stream.rate_hz(), seconds(stream.longest_gap_ns),
                         iso_time(stream.gap_begin_ns));
   }
-  if (stream.backward > 0) text += fmt::format(", {} times earlier than the one before", stream.backward);
+  if (stream.backward > 0) text += fmt::format(", steps back in time: {}", stream.backward);
   return text;
 }
 
@@ -85,8 +85,6 @@ std::string text_of(const std::string& file, const Summary& summary) {
                         seconds(summary.datagrams.last_ns - summary.datagrams.first_ns));
   }
   text += fmt::format("extent      {}", extent_text(summary.extent));
-  if (summary.extent.unusable() > 0)
-    text += fmt::format("; {} positions at 0, 0 or not given", summary.extent.unusable());
   text += '\n';
   if (!summary.depth_m.empty()) {
     text += fmt::format("depth       {:.2f} to {:.2f} m, {}\n", summary.depth_m.low, summary.depth_m.high,

@@ -19,8 +19,8 @@ Summary summarise(formats::Window& file) {
 
 void note_unusable(Summary& summary) {
   if (summary.extent.unusable() == 0) return;
-  summary.notes.push_back(std::to_string(summary.extent.unusable()) +
-                          " positions are at latitude 0, longitude 0, or none; other programs take them for positions");
+  summary.notes.push_back("positions at latitude 0, longitude 0, or none at all: " +
+                          std::to_string(summary.extent.unusable()) + "; other programs draw them where they say");
 }
 
 }  // namespace ensonify::info

@@ -99,7 +99,7 @@ Summary summarise_kmall(formats::Window& file) {
   for (const std::string& system : systems) summary.system += (summary.system.empty() ? "" : ", ") + system;
   if (!system_name.empty()) summary.system += " (" + system_name + ")";
   if (parted > 0)
-    summary.notes.push_back(std::to_string(parted) + " pings are in parts, which readers of files do not join");
+    summary.notes.push_back("pings in parts, which readers of files do not join: " + std::to_string(parted));
   if (summary.kinds.contains("#SPE"))
     summary.notes.emplace_back("#SPE is of revision J, at which some readers of revision I stop");
   note_unusable(summary);

@@ -87,10 +87,10 @@ Summary summarise_xtf(formats::Window& file) {
       summary.attitudes.add(*time_ns);
     }
   }
-  if (undated > 0) summary.notes.push_back(std::to_string(undated) + " packets have no date");
+  if (undated > 0) summary.notes.push_back("packets without a date: " + std::to_string(undated));
   if (too_long > 0) {
-    summary.notes.push_back(std::to_string(too_long) + " channels of pings have more than " +
-                            std::to_string(kMostSampleBytes) + " bytes of samples, at which readers in wide use fail");
+    summary.notes.push_back("channels of a ping with more than " + std::to_string(kMostSampleBytes) +
+                            " bytes of samples, at which readers in wide use fail: " + std::to_string(too_long));
   }
   note_unusable(summary);
   summary.faults = reader.faults();

@@ -135,6 +135,20 @@ TEST_CASE("a whole frame whose counts lie keeps its bytes and is noted") {
   CHECK(written(contents.datagrams) == bytes);
 }
 
+TEST_CASE("a damaged datagram's body is not searched where its length is right") {
+  // Files within files: what a datagram carries is its own, damaged or not.
+  const sample::File inner = sample::all_file();
+  Bytes bytes;
+  append(bytes, {.type = '3', .header = {2040, 20260310, 0, 1, 157}, .body = Raw{inner.bytes}});
+  const std::size_t end = bytes.size();
+  append(bytes, {.type = 'h', .header = {2040, 20260310, 0, 1, 157}, .body = Height{}});
+  bytes[end - 1] ^= std::byte{1};
+  const Contents contents = read(bytes);
+  REQUIRE(contents.datagrams.size() == 1);
+  CHECK(contents.datagrams[0].type == 'h');
+  CHECK(contents.faults.skipped_bytes() == end);
+}
+
 TEST_CASE("foreign bytes hold no datagram and one fault") {
   Bytes bytes(100'000);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i * i % 251);
