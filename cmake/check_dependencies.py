@@ -39,7 +39,7 @@ KERNELS = ["kernels"]
 TALK = ["messages", "components/errors", "components/runtime"]
 FILES = ["components/errors", "components/config"]
 WORLD = FILES + ["scenarios", "messages"] + KERNELS
-SHARED = TALK + WORLD + ["components/record", "components/terrain", "components/sonar", "components/truth"]
+SHARED = TALK + WORLD + ["components/record", "components/formats", "components/terrain", "components/sonar", "components/truth"]
 SEES = {
     "kernels/base": [],
     "kernels/water": ["kernels/base"],
@@ -52,6 +52,7 @@ SEES = {
     "kernels": [],
     "messages": [],
     "components/errors": [],
+    "components/formats": ["components/errors"],
     "components/config": ["components/errors"],
     "components/runtime": ["messages", "components/errors"],
     "components/record": TALK,
@@ -73,7 +74,7 @@ FAR = {"examples/gyro": re.compile(r"^(scenarios/world|components/sonar|kernels/
 # Rooms of the picture: the first prefix that fits.
 DRAWN = (
     ("tools/", "tools/<verb>"), ("launch/", "launch"), ("scenarios/", "scenarios"), ("messages/", "messages"), ("kernels/", "kernels"),
-    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "truth", "config", "runtime", "errors")),
+    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "truth", "config", "runtime", "errors")),
     ("components/", "components/<process>"),
 )
 # Every process has its main() from there; drawn, it would be an arrow both ways.

@@ -1,0 +1,42 @@
+#include "components/formats/recognise.h"
+
+#include <algorithm>
+
+#include "components/formats/all/frame.h"
+#include "components/formats/kmall/frame.h"
+#include "components/formats/xtf/reader.h"
+
+namespace ensonify::formats {
+
+namespace {
+
+constexpr std::uint64_t kSearched = 1U << 20U;
+
+/// Where the first whole frame begins, `from` or later; the size of the file: not within the first megabyte.
+template <class Frames>
+std::uint64_t first_frame(Window& file, std::uint64_t from = 0) {
+  std::uint64_t start = from;
+  while (start < std::min(file.size(), kSearched)) {
+    if (Frames::check(file, start).bytes > 0) return start;
+    start = Frames::next_start(file, start + 1);
+  }
+  return file.size();
+}
+
+bool is_xtf(Window& file) {
+  std::uint64_t header_bytes = 0;
+  if (!xtf::read_file_header(file, header_bytes)) return false;
+  return header_bytes == file.size() || first_frame<xtf::FrameFormat>(file, header_bytes) < file.size();
+}
+
+}  // namespace
+
+Format recognise(Window& file) {
+  if (is_xtf(file)) return Format::xtf;
+  const std::uint64_t all = first_frame<all::FrameFormat>(file);
+  const std::uint64_t kmall = first_frame<kmall::FrameFormat>(file);
+  if (all < kmall) return Format::all;
+  return kmall < file.size() ? Format::kmall : Format::unknown;
+}
+
+}  // namespace ensonify::formats
