@@ -11,6 +11,7 @@
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/partition.h"
 #include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/receivers.h"
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/pose.h"
@@ -86,32 +87,6 @@ struct EchoSet {
   bool fits(std::size_t rows) const { return gain.empty() || gain.size() == rows * arrivals.size(); }
 };
 
-/// Track of the receiver while echoes come back: poses at start_s + i * period_s after transmission, straight lines
-/// between, the nearest one outside.
-struct ReceiveTrack {
-  double start_s = 0.0;
-  double period_s = 1.0;
-  std::span<const frames::HeadPose> poses;  // one is enough for a receiver at rest
-};
-
-/// The receiver's track made ready for many look-ups.
-class Receivers {
- public:
-  /// Throws std::invalid_argument without a pose.
-  void set(const ReceiveTrack& track);
-
-  struct At {
-    frames::Vec3 position_enu_m;
-    Eigen::Matrix3f head_from_enu;
-  };
-  /// Attitude between two poses: the mean of the matrices, right to the square of the turn between them.
-  At at(double time_s) const;
-
- private:
-  double start_s_ = 0.0, period_s_ = 1.0;
-  std::vector<At> poses_;
-};
-
 /// Use of arrivals: sums of pressure with speckle, or sums of mean-square pressure.
 enum class Sum { kPressure, kMeanSquare };
 
@@ -127,7 +102,7 @@ struct Carrier {
 /// times the ray's slowness (exact in isovelocity water, first order in the shift of the receiver otherwise).
 /// Direction: the ray's own at the head, turned as the straight line is. Mean square: what the scatterer sends back,
 /// over the tube's area on the way back (reciprocity), with absorption both ways. Phase: -2 pi f t and that of the
-/// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0.
+/// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0. Errors: run.h.
 void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, const Scatterers& scatterers,
                        const Receivers& receivers, Arrivals& arrivals);
 
