@@ -16,7 +16,7 @@
 
 namespace ensonify::echo {
 
-/// Rows of a batch of arrivals that somebody writes.
+/// Rows of arrivals from one on, to be written.
 struct ArrivalRows {
   double* time_s;
   float *pressure_re_upa, *pressure_im_upa, *x, *y, *z;

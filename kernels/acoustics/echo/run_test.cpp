@@ -98,16 +98,15 @@ struct Sea {
 
   /// Out directly and back from the image at this height; and in the other order.
   std::array<Echo, 2> by_image(const Scatterer& one, double image_z, double mirror) const {
-    const Vec3 &place = one.position_enu_m, image(place.x(), place.y(), image_z);
-    const Vec3 leg = image - pose().position_enu_m, out = place - pose().position_enu_m;
+    const Vec3 &at = one.position_enu_m, image(at.x(), at.y(), image_z);
+    const Vec3 leg = image - pose().position_enu_m, out = at - pose().position_enu_m;
     const double sine = std::abs(leg.z()) / leg.norm();
     const double V = surface_reflection(multipath.surface, carrier.frequency_hz, sine) * mirror;
     const Eigen::Vector3f launch = (pose().enu_from_head.conjugate() * leg.normalized()).cast<float>();
     const double sent =
         std::pow(10.0, 0.1 * multipath.head.source_level_db) * array::power(multipath.head.transmit, launch);
     const double insonified = sent * double(one.cross_section_m2) / leg.squaredNorm();
-    return {by_way_of(one, one.scattered_upa2m2, V, out.norm(), image),
-            by_way_of(one, insonified, V, leg.norm(), place)};
+    return {by_way_of(one, one.scattered_upa2m2, V, out.norm(), image), by_way_of(one, insonified, V, leg.norm(), at)};
   }
 };
 
