@@ -236,6 +236,21 @@ void echoes_part(benchmark::State& state) {
   set_rays(state, ping.found.size());
 }
 
+/// Echoes of a chirp that lasts for 15 samples onto the beams of an imaging head: each arrival is spread over 15 samples.
+void long_pulse_beams(benchmark::State& state) {
+  const Limit limit(kThreads, 1);
+  Ping ping;
+  ping.whole(0);
+  const echo::SampledPulse chirp(echo::compressed_chirp(40e-3, 5e3, echo::Window::kHamming), kSampling.period_s);
+  const echo::LineReceiver receiver({102, 0.5});
+  std::vector<float> weights(102, 1.0F / 102.0F);
+  const std::vector<echo::WantedImage> wanted{echo::WantedImage(weights)};
+  for (auto _ : state)
+    receiver.form({std::array{echo::EchoSet{ping.arrivals}}, chirp, kSampling, {}}, ping.sin_beams, wanted, ping.images, ping.memory);
+  set_rays(state, ping.arrivals.size());
+  state.counters["support"] = chirp.support();
+}
+
 BENCHMARK(embree_alone)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_ping)->Args({1, 1})->Args({2, 1})->Args({2, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_ping_in_turns)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(2.0);
@@ -243,6 +258,7 @@ BENCHMARK(trace_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(scatterers_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(arrivals_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(echoes_part)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(long_pulse_beams)->Unit(benchmark::kMillisecond);
 BENCHMARK(beams_part)->Unit(benchmark::kMillisecond);
 
 }  // namespace
