@@ -236,7 +236,8 @@ void echoes_part(benchmark::State& state) {
   set_rays(state, ping.found.size());
 }
 
-/// Echoes of a chirp that lasts for 15 samples onto the beams of an imaging head: each arrival is spread over 15 samples.
+/// Echoes of a chirp that lasts for 15 samples onto the beams of an imaging head: each arrival is spread over 15
+/// samples.
 void long_pulse_beams(benchmark::State& state) {
   const Limit limit(kThreads, 1);
   Ping ping;
@@ -246,7 +247,8 @@ void long_pulse_beams(benchmark::State& state) {
   std::vector<float> weights(102, 1.0F / 102.0F);
   const std::vector<echo::WantedImage> wanted{echo::WantedImage(weights)};
   for (auto _ : state)
-    receiver.form({std::array{echo::EchoSet{ping.arrivals}}, chirp, kSampling, {}}, ping.sin_beams, wanted, ping.images, ping.memory);
+    receiver.form({std::array{echo::EchoSet{ping.arrivals}}, chirp, kSampling, {}}, ping.sin_beams, wanted, ping.images,
+                  ping.memory);
   set_rays(state, ping.arrivals.size());
   state.counters["support"] = chirp.support();
 }

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/spreading.h"
+#include "kernels/acoustics/echo/time_index.h"
 
 namespace ensonify::echo {
 
@@ -35,8 +41,21 @@ struct SineGrid {
   }
 };
 
-/// Points of arrivals first..last - 1 of a set. Those of contributors that are not wanted come after all samples.
-void make_points(const EchoSet& set, std::size_t first, std::size_t last, const SineGrid& grid,
-                 const SampledPulse& pulse, const Sampling& sampling, const ContributorSet& whose, GridPoint* points);
+/// From arrivals of a ping to points. Those of contributors that are not wanted come after all samples.
+struct GridPoints {
+  std::span<const EchoSet> echoes;
+  const ContributorSet& whose;
+  const SampledPulse& pulse;
+  Sampling sampling;
+  SineGrid grid;
+
+  /// All of them, in order of sets and within each of arrivals.
+  void sort(ByTime<GridPoint>& points) const;
+};
+
+/// Adds what is received in a block to rows of a grid, one for each sample, so many complex numbers apart. A number is
+/// spread over as many points as Spreading says, from its cell on.
+void spread(const ByTime<GridPoint>& points, int block, const SampledPulse& pulse, const Spreading& spreading,
+            std::complex<float>* rows, std::ptrdiff_t stride);
 
 }  // namespace ensonify::echo

@@ -34,7 +34,6 @@ bool is_sum(std::span<const std::span<const float>> weights) {
 
 float component_sd(double mean_square) { return static_cast<float>(std::sqrt(0.5 * mean_square)); }
 
-float* floats(std::complex<float>* numbers) { return reinterpret_cast<float*>(numbers); }
 const float* floats(const std::complex<float>* numbers) { return reinterpret_cast<const float*>(numbers); }
 
 }  // namespace
@@ -105,14 +104,7 @@ void LineGrid::form(const Input& input, std::span<const float> sin_beams,
                     std::span<const std::span<const float>> weights, std::span<Image> images, Memory& memory) const {
   check(input, weights, images.size());
   const SineGrid on_grid = grid();
-  memory.points.set(count_arrivals(input.echoes), input.pulse, input.sampling.count,
-                    [&](std::size_t begin, std::size_t end, GridPoint* points) {
-                      for_sets(input.echoes, begin, end,
-                               [&](std::size_t set, std::size_t first, std::size_t last, std::size_t point) {
-                                 make_points(input.echoes[set], first, last, on_grid, input.pulse, input.sampling,
-                                             input.whose, points + point);
-                               });
-                    });
+  GridPoints{input.echoes, input.whose, input.pulse, input.sampling, on_grid}.sort(memory.points);
   memory.steer.clear();
   for (const float sine : sin_beams) {
     const SineGrid::At at = on_grid.at(sine);
@@ -142,28 +134,6 @@ void LineGrid::form(const Input& input, std::span<const float> sin_beams,
   const bool halved = is_sum(weights);
   tbb::parallel_for(0, memory.points.blocks(),
                     [&](int block) { form_block(input, block, weights, halved, memory, images); });
-}
-
-void LineGrid::spread(const Input& input, int block, const ByTime<GridPoint>& points, Thread& memory) const {
-  // A row of taps is a vector of 8 numbers and one of 4.
-  using Eight = Eigen::Array<float, 8, 1>;
-  using Four = Eigen::Array4f;
-  static_assert(2 * kWidth == 8 + 4);
-  std::fill(memory.grid.begin(), memory.grid.end(), std::complex<float>{});
-  points.each(block, input.pulse, [&](const GridPoint& point, int first, std::span<const float> envelope) {
-    const Spreading::Taps taps = spreading_.taps(point.offset);
-    Four pressure;
-    pressure << point.re_upa, point.im_upa, point.re_upa, point.im_upa;
-    Eight near;
-    near << taps.segment<4>(0) * pressure, taps.segment<4>(4) * pressure;
-    const Four far = taps.segment<4>(8) * pressure;
-    float* cell = floats(memory.grid.data() + (first - block * kBlock) * stride_ + point.cell);
-    for (const float e : envelope) {
-      Eigen::Map<Eight>(cell) += e * near;
-      Eigen::Map<Four>(cell + 8) += e * far;
-      cell += 2 * stride_;
-    }
-  });
 }
 
 /// Draws for every sample that a block's filter reaches back to: of the cells with mean square 1, of the elements with
@@ -294,7 +264,8 @@ void LineGrid::form_block(const Input& input, int block, std::span<const std::sp
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
   {
     const profile::Span span(profile::Stage::kSpread);
-    spread(input, block, memory.points, own);
+    std::fill(own.grid.begin(), own.grid.end(), std::complex<float>{});
+    spread(memory.points, block, input.pulse, spreading_, own.grid.data(), stride_);
   }
   {
     const profile::Span span(profile::Stage::kNoise);

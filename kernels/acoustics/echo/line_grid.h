@@ -114,7 +114,6 @@ class LineGrid {
   int harmonic(int m) const {
     return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
   }
-  void spread(const Input& input, int block, const ByTime<GridPoint>& points, Thread& memory) const;
   void draw(const Input& input, int block, Thread& memory) const;
   static void filter(const Input& input, int r, std::span<const std::complex<float>> draws,
                      std::span<std::complex<float>> sum);

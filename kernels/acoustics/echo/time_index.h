@@ -1,18 +1,14 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/partition.h"
 #include "kernels/acoustics/echo/pulse.h"
-#include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify::echo {
 
@@ -21,24 +17,37 @@ namespace ensonify::echo {
 template <class Row>
 class ByTime {
  public:
-  static constexpr int kBlock = 32;  // samples
+  static constexpr int kBlock = 32;         // samples
+  static constexpr std::size_t kRun = 256;  // rows that stay in the first cache
 
-  /// Of so many rows, those that reach any of the samples. fill(begin, end, rows) writes rows begin..end - 1, from
-  /// several threads.
-  template <class Fill>
-  void set(std::size_t count, const SampledPulse& pulse, int samples, const Fill& fill) {
-    constexpr std::size_t kRowsPerTask = 8192;
+  /// Of so many rows, those that reach any of the samples, in their order. first_of(begin, end, first) writes the first
+  /// samples of rows begin..end - 1, fill(begin, end, rows) the rows: kRun at most, from several threads. Two passes,
+  /// so that memory is written once, and only for rows that are kept.
+  template <class FirstOf, class Fill>
+  void set(std::size_t count, const SampledPulse& pulse, int samples, const FirstOf& first_of, const Fill& fill) {
     samples_ = samples;
     blocks_ = (samples + kBlock - 1) / kBlock;
     reach_ = (pulse.support() + kBlock - 2) / kBlock;
-    trace::make_elements(rows_, count);
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, kRowsPerTask),
-        [&](const auto& range) { fill(range.begin(), range.end(), rows_.data() + range.begin()); },
-        tbb::simple_partitioner());
-    by_block_.sort(rows_, static_cast<std::size_t>(blocks_), [&](const Row& row) {
-      const bool outside = row.first >= samples || row.first + pulse.support() <= 0;
-      return static_cast<std::size_t>(outside ? blocks_ : std::max(row.first, 0) / kBlock);
+    const int support = pulse.support();
+    const auto bucket_of = [=, this](std::int32_t first) {
+      const bool outside = first >= samples || first + support <= 0;
+      return static_cast<std::size_t>(outside ? blocks_ : std::max(first, 0) / kBlock);
+    };
+    by_block_.count(count, static_cast<std::size_t>(blocks_), [&](std::size_t begin, std::size_t end, auto add) {
+      std::array<std::int32_t, kRun> first;
+      for (; begin < end; begin += kRun) {
+        const std::size_t size = std::min(kRun, end - begin);
+        first_of(begin, begin + size, first.data());
+        for (std::size_t i = 0; i < size; ++i) add(bucket_of(first[i]));
+      }
+    });
+    by_block_.fill([&](std::size_t begin, std::size_t end, auto add) {
+      std::array<Row, kRun> rows;
+      for (; begin < end; begin += kRun) {
+        const std::size_t size = std::min(kRun, end - begin);
+        fill(begin, begin + size, rows.data());
+        for (std::size_t i = 0; i < size; ++i) add(bucket_of(rows[i].first), rows[i]);
+      }
     });
   }
 
@@ -72,7 +81,6 @@ class ByTime {
 
   int samples_ = 0, blocks_ = 0;
   int reach_ = 0;  // how many blocks before it a row may have begun
-  std::vector<Row> rows_;
   Partition<Row> by_block_;
 };
 
