@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "components/sonar/head_motion.h"
@@ -99,21 +100,19 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
   echoed.absorption_dbpm =
       effects_.absorption ? environment_->absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
-  memory.arrivals.clear();
-  memory.arrivals.make_room((effects_.multipath ? 1 + echo::kMostMultipathEach : 1) * found.size() + 1);
-  if (exact_ && paths_.refracted()) {
-    echo::add_eigenray_echoes(carrier, environment_->profile(), pose.position_enu_m, found, memory.receivers,
-                              memory.arrivals);
-  } else {
-    echo::add_direct_echoes(carrier, pose.position_enu_m, found, memory.receivers, memory.arrivals);
-  }
+  std::optional<echo::Multipath> multipath;
   if (effects_.multipath) {
-    const echo::MultipathHead head{.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
-    echo::SurfaceMirror surface;
-    surface.level_enu_m = environment_->water_level_m(shot.transmit_s);
-    surface.sound_speed_mps = sound_speed_mps(pose);
-    surface.rms_height_m = environment_->rms_wave_height_m();
-    echoed.paired = echo::add_multipath(carrier, head, surface, {}, pose, found, memory.receivers, memory.arrivals);
+    multipath.emplace();
+    multipath->head = {.source_level_db = sent_db(shot.source_level_db), .transmit = shot.transmit};
+    multipath->surface.level_enu_m = environment_->water_level_m(shot.transmit_s);
+    multipath->surface.sound_speed_mps = sound_speed_mps(pose);
+    multipath->surface.rms_height_m = environment_->rms_wave_height_m();
+  }
+  const echo::Multipath* by = multipath ? &*multipath : nullptr;
+  echoed.paired = echo::make_echoes(carrier, pose, found, memory.receivers, by, memory.arrivals);
+  if (exact_ && paths_.refracted()) {
+    echo::take_eigenrays(carrier, environment_->profile(), pose.position_enu_m, found, memory.receivers, 0,
+                         memory.arrivals);
   }
   return echoed;
 }

@@ -25,8 +25,9 @@ void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPuls
     const int first = block * TimeIndex::kBlock;
     const int count = std::min(TimeIndex::kBlock, sampling.count - first);
     for (int row = 0; row < rows; ++row) std::fill_n(image.row(row).begin() + first, count, std::complex<float>{});
-    index.each(block, pulse, [&](std::size_t number, std::size_t i, int from, std::span<const float> envelope) {
-      const EchoSet& set = echoes[number];
+    index.each(block, pulse, [&](const Received& received, int from, std::span<const float> envelope) {
+      const EchoSet& set = echoes[received.set];
+      const std::size_t i = received.arrival;
       for (int row = 0; row < rows; ++row) {
         const std::complex<float> pressure =
             set.gain.empty()

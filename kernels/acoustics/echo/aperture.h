@@ -8,6 +8,7 @@
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/time_index.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "kernels/acoustics/echo/image.h"
-#include "kernels/acoustics/echo/partition.h"
-#include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/receivers.h"
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/pose.h"
@@ -86,32 +85,6 @@ struct EchoSet {
   bool fits(std::size_t rows) const { return gain.empty() || gain.size() == rows * arrivals.size(); }
 };
 
-/// Track of the receiver while echoes come back: poses at start_s + i * period_s after transmission, straight lines
-/// between, the nearest one outside.
-struct ReceiveTrack {
-  double start_s = 0.0;
-  double period_s = 1.0;
-  std::span<const frames::HeadPose> poses;  // one is enough for a receiver at rest
-};
-
-/// The receiver's track made ready for many look-ups.
-class Receivers {
- public:
-  /// Throws std::invalid_argument without a pose.
-  void set(const ReceiveTrack& track);
-
-  struct At {
-    frames::Vec3 position_enu_m;
-    Eigen::Matrix3f head_from_enu;
-  };
-  /// Attitude between two poses: the mean of the matrices, right to the square of the turn between them.
-  At at(double time_s) const;
-
- private:
-  double start_s_ = 0.0, period_s_ = 1.0;
-  std::vector<At> poses_;
-};
-
 /// Use of arrivals: sums of pressure with speckle, or sums of mean-square pressure.
 enum class Sum { kPressure, kMeanSquare };
 
@@ -127,57 +100,12 @@ struct Carrier {
 /// times the ray's slowness (exact in isovelocity water, first order in the shift of the receiver otherwise).
 /// Direction: the ray's own at the head, turned as the straight line is. Mean square: what the scatterer sends back,
 /// over the tube's area on the way back (reciprocity), with absorption both ways. Phase: -2 pi f t and that of the
-/// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0.
+/// scatterer. With Sum::kMeanSquare the pressure holds the mean square itself, uPa^2, phase 0. Errors: run.h.
 void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m, const Scatterers& scatterers,
                        const Receivers& receivers, Arrivals& arrivals);
 
 /// The pressure of an echo of this mean square, arriving at this time from a scatterer of this response.
 std::complex<float> echo_pressure(const Carrier& carrier, double mean_square_upa2, double time_s,
                                   std::complex<float> response);
-
-/// Which arrivals are received when: blocks of samples that can be summed apart, each in a fixed order.
-class TimeIndex {
- public:
-  static constexpr int kBlock = 32;  // samples
-
-  struct Received {
-    std::int32_t first;  // sample; may lie before 0
-    std::uint16_t phase, set;
-    std::uint32_t arrival;  // of its set
-  };
-
-  /// In order of sets, and within each of arrivals: those of some contributors.
-  void set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling,
-           const ContributorSet& whose = {});
-
-  int blocks() const { return blocks_; }
-
-  /// Whether anything is received in this block.
-  bool any(int block) const;
-
-  /// Calls add(set, arrival, first sample, envelope of samples from there) for what is received in a block, cut to the
-  /// block.
-  template <class Add>
-  void each(int block, const SampledPulse& pulse, const Add& add) const {
-    const int begin = block * kBlock, end = std::min(begin + kBlock, samples_);
-    for (int b = first_block(block); b <= block; ++b) {
-      for (const Received& received : by_block_.bucket(static_cast<std::size_t>(b))) {
-        const int from = std::max(received.first, begin), to = std::min(received.first + pulse.support(), end);
-        if (from >= to) continue;
-        add(received.set, received.arrival, from,
-            pulse.row(static_cast<int>(received.phase))
-                .subspan(static_cast<std::size_t>(from - received.first), static_cast<std::size_t>(to - from)));
-      }
-    }
-  }
-
- private:
-  int first_block(int block) const { return std::max(0, block - reach_); }
-
-  int samples_ = 0, blocks_ = 0;
-  int reach_ = 0;  // how many blocks before it an arrival may have begun
-  std::vector<Received> received_;
-  Partition<Received> by_block_;
-};
 
 }  // namespace ensonify::echo

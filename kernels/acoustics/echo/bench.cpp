@@ -16,6 +16,7 @@
 #include "kernels/acoustics/array/beam_layout.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/echo/line_receiver.h"
+#include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/speckle_cells.h"
 #include "kernels/acoustics/trace/testing/embree_alone.h"
 #include "kernels/seabed/backscatter.h"
@@ -215,12 +216,51 @@ void beams_part(benchmark::State& state) {
   part_of_ping(state, [](Ping& ping) { ping.form(1); });
 }
 
+/// Echoes of a ping's scatterers for a receiver that moves, of a head with one transmit lobe: straight (0), and by a
+/// calm surface too (1).
+void echoes_part(benchmark::State& state) {
+  const Limit limit(kThreads, 1);
+  Ping ping;
+  ping.whole(0);
+  std::vector<frames::HeadPose> poses;
+  for (int i = 0; i < 20; ++i) {
+    poses.push_back({kHead.position_enu_m + 0.01 * i * frames::Vec3::UnitX(),
+                     frames::enu_from_body({.heading_rad = 1e-3 * i, .roll_rad = 2e-3 * i})});
+  }
+  ping.receivers.set({0.0, 5e-3, poses});
+  array::Pattern transmit;
+  transmit.times(array::GaussianFactor{5.0});
+  const echo::Multipath multipath{{220.0, {&transmit, 1}}, {}, {}};
+  const echo::Multipath* const by = state.range(0) != 0 ? &multipath : nullptr;
+  for (auto _ : state) echo::make_echoes({300e3, 0.07}, kHead, ping.found, ping.receivers, by, ping.arrivals);
+  set_rays(state, ping.found.size());
+}
+
+/// Echoes of a chirp that lasts for 15 samples onto the beams of an imaging head: each arrival is spread over 15
+/// samples.
+void long_pulse_beams(benchmark::State& state) {
+  const Limit limit(kThreads, 1);
+  Ping ping;
+  ping.whole(0);
+  const echo::SampledPulse chirp(echo::compressed_chirp(40e-3, 5e3, echo::Window::kHamming), kSampling.period_s);
+  const echo::LineReceiver receiver({102, 0.5});
+  std::vector<float> weights(102, 1.0F / 102.0F);
+  const std::vector<echo::WantedImage> wanted{echo::WantedImage(weights)};
+  for (auto _ : state)
+    receiver.form({std::array{echo::EchoSet{ping.arrivals}}, chirp, kSampling, {}}, ping.sin_beams, wanted, ping.images,
+                  ping.memory);
+  set_rays(state, ping.arrivals.size());
+  state.counters["support"] = chirp.support();
+}
+
 BENCHMARK(embree_alone)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_ping)->Args({1, 1})->Args({2, 1})->Args({2, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_ping_in_turns)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(2.0);
 BENCHMARK(trace_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(scatterers_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(arrivals_part)->Unit(benchmark::kMillisecond);
+BENCHMARK(echoes_part)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(long_pulse_beams)->Unit(benchmark::kMillisecond);
 BENCHMARK(beams_part)->Unit(benchmark::kMillisecond);
 
 }  // namespace

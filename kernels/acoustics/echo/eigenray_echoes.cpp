@@ -68,19 +68,24 @@ std::optional<Arrival> eigenray_echo(const Carrier& carrier, const refraction::S
 
 }  // namespace
 
-void add_eigenray_echoes(const Carrier& carrier, const refraction::SoundSpeedProfile& profile, const Vec3& source_enu_m,
-                         const Scatterers& scatterers, const Receivers& receivers, Arrivals& arrivals) {
-  const std::size_t before = arrivals.size();
-  add_direct_echoes(carrier, source_enu_m, scatterers, receivers, arrivals);
+void take_eigenrays(const Carrier& carrier, const refraction::SoundSpeedProfile& profile, const Vec3& source_enu_m,
+                    const Scatterers& scatterers, const Receivers& receivers, std::size_t first, Arrivals& arrivals) {
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, scatterers.size(), kPerTask),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           if (const auto exact = eigenray_echo(carrier, profile, source_enu_m, scatterers[i], receivers))
-            arrivals.set(before + i, *exact);
+            arrivals.set(first + i, *exact);
         }
       },
       tbb::simple_partitioner());
+}
+
+void add_eigenray_echoes(const Carrier& carrier, const refraction::SoundSpeedProfile& profile, const Vec3& source_enu_m,
+                         const Scatterers& scatterers, const Receivers& receivers, Arrivals& arrivals) {
+  const std::size_t first = arrivals.size();
+  add_direct_echoes(carrier, source_enu_m, scatterers, receivers, arrivals);
+  take_eigenrays(carrier, profile, source_enu_m, scatterers, receivers, first, arrivals);
 }
 
 }  // namespace ensonify::echo

@@ -17,4 +17,9 @@ void add_eigenray_echoes(const Carrier& carrier, const refraction::SoundSpeedPro
                          const frames::Vec3& source_enu_m, const Scatterers& scatterers, const Receivers& receivers,
                          Arrivals& arrivals);
 
+/// Puts them into the rows of the scatterers' direct echoes, which begin at `first`.
+void take_eigenrays(const Carrier& carrier, const refraction::SoundSpeedProfile& profile,
+                    const frames::Vec3& source_enu_m, const Scatterers& scatterers, const Receivers& receivers,
+                    std::size_t first, Arrivals& arrivals);
+
 }  // namespace ensonify::echo

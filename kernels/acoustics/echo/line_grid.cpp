@@ -15,7 +15,7 @@
 namespace ensonify::echo {
 namespace {
 
-constexpr int kBlock = TimeIndex::kBlock;
+constexpr int kBlock = ByTime<GridPoint>::kBlock;
 constexpr int kWidth = Spreading::kWidth;
 constexpr double kNegligible = 1e-16;  // of electronic to isotropic noise: float's rounding hides it
 constexpr int kLeft = kWidth / 2 - 1;  // points of a tap before the one that holds the number
@@ -34,7 +34,6 @@ bool is_sum(std::span<const std::span<const float>> weights) {
 
 float component_sd(double mean_square) { return static_cast<float>(std::sqrt(0.5 * mean_square)); }
 
-float* floats(std::complex<float>* numbers) { return reinterpret_cast<float*>(numbers); }
 const float* floats(const std::complex<float>* numbers) { return reinterpret_cast<const float*>(numbers); }
 
 }  // namespace
@@ -82,12 +81,6 @@ double LineGrid::cell_sine(int cell) const {
   return signed_cell / (cells_ * line_.spacing_in_waves);
 }
 
-/// Place on the periodic grid, 0..cells.
-float LineGrid::grid_place(float sine) const {
-  const double turns = line_.spacing_in_waves * static_cast<double>(sine);
-  return static_cast<float>((turns - std::floor(turns)) * cells_);
-}
-
 void LineGrid::check(const Input& input, std::span<const std::span<const float>> weights, std::size_t images) const {
   const auto samples = static_cast<std::size_t>(std::max(input.sampling.count, 0));
   bool fits = weights.size() == images;
@@ -110,12 +103,12 @@ void LineGrid::check(const Input& input, std::span<const std::span<const float>>
 void LineGrid::form(const Input& input, std::span<const float> sin_beams,
                     std::span<const std::span<const float>> weights, std::span<Image> images, Memory& memory) const {
   check(input, weights, images.size());
-  memory.index.set(input.echoes, input.pulse, input.sampling, input.whose);
+  const SineGrid on_grid = grid();
+  GridPoints{input.echoes, input.whose, input.pulse, input.sampling, on_grid}.sort(memory.points);
   memory.steer.clear();
   for (const float sine : sin_beams) {
-    const float place = grid_place(sine);
-    const int whole = std::min(static_cast<int>(place), cells_ - 1);
-    memory.steer.push_back({whole, spreading_.taps(place - static_cast<float>(whole))});
+    const SineGrid::At at = on_grid.at(sine);
+    memory.steer.push_back({at.cell, spreading_.taps(at.offset)});
   }
   for (Image& image : images) {
     trace::make_room(image.envelope_upa, sin_beams.size() * static_cast<std::size_t>(input.sampling.count));
@@ -139,29 +132,8 @@ void LineGrid::form(const Input& input, std::span<const float> sin_beams,
     own.noise.resize(size(hears_elements(input.background), line_.elements));
   });
   const bool halved = is_sum(weights);
-  tbb::parallel_for(0, memory.index.blocks(),
+  tbb::parallel_for(0, memory.points.blocks(),
                     [&](int block) { form_block(input, block, weights, halved, memory, images); });
-}
-
-void LineGrid::spread(const Input& input, int block, const TimeIndex& index, Thread& memory) const {
-  std::fill(memory.grid.begin(), memory.grid.end(), std::complex<float>{});
-  index.each(block, input.pulse, [&](std::size_t number, std::size_t i, int first, std::span<const float> envelope) {
-    const EchoSet& set = input.echoes[number];
-    const float place = grid_place(set.arrivals.direction_head[i].dot(line_.axis_head));
-    const int whole = std::min(static_cast<int>(place), cells_ - 1);
-    Spreading::Taps taps = spreading_.taps(place - static_cast<float>(whole));
-    const float gain = set.gain.empty() ? 1.0F : set.gain[i];
-    const float re = gain * set.arrivals.pressure_re_upa[i], im = gain * set.arrivals.pressure_im_upa[i];
-    for (int k = 0; k < kWidth; ++k) {
-      taps[2 * k] *= re;
-      taps[2 * k + 1] *= im;
-    }
-    float* cell = floats(memory.grid.data() + (first - block * kBlock) * stride_ + whole);
-    for (const float e : envelope) {
-      Eigen::Map<Spreading::Taps>(cell) += e * taps;
-      cell += 2 * stride_;
-    }
-  });
 }
 
 /// Draws for every sample that a block's filter reaches back to: of the cells with mean square 1, of the elements with
@@ -281,7 +253,7 @@ void LineGrid::form_block(const Input& input, int block, std::span<const std::sp
   const Background& background = input.background;
   const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
   const bool silent = !hears_field(background) && !hears_elements(background) && background.volume_upa2.empty() &&
-                      !memory.index.any(block);
+                      !memory.points.any(block);
   if (silent) {
     for (Image& image : images) {
       for (int beam = 0; beam < image.beams; ++beam)
@@ -292,7 +264,8 @@ void LineGrid::form_block(const Input& input, int block, std::span<const std::sp
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
   {
     const profile::Span span(profile::Stage::kSpread);
-    spread(input, block, memory.index, own);
+    std::fill(own.grid.begin(), own.grid.end(), std::complex<float>{});
+    spread(memory.points, block, input.pulse, spreading_, own.grid.data(), stride_);
   }
   {
     const profile::Span span(profile::Stage::kNoise);

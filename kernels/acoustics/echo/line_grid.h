@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "kernels/acoustics/echo/arrival.h"
+#include "kernels/acoustics/echo/grid_point.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/spreading.h"
+#include "kernels/acoustics/echo/time_index.h"
 #include "kernels/base/fft/transform.h"
 #include "kernels/base/random/stream.h"
 
@@ -83,7 +85,7 @@ class LineGrid {
       // Draws of a block and of what its filter reaches back to: by sample and cell, or sample and element.
       std::vector<std::complex<float>> volume, isotropic, noise;
     };
-    TimeIndex index;
+    ByTime<GridPoint> points;
     std::vector<Steer> steer;
     std::vector<Thread> threads;
   };
@@ -100,7 +102,7 @@ class LineGrid {
 
   void check(const Input& input, std::span<const std::span<const float>> weights, std::size_t images) const;
   double share_of_sphere(int cell) const;
-  float grid_place(float sine) const;
+  SineGrid grid() const { return {line_.axis_head, line_.spacing_in_waves, cells_}; }
   /// Isotropic noise as a field, where it is not independent from element to element ...
   bool hears_field(const Background& background) const { return background.isotropic_upa2 > 0.0 && !white_; }
   /// ... and what each element has of its own.
@@ -112,7 +114,6 @@ class LineGrid {
   int harmonic(int m) const {
     return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
   }
-  void spread(const Input& input, int block, const TimeIndex& index, Thread& memory) const;
   void draw(const Input& input, int block, Thread& memory) const;
   static void filter(const Input& input, int r, std::span<const std::complex<float>> draws,
                      std::span<std::complex<float>> sum);

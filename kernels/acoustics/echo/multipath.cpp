@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/acoustics/echo/run.h"
 #include "kernels/acoustics/sea_surface.h"
 
 namespace ensonify::echo {
@@ -15,135 +16,131 @@ namespace {
 
 using frames::Vec3;
 
-constexpr std::size_t kPerTask = 1024;
 constexpr double kLeastReflection = 1e-5;
+constexpr std::size_t kMostEach = 4;  // arrivals of a scatterer by way of the surface
 
-Vec3 mirrored(const Vec3& point, double level_m) { return {point.x(), point.y(), 2.0 * level_m - point.z()}; }
+/// As an amplitude.
+double of_db(double db) { return std::pow(10.0, -0.05 * db); }
 
-/// What all paths of one ping share.
-struct Paths {
-  const Carrier& carrier;
-  const MultipathHead& head;
-  const SurfaceMirror& surface;
-  const frames::HeadPose& pose;
-  const Receivers& receivers;
-  double source_upa2m2 = power_ratio(head.source_level_db);  // on the axis
-  double bottom_mirror = std::pow(10.0, -0.05 * head.bottom_mirror_loss_db);
+double wavenumber_radpm(const SurfaceMirror& surface, double frequency_hz) {
+  return 2.0 * std::numbers::pi * frequency_hz / surface.sound_speed_mps;
+}
 
-  Eigen::Vector3f launch(const Vec3& target) const {
-    return (pose.enu_from_head.conjugate() * (target - pose.position_enu_m).normalized()).cast<float>();
-  }
+/// The head's own sound from the surface overhead. It seems to come from the head's image, and left as if for it. The
+/// carrier's phase is the path's; no draw.
+Arrival surface_echo(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
+                     const frames::HeadPose& pose, const Receivers& receivers) {
+  const Vec3& from = pose.position_enu_m;
+  const Vec3 image(from.x(), from.y(), 2.0 * surface.level_enu_m - from.z());
+  const Receivers::At receiver = receivers.at((image - from).norm() / surface.sound_speed_mps);
+  const Vec3 back = image - receiver.position_enu_m;
+  const double path_m = std::max(back.norm(), 1e-3);
+  const Eigen::Vector3f launch = (pose.enu_from_head.conjugate() * (image - from).normalized()).cast<float>();
+  const double sent = power_ratio(head.source_level_db) * array::power(head.transmit, launch);
+  const double reflected = surface_reflection(surface, carrier.frequency_hz, 1.0);
+  const double mean_square =
+      sent * reflected * reflected * power_ratio(-carrier.absorption_dbpm * path_m) / (path_m * path_m);
+  Arrival arrival;
+  arrival.time_s = path_m / surface.sound_speed_mps;
+  arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, -1.0F);
+  arrival.direction_head = receiver.head_from_enu * (back / path_m).cast<float>();
+  return arrival;
+}
 
-  /// Mean-square pressure at 1 m that leaves towards a point or an image, uPa^2 m^2.
-  double source_towards(const Vec3& target) const {
-    return source_upa2m2 * array::power(head.transmit, launch(target));
-  }
-
-  /// The arrival that left a scatterer (or its image) at `from` with mean square `at_1m`, after `out_m` of path, with
-  /// the reflections' amplitude `reflected` already in it.
-  Arrival arrive(const Scatterer& scatterer, double at_1m, double reflected, double out_m, const Vec3& from) const {
-    const double guess_m = (from - pose.position_enu_m).norm();
-    const Receivers::At receiver = receivers.at((out_m + guess_m) / surface.sound_speed_mps);
-    const Vec3 back = from - receiver.position_enu_m;
-    const double back_m = std::max(back.norm(), 1e-3), total_m = out_m + back_m;
-    const double mean_square =
-        at_1m * reflected * reflected * power_ratio(-carrier.absorption_dbpm * total_m) / (back_m * back_m);
-    Arrival arrival;
-    arrival.time_s = total_m / surface.sound_speed_mps;
-    const std::complex<float> response = reflected < 0.0 ? -scatterer.response : scatterer.response;
-    arrival.pressure_upa = scatterer.share * echo_pressure(carrier, mean_square, arrival.time_s, response);
-    arrival.direction_head = receiver.head_from_enu * (back / back_m).cast<float>();
-    return arrival;
-  }
-
-  double reflection(const Vec3& from, const Vec3& to) const {
-    const Vec3 leg = to - from;
-    return surface_reflection(surface, carrier.frequency_hz, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
-  }
-
-  /// Where a scatterer seems to be, from the head: seabed - surface, and the same in the other order.
-  Vec3 one_bounce(const Vec3& place) const { return mirrored(place, surface.level_enu_m); }
-
-  /// A mirror's bounce off the seabed, then the surface, then the scatterer; and back the same way in the other order:
-  /// mirrored at the surface and then at the seabed's level.
-  Vec3 second_bottom(const Vec3& place) const { return mirrored(mirrored(place, surface.level_enu_m), place.z()); }
-
-  /// Out directly and back from the image, and the other way round. `sent` leaves towards the image, uPa^2 m^2;
-  /// `mirror` is the amplitude that mirrors besides the surface reflect.
-  std::array<Arrival, 2> by_image(const Scatterer& scatterer, const Vec3& image, double mirror, double sent) const {
-    const Vec3& place = scatterer.position_enu_m;
-    const double direct_m = (place - pose.position_enu_m).norm(), bounced_m = (image - pose.position_enu_m).norm();
-    const double V = reflection(pose.position_enu_m, image) * mirror;
-    const double insonified = sent * scatterer.cross_section_m2 / (bounced_m * bounced_m);
-    return {arrive(scatterer, scatterer.scattered_upa2m2, V, direct_m, image),
-            arrive(scatterer, insonified, V, bounced_m, place)};
-  }
-
-  /// The head's own sound by way of mirrors. It seems to come from `image` and left as if for `target`, the images of
-  /// the source and of the receiver. The carrier's phase is the path's; no draw.
-  Arrival mirror_echo(const Vec3& image, const Vec3& target, double reflected) const {
-    const double whole_m = (image - pose.position_enu_m).norm();
-    const Receivers::At receiver = receivers.at(whole_m / surface.sound_speed_mps);
-    const Vec3 back = image - receiver.position_enu_m;
-    const double path_m = std::max(back.norm(), 1e-3);
-    const double mean_square = source_towards(target) * reflected * reflected *
-                               power_ratio(-carrier.absorption_dbpm * path_m) / (path_m * path_m);
-    Arrival arrival;
-    arrival.time_s = path_m / surface.sound_speed_mps;
-    arrival.pressure_upa = echo_pressure(carrier, mean_square, arrival.time_s, reflected < 0.0 ? -1.0F : 1.0F);
-    arrival.direction_head = receiver.head_from_enu * (back / path_m).cast<float>();
-    return arrival;
-  }
-};
-
-/// What leaves towards the images of some scatterers.
-class Sources {
- public:
-  static constexpr std::size_t kMost = kPerTask;
-
-  template <class ImageOf>
-  void set(const Paths& paths, const Scatterers& scatterers, std::size_t begin, std::size_t count,
-           const ImageOf& image_of) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f launch = paths.launch(image_of(scatterers.position_enu_m[begin + i]));
-      x_[i] = launch.x(), y_[i] = launch.y(), z_[i] = launch.z();
+/// Whether waves leave enough of the amplitude on the way to any scatterer: most where it is hit at the lowest angle.
+bool reflects(const SurfaceMirror& surface, double frequency_hz, const frames::HeadPose& pose,
+              const Scatterers& scatterers) {
+  constexpr std::size_t kStep = 1024;  // of scatterers between looks
+  const double roughness_rad = wavenumber_radpm(surface, frequency_hz) * surface.rms_height_m;
+  const double left = std::log(of_db(surface.bounce_loss_db) / kLeastReflection);
+  const Vec3& head = pose.position_enu_m;
+  const double up_m = 2.0 * surface.level_enu_m - head.z();
+  const auto& [x, y, z] = scatterers.position_enu_m;
+  for (std::size_t first = 0; first < scatterers.size(); first += kStep) {
+    int enough = 0;
+    for (std::size_t i = first; i < std::min(first + kStep, scatterers.size()); ++i) {
+      const double across = (x[i] - head.x()) * (x[i] - head.x()) + (y[i] - head.y()) * (y[i] - head.y());
+      const double up = (up_m - z[i]) * (up_m - z[i]);
+      enough += 2.0 * roughness_rad * roughness_rad * up <= left * (across + up) ? 1 : 0;
     }
-    const auto first = [count](const std::array<float, kMost>& all) { return std::span(all).first(count); };
-    array::powers(paths.head.transmit, {first(x_), first(y_), first(z_)}, {}, std::span(power_).first(count));
-    source_upa2m2_ = paths.source_upa2m2;
+    if (enough > 0) return true;
   }
-  double operator[](std::size_t i) const { return source_upa2m2_ * power_[i]; }
+  return false;
+}
+
+/// The ways by the surface of a ping, of the parts that are wanted.
+class Ways {
+ public:
+  Ways(const Carrier& carrier, const Multipath& by, const frames::HeadPose& pose, const Scatterers& scatterers)
+      : head_(by.head), head_from_enu_(pose.enu_from_head.conjugate().toRotationMatrix()) {
+    const SurfaceMirror& surface = by.surface;
+    if (!reflects(surface, carrier.frequency_hz, pose, scatterers)) return;
+    // Mirrored at the surface; and of that once more at the scatterer's own level.
+    const double level_m = surface.level_enu_m, amplitude = of_db(surface.bounce_loss_db);
+    const double roughness_rad = wavenumber_radpm(surface, carrier.frequency_hz) * surface.rms_height_m;
+    const Run::Mirror once{
+        -1.0, 2.0 * level_m, amplitude, roughness_rad, level_m, surface.sound_speed_mps, trace::EchoPath::kViaSurface};
+    Run::Mirror twice = once;
+    twice.scale = 3.0;
+    twice.shift_m = -2.0 * level_m;
+    twice.amplitude *= of_db(by.head.bottom_mirror_loss_db);
+    twice.path = trace::EchoPath::kViaBottom;
+    if (by.parts.one_bounce) mirrors_[count_++] = once;
+    if (by.parts.second_bottom) mirrors_[count_++] = twice;
+  }
+
+  std::size_t count() const { return count_; }
+
+  /// Echoes of a run, to where `paired` says.
+  void add(Run& run, const PairedArrivals& paired, Arrivals& arrivals) const {
+    std::array<double, Run::kMost> sent_upa2m2;
+    const auto sent = std::span(sent_upa2m2).first(run.count());
+    for (std::size_t way = 0; way < count_; ++way) {
+      array::powers(head_.transmit, run.launch(mirrors_[way], head_from_enu_), {}, sent);
+      for (double& power : sent) power *= source_upa2m2_;
+      const std::size_t row = paired.at(way * paired.scatterers + run.first());
+      run.by_image(mirrors_[way], sent, {arrivals, row}, {arrivals, row + paired.scatterers});
+    }
+  }
 
  private:
-  std::array<float, kMost> x_, y_, z_;
-  std::array<double, kMost> power_;
-  double source_upa2m2_ = 0.0;
+  const MultipathHead& head_;
+  Eigen::Matrix3d head_from_enu_;
+  double source_upa2m2_ = power_ratio(head_.source_level_db);  // on the axis
+  std::array<Run::Mirror, 2> mirrors_;
+  std::size_t count_ = 0;
 };
 
-/// Of the surface on the way to any of the scatterers: waves leave most where it is hit at the lowest angle.
-double strongest_reflection(const Paths& paths, const Scatterers& scatterers) {
-  double least_sine = 1.0;
-  for (std::size_t i = 0; i < scatterers.size(); ++i) {
-    const Vec3 leg = mirrored(scatterers.position_enu_m[i], paths.surface.level_enu_m) - paths.pose.position_enu_m;
-    least_sine = std::min(least_sine, std::abs(leg.z()) / std::max(leg.norm(), 1e-9));
+/// Adds what there is by way of a surface to arrivals, and the direct echoes before it if they are wanted.
+PairedArrivals add_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
+                          const Receivers& receivers, const Multipath& by, std::size_t before, bool direct,
+                          Arrivals& arrivals) {
+  const Ways ways(carrier, by, pose, scatterers);
+  const std::size_t count = scatterers.size();
+  const PairedArrivals paired{before + (direct ? count : 0), ways.count(), count};
+  arrivals.resize(paired.end() + (by.parts.surface_echo ? 1 : 0));
+  if (direct || ways.count() > 0) {
+    for_runs(carrier, receivers, pose.position_enu_m, scatterers, [&](Run& run) {
+      if (direct) run.direct({arrivals, before + run.first()});
+      ways.add(run, paired, arrivals);
+    });
   }
-  return std::abs(surface_reflection(paths.surface, paths.carrier.frequency_hz, least_sine));
+  if (by.parts.surface_echo) arrivals.set(paired.end(), surface_echo(carrier, by.head, by.surface, pose, receivers));
+  return paired;
 }
 
 }  // namespace
 
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing) {
-  const double wavenumber_radpm = 2.0 * std::numbers::pi * frequency_hz / surface.sound_speed_mps;
-  const double grazing_rad = std::asin(std::clamp(sin_grazing, 0.0, 1.0));
-  return surface::coherent_reflection(wavenumber_radpm, surface.rms_height_m, grazing_rad) *
-         std::pow(10.0, -0.05 * surface.bounce_loss_db);
+  return surface::coherent_reflection(wavenumber_radpm(surface, frequency_hz), surface.rms_height_m,
+                                      std::asin(std::clamp(sin_grazing, 0.0, 1.0))) *
+         of_db(surface.bounce_loss_db);
 }
 
 void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const SharedByBeams* shared,
                  std::span<float> gains) {
   const std::vector<float>& mean_square = arrivals.pressure_re_upa;
-  const auto pair = [&](std::size_t i) {
-    const std::size_t j = i + 1;
+  const auto pair = [&](std::size_t i, std::size_t j) {
     const float g = gains[i], h = gains[j], p = mean_square[i], q = mean_square[j];
     gains[i] = g * g, gains[j] = h * h;
     if (!(p > 0.0F && q > 0.0F) || g == 0.0F || h == 0.0F) return;
@@ -152,58 +149,31 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const S
     gains[i] += both * std::sqrt(q / p);
     gains[j] += both * std::sqrt(p / q);
   };
-  const std::size_t end = paired.first + 2 * paired.pairs;
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    if (i < paired.first || i >= end) gains[i] *= gains[i];
+    if (i < paired.first || i >= paired.end()) gains[i] *= gains[i];
   }
-  tbb::parallel_for(std::size_t{0}, paired.pairs, [&](std::size_t i) { pair(paired.first + 2 * i); });
+  tbb::parallel_for(std::size_t{0}, paired.pairs(), [&](std::size_t i) {
+    const std::size_t one = paired.at(i);
+    pair(one, one + paired.scatterers);
+  });
 }
 
 PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
                              const MultipathParts& parts, const frames::HeadPose& pose, const Scatterers& scatterers,
                              const Receivers& receivers, Arrivals& arrivals) {
-  const double level_m = surface.level_enu_m;
-  if (pose.position_enu_m.z() >= level_m) return {};
-  const Paths paths{carrier, head, surface, pose, receivers};
-  const bool mirrors = strongest_reflection(paths, scatterers) >= kLeastReflection;
-  const std::size_t each = mirrors ? (parts.one_bounce ? 2U : 0U) + (parts.second_bottom ? 2U : 0U) : 0U;
-  const std::size_t before = arrivals.size();
-  arrivals.resize(before + each * scatterers.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, each == 0 ? 0 : scatterers.size(), kPerTask),
-      [&](const auto& range) {
-        Sources bounced, second;
-        const auto one_bounce = [&](const Vec3& place) { return paths.one_bounce(place); };
-        const auto second_bottom = [&](const Vec3& place) { return paths.second_bottom(place); };
-        if (parts.one_bounce) bounced.set(paths, scatterers, range.begin(), range.size(), one_bounce);
-        if (parts.second_bottom) second.set(paths, scatterers, range.begin(), range.size(), second_bottom);
-        for (std::size_t i = 0; i < range.size(); ++i) {
-          const Scatterer one = scatterers[range.begin() + i];
-          const Vec3& place = one.position_enu_m;
-          std::size_t out = before + each * (range.begin() + i);
-          if (place.z() >= level_m) {
-            for (std::size_t k = 0; k < each; ++k) arrivals.set(out + k, Arrival{});
-            continue;
-          }
-          const auto add = [&](const std::array<Arrival, 2>& pair, trace::EchoPath path) {
-            for (Arrival arrival : pair) {
-              arrival.contributor = trace::by_path(one.contributor, path);
-              arrivals.set(out++, arrival);
-            }
-          };
-          using Path = trace::EchoPath;
-          if (parts.one_bounce) add(paths.by_image(one, one_bounce(place), 1.0, bounced[i]), Path::kViaSurface);
-          if (parts.second_bottom)
-            add(paths.by_image(one, second_bottom(place), paths.bottom_mirror, second[i]), Path::kViaBottom);
-        }
-      },
-      tbb::simple_partitioner());
-  if (parts.surface_echo) {
-    const double V = surface_reflection(surface, carrier.frequency_hz, 1.0);
-    const Vec3 above = mirrored(pose.position_enu_m, level_m);
-    arrivals.push_back(paths.mirror_echo(above, above, V));
-  }
-  return {before, each * scatterers.size() / 2};
+  if (pose.position_enu_m.z() >= surface.level_enu_m) return {};
+  return add_echoes(carrier, pose, scatterers, receivers, {head, surface, parts}, arrivals.size(), false, arrivals);
+}
+
+PairedArrivals make_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
+                           const Receivers& receivers, const Multipath* multipath, Arrivals& arrivals) {
+  // Room for all ways, even where waves leave none in this ping.
+  arrivals.make_room((multipath ? 1 + kMostEach : 1) * scatterers.size() + 1);
+  if (multipath && pose.position_enu_m.z() < multipath->surface.level_enu_m)
+    return add_echoes(carrier, pose, scatterers, receivers, *multipath, 0, true, arrivals);
+  arrivals.resize(scatterers.size());
+  for_runs(carrier, receivers, pose.position_enu_m, scatterers, [&](Run& run) { run.direct({arrivals, run.first()}); });
+  return {};
 }
 
 }  // namespace ensonify::echo

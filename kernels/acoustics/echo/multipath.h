@@ -31,16 +31,26 @@ struct MultipathHead {
   double bottom_mirror_loss_db = 15.0;       // of a specular bounce off the seabed
 };
 
+/// All that make_echoes needs besides for echoes by way of the surface.
+struct Multipath {
+  MultipathHead head;
+  SurfaceMirror surface;
+  MultipathParts parts;
+};
+
 /// Coherent amplitude of one reflection by the surface, with sign: what waves leave (kernels/acoustics) and bubbles let
 /// through.
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
 
-/// Number of arrivals of add_multipath, for each scatterer, at most.
-inline constexpr std::size_t kMostMultipathEach = 4;
-
-/// Arrivals that are one scatterer's by one way in both orders, next to each other: first + 2 i and first + 2 i + 1.
+/// Arrivals that are one scatterer's by one way in both orders: for each of so many ways from `first` on, those of all
+/// scatterers in one order and then those in the other.
 struct PairedArrivals {
-  std::size_t first = 0, pairs = 0;
+  std::size_t first = 0, ways = 0, scatterers = 0;
+
+  std::size_t pairs() const { return ways * scatterers; }
+  std::size_t end() const { return first + 2 * pairs(); }
+  /// First arrival of a pair. The other is so many `scatterers` later.
+  std::size_t at(std::size_t pair) const { return first + pair + pair / scatterers * scatterers; }
 };
 
 /// Mean over the beams of a line, at all sines, of the product of their amplitudes in two directions over that of a
@@ -61,7 +71,8 @@ struct SharedByBeams {
 void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const SharedByBeams* shared,
                  std::span<float> gains);
 
-/// Echoes by way of the surface, by images of the head; appended to `arrivals`, in the scatterers' order.
+/// Echoes by way of the surface, by images of the head; appended to `arrivals`, way by way and order by order, each in
+/// the scatterers' order.
 ///
 /// With z mirrored at the surface (the head's depth d, a scatterer's depth D), for each scatterer:
 ///   seabed - surface: out directly, back from the scatterer's image;
@@ -80,5 +91,10 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const S
 PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, const SurfaceMirror& surface,
                              const MultipathParts& parts, const frames::HeadPose& pose, const Scatterers& scatterers,
                              const Receivers& receivers, Arrivals& arrivals);
+
+/// add_direct_echoes and then, if there is a surface, add_multipath, in place of what `arrivals` held. What both need
+/// is computed once.
+PairedArrivals make_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
+                           const Receivers& receivers, const Multipath* multipath, Arrivals& arrivals);
 
 }  // namespace ensonify::echo

@@ -110,7 +110,7 @@ TEST_CASE("without speckle an aperture's pair is (sqrt(bT1 bR2) + sqrt(bT2 bR1))
                                                 geometry.pose, {one}, geometry.receivers, arrivals);
     REQUIRE(arrivals.size() == 3);
     CHECK(paired.first == 1);
-    CHECK(paired.pairs == 1);
+    CHECK(paired.pairs() == 1);
     std::vector<float> gain;
     for (const Arrival& arrival : arrivals)
       gain.push_back(float(std::sqrt(arrival.direction_head.z() > 0 ? received_below : received_above)));

@@ -167,11 +167,4 @@ SampledPulse SampledPulse::squared() const {
   return power;
 }
 
-SampledPulse::Place SampledPulse::place(double periods) const {
-  constexpr double kFar = 1e9;  // samples: beyond every window, within an int
-  const double begin = std::clamp(periods + start_in_periods_, -kFar, kFar);
-  const double first = std::ceil(begin);
-  return {static_cast<int>(first), std::min(kPhases - 1, static_cast<int>((first - begin) * kPhases))};
-}
-
 }  // namespace ensonify::echo

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -62,7 +64,19 @@ class SampledPulse {
     int first;  // sample
     int phase;
   };
-  Place place(double periods) const;
+  Place place(double periods) const { return grid().at(periods); }
+  /// The same by value, for vector code.
+  struct Grid {
+    double start_in_periods;
+
+    Place at(double periods) const {
+      constexpr double kFar = 1e9;  // samples: beyond every window, within an int
+      const double begin = std::clamp(periods + start_in_periods, -kFar, kFar);
+      const double first = std::ceil(begin);
+      return {static_cast<int>(first), std::min(kPhases - 1, static_cast<int>((first - begin) * kPhases))};
+    }
+  };
+  Grid grid() const { return {start_in_periods_}; }
 
   /// The receiver's filter as white sound passes it, noise and reverberation: the echo of one point, of energy 1. So
   /// what is white before it, of mean square 1 a sample, keeps that and has the spectrum of echoes.

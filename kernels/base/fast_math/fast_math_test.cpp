@@ -1,0 +1,46 @@
+#include "kernels/base/fast_math/fast_math.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+using namespace ensonify;
+
+TEST_CASE("2^x is right to 2e-7 over all exponents of a float") {
+  double worst = 0.0;
+  for (int i = 0; i <= 2'530'000; ++i) {
+    const auto x = static_cast<float>(-126.0 + 1e-4 * i);
+    const double want = std::exp2(static_cast<double>(x));
+    worst = std::max(worst, std::abs(static_cast<double>(fast_math::exp2(x)) - want) / want);
+  }
+  CHECK(worst < 2e-7);
+}
+
+TEST_CASE("2^x of whole numbers is exact and holds its ends") {
+  for (int n = -126; n <= 127; ++n) CHECK(fast_math::exp2(static_cast<float>(n)) == std::ldexp(1.0F, n));
+  CHECK(fast_math::exp2(-1e30F) == std::ldexp(1.0F, -126));
+  CHECK(fast_math::exp2(1e30F) == std::ldexp(1.0F, 127));
+  CHECK(fast_math::exp2(-std::numeric_limits<float>::infinity()) == std::ldexp(1.0F, -126));
+}
+
+TEST_CASE("cosine and sine of turns are right to 2e-7") {
+  double worst = 0.0;
+  for (int i = -1'000'000; i <= 1'000'000; ++i) {
+    const auto turns = static_cast<float>(5e-7 * i);
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(turns);
+    const auto [cosine, sine] = fast_math::direction(turns);
+    worst = std::max(worst, std::abs(static_cast<double>(cosine) - std::cos(angle)));
+    worst = std::max(worst, std::abs(static_cast<double>(sine) - std::sin(angle)));
+  }
+  CHECK(worst < 2e-7);
+}
+
+TEST_CASE("whole cycles leave no part of a turn, however many") {
+  for (const double cycles : {0.0, 1.0, 1e4, 1e9, -3e6}) {
+    CHECK(fast_math::part_of_turn(cycles) == 0.0F);
+    CHECK(fast_math::part_of_turn(cycles + 0.25) == 0.25F);
+    CHECK(fast_math::part_of_turn(cycles + 0.75) == -0.25F);
+  }
+}
