@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/base/frames/local_projection.h"
+#include "tools/grid/tide.h"
 
 namespace ensonify::grid_tool {
 
@@ -28,6 +29,7 @@ struct FileFacts {
 struct ReadOptions {
   std::vector<std::string> topics;  // of soundings; none: all
   bool turns = false;               // also those of ways between lines, where the record states the mission
+  std::optional<Tide> tide;         // for files whose depths count from the water line
 };
 
 using TakeSounding = std::function<void(const Sounding&)>;
@@ -41,8 +43,13 @@ class SoundingFile {
   virtual void read(const TakeSounding& take) = 0;
 };
 
-/// Opens a record (.mcap, or a run's folder). Throws UserError for one that cannot be read or holds no soundings.
+/// Opens a record (.mcap, or a run's folder), a .all or a .kmall file; which it is, its content says. Throws UserError
+/// for one that cannot be read or holds no soundings.
+std::unique_ptr<SoundingFile> open_file(const std::string& file, const ReadOptions& options);
+
 std::unique_ptr<SoundingFile> open_record(const std::string& file, const ReadOptions& options);
+std::unique_ptr<SoundingFile> open_all(const std::string& file, const ReadOptions& options);
+std::unique_ptr<SoundingFile> open_kmall(const std::string& file, const ReadOptions& options);
 
 /// Points as another program gives them: x, y, depth and standard deviation of each, as doubles, low byte first. "-":
 /// standard input. Their map is nobody's business.

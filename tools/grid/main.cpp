@@ -18,7 +18,7 @@ using namespace ensonify::grid_tool;
 
 struct Options {
   std::vector<std::string> files, out{"grid.tif"};
-  std::string points;
+  std::string points, tide;
   ReadOptions reading;
   double cell_m = 0.0;
   std::string crs;
@@ -34,11 +34,12 @@ Writer writer_of(const std::string& file) {
   throw UserError("--out " + file + ": is no known kind of file; allowed: .tif or .bag");
 }
 
-std::vector<std::unique_ptr<SoundingFile>> opened(const Options& options) {
+std::vector<std::unique_ptr<SoundingFile>> opened(Options options) {
+  if (!options.tide.empty()) options.reading.tide = Tide(options.tide);
   std::vector<std::unique_ptr<SoundingFile>> files;
-  for (const std::string& file : options.files) files.push_back(open_record(file, options.reading));
+  for (const std::string& file : options.files) files.push_back(open_file(file, options.reading));
   if (!options.points.empty()) files.push_back(open_points(options.points));
-  if (files.empty()) throw UserError("FILE: is missing; allowed: records with soundings");
+  if (files.empty()) throw UserError("FILE: is missing; allowed: records with soundings, .all and .kmall files");
   return files;
 }
 
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
       "Exit code: 0 done, 2 wrong input, 5 the file cannot be written.",
       "ensonify grid");
   Options options;
-  app.add_option("FILE", options.files, "records with soundings/1, or runs' folders with one");
+  app.add_option("FILE", options.files, "records with soundings/1, runs' folders with one, .all and .kmall files");
   app.add_option("--out,-o", options.out, "file to write, .tif or .bag; may be given again")
       ->allow_extra_args(false)
       ->capture_default_str();
@@ -101,10 +102,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1e-3, 1e5));
   app.add_option("--crs", options.crs,
                  "map of the grid: utm, or one in metres that GDAL knows, such as EPSG:32619\n"
-                 "(default: transverse Mercator about the scenario's origin)");
+                 "(default: transverse Mercator about the origin of the first file)");
   app.add_option("--soundings", options.reading.topics, "topic of soundings; may be given again (default: all)")
       ->allow_extra_args(false);
   app.add_flag("--turns", options.reading.turns, "also what was sounded in turns, run-ins and run-outs");
+  app.add_option("--tide", options.tide,
+                 "water level above chart datum, for .all and .kmall: lines of UTC and m, 2025-06-01T12:00:00Z,1.35\n"
+                 "(default: depths count from the water line)");
   app.add_option("--points", options.points,
                  "points from another program, - for standard input: x, y, depth and its standard deviation (NaN:\n"
                  "not stated) of each as doubles");

@@ -71,6 +71,9 @@ std::string file_of(const std::string& path) {
 class Record : public SoundingFile {
  public:
   Record(const std::string& path, const ReadOptions& options) : file_(file_of(path)), options_(options) {
+    if (options.tide)
+      throw UserError("--tide " + options.tide->file() + ": " + file_ +
+                      " has heights from chart datum already; allowed: files whose depths count from the water line");
     facts_.file = file_;
     facts_.datum = "chart datum of the scenario";
     look_through();
