@@ -36,19 +36,25 @@ function(ensonify_library name)
   endif()
 endfunction()
 
-# ensonify_find_threads(NAME SOURCES... LIBRARIES...): notes of a target (ENSONIFY_THREADS) whether one of its units starts
-# threads, by itself, TBB or ZeroMQ, or a library of ours that it links.
+# ensonify_find_threads(NAME SOURCES... LIBRARIES...): notes of a target (ENSONIFY_THREADS) whether one of its units, or the
+# header beside it, starts threads by itself, TBB or ZeroMQ, or a library of ours that it links. One that is defined later
+# counts as if it did: too many tests are watched rather than too few.
 function(ensonify_find_threads name)
   set(starts OFF)
   foreach(one ${ARGN})
+    set(found "")
     if(TARGET ${one})
       get_property(found TARGET ${one} PROPERTY ENSONIFY_THREADS)
+    elseif(one MATCHES "^(ensonify|kernels|testing)_")
+      set(found ON)
     else()
       cmake_path(ABSOLUTE_PATH one BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
-      set(found "")
-      if(EXISTS ${one})
-        file(STRINGS ${one} found REGEX "#include <(tbb/parallel_.*|thread|zmq.*)>" LIMIT_COUNT 1)
-      endif()
+      cmake_path(REPLACE_EXTENSION one h OUTPUT_VARIABLE header)
+      foreach(file ${one} ${header})
+        if(EXISTS ${file} AND NOT found)
+          file(STRINGS ${file} found REGEX "#include <(tbb/(parallel|task)_.*|thread|future|zmq.*)>" LIMIT_COUNT 1)
+        endif()
+      endforeach()
     endif()
     if(found)
       set(starts ON)

@@ -79,7 +79,7 @@ struct Mesh {
           "coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: "
           "none), first and number of the triangles that come with it, in `born`",
           self.split);
-    visit("split_deviation_m", "m", "estimate of the surface's distance without it and what is below it",
+    visit("split_deviation_m", "m", "estimate of the surface's deviation without this split and those below it",
           self.split_deviation_m);
     visit("split_box_m", "m", "least and greatest east, north, up, as vertices, of all triangles that change below it",
           self.split_box_m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/formats/all/frame.h"
+#include "components/formats/frame_walk.h"
 #include "components/formats/kmall/frame.h"
 #include "components/formats/xtf/reader.h"
 
@@ -15,12 +16,10 @@ constexpr std::uint64_t kSearched = 1U << 20U;
 /// Where the first whole frame begins, `from` or later; the size of the file: not within the first megabyte.
 template <class Frames>
 std::uint64_t first_frame(Window& file, std::uint64_t from = 0) {
-  std::uint64_t start = from;
-  while (start < std::min(file.size(), kSearched)) {
-    if (Frames::check(file, start).bytes > 0) return start;
-    start = Frames::next_start(file, start + 1);
-  }
-  return file.size();
+  const std::uint64_t end = std::min(file.size(), kSearched);
+  Search search;
+  const std::uint64_t start = search.next_whole<Frames>(file, from, end);
+  return start < end ? start : file.size();
 }
 
 bool is_xtf(Window& file) {

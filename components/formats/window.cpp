@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "components/errors/assert.h"
 #include "components/errors/exit_error.h"
 
 namespace ensonify::formats {
@@ -37,6 +38,16 @@ ByteView Window::at(std::uint64_t offset, std::size_t count) {
   if (offset >= size_) return {};  // it became shorter
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
   return memory_.subspan(static_cast<std::size_t>(offset - begin_), count);
+}
+
+ByteView Window::peek(std::uint64_t offset, std::size_t count) {
+  if (offset >= size_) return {};
+  count = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
+  if (offset >= begin_ && offset - begin_ + count <= memory_.size())
+    return memory_.subspan(static_cast<std::size_t>(offset - begin_), count);
+  ENSONIFY_ASSERT(count <= kPeek, std::to_string(count) + " bytes in a look at " + std::to_string(kPeek));
+  const ssize_t got = ::pread(descriptor_, peeked_.data(), count, static_cast<off_t>(offset));
+  return ByteView(peeked_).first(got > 0 ? static_cast<std::size_t>(got) : 0);
 }
 
 void Window::load(std::uint64_t offset, std::size_t count) {

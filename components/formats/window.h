@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -24,6 +25,9 @@ class Window {
   std::uint64_t size() const { return size_; }
   /// `count` bytes from `offset` on, fewer at the end of the file. They stay until the next call.
   ByteView at(std::uint64_t offset, std::size_t count);
+  /// A look at up to kPeek bytes somewhere else: what at() gave stays where it is.
+  static constexpr std::size_t kPeek = 32;
+  ByteView peek(std::uint64_t offset, std::size_t count);
   /// Empty, or why the file could not be read further; it then ends there.
   const std::string& error() const { return error_; }
 
@@ -35,6 +39,7 @@ class Window {
   ByteView memory_;  // of the file from begin_ on
   std::uint64_t begin_ = 0;
   Bytes buffer_;
+  std::array<std::byte, kPeek> peeked_{};
   std::string error_;
 };
 

@@ -58,8 +58,7 @@ struct ScanningConfig : HeadConfig {
     visit("frequency_hz", "Hz", in(50e3, 3e6), "frequency of the tone", self.frequency_hz);
     visit("horizontal_beamwidth_deg", "deg", in(0.2, 20), "horizontal beamwidth at -3 dB, one-way",
           self.horizontal_beamwidth_rad);
-    visit("shading", "shading of the transducer across its beam, which is as wide as it takes for the beamwidth",
-          self.shading);
+    visit("shading", "shading of the transducer, which is as wide as it takes for the beamwidth", self.shading);
     visit("vertical_beamwidth_deg", "deg", in(0.2, 90), "vertical beamwidth at -3 dB, one-way",
           self.vertical_beamwidth_rad);
     visit("tilt_deg", "deg", in(-90, 90), "down from the plane that the transducer turns in", self.tilt_rad);

@@ -268,7 +268,7 @@ struct Dredged {
 
   static void parameters(auto& self, auto&& visit) {
     visit("line_m", "m", must(place()), "two places or more: east, north, depth", self.line_m);
-    visit("half_width_m", "m", must(in(1e-2, kFarAway_m)), "half width of the track's bottom", self.half_width_m);
+    visit("half_width_m", "m", must(in(1e-2, kFarAway_m)), "half width of the channel's bottom", self.half_width_m);
     visit("side_slope_deg", "", in(0.1, 80), "slope of its sides, degrees", self.side_slope_deg);
   }
   void check(const ConfigReader& from) const;

@@ -109,7 +109,8 @@ struct VehicleKeys {
     visit("roll", "a regular roll", self.roll);
     visit("heave", "a regular heave", self.heave);
     visit("disturbance", "an irregular sea", self.disturbance);
-    visit("floats", "loading of a vehicle that floats on the water level; left out: it is at the mission's depth",
+    visit("floats",
+          "draught and settlement of a vehicle that floats on the water level; left out: it is at the mission's depth",
           self.floats);
     visit("start", "", or_word("first_runline"), "position and heading at the start", self.start);
     visit("mountings", "heads that it carries, by their processes' names", self.mountings);

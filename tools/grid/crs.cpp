@@ -79,6 +79,10 @@ Transformation::Transformation(const std::string& from_wkt, const std::string& t
 
 Transformation::~Transformation() = default;
 
-bool Transformation::transform(double& x_m, double& y_m) const { return !way_ || way_->Transform(1, &x_m, &y_m) != 0; }
+bool Transformation::transform(double& x_m, double& y_m) const {
+  if (!way_) return true;
+  const Quiet quiet;
+  return way_->Transform(1, &x_m, &y_m) != 0;
+}
 
 }  // namespace ensonify::grid_tool

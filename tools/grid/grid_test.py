@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -24,6 +25,14 @@ def grid(*words, given=None):
 def bands(file):
     raster = gdal.Open(str(file))
     return raster, raster.ReadAsArray().astype(float)
+
+
+def shortened(soundings_of):
+    def act(*arguments):
+        soundings, range_m = soundings_of(*arguments)
+        soundings.position_enu_m = soundings.position_enu_m[:-1]
+        return soundings, range_m
+    return act
 
 
 class Points(unittest.TestCase):
@@ -65,9 +74,14 @@ class Points(unittest.TestCase):
     def test_mistakes_name_their_cause(self):
         text = self.root / "no.mcap"
         text.write_text("nothing")
+        two = self.root / "two"
+        two.mkdir()
+        (two / "a.mcap").touch()
+        (two / "b.mcap").touch()
         point = np.array([0.0, 0, 10, 0.1]).tobytes()
         cases = [((), "FILE: is missing", None), ((text,), "is no record", None),
-                 ((self.root / "none.mcap",), "none.mcap", None), ((self.root,), None, None),
+                 ((self.root / "none.mcap",), "none.mcap", None), ((self.root,), "is no record", None),
+                 ((two,), "holds 2 records", None), (("--points", "-", "--tide", "x.csv"), "x.csv: cannot be read", point),
                  (("--points", "-"), "no accepted sounding", b""), (("--points", "-"), "four doubles", point[:-4]),
                  (("--points", "-", "--out", "x.las"), "allowed: .tif or .bag", point),
                  (("--points", "-", "--crs", "utm"), "does not state where it is", point),
@@ -77,12 +91,17 @@ class Points(unittest.TestCase):
         for words, cause, given in cases:
             with self.subTest(words):
                 done = grid("--out", self.root / "y.tif", *words, given=given) if "--out" not in words else grid(*words, given=given)
-                if cause is None:
-                    continue
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(cause, done.stderr.decode())
         done = grid("--points", "-", "--out", self.root / "no/such/folder.tif", given=point)
         self.assertEqual(done.returncode, 5, done.stderr)
+
+    def test_soundings_too_far_apart_for_their_cells_are_refused_while_memory_is_left(self):
+        random = np.random.default_rng(5)
+        points = np.stack([*random.uniform(0, 1e6, (2, 2_000_000)), np.full(2_000_000, 10.0), np.full(2_000_000, 0.1)], 1)
+        done = grid("--points", "-", "--cell", "0.1", "--out", self.root / "sparse.tif", given=points.tobytes())
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("use larger ones", done.stderr.decode())
 
 
 class Records(unittest.TestCase):
@@ -147,6 +166,22 @@ class Records(unittest.TestCase):
             text = bytes(file["BAG_root/metadata"][:]).decode()
         self.assertIn("chart datum of the scenario", text)
         self.assertIn("productUncert", text)
+
+    def test_a_full_disk_is_an_error_with_its_cause(self):
+        for name in ("full.tif", "full.bag"):
+            (self.root / name).symlink_to("/dev/full")
+            done = grid(self.record, "--crs", "utm", "--out", self.root / name)
+            with self.subTest(name):
+                self.assertEqual(done.returncode, 5, done.stderr)
+                self.assertIn("cannot be written: ", done.stderr.decode())
+
+    def test_a_record_with_arrays_that_disagree_is_refused(self):
+        broken = self.root / "broken.mcap"
+        with mock.patch.object(synthetic_record, "soundings_of", shortened(synthetic_record.soundings_of)):
+            synthetic_record.write(broken, lines=1, line_m=5.0, leave_out=("ping/1",))
+        done = grid(broken, "--out", self.root / "broken.tif")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("its arrays differ in length", done.stderr.decode())
 
     def test_topics_are_named_or_refused(self):
         self.assertEqual(grid(self.record, "--soundings", "bow/soundings", "--out", self.root / "topic.tif").returncode, 0)

@@ -12,7 +12,10 @@
 namespace ensonify::grid_tool {
 namespace {
 
-constexpr std::size_t kToChooseBy = 20'000;  // soundings whose depths choose the cell
+constexpr std::size_t kToChooseBy = 20'000;          // soundings whose depths choose the cell
+constexpr std::uint64_t kMostBytes = 8'000'000'000;  // of cells in memory
+
+std::string in_words(const std::string& datum) { return datum.empty() ? "an unstated datum" : datum; }
 
 /// The datum of all files; points have none of their own.
 std::string datum_of(const std::vector<std::unique_ptr<SoundingFile>>& files) {
@@ -21,7 +24,7 @@ std::string datum_of(const std::vector<std::unique_ptr<SoundingFile>>& files) {
     const FileFacts& facts = file->facts();
     if (facts.datum != first.datum)
       throw UserError(fmt::format("{}: its depths count from {}, those of {} from {}; allowed: one datum in a grid",
-                                  facts.file, facts.datum, first.file, first.datum));
+                                  facts.file, in_words(facts.datum), first.file, in_words(first.datum)));
     if (facts.origin.has_value() != first.origin.has_value())
       throw UserError(fmt::format("{}: {} where it is, {} {}; allowed: all files or none", facts.file,
                                   facts.origin ? "states" : "does not state", first.file,
@@ -53,10 +56,19 @@ class Filling {
   }
 
  private:
-  void add(const Sounding& sounding) { grid_->add(sounding.x_m, sounding.y_m, sounding.depth_m, sounding.sd_m); }
+  void add(const Sounding& sounding) {
+    grid_->add(sounding.x_m, sounding.y_m, sounding.depth_m, sounding.sd_m);
+    if (grid_->bytes() > kMostBytes)
+      throw UserError(
+          fmt::format("--cell {:g}: the soundings are so far apart that their cells take more than {} GB; "
+                      "use larger ones",
+                      grid_->cell_m(), kMostBytes / 1'000'000'000));
+  }
   void choose() {
     std::vector<double> depths_m;
-    for (const Sounding& sounding : waiting_) depths_m.push_back(sounding.depth_m);
+    for (const Sounding& sounding : waiting_) {
+      if (std::isfinite(sounding.depth_m)) depths_m.push_back(sounding.depth_m);
+    }
     double median_m = 0.0;
     if (!depths_m.empty()) {
       const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
@@ -86,21 +98,19 @@ Gridded grid_of(const std::vector<std::unique_ptr<SoundingFile>>& files, const G
   const std::string datum = datum_of(files);
   const std::string map = map_of(files.front()->facts(), options.crs);
   Filling filling(options.cell_m);
-  std::uint64_t outside = 0;
+  std::uint64_t left_out = 0;
   std::vector<std::string> sources;
   for (const auto& file : files) {
     const FileFacts& facts = file->facts();
     sources.push_back(facts.file);
     const Transformation to_map(facts.origin ? map_about(*facts.origin) : map, map);
     file->read([&](Sounding sounding) {
-      if (!to_map.transform(sounding.x_m, sounding.y_m)) {
-        ++outside;
-        return;
-      }
-      filling.take(sounding);
+      const bool known = std::isfinite(sounding.x_m) && std::isfinite(sounding.y_m) && std::isfinite(sounding.depth_m);
+      if (known && to_map.transform(sounding.x_m, sounding.y_m)) filling.take(sounding);
+      else ++left_out;
     });
   }
-  return {filling.finish(), {map, datum, sources, kVersion}, outside};
+  return {filling.finish(), {map, datum, sources, kVersion}, left_out};
 }
 
 }  // namespace ensonify::grid_tool

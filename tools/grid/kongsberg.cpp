@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "components/errors/exit_error.h"
 #include "components/formats/all/reader.h"
 #include "components/formats/kmall/reader.h"
+#include "components/runtime/tool.h"
 #include "tools/grid/input.h"
 
 namespace ensonify::grid_tool {
@@ -23,6 +26,9 @@ using frames::Vec2;
 constexpr double kFixed_m = 0.08;
 constexpr double kOfDepth = 0.002;
 
+constexpr std::int64_t kLongestGap_ns = 5'000'000'000;  // between fixes, and between a fix and a ping outside them
+const Vec2 kNowhere(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
+
 double sd_m(double detection_m, double depth_m) {
   return std::hypot(std::isfinite(detection_m) ? detection_m : 0.0, kFixed_m, kOfDepth * depth_m);
 }
@@ -35,7 +41,8 @@ class KongsbergFile : public SoundingFile {
  protected:
   KongsbergFile(const std::string& file, const ReadOptions& options) : file_(file), tide_(options.tide) {
     facts_.file = file;
-    facts_.datum = tide_ ? "chart datum, by the tide of " + tide_->file() : "water line";
+    facts_.datum = tide_ ? "chart datum, by the tide of " + std::filesystem::path(tide_->file()).filename().string()
+                         : "water line";
     if (!options.topics.empty()) throw UserError("--soundings: " + file + " has no topics; it is for records (.mcap)");
   }
 
@@ -104,17 +111,21 @@ class AllFile : public KongsbergFile {
   formats::Faults each(const See& see) {
     formats::Window window(file_);
     all::Reader reader(window);
-    while (const auto datagram = reader.next()) see(*datagram);
+    while (const auto datagram = interrupted() ? std::nullopt : reader.next()) see(*datagram);
     return reader.faults();
   }
 
-  /// Straight between fixes; the nearest one before the first and after the last.
+  /// Straight between fixes; the nearest one before the first and after the last. Nowhere, as NaN, far from any.
   Vec2 at(std::int64_t unix_ns) const {
     const auto after = std::lower_bound(fixes_.begin(), fixes_.end(), unix_ns,
                                         [](const Fix& fix, std::int64_t t) { return fix.unix_ns < t; });
-    if (after == fixes_.begin()) return after->enu_m;
-    if (after == fixes_.end()) return fixes_.back().enu_m;
+    const auto near = [&](const Fix& fix) {
+      return std::abs(fix.unix_ns - unix_ns) <= kLongestGap_ns ? fix.enu_m : kNowhere;
+    };
+    if (after == fixes_.begin()) return near(*after);
+    if (after == fixes_.end()) return near(fixes_.back());
     const Fix& before = *(after - 1);
+    if (after->unix_ns - before.unix_ns > kLongestGap_ns) return kNowhere;
     const double part =
         static_cast<double>(unix_ns - before.unix_ns) / static_cast<double>(after->unix_ns - before.unix_ns);
     return before.enu_m + part * (after->enu_m - before.enu_m);
@@ -163,7 +174,7 @@ class KmallFile : public KongsbergFile {
   void read(const TakeSounding& take) override {
     formats::Window window(file_);
     kmall::Reader reader(window);
-    while (const auto datagram = reader.next()) {
+    while (const auto datagram = interrupted() ? std::nullopt : reader.next()) {
       if (const auto* ping = std::get_if<kmall::Soundings>(&datagram->body)) give(*ping, datagram->unix_ns(), take);
     }
     note(reader.faults());
@@ -171,13 +182,13 @@ class KmallFile : public KongsbergFile {
 
  private:
   void give(const kmall::Soundings& ping, std::int64_t unix_ns, const TakeSounding& take) const {
-    if (!known(ping.pose.latitude_deg, ping.pose.longitude_deg)) return;
+    const bool somewhere = known(ping.pose.latitude_deg, ping.pose.longitude_deg);
     const double tide = tide_m(unix_ns);
     for (const kmall::Sounding& sounding : ping.soundings) {
-      if (!sounding.valid()) continue;
-      const Vec2 position =
-          projection_->enu_of({ping.pose.latitude_deg + static_cast<double>(sounding.delta_latitude_deg),
-                               ping.pose.longitude_deg + static_cast<double>(sounding.delta_longitude_deg)});
+      if (sounding.detection != 0) continue;  // an extra one is of the water column
+      const double latitude_deg = ping.pose.latitude_deg + static_cast<double>(sounding.delta_latitude_deg);
+      const double longitude_deg = ping.pose.longitude_deg + static_cast<double>(sounding.delta_longitude_deg);
+      const Vec2 position = somewhere ? projection_->enu_of({latitude_deg, longitude_deg}) : kNowhere;
       const double depth_m = static_cast<double>(sounding.z_m) - static_cast<double>(ping.pose.water_line_m) - tide;
       take({position.x(), position.y(), depth_m, sd_m(static_cast<double>(sounding.vertical_sd_m), depth_m)});
     }

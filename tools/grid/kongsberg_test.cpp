@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
+#include <span>
 #include <vector>
 
 #include "components/errors/exit_error.h"
@@ -26,12 +26,6 @@ std::vector<Sounding> soundings_of(SoundingFile& file) {
   std::vector<Sounding> soundings;
   file.read([&](const Sounding& sounding) { soundings.push_back(sounding); });
   return soundings;
-}
-
-std::string tide_file(const std::string& text) {
-  const std::string file = "tide_of_grid_test.csv";
-  std::ofstream(file) << text;
-  return file;
 }
 
 void append_position(all::Writer& writer, Bytes& out, std::int64_t unix_ns, double latitude_deg, bool active) {
@@ -75,10 +69,25 @@ TEST_CASE("a sounding of XYZ 88 lies beside the vessel, turned by its heading, b
 
 TEST_CASE("a tide takes its level off depths, and the datum says so") {
   const formats::sample::TemporaryFile file(all_bytes());
-  const Tide tide(tide_file("utc,m\n2026-03-10T11:00:00Z,1.0\n2026-03-10T13:00:00Z,2.0\n"));
+  const std::string readings = "utc,m\n2026-03-10T11:00:00Z,1.0\n2026-03-10T13:00:00Z,2.0\n";
+  const formats::sample::TemporaryFile gauge(std::as_bytes(std::span(readings)));
+  const Tide tide(gauge.path().string());
   const auto opened = open_file(file.path().string(), {.tide = tide});
-  CHECK(opened->facts().datum == "chart datum, by the tide of " + tide.file());
+  CHECK(opened->facts().datum == "chart datum, by the tide of " + gauge.path().filename().string());
   CHECK_THAT(soundings_of(*opened).at(0).depth_m, WithinAbs(21.5 - 1.5, 1e-4));  // a quarter of a second after noon
+}
+
+TEST_CASE("a ping far from any fix is nowhere") {
+  Bytes bytes = all_bytes();
+  all::Writer writer(2040, 42);
+  all::Soundings xyz{.transducer_depth_m = 1.5F};
+  xyz.beams.push_back({.z_m = 20.0F});
+  writer.append_ping(bytes, formats::sample::kBegin_ns + 10 * kSecond, 2, 42, xyz);
+  const formats::sample::TemporaryFile file(bytes);
+  const auto soundings = soundings_of(*open_file(file.path().string(), {}));
+  REQUIRE(soundings.size() == 2);
+  CHECK(std::isfinite(soundings[0].x_m));
+  CHECK(std::isnan(soundings[1].x_m));
 }
 
 TEST_CASE("a file without a position or without soundings is refused") {
@@ -129,7 +138,7 @@ TEST_CASE("soundings of a genuine .kmall file lie where their x and y put them f
         static_cast<double>(ping->pose.heading_deg) * M_PI / 180.0 - projection.convergence_rad(vessel);
     const frames::Vec2 forward(std::sin(heading_rad), std::cos(heading_rad)), starboard(forward.y(), -forward.x());
     for (const auto& sounding : ping->soundings) {
-      if (!sounding.valid()) continue;
+      if (sounding.detection != 0) continue;
       const frames::Vec2 beside =
           vessel + static_cast<double>(sounding.x_m) * forward + static_cast<double>(sounding.y_m) * starboard;
       // The file's floats of latitude and longitude: 1e-10 degrees of some 1e-4; heading to 0.01 degrees, 35 m across.

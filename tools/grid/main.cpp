@@ -39,6 +39,8 @@ std::vector<std::unique_ptr<SoundingFile>> opened(Options options) {
   std::vector<std::unique_ptr<SoundingFile>> files;
   for (const std::string& file : options.files) files.push_back(open_file(file, options.reading));
   if (!options.points.empty()) files.push_back(open_points(options.points));
+  if (options.reading.tide && options.files.empty())
+    throw UserError("--tide " + options.tide + ": points are taken as they are; allowed: with .all and .kmall files");
   if (files.empty()) throw UserError("FILE: is missing; allowed: records with soundings, .all and .kmall files");
   return files;
 }
@@ -55,7 +57,7 @@ nlohmann::ordered_json summary_of(const Gridded& gridded) {
   });
   nlohmann::ordered_json json;
   json["soundings"] = gridded.grid.soundings();
-  json["outside_map"] = gridded.outside_map;
+  json["left_out"] = gridded.left_out;
   json["cell_m"] = gridded.grid.cell_m();
   json["columns"] = frame.columns;
   json["rows"] = frame.rows;
@@ -81,6 +83,8 @@ int run(const Options& options) {
              summary["cells_with_soundings"].get<std::uint64_t>(), gridded.grid.cell_m(),
              summary["shoalest_m"].get<double>(), summary["deepest_m"].get<double>(),
              gridded.facts.datum.empty() ? "an unstated datum" : gridded.facts.datum, fmt::join(options.out, ", "));
+  if (gridded.left_out > 0)
+    fmt::print("left out: {} soundings without a position, or beyond the reach of the grid's map\n", gridded.left_out);
   return kExitOk;
 }
 
@@ -98,7 +102,8 @@ int main(int argc, char** argv) {
   app.add_option("--out,-o", options.out, "file to write, .tif or .bag; may be given again")
       ->allow_extra_args(false)
       ->capture_default_str();
-  app.add_option("--cell", options.cell_m, "side of the cells, m (default: 5 % of the depth, or less)")
+  app.add_option("--cell", options.cell_m,
+                 "side of the cells, m (default: 5 % of the depth, rounded down, at least 0.1)")
       ->check(CLI::Range(1e-3, 1e5));
   app.add_option("--crs", options.crs,
                  "map of the grid: utm, or one in metres that GDAL knows, such as EPSG:32619\n"

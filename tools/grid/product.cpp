@@ -6,9 +6,13 @@
 #include <fmt/ranges.h>
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -21,6 +25,7 @@ using survey_grid::CellSums;
 using survey_grid::SoundingGrid;
 
 constexpr std::int64_t kMostCells = 2'000'000'000;
+constexpr std::int64_t kMostBagCells = 300'000'000;  // made in memory
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kBagNone = 1e6F;  // the format's own word for no value
 
@@ -43,7 +48,9 @@ const std::array<Band, 5> kBands{
     kUncertainty};
 
 [[noreturn]] void lost(const std::string& file) {
-  throw DataLost(fmt::format("{}: cannot be written: {}", file, CPLGetLastErrorMsg()));
+  const int cause = errno;
+  const std::string said = CPLGetLastErrorMsg();
+  throw DataLost(fmt::format("{}: cannot be written: {}", file, said.empty() ? std::strerror(cause) : said));
 }
 
 struct Close {
@@ -58,16 +65,16 @@ GDALDriver& driver(const char* name) {
   return *found;
 }
 
-SoundingGrid::Frame frame_of(const SoundingGrid& grid) {
+SoundingGrid::Frame frame_of(const SoundingGrid& grid, std::int64_t most_cells) {
   const SoundingGrid::Frame frame = grid.frame();
   if (frame.columns == 0) throw UserError("the files hold no accepted sounding");
-  if (frame.columns > kMostCells / frame.rows)
+  if (frame.columns > most_cells / frame.rows)
     throw UserError(fmt::format("--cell {:g}: makes {} x {} cells; at most {} are allowed: use larger ones",
-                                grid.cell_m(), frame.columns, frame.rows, kMostCells));
+                                grid.cell_m(), frame.columns, frame.rows, most_cells));
   return frame;
 }
 
-/// Writes rows from the north, so many at once as fill one row of tiles.
+/// Writes rows from the north.
 void fill(GDALDataset& dataset, int number, const Band& band, const SoundingGrid& grid,
           const SoundingGrid::Frame& frame, float none, const std::string& file) {
   GDALRasterBand& raster = *dataset.GetRasterBand(number);
@@ -104,7 +111,7 @@ std::string sources_text(const ProductFacts& facts) {
 }  // namespace
 
 void write_geotiff(const std::string& file, const SoundingGrid& grid, const ProductFacts& facts) {
-  const SoundingGrid::Frame frame = frame_of(grid);
+  const SoundingGrid::Frame frame = frame_of(grid, kMostCells);
   CPLStringList options;
   for (const char* option : {"COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", "INTERLEAVE=BAND", "BIGTIFF=IF_SAFER"})
     options.AddString(option);
@@ -126,7 +133,7 @@ void write_geotiff(const std::string& file, const SoundingGrid& grid, const Prod
 }
 
 void write_bag(const std::string& file, const SoundingGrid& grid, const ProductFacts& facts) {
-  const SoundingGrid::Frame frame = frame_of(grid);
+  const SoundingGrid::Frame frame = frame_of(grid, kMostBagCells);
   if (facts.crs_wkt.empty()) throw UserError(file + ": a BAG needs a map, and the files do not state where they are");
   const Dataset memory(
       driver("MEM").Create("", static_cast<int>(frame.columns), static_cast<int>(frame.rows), 2, GDT_Float32, nullptr));
@@ -141,10 +148,25 @@ void write_bag(const std::string& file, const SoundingGrid& grid, const ProductF
       "VAR_PROCESS_STEP_DESCRIPTION",
       fmt::format("ensonify grid {}: cells of {} m, weighted mean", facts.version, grid.cell_m()).c_str());
   options.SetNameValue("VAR_VERTICAL_UNCERT_CODE", "productUncert");
+  std::string datum = facts.datum.empty() ? "unknown" : facts.datum;
+  std::replace(datum.begin(), datum.end(), '"', '\'');  // a word of WKT
   options.SetNameValue("VAR_VERT_WKT",
-                       fmt::format("VERT_CS[\"{0}\",VERT_DATUM[\"{0}\",2005],UNIT[\"metre\",1]]", facts.datum).c_str());
-  const Dataset dataset(driver("BAG").CreateCopy(file.c_str(), memory.get(), 0, options.List(), nullptr, nullptr));
+                       fmt::format("VERT_CS[\"{0}\",VERT_DATUM[\"{0}\",2005],UNIT[\"metre\",1]]", datum).c_str());
+  // HDF5 ends the program where the disk is full: the file is made in memory, and written by us.
+  const std::string made = "/vsimem/ensonify_grid.bag";
+  Dataset dataset(driver("BAG").CreateCopy(made.c_str(), memory.get(), 0, options.List(), nullptr, nullptr));
   if (!dataset) lost(file);
+  dataset.reset();
+  vsi_l_offset bytes = 0;
+  const GByte* content = VSIGetMemFileBuffer(made.c_str(), &bytes, 0);
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(content), static_cast<std::streamsize>(bytes));
+  out.close();
+  VSIUnlink(made.c_str());
+  if (!out) {
+    CPLErrorReset();
+    lost(file);
+  }
 }
 
 }  // namespace ensonify::grid_tool

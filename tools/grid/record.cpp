@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/record/reader.h"
+#include "components/runtime/tool.h"
 #include "messages/codec.h"
 #include "messages/motion.h"
 #include "messages/soundings.h"
@@ -84,9 +86,10 @@ class Record : public SoundingFile {
   void read(const TakeSounding& take) override {
     record::RecordReader reader(file_);
     record::RecordedMessage message;
-    while (reader.next(message)) {
+    while (reader.next(message) && !interrupted()) {
       if (!topics_.contains(message.channel->topic)) continue;
       const auto soundings = decoded<msg::Soundings>(message);
+      check(soundings, message);
       if (!options_.turns && working_.stated() && !working_.at(soundings.stamp_ns)) continue;
       for (std::size_t i = 0; i < soundings.valid.size(); ++i) {
         if (soundings.valid[i] == 0) continue;
@@ -98,15 +101,32 @@ class Record : public SoundingFile {
   }
 
  private:
+  /// Arrays of one message may disagree: a record is a file like any other.
+  void check(const msg::Soundings& soundings, const record::RecordedMessage& message) const {
+    const std::size_t beams = soundings.valid.size();
+    const bool fits = soundings.position_enu_m.shape() == std::vector<std::size_t>{beams, 3} &&
+                      (soundings.tvu_m.empty() || soundings.tvu_m.size() == beams);
+    if (!fits)
+      throw UserError(
+          fmt::format("{}: message {} on {}: its arrays differ in length; allowed: a position, and a "
+                      "tvu_m or none, for each of its {} entries",
+                      file_, message.seq, message.channel->topic, beams));
+  }
+
   /// A first reading: what a record says behind the soundings that it is about, and topics that begin late.
   void look_through() {
     record::RecordReader reader(file_);
     record::RecordedMessage message;
-    while (reader.next(message)) {
+    while (reader.next(message) && !interrupted()) {
       if (message.channel->type == msg::MissionState::kType)
         working_.see(message.channel->topic, decoded<msg::MissionState>(message));
       if (message.channel->type == msg::Chart::kType && !facts_.origin) {
         const auto chart = decoded<msg::Chart>(message);
+        if (!(std::abs(chart.origin_latitude_deg) < 90.0 && std::abs(chart.origin_longitude_deg) <= 180.0))
+          throw UserError(
+              fmt::format("{}: its chart/1 has the origin {}, {}; allowed: degrees north and east of a place "
+                          "on the earth",
+                          file_, chart.origin_latitude_deg, chart.origin_longitude_deg));
         facts_.origin = {chart.origin_latitude_deg, chart.origin_longitude_deg};
       }
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -43,11 +44,13 @@ Tide::Tide(std::string file) : file_(std::move(file)) {
   std::string line;
   bool first = true;
   for (int number = 1; std::getline(lines, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with('#')) continue;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos || line[begin] == '#') continue;
     const auto reading = reading_of(line);
     if (reading && (readings_.empty() || reading->first > readings_.back().first)) {
       readings_.push_back(*reading);
-    } else if (!first) {
+    } else if (!first || std::isdigit(static_cast<unsigned char>(line[begin])) != 0) {
       throw UserError(
           fmt::format("{}:{}: is no reading later than those before; allowed: a UTC time and a height in m, "
                       "2025-06-01T12:00:00Z,1.35",

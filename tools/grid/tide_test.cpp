@@ -1,9 +1,10 @@
 #include "tools/grid/tide.h"
 
 #include <catch2/catch.hpp>
-#include <fstream>
+#include <span>
 
 #include "components/errors/exit_error.h"
+#include "components/formats/testing/sample.h"
 
 namespace ensonify::grid_tool {
 namespace {
@@ -12,8 +13,8 @@ constexpr std::int64_t kNoon = 1'773'144'000'000'000'000;  // 10 March 2026, 12:
 constexpr std::int64_t kMinute = 60'000'000'000;
 
 Tide tide_of(const std::string& text) {
-  std::ofstream("tide_test.csv") << text;
-  return Tide("tide_test.csv");
+  const formats::sample::TemporaryFile file(std::as_bytes(std::span(text)));
+  return Tide(file.path().string());
 }
 
 }  // namespace
@@ -23,6 +24,12 @@ TEST_CASE("a tide is straight between its readings") {
   CHECK(tide.level_m(kNoon) == 1.5);
   CHECK(tide.level_m(kNoon + 5 * kMinute) == 0.5);
   CHECK(tide.level_m(kNoon + 10 * kMinute) == -0.5);
+}
+
+TEST_CASE("a byte order mark is no reading") {
+  CHECK(tide_of("\xEF\xBB\xBF"
+                "2026-03-10T12:00:00Z,1.5\n")
+            .level_m(kNoon) == 1.5);
 }
 
 TEST_CASE("a tide says nothing before its first reading and after its last") {
@@ -36,8 +43,10 @@ TEST_CASE("a reading that is none is named with its line") {
                            "2026-03-10T12:20:00Z", "2026-03-10T12:20:00Z,1 m", "2026-03-10T11:00:00Z,1"}) {
     INFO(line);
     CHECK_THROWS_WITH(tide_of(std::string("2026-03-10T12:00:00Z,1\n") + line + "\n"),
-                      Catch::Contains("tide_test.csv:2: "));
+                      Catch::Contains(":2: is no reading"));
   }
+  CHECK_THROWS_WITH(tide_of("2026-03-10T11:00:0OZ,5.0\n2026-03-10T12:00:00Z,1\n"),
+                    Catch::Contains(":1: is no reading"));
   CHECK_THROWS_WITH(tide_of("time,level\n"), Catch::Contains("holds no reading"));
   CHECK_THROWS_WITH(Tide("none.csv"), Catch::Contains("--tide none.csv: cannot be read"));
 }

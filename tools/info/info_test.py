@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 
 
 def info(*words):
@@ -50,6 +51,24 @@ with tempfile.TemporaryDirectory() as folder:
         f"{empty}: it is empty", f"{missing}: cannot be read: No such file or directory",
         f"{folder}: cannot be read: it is not a regular file"], error
     assert ["error" in entry for entry in json.loads(out)] == [True] * 4 + [False], out
+    # Text that is no UTF-8, in a file or as its name, is shown escaped.
+    named = os.path.join(folder.encode(), b"caf\xe9.kmall")
+    raw = open(files[1], "rb").read()
+    open(named, "wb").write(raw.replace(b"EM 2040", b"EM 20\xe90"))
+    done = subprocess.run([os.path.join(sys.argv[1], "ensonify-info").encode(), b"--json", named], capture_output=True)
+    assert done.returncode == 0, done
+    (entry,) = json.loads(done.stdout)
+    assert entry["file"].endswith("caf\\xe9.kmall") and "EM 20\\xe90" in entry["system"], entry
+
+    # Bytes that all look like the beginning of large frames cost no more than time in proportion to them.
+    kmall_like = (b"\x00\x00\x08\x00#AAA" * 600_000)[:4_000_000]
+    all_like = b"".join(b"\x00\x00\x0f\x00\x02X\xf8\x07\xe0\x32\x35\x01\x00\x00\x00\x00\x03" for _ in range(150_000))
+    for name, content in (("like.kmall", kmall_like), ("like.all", all_like)):
+        hostile = os.path.join(folder, name)
+        open(hostile, "wb").write(content)
+        began = time.monotonic()
+        code = info(hostile)[0]
+        assert code in (1, 2) and time.monotonic() - began < 20, (name, code, time.monotonic() - began)
     assert info()[0] == 2
     assert "0 no fault, 1 faults found, 2 a file cannot be read at all" in info("--help")[1]
 print("ensonify info answers as documented")

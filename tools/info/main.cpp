@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/errors/exit_error.h"
+#include "components/errors/printable.h"
 #include "components/runtime/tool.h"
 #include "tools/info/print.h"
 #include "tools/info/summarise.h"
@@ -45,10 +46,10 @@ int main(int argc, char** argv) {
       } catch (const UserError& error) {
         code = kExitUserError;
         fmt::print(stderr, "{}\n", with_name(file, error.what()));
-        if (json) list.push_back({{"file", file}, {"error", with_name(file, error.what())}});
+        if (json) list.push_back({{"file", printable(file)}, {"error", printable(with_name(file, error.what()))}});
       }
     }
-    if (json) fmt::print("{}\n", list.dump(2));
+    if (json) fmt::print("{}\n", list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return code;
   });
 }

@@ -114,7 +114,7 @@ std::string text_of(const std::string& file, const Summary& summary) {
 
 nlohmann::ordered_json json_of(const std::string& file, const Summary& summary) {
   nlohmann::ordered_json json;
-  json["file"] = file;
+  json["file"] = printable(file);
   json["format"] = summary.format;
   json["bytes"] = summary.bytes;
   json["system"] = printable(summary.system);

@@ -1,9 +1,11 @@
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "components/formats/all/installation_text.h"
 #include "components/formats/all/reader.h"
+#include "components/runtime/tool.h"
 #include "tools/info/summarise.h"
 
 namespace ensonify::info {
@@ -76,22 +78,35 @@ std::vector<Mounting> mountings(const std::string& text) {
   return found;
 }
 
-/// Which of N, X and Y a ping of a head has.
+/// Whether each ping of a head has N, X and Y. Numbers come again after 65536 pings: a ping is over when all three, or
+/// one of them a second time, have come.
 class Completeness {
  public:
   void add(char type, std::uint16_t serial, std::uint16_t number) {
     const std::size_t at = std::string("NXY").find(type);
-    if (at != std::string::npos) seen_[at].insert({serial, number});
+    if (at == std::string::npos) return;
+    ++counts_[at];
+    const auto bit = static_cast<std::uint8_t>(1U << at);
+    std::uint8_t& seen = seen_[{serial, number}];
+    if ((seen & bit) != 0) {
+      ++incomplete_;
+      seen = 0;
+    }
+    seen |= bit;
+    if (seen == 7) seen_.erase({serial, number});
   }
   void note_in(std::vector<std::string>& notes) const {
-    if (seen_[0] == seen_[1] && seen_[1] == seen_[2]) return;
-    const auto count = [&](std::size_t at) { return std::to_string(seen_[at].size()); };
-    notes.push_back("pings by number and serial: " + count(0) + " with N, " + count(1) + " with X, " + count(2) +
-                    " with Y, which should be the same pings");
+    const std::uint64_t incomplete = incomplete_ + seen_.size();
+    if (incomplete == 0) return;
+    notes.push_back("pings without all of N, X and Y: " + std::to_string(incomplete) + "; there are " +
+                    std::to_string(counts_[0]) + " N, " + std::to_string(counts_[1]) + " X and " +
+                    std::to_string(counts_[2]) + " Y");
   }
 
  private:
-  std::array<std::set<std::pair<std::uint16_t, std::uint16_t>>, 3> seen_;
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::uint8_t> seen_;  // by serial and number, bits of N, X, Y
+  std::array<std::uint64_t, 3> counts_{};
+  std::uint64_t incomplete_ = 0;
 };
 
 }  // namespace
@@ -103,7 +118,7 @@ Summary summarise_all(formats::Window& file) {
   bool first = true, ping_before_position = false;
 
   Reader reader(file);
-  while (const auto datagram = reader.next()) {
+  while (const auto datagram = interrupted() ? std::nullopt : reader.next()) {
     const std::int64_t time_ns = datagram->unix_ns();
     const std::string head = "serial " + std::to_string(datagram->header.serial);
     systems.insert("EM " + std::to_string(datagram->header.model) + " " + head);
@@ -119,11 +134,11 @@ Summary summarise_all(formats::Window& file) {
         installation && summary.mountings.empty()) {
       summary.mountings = mountings(installation->text);
     } else if (const auto* position = std::get_if<Position>(&datagram->body)) {
-      summary.positions.add(time_ns);
+      summary.positions.add(time_ns, position->descriptor & 3);
       summary.extent.add(position->latitude_deg.value(), position->longitude_deg.value());
     } else if (const auto* attitude = std::get_if<Attitude>(&datagram->body)) {
       for (const auto& entry : attitude->entries)
-        summary.attitudes.add(time_ns + entry.after_ms * std::int64_t{1'000'000});
+        summary.attitudes.add(time_ns + entry.after_ms * std::int64_t{1'000'000}, attitude->descriptor >> 4U & 3);
     } else if (const auto* xyz = std::get_if<Soundings>(&datagram->body)) {
       summary.pings[head].add_modulo(datagram->header.counter, time_ns);
       ping_before_position = ping_before_position || summary.positions.count == 0;

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "components/formats/kmall/installation_text.h"
 #include "components/formats/kmall/reader.h"
+#include "components/runtime/tool.h"
 #include "tools/info/summarise.h"
 
 namespace ensonify::info {
@@ -65,7 +67,7 @@ Summary summarise_kmall(formats::Window& file) {
   std::uint64_t parted = 0;
 
   Reader reader(file);
-  while (const auto datagram = reader.next()) {
+  while (const auto datagram = interrupted() ? std::nullopt : reader.next()) {
     const std::int64_t time_ns = datagram->unix_ns();
     systems.insert("EM " + std::to_string(datagram->header.sounder));
     Kind& kind = summary.kinds[datagram->type];
@@ -84,15 +86,15 @@ Summary summarise_kmall(formats::Window& file) {
         if (group.name == "SYSTEM") system_name = group.text;
       }
     } else if (const auto* position = std::get_if<Position>(&datagram->body)) {
-      summary.positions.add(time_ns);
+      summary.positions.add(time_ns, position->sensor.sensor);
       summary.extent.add(position->latitude_deg, position->longitude_deg);
     } else if (const auto* motion = std::get_if<Motion>(&datagram->body)) {
-      for (const auto& sample : motion->samples) summary.attitudes.add(time_of(sample));
+      for (const auto& sample : motion->samples) summary.attitudes.add(time_of(sample), motion->sensor);
     } else if (const auto* ping = std::get_if<Soundings>(&datagram->body)) {
       if (ping->partition.parts != 1) ++parted;
       summary.pings["head " + std::to_string(ping->ping.fan + 1)].add_modulo(ping->ping.ping, time_ns);
       for (const auto& sounding : ping->soundings) {
-        if (sounding.valid()) summary.depth_m.add(double{sounding.z_m} - ping->pose.water_line_m);
+        if (sounding.detection == 0) summary.depth_m.add(double{sounding.z_m} - ping->pose.water_line_m);
       }
     }
   }

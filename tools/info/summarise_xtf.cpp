@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <optional>
 
 #include "components/formats/text.h"
 #include "components/formats/xtf/reader.h"
 #include "components/formats/xtf/writer.h"
+#include "components/runtime/tool.h"
 #include "tools/info/summarise.h"
 
 namespace ensonify::info {
@@ -66,7 +68,7 @@ Summary summarise_xtf(formats::Window& file) {
     summary.notes.emplace_back("positions are not in degrees, and in which projection the file does not say");
   std::uint64_t undated = 0, too_long = 0;
 
-  while (const auto packet = reader.next()) {
+  while (const auto packet = interrupted() ? std::nullopt : reader.next()) {
     Kind& kind = summary.kinds[std::to_string(packet->header.type)];
     kind.about = about(packet->header.type);
     ++kind.count;

@@ -26,12 +26,13 @@ void Extent::add(double latitude_deg, double longitude_deg) {
 double Extent::west_deg() const { return std::remainder(unwrapped_deg_.low, 360.0); }
 double Extent::east_deg() const { return std::remainder(unwrapped_deg_.high, 360.0); }
 
-void Stream::add(std::int64_t time_ns) {
+void Stream::add(std::int64_t time_ns, int sensor) {
+  if (const auto before = newest_ns_.find(sensor); before != newest_ns_.end() && time_ns < before->second) ++backward;
+  newest_ns_[sensor] = time_ns;
   if (count++ == 0) {
     first_ns = last_ns = time_ns;
     return;
   }
-  if (time_ns < last_ns) ++backward;
   if (time_ns - last_ns > longest_gap_ns) {
     longest_gap_ns = time_ns - last_ns;
     gap_begin_ns = last_ns;
@@ -41,8 +42,9 @@ void Stream::add(std::int64_t time_ns) {
 }
 
 double Stream::rate_hz() const {
-  if (count < 2 || last_ns == first_ns) return 0;
-  return static_cast<double>(count - 1) / (1e-9 * static_cast<double>(last_ns - first_ns));
+  const auto sensors = static_cast<double>(newest_ns_.size());
+  if (static_cast<double>(count) < 2.0 * sensors || last_ns == first_ns) return 0;
+  return (static_cast<double>(count) / sensors - 1.0) / (1e-9 * static_cast<double>(last_ns - first_ns));
 }
 
 void Pings::add_modulo(std::uint16_t number, std::int64_t time_ns) {

@@ -45,11 +45,14 @@ struct Stream {
   std::int64_t last_ns = 0;
   std::int64_t longest_gap_ns = 0;
   std::int64_t gap_begin_ns = 0;
-  std::uint64_t backward = 0;  // times before that of the value before
+  std::uint64_t backward = 0;  // times before that of the value before, of the same sensor
 
-  void add(std::int64_t time_ns);
-  /// Values a second; 0 of fewer than two.
+  void add(std::int64_t time_ns, int sensor = 0);
+  /// Values of a sensor a second, in the mean of the sensors; 0 of fewer than two.
   double rate_hz() const;
+
+ private:
+  std::map<int, std::int64_t> newest_ns_;  // by sensor
 };
 
 /// Pings of one head by their numbers, which are modulo 65536 in .all and .kmall.

@@ -66,6 +66,19 @@ TEST_CASE("a stream's rate is that of its values, its longest gap has a time") {
   CHECK(stream.backward == 1);
 }
 
+TEST_CASE("a step back is held against the value before, of the same sensor") {
+  Stream stream;
+  for (const std::int64_t time_ns : {10, 5, 6, 7}) stream.add(time_ns);
+  CHECK(stream.backward == 1);
+  Stream two;
+  for (std::int64_t i = 0; i < 10; ++i) {
+    two.add(1'000'000'000 * (i + 1), 0);
+    two.add(1'000'000'000 * i, 1);  // late by a second
+  }
+  CHECK(two.backward == 0);
+  CHECK_THAT(two.rate_hz(), WithinAbs(0.9, 1e-9));  // nine steps of each within ten seconds
+}
+
 TEST_CASE("what a .all file and a .kmall file of one seabed say agrees") {
   const Summary all = summary_of(formats::sample::all_file().bytes);
   const Summary kmall = summary_of(formats::sample::kmall_file().bytes);

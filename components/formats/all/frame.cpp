@@ -42,17 +42,20 @@ FrameCheck FrameFormat::check(Window& file, std::uint64_t offset) {
   if (header.time_ms > kDayMs + 1000) {  // a leap second
     return {.what = "the time of day", .found = header.time_ms, .most = kDayMs + 1000, .claimed = bytes};
   }
+  // The end mark first: it is one byte, the checksum may be of a megabyte.
+  const ByteView end = file.peek(offset + bytes - kTrailerBytes, 1);
+  if (end.empty() || end[0] != kEnd) {
+    const std::uint64_t found = end.empty() ? 0 : std::to_integer<std::uint64_t>(end[0]);
+    return {.what = "the end mark", .found = found, .allowed = 3, .claimed = bytes};
+  }
   const ByteView frame = file.at(offset, static_cast<std::size_t>(bytes));
   if (frame.size() < bytes) return {.what = "the number of bytes left", .found = frame.size(), .allowed = bytes};
   const ByteView trailer = frame.last(kTrailerBytes);
-  if (trailer[0] != kEnd) {
-    return {
-        .what = "the end mark", .found = std::to_integer<std::uint64_t>(trailer[0]), .allowed = 3, .claimed = bytes};
-  }
   const auto stated = ByteSource(trailer.last(2)).number<std::uint16_t>();
   const std::uint16_t summed =
       checksum(frame.subspan(kLengthBytes + 1, frame.size() - kLengthBytes - 1 - kTrailerBytes));
-  if (stated != summed) return {.what = "the checksum", .found = stated, .allowed = summed, .claimed = bytes};
+  if (stated != summed)
+    return {.what = "the checksum", .found = stated, .allowed = summed, .claimed = bytes, .examined = bytes};
   return {.bytes = bytes};
 }
 

@@ -35,7 +35,7 @@ FrameCheck FrameFormat::check(Window& file, std::uint64_t offset) {
   if (length > file.size() - offset) {
     return {.what = "the length", .found = length, .rule = "at most what is left of the file"};
   }
-  const ByteView trailer = file.at(offset + length - kLengthBytes, kLengthBytes);
+  const ByteView trailer = file.peek(offset + length - kLengthBytes, kLengthBytes);
   const auto again = ByteSource(trailer).number<std::uint32_t>();
   if (again != length) return {.what = "the length at the end", .found = again, .allowed = length, .claimed = length};
   return {.bytes = length};

@@ -7,13 +7,13 @@ namespace ensonify::formats::xtf {
 namespace {
 
 bool is_magic(Window& file, std::uint64_t offset) {
-  const ByteView bytes = file.at(offset, sizeof FrameFormat::kMagic);
+  const ByteView bytes = file.peek(offset, sizeof FrameFormat::kMagic);
   return bytes.size() == sizeof FrameFormat::kMagic && ByteSource(bytes).number<std::uint16_t>() == FrameFormat::kMagic;
 }
 
 /// Length of a packet by its own word; 0: it cannot be one.
 std::uint64_t stated_length(Window& file, std::uint64_t offset) {
-  const ByteView head = file.at(offset, FrameFormat::kHeadBytes);
+  const ByteView head = file.peek(offset, FrameFormat::kHeadBytes);
   if (head.size() < FrameFormat::kHeadBytes) return 0;
   const auto length = ByteSource(head.subspan(FrameFormat::kLengthAt)).number<std::uint32_t>();
   const bool can_be = length >= FrameFormat::kHeadBytes && length <= FrameFormat::kMostLength;
@@ -53,7 +53,7 @@ FrameCheck FrameFormat::check(Window& file, std::uint64_t offset) {
   }
   if (length > left) return {.what = "the length", .found = length, .rule = "at most what is left of the file"};
   if (holds_a_packet(file, offset + kHeadBytes, offset + length)) {
-    return {.what = "the length", .found = length, .rule = "that up to the next packet"};
+    return {.what = "the length", .found = length, .rule = "that up to the next packet", .examined = length};
   }
   return {.bytes = length};
 }

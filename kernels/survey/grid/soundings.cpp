@@ -33,24 +33,6 @@ void CellSums::add(double depth_m, double sd_m) {
   variances_m2_ += sd * sd;
 }
 
-void CellSums::add(const CellSums& other) {
-  if (other.count_ == 0) return;
-  if (count_ == 0) {
-    *this = other;
-    return;
-  }
-  const double shift = other.first_m_ - first_m_;
-  squares_m2_ += other.squares_m2_ + 2.0 * shift * other.sum_m_ + shift * shift * other.count_;
-  sum_m_ += other.sum_m_ + shift * other.count_;
-  weighted_sum_ += other.weighted_sum_ + shift * other.weights_;
-  weights_ += other.weights_;
-  variances_m2_ += other.variances_m2_;
-  least_m_ = std::min(least_m_, other.least_m_);
-  most_m_ = std::max(most_m_, other.most_m_);
-  count_ += other.count_;
-  stated_ += other.stated_;
-}
-
 double CellSums::mean_m() const { return count_ == 0 ? kNone : first_m_ + sum_m_ / count_; }
 double CellSums::shoalest_m() const { return count_ == 0 ? kNone : least_m_; }
 double CellSums::deepest_m() const { return count_ == 0 ? kNone : most_m_; }

@@ -15,7 +15,6 @@ class CellSums {
  public:
   /// `sd_m`: standard deviation of the sounding, as it is stated; NaN: not stated. Only stated ones have a weight.
   void add(double depth_m, double sd_m);
-  void add(const CellSums& other);
 
   std::uint32_t count() const { return count_; }
   bool weighted() const { return weights_ > 0.0; }
@@ -42,10 +41,10 @@ class CellSums {
 };
 
 /// Square cells, their edges on whole multiples of their side from the origin of the coordinates. Room is made where
-/// soundings are, in blocks of 64 by 64 cells.
+/// soundings are, in blocks of 8 by 8 cells.
 class SoundingGrid {
  public:
-  static constexpr std::int64_t kBlock = 64;
+  static constexpr std::int64_t kBlock = 8;
 
   /// Throws std::invalid_argument for a side that is not above 0 and finite.
   explicit SoundingGrid(double cell_m);
@@ -62,6 +61,8 @@ class SoundingGrid {
 
   double cell_m() const { return cell_m_; }
   std::uint64_t soundings() const { return soundings_; }
+  /// Memory that the cells take.
+  std::uint64_t bytes() const { return blocks_.size() * sizeof(Block); }
   /// A cell without soundings where there is none.
   const CellSums& at(std::int64_t column, std::int64_t row) const;
   /// Calls see(column, row, sums) for each cell that has soundings, southern blocks and western blocks first.

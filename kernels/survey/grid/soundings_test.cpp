@@ -64,23 +64,6 @@ TEST_CASE("a standard deviation of a millimetre is right at 8 km") {
   CHECK_THAT(sums.sd_m(), WithinAbs(1e-3, 3e-5));  // four times sd / sqrt(2 n)
 }
 
-TEST_CASE("sums of two halves are those of the whole") {
-  const random::Stream noise{7, "halves"};
-  CellSums whole, one, other;
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const double depth_m = 50.0 + noise.normal(i, 0), sd_m = 0.1 + noise.uniform(i, 1);
-    whole.add(depth_m, sd_m);
-    (i % 3 == 0 ? one : other).add(depth_m, sd_m);
-  }
-  one.add(other);
-  CHECK(one.count() == whole.count());
-  CHECK(one.shoalest_m() == whole.shoalest_m());
-  CHECK_THAT(one.mean_m(), WithinAbs(whole.mean_m(), 1e-12));
-  CHECK_THAT(one.sd_m(), WithinAbs(whole.sd_m(), 1e-12));
-  CHECK_THAT(one.weighted_m(), WithinAbs(whole.weighted_m(), 1e-12));
-  CHECK_THAT(one.stated_sd_m(), WithinAbs(whole.stated_sd_m(), 1e-12));
-}
-
 TEST_CASE("cells have their edges on multiples of their side, also west and south of the origin") {
   SoundingGrid grid(2.0);
   grid.add(0.0, 0.0, 10.0, kNotStated);  // the south-west corner belongs to a cell, the others do not
