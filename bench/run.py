@@ -20,6 +20,7 @@ from drive_bench import bench_drive
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
 from navigation_bench import bench_navigation
+from profile_bench import bench_profile
 from uncertainty_bench import bench_uncertainty
 
 
@@ -38,7 +39,7 @@ def bench_kernels(b):
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
            "python": bench_python, "observers": bench_observers, "heads": bench_heads,
-           "navigation": bench_navigation, "drive": bench_drive, "uncertainty": bench_uncertainty,
+           "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty,
            "kernels": bench_kernels}
 
 

@@ -117,7 +117,11 @@ Echosounder::Report Echosounder::ping(const PingEvent& event, const SentPing& se
   const Design& design = design_of(*this, settings, memory_.design);
   const SeaAcoustics& sea = echoes_.sea();
   head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
-  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, echoes_.transmit()};
+  const Shot shot{.poses = memory_.poses,
+                  .transmit_s = seconds(event.transmit),
+                  .source_level_db = settings.source_level_db,
+                  .transmit = echoes_.transmit(),
+                  .latest_s = latest_arrival_s(design.sampling, design.shot.pulse)};
 
   const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, event.range_m);
   const Insonified insonified =

@@ -164,7 +164,11 @@ ForwardLooking::Report ForwardLooking::ping(const PingEvent& event, const SentPi
   const echo::Sampling& sampling = design.ranged.sampling;
   const SeaAcoustics& sea = echoes_.sea();
   head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
-  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, {&faces_.transmit, 1}};
+  const Shot shot{.poses = memory_.poses,
+                  .transmit_s = seconds(event.transmit),
+                  .source_level_db = settings.source_level_db,
+                  .transmit = {&faces_.transmit, 1},
+                  .latest_s = latest_arrival_s(sampling, design.shot.pulse)};
   const double true_mps = sea.sound_speed_mps(shot.pose());
   // The window is set by the head's sound speed; sound travels by the true one.
   const double reach_m = 0.5 * true_mps * sampling.count * sampling.period_s;

@@ -110,11 +110,13 @@ Sector::Sent Sector::insonify(const PingEvent& event, const HeadSettings& settin
   head_poses(around.truth, config_.mounting.actual, sent, from_seconds(reception_s), memory.poses);
   aim(steering, memory.poses.front(), memory);
   pattern_.steer(memory.steered, memory.transmit);
-  const Shot shot{memory.poses,
-                  seconds(sent),
-                  settings.source_level_db,
-                  {&memory.transmit, 1},
-                  {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad}};
+  // Other sectors receive its echoes too, of a sweep earlier by up to a pulse.
+  const Shot shot{.poses = memory.poses,
+                  .transmit_s = seconds(sent),
+                  .source_level_db = settings.source_level_db,
+                  .transmit = {&memory.transmit, 1},
+                  .steer = {memory.steered.sin_transmit, memory.steered.middle_rad - design.centre_rad},
+                  .latest_s = latest_arrival_s(sampling, design.shot.pulse) + settings.pulse_length_s};
   // The window is set by the head's sound speed; sound travels by the true one.
   const double window_s =
       sampling.start_s + sampling.count * sampling.period_s - config_.resolved_s(settings.pulse_length_s);

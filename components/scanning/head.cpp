@@ -122,7 +122,11 @@ Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, co
   const frames::Quaternion turned(Eigen::AngleAxisd(angle_rad, frames::Vec3::UnitZ()));  // forward towards starboard
   head_poses(around.truth, config_.mounting.actual, event.transmit, transmission.reception, memory_.poses);
   for (frames::HeadPose& pose : memory_.poses) pose.enu_from_head = pose.enu_from_head * turned;
-  const Shot shot{memory_.poses, seconds(event.transmit), settings.source_level_db, echoes_.transmit()};
+  const Shot shot{.poses = memory_.poses,
+                  .transmit_s = seconds(event.transmit),
+                  .source_level_db = settings.source_level_db,
+                  .transmit = echoes_.transmit(),
+                  .latest_s = latest_arrival_s(design.ranged.sampling, design.shot.pulse)};
 
   const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, event.range_m);
   const Insonified insonified =

@@ -107,9 +107,10 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
     multipath->surface.level_enu_m = environment_->water_level_m(shot.transmit_s);
     multipath->surface.sound_speed_mps = sound_speed_mps(pose);
     multipath->surface.rms_height_m = environment_->rms_wave_height_m();
+    multipath->latest_s = shot.latest_s;
   }
   const echo::Multipath* by = multipath ? &*multipath : nullptr;
-  echoed.paired = echo::make_echoes(carrier, pose, found, memory.receivers, by, memory.arrivals);
+  echoed.paired = echo::make_echoes(carrier, pose, found, memory.receivers, by, memory.echoes, memory.arrivals);
   if (exact_ && paths_.refracted()) {
     echo::take_eigenrays(carrier, environment_->profile(), pose.position_enu_m, found, memory.receivers, 0,
                          memory.arrivals);

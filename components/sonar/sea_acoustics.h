@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -115,9 +116,16 @@ struct Shot {
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
   /// So many rays are in memory at a time; a multiple of 16. No more depends on it than the rounding of the mean depth.
   std::size_t rays_per_batch = 65'536;
+  /// After transmission. Nobody receives echoes that arrive later (latest_arrival_s).
+  double latest_s = std::numeric_limits<double>::infinity();
 
   const frames::HeadPose& pose() const { return poses.front(); }  // at transmission
 };
+
+/// Echoes of a pulse that arrive later than this reach none of the samples.
+inline double latest_arrival_s(const echo::Sampling& sampling, const echo::Pulse& pulse) {
+  return sampling.start_s + sampling.count * sampling.period_s - pulse.start_s;
+}
 
 /// What rays hit.
 struct HitSums {
@@ -164,6 +172,7 @@ struct ShotMemory {
   echo::SpeckleCells::Accumulator insonified;
   echo::Scatterers scatterers;
   echo::Receivers receivers;
+  echo::EchoMemory echoes;
   echo::Arrivals arrivals;
   echo::Arrivals foreign;  // of other transmissions
 };

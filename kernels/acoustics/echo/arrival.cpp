@@ -23,7 +23,7 @@ void add_direct_echoes(const Carrier& carrier, const frames::Vec3& source_enu_m,
                        const Receivers& receivers, Arrivals& arrivals) {
   const std::size_t before = arrivals.size();
   arrivals.resize(before + scatterers.size());
-  for_runs(carrier, receivers, source_enu_m, scatterers, [&](Run& run) {
+  for_runs(carrier, receivers, source_enu_m, scatterers, [&](Run& run, std::size_t) {
     run.direct({arrivals, before + run.first()});
   });
 }

@@ -232,7 +232,8 @@ void echoes_part(benchmark::State& state) {
   transmit.times(array::GaussianFactor{5.0});
   const echo::Multipath multipath{{220.0, {&transmit, 1}}, {}, {}};
   const echo::Multipath* const by = state.range(0) != 0 ? &multipath : nullptr;
-  for (auto _ : state) echo::make_echoes({300e3, 0.07}, kHead, ping.found, ping.receivers, by, ping.arrivals);
+  echo::EchoMemory memory;
+  for (auto _ : state) echo::make_echoes({300e3, 0.07}, kHead, ping.found, ping.receivers, by, memory, ping.arrivals);
   set_rays(state, ping.found.size());
 }
 

@@ -220,7 +220,7 @@ TEST_CASE("without speckle all beams together receive a pair's pressures, near o
     const Arrivals powers{from_sine(0.2, 11e-3, 9.0), from_sine(0.2 + apart, 11e-3, 1.0)};
     const SharedByBeams shared = shared_by_beams(line, weights);
     std::vector<float> gain{1.0F, 1.0F};
-    power_gains(powers, {0, 1, 1}, &shared, gain);
+    power_gains(powers, {0, {1, 0}}, &shared, gain);
     const SampledPulse squared = kPulse.squared();
     const Image image = form(line, {std::array{EchoSet{powers, gain}}, kPulse, kSampling, {}, &squared}, beams,
                              WantedImage(weights, Sum::kMeanSquare));

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "kernels/acoustics/echo/run.h"
 #include "kernels/acoustics/sea_surface.h"
@@ -71,35 +73,53 @@ bool reflects(const SurfaceMirror& surface, double frequency_hz, const frames::H
 /// The ways by the surface of a ping, of the parts that are wanted.
 class Ways {
  public:
-  Ways(const Carrier& carrier, const Multipath& by, const frames::HeadPose& pose, const Scatterers& scatterers)
+  Ways(const Carrier& carrier, const Multipath& by, const frames::HeadPose& pose, const Scatterers& scatterers,
+       const Receivers& receivers)
       : head_(by.head), head_from_enu_(pose.enu_from_head.conjugate().toRotationMatrix()) {
     const SurfaceMirror& surface = by.surface;
     if (!reflects(surface, carrier.frequency_hz, pose, scatterers)) return;
     // Mirrored at the surface; and of that once more at the scatterer's own level.
-    const double level_m = surface.level_enu_m, amplitude = of_db(surface.bounce_loss_db);
-    const double roughness_rad = wavenumber_radpm(surface, carrier.frequency_hz) * surface.rms_height_m;
-    const Run::Mirror once{
-        -1.0, 2.0 * level_m, amplitude, roughness_rad, level_m, surface.sound_speed_mps, trace::EchoPath::kViaSurface};
+    const double level_m = surface.level_enu_m;
+    const Run::Mirror once{.scale = -1.0,
+                           .shift_m = 2.0 * level_m,
+                           .amplitude = of_db(surface.bounce_loss_db),
+                           .roughness_rad = wavenumber_radpm(surface, carrier.frequency_hz) * surface.rms_height_m,
+                           .level_enu_m = level_m,
+                           // The receiver may have come nearer.
+                           .longest_m = by.latest_s * surface.sound_speed_mps + receivers.farthest_m(),
+                           .sound_speed_mps = surface.sound_speed_mps,
+                           .path = trace::EchoPath::kViaSurface};
     Run::Mirror twice = once;
     twice.scale = 3.0;
     twice.shift_m = -2.0 * level_m;
     twice.amplitude *= of_db(by.head.bottom_mirror_loss_db);
     twice.path = trace::EchoPath::kViaBottom;
-    if (by.parts.one_bounce) mirrors_[count_++] = once;
-    if (by.parts.second_bottom) mirrors_[count_++] = twice;
+    if (by.parts.one_bounce) mirrors_[0] = once;
+    if (by.parts.second_bottom) mirrors_[1] = twice;
   }
 
-  std::size_t count() const { return count_; }
+  bool any() const { return mirrors_[0] || mirrors_[1]; }
 
-  /// Echoes of a run, to where `paired` says.
-  void add(Run& run, const PairedArrivals& paired, Arrivals& arrivals) const {
+  std::array<std::size_t, 2> count(Run& run) const {
+    std::array<std::size_t, 2> images{};
+    for (std::size_t way = 0; way < 2; ++way) {
+      if (mirrors_[way]) images[way] = run.count_images(*mirrors_[way]);
+    }
+    return images;
+  }
+
+  /// Echoes of a run; `before` have been counted in the runs before it.
+  void add(Run& run, const std::array<std::size_t, 2>& before, const PairedArrivals& paired, Arrivals& arrivals) const {
     std::array<double, Run::kMost> sent_upa2m2;
-    const auto sent = std::span(sent_upa2m2).first(run.count());
-    for (std::size_t way = 0; way < count_; ++way) {
-      array::powers(head_.transmit, run.launch(mirrors_[way], head_from_enu_), {}, sent);
+    for (std::size_t way = 0; way < 2; ++way) {
+      if (!mirrors_[way]) continue;
+      const array::Directions launch = run.launch(*mirrors_[way], head_from_enu_);
+      if (launch.size() == 0) continue;
+      const auto sent = std::span(sent_upa2m2).first(launch.size());
+      array::powers(head_.transmit, launch, {}, sent);
       for (double& power : sent) power *= source_upa2m2_;
-      const std::size_t row = paired.at(way * paired.scatterers + run.first());
-      run.by_image(mirrors_[way], sent, {arrivals, row}, {arrivals, row + paired.scatterers});
+      const auto [one, other] = paired[(way == 0 ? 0 : paired.scatterers[0]) + before[way]];
+      run.by_image(*mirrors_[way], sent, {arrivals, one}, {arrivals, other});
     }
   }
 
@@ -107,22 +127,30 @@ class Ways {
   const MultipathHead& head_;
   Eigen::Matrix3d head_from_enu_;
   double source_upa2m2_ = power_ratio(head_.source_level_db);  // on the axis
-  std::array<Run::Mirror, 2> mirrors_;
-  std::size_t count_ = 0;
+  std::array<std::optional<Run::Mirror>, 2> mirrors_;
 };
 
 /// Adds what there is by way of a surface to arrivals, and the direct echoes before it if they are wanted.
 PairedArrivals add_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
                           const Receivers& receivers, const Multipath& by, std::size_t before, bool direct,
-                          Arrivals& arrivals) {
-  const Ways ways(carrier, by, pose, scatterers);
-  const std::size_t count = scatterers.size();
-  const PairedArrivals paired{before + (direct ? count : 0), ways.count(), count};
+                          EchoMemory& memory, Arrivals& arrivals) {
+  const Ways ways(carrier, by, pose, scatterers, receivers);
+  const auto each_run = [&](const auto& work) { for_runs(carrier, receivers, pose.position_enu_m, scatterers, work); };
+  PairedArrivals paired{before + (direct ? scatterers.size() : 0)};
+  auto& images = memory.images;
+  images.assign((scatterers.size() + Run::kMost - 1) / Run::kMost, {});
+  if (ways.any()) each_run([&](Run& run, std::size_t number) { images[number] = ways.count(run); });
+  for (auto& of_run : images) {
+    for (std::size_t way = 0; way < 2; ++way) {
+      const std::size_t here = std::exchange(of_run[way], paired.scatterers[way]);
+      paired.scatterers[way] += here;
+    }
+  }
   arrivals.resize(paired.end() + (by.parts.surface_echo ? 1 : 0));
-  if (direct || ways.count() > 0) {
-    for_runs(carrier, receivers, pose.position_enu_m, scatterers, [&](Run& run) {
+  if (direct || paired.pairs() > 0) {
+    each_run([&](Run& run, std::size_t number) {
       if (direct) run.direct({arrivals, before + run.first()});
-      ways.add(run, paired, arrivals);
+      if (paired.pairs() > 0) ways.add(run, images[number], paired, arrivals);
     });
   }
   if (by.parts.surface_echo) arrivals.set(paired.end(), surface_echo(carrier, by.head, by.surface, pose, receivers));
@@ -153,8 +181,8 @@ void power_gains(const Arrivals& arrivals, const PairedArrivals& paired, const S
     if (i < paired.first || i >= paired.end()) gains[i] *= gains[i];
   }
   tbb::parallel_for(std::size_t{0}, paired.pairs(), [&](std::size_t i) {
-    const std::size_t one = paired.at(i);
-    pair(one, one + paired.scatterers);
+    const auto [one, other] = paired[i];
+    pair(one, other);
   });
 }
 
@@ -162,17 +190,22 @@ PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, 
                              const MultipathParts& parts, const frames::HeadPose& pose, const Scatterers& scatterers,
                              const Receivers& receivers, Arrivals& arrivals) {
   if (pose.position_enu_m.z() >= surface.level_enu_m) return {};
-  return add_echoes(carrier, pose, scatterers, receivers, {head, surface, parts}, arrivals.size(), false, arrivals);
+  EchoMemory memory;
+  return add_echoes(carrier, pose, scatterers, receivers, {head, surface, parts}, arrivals.size(), false, memory,
+                    arrivals);
 }
 
 PairedArrivals make_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
-                           const Receivers& receivers, const Multipath* multipath, Arrivals& arrivals) {
+                           const Receivers& receivers, const Multipath* multipath, EchoMemory& memory,
+                           Arrivals& arrivals) {
   // Room for all ways, even where waves leave none in this ping.
   arrivals.make_room((multipath ? 1 + kMostEach : 1) * scatterers.size() + 1);
   if (multipath && pose.position_enu_m.z() < multipath->surface.level_enu_m)
-    return add_echoes(carrier, pose, scatterers, receivers, *multipath, 0, true, arrivals);
+    return add_echoes(carrier, pose, scatterers, receivers, *multipath, 0, true, memory, arrivals);
   arrivals.resize(scatterers.size());
-  for_runs(carrier, receivers, pose.position_enu_m, scatterers, [&](Run& run) { run.direct({arrivals, run.first()}); });
+  for_runs(carrier, receivers, pose.position_enu_m, scatterers, [&](Run& run, std::size_t) {
+    run.direct({arrivals, run.first()});
+  });
   return {};
 }
 

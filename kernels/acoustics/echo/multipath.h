@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -36,21 +39,34 @@ struct Multipath {
   MultipathHead head;
   SurfaceMirror surface;
   MultipathParts parts;
+  double latest_s = std::numeric_limits<double>::infinity();  // echoes that come later may be left out
+};
+
+/// Memory of make_echoes: its contents do not matter.
+struct EchoMemory {
+  std::vector<std::array<std::size_t, 2>> images;  // by run of scatterers and way
 };
 
 /// Coherent amplitude of one reflection by the surface, with sign: what waves leave (kernels/acoustics) and bubbles let
 /// through.
 double surface_reflection(const SurfaceMirror& surface, double frequency_hz, double sin_grazing);
 
-/// Arrivals that are one scatterer's by one way in both orders: for each of so many ways from `first` on, those of all
+/// Arrivals that are one scatterer's by one way in both orders: for each of two ways, from `first` on, those of so many
 /// scatterers in one order and then those in the other.
 struct PairedArrivals {
-  std::size_t first = 0, ways = 0, scatterers = 0;
+  std::size_t first = 0;
+  std::array<std::size_t, 2> scatterers{};  // of each way
 
-  std::size_t pairs() const { return ways * scatterers; }
+  std::size_t pairs() const { return scatterers[0] + scatterers[1]; }
   std::size_t end() const { return first + 2 * pairs(); }
-  /// First arrival of a pair. The other is so many `scatterers` later.
-  std::size_t at(std::size_t pair) const { return first + pair + pair / scatterers * scatterers; }
+  struct Pair {
+    std::size_t one, other;
+  };
+  Pair operator[](std::size_t pair) const {
+    const bool second = pair >= scatterers[0];
+    const std::size_t one = first + pair + (second ? scatterers[0] : 0);
+    return {one, one + scatterers[second ? 1 : 0]};
+  }
 };
 
 /// Mean over the beams of a line, at all sines, of the product of their amplitudes in two directions over that of a
@@ -95,6 +111,7 @@ PairedArrivals add_multipath(const Carrier& carrier, const MultipathHead& head, 
 /// add_direct_echoes and then, if there is a surface, add_multipath, in place of what `arrivals` held. What both need
 /// is computed once.
 PairedArrivals make_echoes(const Carrier& carrier, const frames::HeadPose& pose, const Scatterers& scatterers,
-                           const Receivers& receivers, const Multipath* multipath, Arrivals& arrivals);
+                           const Receivers& receivers, const Multipath* multipath, EchoMemory& memory,
+                           Arrivals& arrivals);
 
 }  // namespace ensonify::echo

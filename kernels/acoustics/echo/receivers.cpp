@@ -36,6 +36,15 @@ void Receivers::steps(std::span<const double> time_s, std::span<std::int32_t> st
   }
 }
 
+double Receivers::farthest_m() const {
+  double farthest_m = 0.0;
+  for (const Step& step : steps_) {
+    const Eigen::Vector4d end = step.position_enu_m + step.position_change_m;
+    farthest_m = std::max(farthest_m, (end - steps_.front().position_enu_m).norm());
+  }
+  return farthest_m;
+}
+
 Receivers::At Receivers::at(double time_s) const {
   std::int32_t step;
   double passed;

@@ -31,6 +31,9 @@ class Receivers {
   /// Attitude between two poses: the mean of the matrices, right to the square of the turn between them.
   At at(double time_s) const;
 
+  /// How far the receiver gets from where it is at the first pose, m.
+  double farthest_m() const;
+
   // For many times: first in which step between two poses each lies and how much of that has passed (0..1), then what
   // is wanted then, with a fourth row of zeros so that it is vector code.
   void steps(std::span<const double> time_s, std::span<std::int32_t> step, std::span<double> passed) const;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -53,10 +52,13 @@ class Run {
     double scale, shift_m;
     double amplitude, roughness_rad;  // k sigma
     double level_enu_m;               // what stands above it has no image
+    double longest_m;                 // way out and back; longer ones have none either
     double sound_speed_mps;
     trace::EchoPath path;
   };
-  /// Where the way from the head to the images leaves, in the head's frame.
+  /// How many of the scatterers have an image.
+  std::size_t count_images(const Mirror& mirror);
+  /// Takes these scatterers for by_image(). Returns where the way from the head to the images leaves, in its frame.
   array::Directions launch(const Mirror& mirror, const Eigen::Matrix3d& head_from_enu);
   /// Echoes out directly and back from the image, and in the other order. `sent` leaves towards the images,
   /// uPa^2 m^2. After launch() for the same mirror.
@@ -67,11 +69,21 @@ class Run {
   template <class T>
   using Column = std::array<T, kMost>;
 
-  void find_receiver();
-  void back_from(const Column<double>& height_m);
+  /// Scatterers that echoes are made of: columns of the run, or of those of it that have an image.
+  struct Of {
+    const double *x_m, *y_m, *z_m, *out_m;
+    const float *scattered_upa2m2, *cross_section_m2, *response_re, *response_im, *share;
+    const std::uint32_t* contributor;
+    std::size_t count;
+  };
+  Of all() const;
+  std::size_t find_images(const Mirror& mirror);
+  void take(std::size_t images);
+  void find_receiver(std::size_t count);
+  void back_from(const Of& of, const double* height_m);
   void direct_levels();
-  void turn_to_head(const ArrivalRows& out) const;
-  void arrive(const ArrivalRows& out) const;
+  void turn_to_head(std::size_t count, const ArrivalRows& out) const;
+  void arrive(const Of& of, const ArrivalRows& out) const;
   void by_way_of(const Mirror& mirror, const ArrivalRows& out) const;
 
   const Carrier& carrier_;
@@ -81,8 +93,13 @@ class Run {
   std::size_t first_ = 0, count_ = 0;
   // Of the scatterers, from the head at transmission.
   alignas(64) Column<double> x_m_, y_m_, z_m_, out_m_;
-  // Of their images.
+  // Of their images, and which scatterers have one; then of these alone.
   alignas(64) Column<double> image_z_m_, image_out_m_;
+  alignas(64) Column<std::int32_t> has_image_;
+  Of imaged_{};
+  alignas(64) Column<double> imaged_x_m_, imaged_y_m_, imaged_z_m_, imaged_out_m_;
+  alignas(64) Column<float> scattered_, cross_section_, response_re_, response_im_, share_;
+  alignas(64) Column<std::uint32_t> contributor_;
   alignas(64) Column<float> launch_x_, launch_y_, launch_z_;
   // Of the receiver then: where it is, from the head at transmission.
   alignas(64) Column<double> look_up_s_, passed_, receiver_x_m_, receiver_y_m_, receiver_z_m_;
@@ -94,20 +111,20 @@ class Run {
   alignas(64) Column<float> reflected_;
 };
 
-/// Calls work(run, first, count) for all scatterers, in tasks of four runs each, whatever the number of threads.
+/// Calls work(run, number) for the runs of all scatterers, in tasks of four, whatever the number of threads.
 template <class Work>
 void for_runs(const Carrier& carrier, const Receivers& receivers, const frames::Vec3& source_enu_m,
               const Scatterers& scatterers, const Work& work) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, scatterers.size(), 4 * Run::kMost),
-      [&](const auto& range) {
-        Run run(carrier, receivers, source_enu_m);
-        for (std::size_t first = range.begin(); first < range.end(); first += Run::kMost) {
-          run.set(scatterers, first, std::min(Run::kMost, range.end() - first));
-          work(run);
-        }
-      },
-      tbb::simple_partitioner());
+  constexpr std::size_t kRunsPerTask = 4;
+  const std::size_t runs = (scatterers.size() + Run::kMost - 1) / Run::kMost;
+  tbb::parallel_for(std::size_t{0}, (runs + kRunsPerTask - 1) / kRunsPerTask, [&](std::size_t task) {
+    Run run(carrier, receivers, source_enu_m);
+    for (std::size_t number = task * kRunsPerTask; number < std::min(runs, (task + 1) * kRunsPerTask); ++number) {
+      const std::size_t first = number * Run::kMost;
+      run.set(scatterers, first, std::min(Run::kMost, scatterers.size() - first));
+      work(run, number);
+    }
+  });
 }
 
 }  // namespace ensonify::echo

@@ -190,24 +190,24 @@ TEST_CASE("echoes by the surface in columns are those of the formula, one by one
     Arrivals arrivals;
     const PairedArrivals paired =
         add_multipath(sea.carrier, sea.multipath.head, surface, {}, sea.pose(), all, sea.receivers, arrivals);
-    REQUIRE(arrivals.size() == 4 * kMany + 1);
-    REQUIRE(paired.pairs() == 2 * kMany);
+    std::vector<Scatterer> below;  // the surface: the others have no image
+    for (const Scatterer one : all) {
+      if (one.position_enu_m.z() < surface.level_enu_m) below.push_back(one);
+    }
+    REQUIRE(below.size() < kMany);
+    REQUIRE(paired.scatterers == std::array{below.size(), below.size()});
+    REQUIRE(arrivals.size() == 4 * below.size() + 1);
     Errors errors;
     for (std::size_t way = 0; way < 2; ++way) {
       const double mirror = way == 0 ? 1.0 : std::pow(10.0, -0.05 * sea.multipath.head.bottom_mirror_loss_db);
-      for (std::size_t i = 0; i < kMany; ++i) {
-        const Scatterer one = all[i];
-        const double z = one.position_enu_m.z(), once = 2.0 * surface.level_enu_m - z;
-        const std::size_t first = paired.at(way * kMany + i), second = first + paired.scatterers;
-        if (z >= surface.level_enu_m) {
-          REQUIRE(std::norm(arrivals.pressure_upa(first)) + std::norm(arrivals.pressure_upa(second)) == 0.0F);
-          continue;
-        }
-        const auto want = sea.by_image(one, way == 0 ? once : 2.0 * z - once, mirror);
+      const auto path = way == 0 ? trace::EchoPath::kViaSurface : trace::EchoPath::kViaBottom;
+      for (std::size_t i = 0; i < below.size(); ++i) {
+        const double z = below[i].position_enu_m.z(), once = 2.0 * surface.level_enu_m - z;
+        const auto [first, second] = paired[way * below.size() + i];
+        const auto want = sea.by_image(below[i], way == 0 ? once : 2.0 * z - once, mirror);
         errors.add(arrivals[first], want[0]);
         errors.add(arrivals[second], want[1]);
-        const auto path = way == 0 ? trace::EchoPath::kViaSurface : trace::EchoPath::kViaBottom;
-        REQUIRE(arrivals.contributor[first] == trace::by_path(one.contributor, path));
+        REQUIRE(arrivals.contributor[first] == trace::by_path(below[i].contributor, path));
         REQUIRE(arrivals.contributor[second] == arrivals.contributor[first]);
       }
     }
@@ -218,28 +218,72 @@ TEST_CASE("echoes by the surface in columns are those of the formula, one by one
 TEST_CASE("direct echoes and those by the surface are the same made together or one after another") {
   const Sea sea(Sum::kPressure);
   const Scatterers all = scatterers(sea, kMany);
+  EchoMemory memory;
   Arrivals apart, together;
   together.resize(17);  // of an earlier ping
   add_direct_echoes(sea.carrier, sea.pose().position_enu_m, all, sea.receivers, apart);
-  make_echoes(sea.carrier, sea.pose(), all, sea.receivers, nullptr, together);
+  make_echoes(sea.carrier, sea.pose(), all, sea.receivers, nullptr, memory, together);
   CHECK(together == apart);
   const PairedArrivals one =
       add_multipath(sea.carrier, sea.multipath.head, sea.multipath.surface, {}, sea.pose(), all, sea.receivers, apart);
-  const PairedArrivals other = make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &sea.multipath, together);
+  const PairedArrivals other =
+      make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &sea.multipath, memory, together);
   CHECK(together == apart);
   CHECK(other.first == one.first);
   CHECK(other.pairs() == one.pairs());
 }
 
+/// Those before a time, in their order.
+static std::vector<Arrival> before(const Arrivals& arrivals, double latest_s) {
+  std::vector<Arrival> early;
+  for (const Arrival one : arrivals) {
+    if (one.time_s <= latest_s) early.push_back(one);
+  }
+  return early;
+}
+
+TEST_CASE("what comes after the last sample may be left out, and nothing else") {
+  const Sea sea(Sum::kPressure);
+  const Scatterers all = scatterers(sea, kMany);
+  EchoMemory memory;
+  Arrivals every;
+  make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &sea.multipath, memory, every);
+  for (const double latest_s : {0.004, 0.03, 0.1, 0.4}) {
+    Multipath multipath = sea.multipath;
+    multipath.latest_s = latest_s;
+    Arrivals some;
+    const PairedArrivals paired = make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &multipath, memory, some);
+    CHECK(paired.first == kMany);
+    CHECK(paired.end() + 1 == some.size());
+    const auto want = before(every, latest_s), found = before(some, latest_s);
+    REQUIRE(found.size() == want.size());
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      REQUIRE(found[i].time_s == want[i].time_s);
+      REQUIRE(found[i].pressure_upa == want[i].pressure_upa);
+      REQUIRE(found[i].direction_head == want[i].direction_head);
+      REQUIRE(found[i].contributor == want[i].contributor);
+    }
+    // The receiver moves by 1 m or less: what comes more than that later is not made.
+    for (std::size_t i = kMany; i + 1 < some.size(); ++i) REQUIRE(some.time_s[i] < latest_s + 8.0 / kSpeed_mps);
+  }
+}
+
 TEST_CASE("an echo is the same whatever other scatterers there are") {
   const Sea sea(Sum::kPressure);
   const Scatterers all = scatterers(sea, 3 * Run::kMost + 5);
-  Arrivals together;
-  make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &sea.multipath, together);
-  for (const std::size_t i : {std::size_t{0}, Run::kMost - 1, Run::kMost, all.size() - 1}) {
-    Arrivals alone;
-    make_echoes(sea.carrier, sea.pose(), {all[i]}, sea.receivers, &sea.multipath, alone);
-    for (std::size_t path = 0; path < 5; ++path)
-      CHECK(alone[path].pressure_upa == together[path * all.size() + i].pressure_upa);
+  EchoMemory memory;
+  Arrivals together, alone;
+  const PairedArrivals paired =
+      make_echoes(sea.carrier, sea.pose(), all, sea.receivers, &sea.multipath, memory, together);
+  std::size_t below = 0;  // the surface, before this one
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    make_echoes(sea.carrier, sea.pose(), {all[i]}, sea.receivers, &sea.multipath, memory, alone);
+    REQUIRE(alone.pressure_upa(0) == together.pressure_upa(i));
+    if (all.position_enu_m.z[i] >= sea.multipath.surface.level_enu_m) continue;
+    const auto [one, other] = paired[below];
+    REQUIRE(alone.pressure_upa(1) == together.pressure_upa(one));
+    REQUIRE(alone.pressure_upa(2) == together.pressure_upa(other));
+    ++below;
   }
+  CHECK(below == paired.scatterers[0]);
 }

@@ -1,87 +1,75 @@
 #include "kernels/acoustics/echo/speckle_cells.h"
 
-#include <tbb/blocked_range.h>
-
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace ensonify::echo {
 namespace {
 
-using frames::Vec3;
-
-constexpr std::size_t kRaysPerTask = 4096;
-constexpr std::uint64_t kNothing = ~std::uint64_t{0};  // no cell has this number: cells use 63 bits
-constexpr int kBits = 21;
-constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
 /// Blocks of 16 cells each way go to one bucket, so that the hits of a bucket stand together in memory.
 constexpr std::uint64_t kBlock =
-    ~(std::uint64_t{15} | (std::uint64_t{15} << kBits) | (std::uint64_t{15} << (2 * kBits)));
+    ~(std::uint64_t{15} | (std::uint64_t{15} << kCellBits) | (std::uint64_t{15} << (2 * kCellBits)));
+/// Blocks of 4 cells each way, whose slots in a table are one line of the cache.
+constexpr std::uint64_t kPatch =
+    ~(std::uint64_t{3} | (std::uint64_t{3} << kCellBits) | (std::uint64_t{3} << (2 * kCellBits)));
+constexpr std::size_t kLine = 16, kLeastTable = 64;
 
 /// The top bits are well mixed.
 std::uint64_t spread(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15ULL; }
-/// Where a search for a cell begins in a table whose size is a power of 2.
-std::size_t slot_of(std::uint64_t cell, std::size_t table_size) { return (spread(cell) >> 40) & (table_size - 1); }
-/// A flat seabed at a round depth must not lie on the border of two layers of cells.
-const Vec3 kShift(0.3819660113, 0.6180339887, 0.2360679775);
 
-/// A complex Gaussian of mean square 1 from 64 random bits (Box and Muller [BoxMuller1958]).
-std::complex<float> gaussian(std::uint32_t radius, std::uint32_t turn) {
-  const float u = (static_cast<float>(radius >> 8) + 0.5F) * 0x1p-24F;
-  const float angle = static_cast<float>(turn) * (std::numbers::pi_v<float> * 0x1p-31F);
-  const float r = std::sqrt(-std::log(u));
-  return {r * std::cos(angle), r * std::sin(angle)};
+/// Where a search for a cell begins in a table whose size is a power of 2. Of a layer of a patch, whichever way it
+/// stands, all 16 cells begin in different slots of one line.
+std::size_t slot_of(std::uint64_t cell, std::size_t table_size) {
+  const std::uint64_t up = cell >> (2 * kCellBits);
+  const std::uint64_t in_line = ((cell + up) & 3) | (((cell >> kCellBits) + up) & 3) << 2;
+  return (((spread(cell & kPatch) >> 40) * kLine) & (table_size - 1)) | in_line;
 }
 
+/// The next slot: another of the next line, and in the end every one.
+std::size_t after(std::size_t slot, std::size_t table_size) { return (slot + kLine + 1) & (table_size - 1); }
+
 }  // namespace
+
+void SpeckleCells::Bucket::reserve(std::size_t size) {
+  entries.reserve(size);
+  geometry.reserve(size);
+  rays.reserve(size);
+}
 
 void SpeckleCells::Accumulator::clear() {
   for (Bucket& bucket : buckets_) {
     // The next ping may have some more: no memory for them then.
-    if (const std::size_t size = bucket.entries.size(); bucket.entries.capacity() < size + size / 2) {
-      bucket.entries.clear();
-      bucket.entries.reserve(2 * size);
-    }
+    const std::size_t size = bucket.entries.size();
     bucket.entries.clear();
+    bucket.geometry.clear();
+    if (bucket.entries.capacity() < size + size / 2) bucket.reserve(2 * size);
     std::ranges::fill(bucket.table, -1);
   }
 }
 
-SpeckleCells::SpeckleCells(double cell_m, const random::Stream& stream)
-    : cell_m_(cell_m), per_cell_(1.0 / cell_m), stream_(stream) {
+SpeckleCells::SpeckleCells(double cell_m, const random::Stream& stream) : cell_m_(cell_m), stream_(stream) {
   if (!(cell_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
 }
 
-std::uint64_t SpeckleCells::cell_at(const Vec3& position_enu_m) const {
-  const Vec3 cell = position_enu_m * per_cell_ + kShift;
-  const auto index = [](double x) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x))) & kMask;
-  };
-  return index(cell.x()) | (index(cell.y()) << kBits) | (index(cell.z()) << (2 * kBits));
-}
-
-SpeckleCells::Insonified SpeckleCells::insonified_by(const Insonification& batch, std::size_t ray) const {
-  const trace::Hits& hits = batch.hits;
-  if (!hits.hit(ray)) return {kNothing, 0, 0, 0.0F, 0.0F};
-  const float sigma_solid =
-      batch.backscatter[ray] * batch.rays.solid_angle_sr[ray] / std::max(hits.sin_grazing[ray], 1e-3F);
-  return {cell_at(hits.position_enu_m[ray]), static_cast<std::uint32_t>(ray), hits.contributor[ray],
-          batch.source_upa2m2[ray] * sigma_solid, hits.tube_m2[ray] * sigma_solid};
-}
-
 void SpeckleCells::add(const Insonification& batch, Accumulator& sum) const {
-  auto& insonified = sum.insonified_;
-  trace::make_elements(insonified, batch.hits.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, insonified.size(), kRaysPerTask),
-      [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) insonified[i] = insonified_by(batch, i);
-      },
-      tbb::simple_partitioner());
-  sum.by_bucket_.sort(insonified, kBuckets, [](const Insonified& one) {
-    return one.cell == kNothing ? kBuckets : static_cast<std::size_t>(spread(one.cell & kBlock) >> 56);
+  const auto each_run = [&](std::size_t begin, std::size_t end, const auto& work) {
+    std::array<CellHit, kCellRun> hits;
+    for (; begin < end; begin += kCellRun) {
+      const auto run = std::span(hits).first(std::min(kCellRun, end - begin));
+      find_cells(batch, cell_m_, begin, run);
+      for (const CellHit& hit : run) work(hit);
+    }
+  };
+  const auto bucket_of = [](const CellHit& hit) {
+    return hit.cell == kNoCell ? kBuckets : static_cast<std::size_t>(spread(hit.cell & kBlock) >> 56);
+  };
+  sum.by_bucket_.count(batch.hits.size(), kBuckets, [&](std::size_t begin, std::size_t end, const auto& add) {
+    each_run(begin, end, [&](const CellHit& hit) { add(bucket_of(hit)); });
+  });
+  sum.by_bucket_.fill([&](std::size_t begin, std::size_t end, const auto& add) {
+    each_run(begin, end, [&](const CellHit& hit) { add(bucket_of(hit), hit); });
   });
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
     merge(batch, std::as_const(sum.by_bucket_).bucket(bucket), sum.buckets_[bucket]);
@@ -89,68 +77,65 @@ void SpeckleCells::add(const Insonification& batch, Accumulator& sum) const {
 }
 
 /// Adds rays to the entries of their cells and contributors, which are made when they are first found.
-void SpeckleCells::merge(const Insonification& batch, std::span<const Insonified> insonified, Bucket& bucket) const {
-  auto& [entries, table] = bucket;
-  for (const Insonified& one : insonified) {
+void SpeckleCells::merge(const Insonification& batch, std::span<const CellHit> hits, Bucket& bucket) const {
+  auto& [entries, geometry, table, rays] = bucket;
+  const std::size_t before = entries.size();
+  rays.clear();
+  for (const CellHit& hit : hits) {
     if (2 * (entries.size() + 1) > table.size()) grow(bucket);
-    std::size_t slot = slot_of(one.cell, table.size());
-    while (table[slot] >= 0 && entries[static_cast<std::size_t>(table[slot])].cell != one.cell)
-      slot = (slot + 1) & (table.size() - 1);
+    std::size_t slot = slot_of(hit.cell, table.size());
+    while (table[slot] >= 0 && entries[static_cast<std::size_t>(table[slot])].cell != hit.cell)
+      slot = after(slot, table.size());
     const auto number = static_cast<std::int32_t>(entries.size());
     if (table[slot] < 0) {
       table[slot] = number;
-      entries.push_back({one.cell, one.scattered_upa2m2, number, -1, scatterer(batch, one)});
+      entries.push_back(
+          {hit.cell, hit.scattered_upa2m2, hit.cross_section_m2, hit.scattered_upa2m2, hit.contributor, number, -1});
+      rays.push_back(hit.ray);
       continue;
     }
     Entry& cell = entries[static_cast<std::size_t>(table[slot])];
-    cell.scatterer.scattered_upa2m2 += one.scattered_upa2m2;
-    cell.scatterer.cross_section_m2 += one.cross_section_m2;
+    cell.scattered_upa2m2 += hit.scattered_upa2m2;
+    cell.cross_section_m2 += hit.cross_section_m2;
     Entry* same = &cell;
-    while (same->scatterer.contributor != one.contributor && same->next >= 0)
+    while (same->contributor != hit.contributor && same->next >= 0)
       same = &entries[static_cast<std::size_t>(same->next)];
-    if (same->scatterer.contributor == one.contributor) {
-      same->own_upa2m2 += one.scattered_upa2m2;
+    if (same->contributor == hit.contributor) {
+      same->own_upa2m2 += hit.scattered_upa2m2;
     } else {
       same->next = number;
-      Entry other{one.cell, one.scattered_upa2m2, table[slot], -1, cell.scatterer};
-      other.scatterer.contributor = one.contributor;
-      entries.push_back(other);
+      entries.push_back({hit.cell, 0.0F, 0.0F, hit.scattered_upa2m2, hit.contributor, table[slot], -1});
+      rays.push_back(hit.ray);
     }
   }
+  find_new(batch, before, bucket);
+}
+
+/// Geometry of entries from `begin` on: of a cell's first by its ray, of the others that of the first.
+void SpeckleCells::find_new(const Insonification& batch, std::size_t begin, Bucket& bucket) const {
+  auto& [entries, geometry, table, rays] = bucket;
+  geometry.resize(entries.size());
+  std::array<std::uint64_t, kCellRun> cells;
+  for (std::size_t done = begin; done < entries.size(); done += kCellRun) {
+    const std::size_t count = std::min(kCellRun, entries.size() - done);
+    for (std::size_t i = 0; i < count; ++i) cells[i] = entries[done + i].cell;
+    find_geometry(batch, cell_m_, stream_, std::span(cells).first(count), std::span(rays).subspan(done - begin, count),
+                  geometry.data() + done);
+  }
+  for (std::size_t i = begin; i < entries.size(); ++i)
+    geometry[i] = geometry[static_cast<std::size_t>(entries[i].first)];
 }
 
 void SpeckleCells::grow(Bucket& bucket) {
-  auto& [entries, table] = bucket;
-  table.assign(std::max<std::size_t>(64, 2 * table.size()), -1);
+  const auto& entries = bucket.entries;
+  auto& table = bucket.table;
+  table.assign(std::max(kLeastTable, 2 * table.size()), -1);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (static_cast<std::size_t>(entries[i].first) != i) continue;
     std::size_t slot = slot_of(entries[i].cell, table.size());
-    while (table[slot] >= 0) slot = (slot + 1) & (table.size() - 1);
+    while (table[slot] >= 0) slot = after(slot, table.size());
     table[slot] = static_cast<std::int32_t>(i);
   }
-}
-
-Scatterer SpeckleCells::scatterer(const Insonification& batch, const Insonified& first) const {
-  const trace::Hit hit = batch.hits[first.ray];
-  const auto bits = stream_.bits(first.cell);
-  const Vec3 inside(0x1p-16 * (bits[2] & 0xffff), 0x1p-16 * (bits[2] >> 16), 0x1p-16 * (bits[3] & 0xffff));
-  const Vec3 cell = (hit.position_enu_m * per_cell_ + kShift).array().floor();
-  const Vec3 somewhere = cell_m_ * (cell + inside - kShift);
-  const Vec3 normal = hit.normal_enu.cast<double>();
-  const double straight_m = hit.range_m;
-  const Vec3 launch = batch.pose.enu_from_head * batch.rays.direction_head[first.ray].cast<double>();
-
-  Scatterer found;
-  found.position_enu_m = somewhere - normal * normal.dot(somewhere - hit.position_enu_m);
-  found.bend_enu = (launch - (hit.position_enu_m - batch.pose.position_enu_m) / straight_m).cast<float>();
-  found.slowness_spm = hit.travel_time_s / hit.range_m;
-  found.stretch = hit.path_length_m / hit.range_m;
-  found.spreading = hit.tube_m2 / (hit.range_m * hit.range_m);
-  found.scattered_upa2m2 = first.scattered_upa2m2;
-  found.cross_section_m2 = first.cross_section_m2;
-  found.response = gaussian(bits[0], bits[1]);
-  found.contributor = first.contributor;
-  return found;
 }
 
 void SpeckleCells::gather(Accumulator& sum, Scatterers& found) {
@@ -159,13 +144,21 @@ void SpeckleCells::gather(Accumulator& sum, Scatterers& found) {
   for (const Bucket& bucket : sum.buckets_) start.push_back(start.back() + bucket.entries.size());
   found.make_elements(start.back());
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t number) {
-    const std::vector<Entry>& entries = sum.buckets_[number].entries;
+    const auto& [entries, geometry, table, rays] = sum.buckets_[number];
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const Entry& own = entries[i];
       const Entry& cell = entries[static_cast<std::size_t>(own.first)];  // of all of its contributors
-      Scatterer one = own.scatterer;
-      one.scattered_upa2m2 = cell.scatterer.scattered_upa2m2;
-      one.cross_section_m2 = cell.scatterer.cross_section_m2;
+      const CellGeometry& at = geometry[i];
+      Scatterer one{at.position_enu_m,
+                    at.bend_enu,
+                    at.slowness_spm,
+                    at.stretch,
+                    at.spreading,
+                    cell.scattered_upa2m2,
+                    cell.cross_section_m2,
+                    {at.response_re, at.response_im},
+                    1.0F,
+                    own.contributor};
       if (cell.next >= 0 && one.scattered_upa2m2 > 0.0F) one.share = own.own_upa2m2 / one.scattered_upa2m2;
       found.set(start[number] + i, one);
     }

@@ -1,30 +1,16 @@
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/echo/cell_columns.h"
 #include "kernels/acoustics/echo/partition.h"
 #include "kernels/acoustics/echo/scatterer.h"
-#include "kernels/acoustics/trace/ray.h"
-#include "kernels/acoustics/trace/scene.h"
-#include "kernels/base/frames/pose.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
-
-/// Rays of a transmission, all or a batch of them, and what they hit. Hits and spans have one entry per ray.
-struct Insonification {
-  const frames::HeadPose& pose;  // of the head
-  const trace::Rays& rays;
-  const trace::Hits& hits;
-  /// Mean-square pressure at 1 m in the ray's direction, uPa^2 m^2: source level with the transmit pattern.
-  std::span<const float> source_upa2m2;
-  /// Scattering cross section per unit area and solid angle at the hit, a ratio (seabed kernel).
-  std::span<const float> backscatter;
-};
 
 /// From hits to scatterers.
 ///
@@ -43,22 +29,22 @@ struct Insonification {
 class SpeckleCells {
   static constexpr std::size_t kBuckets = 256;
 
-  struct Insonified {  // by one ray
-    std::uint64_t cell;
-    std::uint32_t ray, contributor;
-    float scattered_upa2m2, cross_section_m2;
-  };
-  /// Of a cell, one for each contributor.
+  /// Of a cell, one for each contributor: sums of its rays.
   struct Entry {
     std::uint64_t cell;
-    float own_upa2m2;          // of this contributor
-    std::int32_t first, next;  // entries of the cell; the first has the sums of all; -1: there is no other
-    Scatterer scatterer;       // with the geometry of the cell's first ray
+    float scattered_upa2m2, cross_section_m2;  // of all contributors, in the cell's first entry
+    float own_upa2m2;                          // of this contributor
+    std::uint32_t contributor;
+    std::int32_t first, next;  // entries of the cell; -1: there is no other
   };
   /// Cells that are near each other, in the order in which they are first found.
   struct Bucket {
     std::vector<Entry> entries;
-    std::vector<std::int32_t> table;  // of cells' first entries, by hash
+    std::vector<CellGeometry> geometry;  // of each entry
+    std::vector<std::int32_t> table;     // of cells' first entries, by hash
+    std::vector<std::uint32_t> rays;     // of a batch, the first of each new entry
+
+    void reserve(std::size_t size);
   };
 
  public:
@@ -71,8 +57,7 @@ class SpeckleCells {
 
    private:
     friend SpeckleCells;
-    std::vector<Insonified> insonified_;
-    Partition<Insonified> by_bucket_;
+    Partition<CellHit> by_bucket_;
     std::vector<Bucket> buckets_;
     std::vector<std::size_t> start_;
   };
@@ -91,13 +76,11 @@ class SpeckleCells {
   static void gather(Accumulator& sum, Scatterers& found);
 
  private:
-  std::uint64_t cell_at(const frames::Vec3& position_enu_m) const;
-  Insonified insonified_by(const Insonification& batch, std::size_t ray) const;
-  void merge(const Insonification& batch, std::span<const Insonified> insonified, Bucket& bucket) const;
-  Scatterer scatterer(const Insonification& batch, const Insonified& first) const;
+  void merge(const Insonification& batch, std::span<const CellHit> hits, Bucket& bucket) const;
+  void find_new(const Insonification& batch, std::size_t begin, Bucket& bucket) const;
   static void grow(Bucket& bucket);
 
-  double cell_m_, per_cell_;
+  double cell_m_;
   random::Stream stream_;
 };
 

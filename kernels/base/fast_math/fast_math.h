@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 /// Elementary functions as short polynomials without branch or call, so that a loop over them becomes vector code (with
 /// -fno-math-errno -fno-trapping-math). Coefficients have the least largest error over the stated interval; errors
@@ -44,6 +45,40 @@ inline Direction direction(float turns) {
   c = c * z + 64.93935394F;
   c = c * z - 19.73920822F;
   return {sign * (1.0F + c * z), sign * s * x};
+}
+
+/// The same of 2 pi turn / 2^32: quadrant from the top bits, Cephes' polynomials [Moshier1989] within +-pi/4 of it.
+inline Direction direction_of(std::uint32_t turn) {
+  const std::uint32_t quadrant = (turn + 0x20000000U) >> 30;
+  const auto rest = static_cast<std::int32_t>(turn - (quadrant << 30));
+  const float x = static_cast<float>(rest) * (std::numbers::pi_v<float> * 0x1p-31F);
+  const float z = x * x;
+  const float s = x + x * z * (-1.6666654611e-1F + z * (8.3321608736e-3F - z * 1.9515295891e-4F));
+  const float c = 1.0F - 0.5F * z + z * z * (4.166664568e-2F + z * (-1.388731625e-3F + z * 2.443315711e-5F));
+  const bool swap = (quadrant & 1U) != 0;
+  const float cosine = swap ? s : c, sine = swap ? c : s;
+  return {((quadrant + 1U) & 2U) != 0 ? -cosine : cosine, (quadrant & 2U) != 0 ? -sine : sine};
+}
+
+/// ln(x) for normal x > 0: Cephes' logf [Moshier1989]. Relative error 2e-7; where ln(x) is near 0, error 1e-8.
+inline float log(float x) {
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  const float mantissa = std::bit_cast<float>((bits & 0x007fffff) | 0x3f800000);  // 1..2
+  const bool upper = mantissa > std::numbers::sqrt2_v<float>;
+  const float m = (upper ? 0.5F * mantissa : mantissa) - 1.0F;
+  const float e = static_cast<float>((bits >> 23) - 127) + (upper ? 1.0F : 0.0F);
+  float p = 7.0376836292e-2F;
+  p = p * m - 1.1514610310e-1F;
+  p = p * m + 1.1676998740e-1F;
+  p = p * m - 1.2420140846e-1F;
+  p = p * m + 1.4249322787e-1F;
+  p = p * m - 1.6668057665e-1F;
+  p = p * m + 2.0000714765e-1F;
+  p = p * m - 2.4999993993e-1F;
+  p = p * m + 3.3333331174e-1F;
+  const float square = m * m;
+  const float tail = p * m * square - 2.12194440e-4F * e - 0.5F * square;
+  return (m + tail) + 0.693359375F * e;  // ln 2 in two parts
 }
 
 /// The part of a turn that a number of cycles leaves, -0.5..0.5: rounded to float after whole cycles are gone, to 3e-8

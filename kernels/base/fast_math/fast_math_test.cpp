@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -33,6 +34,26 @@ TEST_CASE("cosine and sine of turns are right to 2e-7") {
     const auto [cosine, sine] = fast_math::direction(turns);
     worst = std::max(worst, std::abs(static_cast<double>(cosine) - std::cos(angle)));
     worst = std::max(worst, std::abs(static_cast<double>(sine) - std::sin(angle)));
+  }
+  CHECK(worst < 2e-7);
+}
+
+TEST_CASE("cosine and sine of any part of a turn are right to 2e-7") {
+  double worst = 0.0;
+  for (std::uint64_t turn = 0; turn < (std::uint64_t{1} << 32); turn += 4'001) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(turn) * 0x1p-32;
+    const auto [cosine, sine] = fast_math::direction_of(static_cast<std::uint32_t>(turn));
+    worst = std::max(worst, std::abs(static_cast<double>(cosine) - std::cos(angle)));
+    worst = std::max(worst, std::abs(static_cast<double>(sine) - std::sin(angle)));
+  }
+  CHECK(worst < 2e-7);
+}
+
+TEST_CASE("a logarithm is right to 2e-7 of it, or 1e-8 where it is small") {
+  double worst = 0.0;
+  for (float x = std::numeric_limits<float>::min(); x < 1e38F; x *= 1.00013F) {
+    const double want = std::log(static_cast<double>(x));
+    worst = std::max(worst, std::abs(static_cast<double>(fast_math::log(x)) - want) / std::max(std::abs(want), 0.05));
   }
   CHECK(worst < 2e-7);
 }

@@ -39,3 +39,15 @@ TEST_CASE("bulk Gaussians do not depend on where a batch begins, and are added")
     REQUIRE(part[k] == whole[70 + k] + std::complex<float>(1.0F, 2.0F));
   }
 }
+
+TEST_CASE("blocks of bits for many counters side by side are those of each") {
+  const Stream stream{11, "many"};
+  std::array<std::uint64_t, Stream::Run::kSize> counters;
+  for (std::size_t i = 0; i < counters.size(); ++i) counters[i] = mix(i + 1);
+  Stream::Run run;
+  stream.run(counters, run);
+  for (std::size_t i = 0; i < counters.size(); ++i) {
+    const auto bits = stream.bits(counters[i]);
+    for (std::size_t word = 0; word < 4; ++word) REQUIRE(run.word[word][i] == bits[word]);
+  }
+}

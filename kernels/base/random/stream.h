@@ -30,6 +30,8 @@ class Stream {
 
   /// word[w][i] = bits(a, b + i)[w], three times as fast.
   void run(std::uint64_t a, std::uint64_t b, Run& out) const;
+  /// word[w][i] = bits(a[i])[w].
+  void run(std::span<const std::uint64_t, Run::kSize> a, Run& out) const;
 
   /// Uniform in the open interval (0, 1), on a lattice of step 2^-52.
   double uniform(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) const;

@@ -1,0 +1,162 @@
+#include "kernels/acoustics/echo/cell_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels/base/fast_math/fast_math.h"
+
+namespace ensonify::echo {
+namespace {
+
+template <class T>
+using Column = std::array<T, kCellRun>;
+
+/// A flat seabed at a round depth must not lie on the border of two layers of cells.
+const frames::Vec3 kShift(0.3819660113, 0.6180339887, 0.2360679775);
+
+/// A number of steps modulo 2^21.
+inline std::uint64_t steps(double whole) {
+  constexpr double kTurn = 0x1p21;
+  return static_cast<std::uint64_t>(static_cast<std::int32_t>(whole - kTurn * std::floor(whole * (1.0 / kTurn))));
+}
+
+}  // namespace
+
+void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits) {
+  alignas(64) Column<std::uint64_t> cell;
+  alignas(64) Column<float> scattered, cross_section;
+  const std::size_t count = hits.size();
+  const double per_cell = 1.0 / cell_m;
+  const double *const x = batch.hits.position_enu_m.x.data() + first,
+                      *const y = batch.hits.position_enu_m.y.data() + first,
+                      *const z = batch.hits.position_enu_m.z.data() + first;
+  const double shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
+  for (std::size_t i = 0; i < count; ++i) {
+    cell[i] = steps(std::floor(x[i] * per_cell + shift_x)) | steps(std::floor(y[i] * per_cell + shift_y)) << kCellBits |
+              steps(std::floor(z[i] * per_cell + shift_z)) << (2 * kCellBits);
+  }
+  const float* const range_m = batch.hits.range_m.data() + first;
+  const float* const sin_grazing = batch.hits.sin_grazing.data() + first;
+  const float* const tube_m2 = batch.hits.tube_m2.data() + first;
+  const float* const solid_angle_sr = batch.rays.solid_angle_sr.data() + first;
+  const float* const backscatter = batch.backscatter.data() + first;
+  const float* const source_upa2m2 = batch.source_upa2m2.data() + first;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float sigma_solid = backscatter[i] * solid_angle_sr[i] / std::max(sin_grazing[i], 1e-3F);
+    scattered[i] = source_upa2m2[i] * sigma_solid;
+    cross_section[i] = tube_m2[i] * sigma_solid;
+  }
+  const std::uint32_t* const contributor = batch.hits.contributor.data() + first;
+  for (std::size_t i = 0; i < count; ++i) {
+    hits[i] = {range_m[i] > 0.0F ? cell[i] : kNoCell, static_cast<std::uint32_t>(first + i), contributor[i],
+               scattered[i], cross_section[i]};
+  }
+}
+
+namespace {
+
+/// Rays' hits, gathered.
+struct Gathered {
+  alignas(64) Column<double> x, y, z;
+  alignas(64) Column<float> normal_x, normal_y, normal_z, launch_x, launch_y, launch_z;
+  alignas(64) Column<float> range_m, time_s, length_m, tube_m2;
+
+  Gathered(const Insonification& batch, std::span<const std::uint32_t> rays) {
+    const trace::Hits& hits = batch.hits;
+    const auto& launch = batch.rays.direction_head;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::size_t ray = rays[i];
+      x[i] = hits.position_enu_m.x[ray], y[i] = hits.position_enu_m.y[ray], z[i] = hits.position_enu_m.z[ray];
+      normal_x[i] = hits.normal_enu.x[ray], normal_y[i] = hits.normal_enu.y[ray], normal_z[i] = hits.normal_enu.z[ray];
+      launch_x[i] = launch.x[ray], launch_y[i] = launch.y[ray], launch_z[i] = launch.z[ray];
+      range_m[i] = hits.range_m[ray], time_s[i] = hits.travel_time_s[ray];
+      length_m[i] = hits.path_length_m[ray], tube_m2[i] = hits.tube_m2[ray];
+    }
+  }
+};
+
+/// Random bits of cells.
+struct Bits {
+  alignas(64) std::array<Column<std::uint32_t>, 4> word;
+
+  Bits(const random::Stream& stream, std::span<const std::uint64_t> cells) {
+    using Run = random::Stream::Run;
+    static_assert(kCellRun % Run::kSize == 0);
+    std::array<std::uint64_t, Run::kSize> some{};
+    Run run;
+    for (std::size_t first = 0; first < cells.size(); first += Run::kSize) {
+      std::copy_n(cells.data() + first, std::min(Run::kSize, cells.size() - first), some.data());
+      stream.run(some, run);
+      for (std::size_t w = 0; w < 4; ++w) std::copy_n(run.word[w].data(), Run::kSize, word[w].data() + first);
+    }
+  }
+};
+
+}  // namespace
+
+void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
+                   std::span<const std::uint64_t> cells, std::span<const std::uint32_t> rays, CellGeometry* found) {
+  const std::size_t count = cells.size();
+  Gathered hit(batch, rays);
+  const Bits bits(stream, cells);
+  // Somewhere in the cell, then down to the facet.
+  alignas(64) Column<double> off_x, off_y, off_z;
+  const double per_cell = 1.0 / cell_m, shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
+  const auto somewhere = [=](double position, double shift, std::uint32_t inside) {
+    const double cell = std::floor(position * per_cell + shift);
+    return cell_m * (cell + 0x1p-16 * static_cast<std::int32_t>(inside) - shift);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    off_x[i] = somewhere(hit.x[i], shift_x, bits.word[2][i] & 0xffff) - hit.x[i];
+    off_y[i] = somewhere(hit.y[i], shift_y, bits.word[2][i] >> 16) - hit.y[i];
+    off_z[i] = somewhere(hit.z[i], shift_z, bits.word[3][i] & 0xffff) - hit.z[i];
+  }
+  alignas(64) Column<double> at_x, at_y, at_z;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto nx = static_cast<double>(hit.normal_x[i]), ny = static_cast<double>(hit.normal_y[i]),
+               nz = static_cast<double>(hit.normal_z[i]);
+    const double above = nx * off_x[i] + ny * off_y[i] + nz * off_z[i];
+    at_x[i] = hit.x[i] + (off_x[i] - nx * above);
+    at_y[i] = hit.y[i] + (off_y[i] - ny * above);
+    at_z[i] = hit.z[i] + (off_z[i] - nz * above);
+  }
+  // The ray's direction at the head, less that of the straight line.
+  alignas(64) Column<float> bend_x, bend_y, bend_z;
+  const Eigen::Matrix3d R = batch.pose.enu_from_head.toRotationMatrix();
+  const frames::Vec3 head = batch.pose.position_enu_m;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double per_m = 1.0 / static_cast<double>(hit.range_m[i]);
+    const auto x = static_cast<double>(hit.launch_x[i]), y = static_cast<double>(hit.launch_y[i]),
+               z = static_cast<double>(hit.launch_z[i]);
+    bend_x[i] = static_cast<float>(R(0, 0) * x + R(0, 1) * y + R(0, 2) * z - (hit.x[i] - head.x()) * per_m);
+    bend_y[i] = static_cast<float>(R(1, 0) * x + R(1, 1) * y + R(1, 2) * z - (hit.y[i] - head.y()) * per_m);
+    bend_z[i] = static_cast<float>(R(2, 0) * x + R(2, 1) * y + R(2, 2) * z - (hit.z[i] - head.z()) * per_m);
+  }
+  // A complex Gaussian of mean square 1 (Box and Muller [BoxMuller1958]).
+  alignas(64) Column<float> re, im;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float u = (static_cast<float>(static_cast<std::int32_t>(bits.word[0][i] >> 8)) + 0.5F) * 0x1p-24F;
+    const float radius = std::sqrt(-fast_math::log(u));
+    const fast_math::Direction direction = fast_math::direction_of(bits.word[1][i]);
+    re[i] = radius * direction.cosine;
+    im[i] = radius * direction.sine;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range_m = hit.range_m[i];
+    hit.time_s[i] /= range_m;
+    hit.length_m[i] /= range_m;
+    hit.tube_m2[i] /= range_m * range_m;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    found[i] = {{at_x[i], at_y[i], at_z[i]},
+                {bend_x[i], bend_y[i], bend_z[i]},
+                hit.time_s[i],
+                hit.length_m[i],
+                hit.tube_m2[i],
+                re[i],
+                im[i]};
+  }
+}
+
+}  // namespace ensonify::echo

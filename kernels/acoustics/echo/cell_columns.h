@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernels/acoustics/echo/scatterer.h"
+#include "kernels/acoustics/trace/ray.h"
+#include "kernels/acoustics/trace/scene.h"
+#include "kernels/base/frames/pose.h"
+#include "kernels/base/random/stream.h"
+
+/// What SpeckleCells computes of many rays or cells at once, in columns.
+namespace ensonify::echo {
+
+/// Rays of a transmission, all or a batch of them, and what they hit. Hits and spans have one entry per ray.
+struct Insonification {
+  const frames::HeadPose& pose;  // of the head
+  const trace::Rays& rays;
+  const trace::Hits& hits;
+  /// Mean-square pressure at 1 m in the ray's direction, uPa^2 m^2: source level with the transmit pattern.
+  std::span<const float> source_upa2m2;
+  /// Scattering cross section per unit area and solid angle at the hit, a ratio (seabed kernel).
+  std::span<const float> backscatter;
+};
+
+constexpr std::size_t kCellRun = 256;  // rays or cells whose numbers stay in the first cache
+
+/// Cubic cells of the world, numbered by 21 bits each of their steps east, north and up. No cell has number kNoCell.
+constexpr int kCellBits = 21;
+constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
+
+/// One ray's part of a cell.
+struct CellHit {
+  std::uint64_t cell;  // kNoCell where the ray hit nothing
+  std::uint32_t ray, contributor;
+  float scattered_upa2m2, cross_section_m2;
+};
+
+/// Parts of rays first..first + hits.size() - 1, kCellRun at most.
+void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits);
+
+/// Where a cell's scatterer is and what is known of it before energies are summed: from one ray that hit the cell.
+struct CellGeometry {
+  frames::Vec3 position_enu_m;
+  Eigen::Vector3f bend_enu;
+  float slowness_spm, stretch, spreading, response_re, response_im;
+};
+
+/// For cells, kCellRun at most, each with its ray. Position and response depend on (stream, cell) and on the facet.
+void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
+                   std::span<const std::uint64_t> cells, std::span<const std::uint32_t> rays, CellGeometry* found);
+
+}  // namespace ensonify::echo
