@@ -43,15 +43,18 @@ msg::AppliedSettings applied_settings(const MultibeamConfig& config, const PingE
   applied.pitch_stabilised = steering.pitch_stabilised;
   applied.yaw_stabilised = steering.yaw_stabilised;
   applied.sound_speed_mps = steering.sound_speed_mps;
-  for (std::size_t i = 0; i < config.sectors.size(); ++i) {
+  // A single transmission that is straight needs no list; one that is steered against pitch has a tilt to state.
+  const std::vector<MultibeamConfig::Sector> sectors = config.all_sectors();
+  const bool straight = config.sectors.empty() && steering.sectors.front().sin_transmit == 0.0;
+  for (std::size_t i = 0; i < sectors.size() && !straight; ++i) {
     msg::TransmitSector sector;
-    sector.frequency_hz = config.sectors[i].frequency_hz;
+    sector.frequency_hz = sectors[i].frequency_hz;
     sector.pulse = applied.pulse;
     sector.pulse_length_s = settings.pulse_length_s;
     sector.bandwidth_hz = config.bandwidth_hz;
     sector.source_level_db = settings.source_level_db;
     sector.tilt_rad = std::asin(std::clamp(steering.sectors[i].sin_transmit, -1.0, 1.0));
-    sector.delay_s = config.sectors[i].delay_s;
+    sector.delay_s = sectors[i].delay_s;
     applied.sectors.push_back(sector);
   }
   return applied;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "components/multibeam/ping_message.h"
 #include "components/multibeam/testing/head.h"
 #include "kernels/acoustics/array/stabilisation.h"
 
@@ -53,6 +54,18 @@ TEST_CASE("without stabilisation or motion sensor, angles count from the head's 
   CHECK(unsteered(steer(config, config.swath_rad, {1500.0, std::nullopt})));
   config.roll_stabilised = config.pitch_stabilised = false;
   CHECK(unsteered(steer(config, config.swath_rad, {1500.0, frames::Attitude{0.0, 0.1, 0.1}})));
+}
+
+TEST_CASE("a single transmission states its tilt where it is steered against pitch, and is no list where straight") {
+  const MultibeamConfig config = head_in_plain_water();
+  const auto applied = [&](const std::optional<frames::Attitude>& attitude) {
+    return applied_settings(config, {}, {}, steer(config, config.swath_rad, {1500.0, attitude}));
+  };
+  const msg::AppliedSettings pitched = applied(frames::Attitude{0.0, 0.05, 0.0});
+  REQUIRE(pitched.sectors.size() == 1);
+  CHECK_THAT(pitched.sectors[0].tilt_rad, WithinAbs(-0.05, 1e-9));  // bow up: backward to the vertical
+  CHECK(pitched.sectors[0].frequency_hz == config.frequency_hz);
+  CHECK(applied(std::nullopt).sectors.empty());
 }
 
 TEST_CASE("a beam is never steered behind the face") {

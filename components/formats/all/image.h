@@ -13,7 +13,7 @@ namespace ensonify::formats::all {
 struct SeabedImage {
   static constexpr std::string_view kTypes = "Y";
   struct Beam {
-    std::int8_t direction = 0;  // of its samples: 1 rising range outwards, -1 falling
+    std::int8_t direction = 0;  // of its samples: 1 lowest range first, -1 highest first
     std::uint8_t detection = 0;
     std::uint16_t samples = 0;
     std::uint16_t centre_sample = 0;  // that of the detection, counted from 1

@@ -1,0 +1,193 @@
+#include "components/logger/all_ping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ensonify::logger {
+
+using namespace formats::all;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::uint8_t kNoDetection = 0x84;  // not valid; all else is zero
+
+double at_or_nan(const msg::Array<float>& values, std::size_t i) {
+  return i < values.size() ? static_cast<double>(values[i]) : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool valid(const msg::Soundings& soundings, std::size_t i) {
+  return i < soundings.valid.size() && soundings.valid[i] != 0;
+}
+
+std::uint8_t detection_of(const msg::Soundings& soundings, std::size_t i) {
+  if (!valid(soundings, i)) return kNoDetection;
+  return i < soundings.kind.size() && soundings.kind[i] == 2 ? 1 : 0;  // by phase, by amplitude
+}
+
+std::uint16_t count_of(double value) {
+  if (!(value > 0.0)) return 0;  // NaN too
+  return static_cast<std::uint16_t>(std::min(std::round(value), 65'534.0));
+}
+
+std::uint16_t window_samples(const msg::Soundings& soundings, std::size_t i) {
+  return count_of(at_or_nan(soundings.window_s, i) / soundings.sample_period_s);
+}
+
+/// 2500 times the standard deviation of the range over the range.
+std::uint8_t quality_of(const msg::Soundings& soundings, std::size_t i) {
+  const double range_m = 0.5 * at_or_nan(soundings.travel_time_s, i) * soundings.applied.sound_speed_mps;
+  return static_cast<std::uint8_t>(
+      std::min<std::uint16_t>(count_of(2500.0 * at_or_nan(soundings.range_sd_m, i) / range_m), 254));
+}
+
+std::uint16_t valid_beams(const msg::Soundings& soundings) {
+  return static_cast<std::uint16_t>(std::count_if(soundings.valid.flat().begin(), soundings.valid.flat().end(),
+                                                  [](std::uint8_t flag) { return flag != 0; }));
+}
+
+float sampling_hz(double sample_period_s) { return static_cast<float>(1.0 / sample_period_s); }
+
+RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorption_dbpm) {
+  constexpr std::uint8_t kCentreArray = 1;  // of an EM 2040's three
+  RawRangeAngle::Sector sector;
+  sector.tilt_deg = sector.tilt_deg.of(sent.tilt_rad / kDegree);
+  sector.focus_m = sector.focus_m.of(sent.focus_range_m);
+  sector.pulse_length_s = static_cast<float>(sent.pulse_length_s);
+  sector.delay_s = static_cast<float>(sent.delay_s);
+  sector.centre_hz = static_cast<float>(sent.frequency_hz);
+  sector.absorption_dbpkm = sector.absorption_dbpkm.of(1e3 * absorption_dbpm);
+  if (sent.pulse.starts_with("fm")) sector.waveform = sent.pulse == "fm_down" ? 2 : 1;
+  sector.index = kCentreArray;
+  const double tone_hz = 1.0 / std::max(sent.pulse_length_s, 1e-6);
+  sector.bandwidth_hz = static_cast<float>(sent.bandwidth_hz > 0.0 ? sent.bandwidth_hz : tone_hz);
+  return sector;
+}
+
+/// The sectors of a ping; of a head without any, its one transmission.
+std::vector<msg::TransmitSector> sectors_of(const msg::AppliedSettings& settings) {
+  if (!settings.sectors.empty()) return settings.sectors;
+  msg::TransmitSector only;
+  only.frequency_hz = settings.frequency_hz;
+  only.pulse = settings.pulse;
+  only.pulse_length_s = settings.pulse_length_s;
+  only.bandwidth_hz = settings.bandwidth_hz;
+  only.source_level_db = settings.source_level_db;
+  return {only};
+}
+
+}  // namespace
+
+bool has_track(const msg::Soundings& soundings) {
+  return soundings.track.pose_position_enu_m.size() >= 3 && soundings.track.pose_enu_from_head.size() >= 4;
+}
+
+frames::Pose pose_of(const msg::Soundings& soundings, const Vessel& vessel) {
+  const auto& position = soundings.track.pose_position_enu_m;
+  const auto& rotation = soundings.track.pose_enu_from_head;
+  return vessel.body_pose({frames::Vec3(position[0], position[1], position[2]),
+                           frames::quaternion_of({rotation[0], rotation[1], rotation[2], rotation[3]})});
+}
+
+RawRangeAngle raw_range_angle(const msg::Soundings& soundings) {
+  RawRangeAngle raw;
+  raw.sound_speed_mps = raw.sound_speed_mps.of(soundings.applied.sound_speed_mps);
+  raw.valid_beams = valid_beams(soundings);
+  raw.sampling_hz = sampling_hz(soundings.sample_period_s);
+  for (const msg::TransmitSector& sector : sectors_of(soundings.applied)) {
+    raw.sectors.push_back(sector_of(sector, soundings.applied.gain_absorption_dbpm));
+  }
+  for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
+    RawRangeAngle::Beam beam;
+    beam.angle_deg = beam.angle_deg.of(-static_cast<double>(soundings.beam_angle_rad[i]) / kDegree);  // to port
+    if (i < soundings.sector.size()) beam.sector = soundings.sector[i];
+    beam.detection = detection_of(soundings, i);
+    if (valid(soundings, i)) {
+      beam.window_samples = window_samples(soundings, i);
+      beam.quality = quality_of(soundings, i);
+      beam.travel_time_s = soundings.travel_time_s[i];
+      beam.reflectivity_db = beam.reflectivity_db.of(at_or_nan(soundings.backscatter_strength_db, i));
+    }
+    raw.beams.push_back(beam);
+  }
+  return raw;
+}
+
+Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frames::LocalProjection& world,
+              double heave_down_m) {
+  const frames::Pose body = pose_of(soundings, vessel);
+  const frames::Vec3 head_enu_m = frames::enu_from_body(body, vessel.head.position_body_m);
+  const frames::Vec3 origin_enu_m = vessel.horizontal_origin_enu_m(body);
+  const double grid_heading_rad = frames::attitude_of(body.enu_from_body).heading_rad;
+  const double sine = std::sin(grid_heading_rad), cosine = std::cos(grid_heading_rad);
+  const double convergence_rad = world.convergence_rad(body.position_enu_m.head<2>());
+
+  Soundings xyz;
+  xyz.heading_deg = xyz.heading_deg.of(frames::wrap_two_pi(grid_heading_rad + convergence_rad) / kDegree);
+  xyz.sound_speed_mps = xyz.sound_speed_mps.of(soundings.applied.sound_speed_mps);
+  xyz.transducer_depth_m = static_cast<float>(vessel.transducer_depth_m(body, heave_down_m));
+  xyz.valid_beams = valid_beams(soundings);
+  xyz.sampling_hz = sampling_hz(soundings.sample_period_s);
+  for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
+    Soundings::Beam beam;
+    beam.detection = detection_of(soundings, i);
+    if (valid(soundings, i)) {
+      const double east_m = soundings.position_enu_m(i, 0) - origin_enu_m.x();
+      const double north_m = soundings.position_enu_m(i, 1) - origin_enu_m.y();
+      beam.x_m = static_cast<float>(east_m * sine + north_m * cosine);
+      beam.y_m = static_cast<float>(east_m * cosine - north_m * sine);
+      beam.z_m = static_cast<float>(head_enu_m.z() - soundings.position_enu_m(i, 2));
+      beam.window_samples = window_samples(soundings, i);
+      beam.quality = quality_of(soundings, i);
+      beam.reflectivity_db = beam.reflectivity_db.of(at_or_nan(soundings.backscatter_strength_db, i));
+    }
+    xyz.beams.push_back(beam);
+  }
+  return xyz;
+}
+
+SeabedImage seabed_image(const msg::Soundings& soundings, const std::optional<msg::SeabedImage>& image) {
+  SeabedImage written;
+  written.sampling_hz = sampling_hz(image ? image->sample_period_s : soundings.sample_period_s);
+  written.transmit_width_deg = written.transmit_width_deg.of(soundings.applied.transmit_beamwidth_rad / kDegree);
+  if (image) {
+    const double samples =
+        2.0 * image->normal_incidence_range_m / soundings.applied.sound_speed_mps / image->sample_period_s;
+    written.normal_incidence_samples = count_of(samples);
+    written.normal_incidence_strength_db = written.normal_incidence_strength_db.of(image->normal_incidence_strength_db);
+    written.oblique_strength_db = written.oblique_strength_db.of(image->oblique_strength_db);
+    written.crossover_deg = written.crossover_deg.of(image->crossover_angle_rad / kDegree);
+  }
+  const auto tenths = [](double strength_db) { return formats::FixedPoint<std::int16_t, 10>::of(strength_db).count; };
+  std::size_t next = 0;  // of the image's series, whose beams rise
+  for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
+    SeabedImage::Beam beam;
+    // All samples run from port to starboard: on the port side the highest range comes first.
+    const bool reversed = soundings.beam_angle_rad[i] < 0.0F;
+    beam.direction = reversed ? -1 : 1;
+    beam.detection = detection_of(soundings, i);
+    const std::size_t number = i < soundings.beam.size() ? soundings.beam[i] : i;
+    if (image) {
+      while (next < image->beam.size() && image->beam[next] < number) ++next;
+      if (next < image->beam.size() && image->beam[next] == number && next + 1 < image->offset.size()) {
+        const std::size_t begin = image->offset[next], samples = image->offset[next + 1] - begin;
+        const std::size_t centre = image->centre[next];
+        beam.samples = count_of(static_cast<double>(samples));
+        beam.centre_sample = count_of(static_cast<double>(reversed ? samples - centre : centre + 1));
+        for (std::size_t k = 0; k < beam.samples; ++k) {
+          const std::size_t from = begin + (reversed ? samples - 1 - k : k);
+          written.strength_ddb.push_back(tenths(static_cast<double>(image->strength_db[from])));
+        }
+        ++next;
+      }
+    } else if (valid(soundings, i)) {
+      beam.samples = beam.centre_sample = 1;
+      written.strength_ddb.push_back(tenths(at_or_nan(soundings.backscatter_strength_db, i)));
+    }
+    written.beams.push_back(beam);
+  }
+  return written;
+}
+
+}  // namespace ensonify::logger

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "components/formats/all/image.h"
+#include "components/formats/all/soundings.h"
+#include "components/logger/vessel.h"
+#include "kernels/base/frames/local_projection.h"
+#include "messages/soundings.h"
+
+/// The three datagrams of a ping in a .all file: N, X and Y, with all beams in each, valid or not.
+namespace ensonify::logger {
+
+/// Whether the head knew where it was: else there is no ping to log.
+bool has_track(const msg::Soundings& soundings);
+/// The body at transmission, by the estimate.
+frames::Pose pose_of(const msg::Soundings& soundings, const Vessel& vessel);
+
+formats::all::RawRangeAngle raw_range_angle(const msg::Soundings& soundings);
+
+/// `heave_down_m`: measured, at transmission.
+formats::all::Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frames::LocalProjection& world,
+                            double heave_down_m);
+
+/// Of the head's image of the same ping; without one, one sample a beam: the sounding's strength.
+formats::all::SeabedImage seabed_image(const msg::Soundings& soundings, const std::optional<msg::SeabedImage>& image);
+
+}  // namespace ensonify::logger

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "components/config/parameters.h"
+#include "components/logger/vessel.h"
+#include "kernels/base/frames/local_projection.h"
+#include "kernels/water/refraction/profile.h"
+#include "scenarios/world/world.h"
+
+namespace ensonify {
+
+class ConfigReader;
+
+struct LoggerParameters {
+  std::string head;
+  std::string folder = ".";
+  std::string ship;
+  int line = 0;
+  int serial = 101;
+  int position_rate_hz = 5;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("head", "", any(), "the multibeam whose soundings are logged, by its process's name; \"\": the only head",
+          self.head);
+    visit("folder", "", any(), "of the files, relative to the run's output folder; it is made", self.folder);
+    visit("ship", "", any(), "name of the vessel in the files' names; \"\": the vehicle's", self.ship);
+    visit("line", "", in(0, 9999), "number of the line in the files' names", self.line);
+    visit("serial", "", in(1, 65534), "serial number that the system states", self.serial);
+    visit("position_rate_hz", "Hz", in(1, 100), "positions; from 5 on they agree with the soundings to 1 cm",
+          self.position_rate_hz);
+  }
+};
+
+struct LoggerConfig : LoggerParameters {
+  // From the scenario.
+  logger::Vessel vessel;
+  refraction::SoundSpeedProfile profile = refraction::SoundSpeedProfile::uniform(1500.0);  // the applied one
+  std::optional<frames::Geodetic> origin;                                                  // not given: by the chart
+  std::int64_t start_unix_ns = 0;
+
+  static LoggerConfig read(ConfigReader& from, const World& world, const std::string& process);
+};
+
+}  // namespace ensonify

@@ -1,0 +1,328 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "components/errors/exit_error.h"
+#include "components/formats/all/installation_text.h"
+#include "components/formats/all/reader.h"
+#include "components/logger/node.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "scenarios/world/world.h"
+
+using namespace ensonify;
+using Catch::Matchers::Contains;
+using Catch::Matchers::WithinAbs;
+namespace all = ensonify::formats::all;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kReferenceDepth_m = 0.7;
+constexpr double kSeabedDepth_m = 20.0;
+constexpr double kSoundSpeed_mps = 1490.0;
+constexpr std::size_t kBeams = 101;
+
+/// A folder of this test program, gone at its end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("ensonify_logger_test_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+World bay() {
+  World world;
+  world.site.origin = {54.0, 8.0};
+  world.start_unix_ns = 1'748'779'200'000'000'000;  // 2025-06-01 12:00:00
+  world.mission.depth_m = kReferenceDepth_m;
+  world.water.profile.sound_speed_mps = kSoundSpeed_mps;
+  Vehicle boat;
+  boat.name = "boat";
+  HeadMounting bow;
+  bow.measured.position_body_m = {1.5, 0.2, 0.8};
+  bow.measured.body_from_head = frames::enu_from_ned().conjugate() *
+                                frames::enu_from_body({.heading_rad = 0.01, .pitch_rad = 0.02, .roll_rad = -0.03});
+  boat.mountings["bow"] = bow;
+  world.vehicles = {boat};
+  return world;
+}
+
+LoggerConfig config_of(const World& world, const char* text = "{}") {
+  ConfigReader from = ConfigReader::from_text(text, "logger.yaml");
+  LoggerConfig config = LoggerConfig::read(from, world, "logger");
+  from.finish();
+  return config;
+}
+
+/// The vessel rolls, pitches and heaves on its way to the north-east, far enough from the origin to feel the
+/// convergence.
+double heave_up_m(SimTime t) { return 0.3 * std::sin(1.1 * seconds(t)); }
+frames::Pose pose_at(SimTime t) {
+  const double t_s = seconds(t);
+  frames::Pose pose;
+  pose.position_enu_m = {20'000.0 + 2.0 * t_s, 1'000.0 + 2.0 * t_s, heave_up_m(t) - kReferenceDepth_m};
+  pose.enu_from_body = frames::enu_from_body({.heading_rad = 45 * kDegree,
+                                              .pitch_rad = 3 * kDegree * std::sin(t_s),
+                                              .roll_rad = 8 * kDegree * std::cos(0.9 * t_s)});
+  return pose;
+}
+
+void give_navigation(NodeUnderTest<LoggerNode>& logger, SimTime until) {
+  for (SimTime t{0}; t <= until; t += 10_ms) {
+    const frames::Pose pose = pose_at(t);
+    msg::Estimate estimate;
+    estimate.stamp_ns = t.count();
+    estimate.position_enu_m = {pose.position_enu_m.x(), pose.position_enu_m.y(), pose.position_enu_m.z()};
+    estimate.enu_from_body = frames::wxyz_of(pose.enu_from_body);
+    estimate.velocity_enu_mps = {2.0, 2.0, 0.0};
+    logger.give("estimate", estimate);
+    msg::Attitude attitude;
+    attitude.stamp_ns = t.count();
+    attitude.heave_m = heave_up_m(t);
+    logger.give("attitude", attitude);
+  }
+  msg::Position position;
+  position.quality = 4;
+  position.hdop = 0.8;
+  position.height_above_geoid_m = 3.0;
+  logger.give("position", position);
+}
+
+/// Soundings on a flat seabed; every tenth beam has none.
+msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& mounting) {
+  const frames::HeadPose head = frames::head_pose(pose_at(t), mounting);
+  msg::Soundings soundings;
+  soundings.stamp_ns = t.count();
+  soundings.ping = number;
+  soundings.sample_period_s = 5e-5;
+  soundings.applied.sound_speed_mps = kSoundSpeed_mps;
+  soundings.applied.frequency_hz = 300e3;
+  soundings.applied.pulse_length_s = 1e-4;
+  soundings.beam_angle_rad = msg::Array<float>({kBeams});
+  soundings.travel_time_s = msg::Array<float>({kBeams});
+  soundings.backscatter_strength_db = msg::Array<float>({kBeams});
+  soundings.range_sd_m = msg::Array<float>({kBeams});
+  soundings.window_s = msg::Array<float>({kBeams});
+  soundings.kind = msg::Array<std::uint8_t>({kBeams});
+  soundings.valid = msg::Array<std::uint8_t>({kBeams});
+  soundings.position_enu_m = msg::Array<double>({kBeams, 3});
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    const double angle_rad = (static_cast<double>(i) - 50.0) * kDegree;
+    const frames::Vec3 direction = head.enu_from_head * frames::Vec3(0.0, std::sin(angle_rad), std::cos(angle_rad));
+    const double range_m = (kSeabedDepth_m + head.position_enu_m.z()) / -direction.z();
+    const frames::Vec3 where = head.position_enu_m + range_m * direction;
+    const bool valid = i % 10 != 0;
+    const auto no = std::numeric_limits<double>::quiet_NaN();
+    soundings.beam_angle_rad[i] = static_cast<float>(angle_rad);
+    soundings.travel_time_s[i] = static_cast<float>(valid ? 2.0 * range_m / kSoundSpeed_mps : no);
+    soundings.backscatter_strength_db[i] = static_cast<float>(valid ? -25.0 - 0.1 * static_cast<double>(i) : no);
+    soundings.range_sd_m[i] = 0.02F;
+    soundings.window_s[i] = 1e-3F;
+    soundings.kind[i] = i < 40 || i > 60 ? 2 : 1;
+    soundings.valid[i] = valid ? 1 : 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      soundings.position_enu_m(i, axis) = valid ? where[static_cast<Eigen::Index>(axis)] : no;
+    }
+  }
+  soundings.track.pose_position_enu_m = msg::Array<double>({1, 3});
+  soundings.track.pose_enu_from_head = msg::Array<double>({1, 4});
+  const auto wxyz = frames::wxyz_of(head.enu_from_head);
+  for (std::size_t k = 0; k < 3; ++k)
+    soundings.track.pose_position_enu_m[k] = head.position_enu_m[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < 4; ++k) soundings.track.pose_enu_from_head[k] = wxyz[k];
+  return soundings;
+}
+
+constexpr SimTime kPingPeriod = 137_ms;
+
+/// Ten seconds of survey, pings from the start on.
+std::vector<all::Datagram> survey(const World& world, const char* text = "{}") {
+  const Folder folder;
+  const LoggerConfig config = config_of(world, text);
+  NodeUnderTest<LoggerNode> logger(config, "logger", folder.path);
+  give_navigation(logger, 10_s);
+  std::int64_t number = 65'500;
+  for (SimTime t{0}; t <= 9_s; t += kPingPeriod) logger.give("soundings", ping_at(t, number++, config.vessel.head));
+  logger.run_until(10_s);
+  logger.node().finish_run();
+
+  const fs::path path = folder.path / "0000_20250601_120000_boat.all";
+  REQUIRE(fs::exists(path));
+  formats::Window window(path);
+  all::Reader reader(window);
+  std::vector<all::Datagram> datagrams;
+  while (auto datagram = reader.next()) datagrams.push_back(std::move(*datagram));
+  REQUIRE(reader.faults().count() == 0);
+  return datagrams;
+}
+
+template <class Body>
+std::vector<std::pair<std::int64_t, Body>> all_of(const std::vector<all::Datagram>& datagrams) {
+  std::vector<std::pair<std::int64_t, Body>> found;
+  for (const all::Datagram& datagram : datagrams) {
+    if (const auto* body = std::get_if<Body>(&datagram.body)) found.emplace_back(datagram.unix_ns(), *body);
+  }
+  return found;
+}
+
+/// Number of a key of the installation text.
+double value_of(const std::string& text, const std::string& key) {
+  for (const auto& [name, value] : all::installation_values(text)) {
+    if (name == key) return std::stod(value);
+  }
+  FAIL("no " << key);
+  return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("a .all file begins with I, R, U and a second of navigation, and ends with i") {
+  const std::vector<all::Datagram> file = survey(bay());
+  std::string types;
+  for (const all::Datagram& datagram : file) types += datagram.type;
+  CHECK(types.substr(0, 3) == "IRU");
+  CHECK(types.back() == 'i');
+  const std::size_t first_ping = types.find('N');
+  CHECK(std::count(types.begin(), types.begin() + static_cast<std::ptrdiff_t>(first_ping), 'P') >= 3);
+  CHECK(types.find('A') < first_ping);
+  const auto positions = all_of<all::Position>(file);
+  CHECK(file[first_ping].unix_ns() - positions.front().first >= 1'000'000'000);
+  CHECK_THAT(std::get<all::Installation>(file[0].body).text,
+             Contains("RFN=0000_20250601_120000_boat.all,") && Contains("SID=simulated by Ensonify,"));
+}
+
+TEST_CASE("each ping has N, X and Y with one number and time, and none is left out once it has begun") {
+  const std::vector<all::Datagram> file = survey(bay());
+  std::string types;
+  std::vector<std::uint16_t> numbers;
+  for (const all::Datagram& datagram : file) {
+    if (datagram.type != 'N' && datagram.type != 'X' && datagram.type != 'Y') continue;
+    types += datagram.type;
+    if (datagram.type == 'N') numbers.push_back(datagram.header.counter);
+    CHECK(datagram.header.counter == numbers.back());
+    CHECK(datagram.header.serial == 101);
+    CHECK(datagram.header.model == 2040);
+  }
+  for (std::size_t i = 0; i < types.size(); ++i) REQUIRE(types[i] == "NXY"[i % 3]);
+  REQUIRE(numbers.size() > 50);
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    REQUIRE(numbers[i] == static_cast<std::uint16_t>(numbers[i - 1] + 1));
+}
+
+TEST_CASE("soundings of the file alone lie on the seabed where the head found them") {
+  const World world = bay();
+  const std::vector<all::Datagram> file = survey(world);
+  const frames::LocalProjection projection(world.site.origin);
+  const auto positions = all_of<all::Position>(file);
+  for (const auto& [time_ns, xyz] : all_of<all::Soundings>(file)) {
+    // The positions before and after, in the world's metres, at the time of the ping.
+    const auto after =
+        std::find_if(positions.begin(), positions.end(), [t = time_ns](const auto& p) { return p.first >= t; });
+    if (after == positions.begin() || after == positions.end()) continue;
+    const auto enu = [&](const all::Position& p) {
+      return projection.enu_of({p.latitude_deg.value(), p.longitude_deg.value()});
+    };
+    const auto before = std::prev(after);
+    const double fraction =
+        static_cast<double>(time_ns - before->first) / static_cast<double>(after->first - before->first);
+    const frames::Vec2 origin = (1 - fraction) * enu(before->second) + fraction * enu(after->second);
+    const double heading = xyz.heading_deg.value() * kDegree - projection.convergence_rad(origin);
+    const SimTime t{time_ns - world.start_unix_ns};
+    const msg::Soundings truth = ping_at(t, 0, world.vehicles[0].mountings.at("bow").measured);
+    for (std::size_t i = 0; i < kBeams; ++i) {
+      CAPTURE(seconds(t), i);
+      REQUIRE(xyz.beams[i].valid() == (truth.valid[i] != 0));
+      if (!xyz.beams[i].valid()) continue;
+      REQUIRE_THAT(xyz.beams[i].z_m + xyz.transducer_depth_m, WithinAbs(kSeabedDepth_m, 1e-3));
+      const double x = xyz.beams[i].x_m, y = xyz.beams[i].y_m;
+      // A millisecond of its time is 3 mm on the way and 2 mm of a roll of 8 degrees; the heading's step 2 mm.
+      REQUIRE_THAT(origin.x() + x * std::sin(heading) + y * std::cos(heading),
+                   WithinAbs(truth.position_enu_m(i, 0), 0.01));
+      REQUIRE_THAT(origin.y() + x * std::cos(heading) - y * std::sin(heading),
+                   WithinAbs(truth.position_enu_m(i, 1), 0.01));
+    }
+  }
+}
+
+TEST_CASE("transducer depth follows from the installation, attitude and heave of the file") {
+  const std::vector<all::Datagram> file = survey(bay());
+  const std::string& text = std::get<all::Installation>(file[0].body).text;
+  // Readers add an EM 2040's phase centre to the transmitter's position: z -0.006, y 0.0131 in its own frame.
+  const double z_m = value_of(text, "S1Z") - 0.006, x_m = value_of(text, "S1X"), y_m = value_of(text, "S1Y") + 0.0131;
+  std::vector<std::pair<std::int64_t, all::Attitude::Entry>> entries;
+  for (const auto& [time_ns, attitude] : all_of<all::Attitude>(file)) {
+    for (const auto& entry : attitude.entries)
+      entries.emplace_back(time_ns + entry.after_ms * std::int64_t{1'000'000}, entry);
+  }
+  for (const auto& [time_ns, xyz] : all_of<all::Soundings>(file)) {
+    const auto near = std::min_element(entries.begin(), entries.end(), [t = time_ns](const auto& a, const auto& b) {
+      return std::abs(a.first - t) < std::abs(b.first - t);
+    });
+    const double roll = near->second.roll_deg.value() * kDegree, pitch = near->second.pitch_deg.value() * kDegree;
+    const double below_m = -x_m * std::sin(pitch) + std::cos(pitch) * (y_m * std::sin(roll) + z_m * std::cos(roll));
+    // Half a centimetre of heave's step, and what 5 ms change.
+    CHECK_THAT(xyz.transducer_depth_m,
+               WithinAbs(below_m + near->second.heave_m.value() - value_of(text, "WLZ"), 0.008));
+  }
+  CHECK_THAT(value_of(text, "WLZ"), WithinAbs(-kReferenceDepth_m, 1e-9));
+}
+
+TEST_CASE("angles are positive to port, beams without a detection are all zero and marked") {
+  for (const auto& [time_ns, raw] : all_of<all::RawRangeAngle>(survey(bay()))) {
+    REQUIRE(raw.beams.size() == kBeams);
+    CHECK_THAT(raw.beams[1].angle_deg.value(), WithinAbs(49.0, 0.006));
+    CHECK_THAT(raw.beams[99].angle_deg.value(), WithinAbs(-49.0, 0.006));
+    CHECK(raw.beams[0].detection == 0x84);
+    CHECK(raw.beams[0].travel_time_s == 0.0F);
+    CHECK(raw.beams[11].detection == 1);
+    CHECK(raw.beams[51].detection == 0);
+    CHECK(raw.valid_beams == kBeams - 11);
+    CHECK(raw.sectors.at(0).index == 1);
+    CHECK_THAT(raw.beams[51].reflectivity_db.value(), WithinAbs(-30.1, 0.051));
+  }
+}
+
+TEST_CASE("positions come at their rate and repeat the sentence's fix but for the lever to the water line") {
+  const World world = bay();
+  const auto positions = all_of<all::Position>(survey(world, "{ position_rate_hz: 10 }"));
+  REQUIRE(positions.size() > 90);
+  for (std::size_t i = 2; i < positions.size(); ++i) CHECK(positions[i].first - positions[i - 1].first == 100'000'000);
+  const frames::LocalProjection projection(world.site.origin);
+  for (const auto& [time_ns, position] : positions) {
+    const frames::Pose body = pose_at(SimTime{time_ns - world.start_unix_ns});
+    const frames::Vec2 origin = frames::enu_from_body(body, {0, 0, -kReferenceDepth_m}).head<2>();
+    const frames::Vec2 logged = projection.enu_of({position.latitude_deg.value(), position.longitude_deg.value()});
+    CHECK((logged - origin).norm() < 0.01);
+    // INGGA,hhmmss.ss,ddmm.mmmmmmm
+    const double latitude_deg =
+        std::stod(position.sentence.substr(16, 2)) + std::stod(position.sentence.substr(18)) / 60;
+    CHECK_THAT(latitude_deg, WithinAbs(projection.geodetic_of(body.position_enu_m.head<2>()).latitude_deg, 1e-8));
+    CHECK_THAT(position.speed_mps.value(), WithinAbs(std::hypot(2.0, 2.0), 0.006));
+  }
+}
+
+TEST_CASE("a head that is not there, a vehicle that dives and foreign soundings are refused") {
+  CHECK_THROWS_WITH(config_of(bay(), "{ head: stern }"),
+                    Contains("\"stern\" is no head of the scenario; its vehicles carry: bow"));
+  World diving = bay();
+  diving.mission.depth_m = 50;
+  CHECK_THROWS_WITH(config_of(diving), Contains("the vehicle boat dives"));
+}
+
+TEST_CASE("without an estimate there is no file, and the pings left out are counted") {
+  const Folder folder;
+  const LoggerConfig config = config_of(bay());
+  NodeUnderTest<LoggerNode> logger(config, "logger", folder.path);
+  for (int i = 0; i < 5; ++i) {
+    logger.give("soundings", ping_at(100_ms * i, i, config.vessel.head));
+    msg::Attitude attitude;
+    attitude.stamp_ns = (100_ms * i).count();
+    logger.give("attitude", attitude);
+  }
+  logger.run_until(1_s);
+  logger.node().finish_run();
+  CHECK(fs::is_empty(folder.path));
+}
