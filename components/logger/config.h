@@ -24,7 +24,7 @@ struct LoggerParameters {
   static void parameters(auto& self, auto&& visit) {
     visit("head", "", any(), "the multibeam whose soundings are logged, by its process's name; \"\": the only head",
           self.head);
-    visit("folder", "", any(), "of the files, relative to the run's output folder; it is made", self.folder);
+    visit("folder", "", any(), "folder of the files, relative to the run's output folder; it is made", self.folder);
     visit("ship", "", any(), "name of the vessel in the files' names; \"\": the vehicle's", self.ship);
     visit("line", "", in(0, 9999), "number of the line in the files' names", self.line);
     visit("serial", "", in(1, 65534), "serial number that the system states", self.serial);

@@ -96,13 +96,6 @@ class Points(unittest.TestCase):
         done = grid("--points", "-", "--out", self.root / "no/such/folder.tif", given=point)
         self.assertEqual(done.returncode, 5, done.stderr)
 
-    def test_soundings_too_far_apart_for_their_cells_are_refused_while_memory_is_left(self):
-        random = np.random.default_rng(5)
-        points = np.stack([*random.uniform(0, 1e6, (2, 2_000_000)), np.full(2_000_000, 10.0), np.full(2_000_000, 0.1)], 1)
-        done = grid("--points", "-", "--cell", "0.1", "--out", self.root / "sparse.tif", given=points.tobytes())
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("use larger ones", done.stderr.decode())
-
 
 class Records(unittest.TestCase):
     @classmethod

@@ -1,6 +1,7 @@
 #include "tools/grid/gridding.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,13 @@
 namespace ensonify::grid_tool {
 namespace {
 
-constexpr std::size_t kToChooseBy = 20'000;          // soundings whose depths choose the cell
-constexpr std::uint64_t kMostBytes = 8'000'000'000;  // of cells in memory
+constexpr std::size_t kToChooseBy = 20'000;  // soundings whose depths choose the cell
+
+/// Memory that cells may take: half of the machine's.
+std::uint64_t most_bytes() {
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) /
+         2;
+}
 
 std::string in_words(const std::string& datum) { return datum.empty() ? "an unstated datum" : datum; }
 
@@ -58,11 +64,11 @@ class Filling {
  private:
   void add(const Sounding& sounding) {
     grid_->add(sounding.x_m, sounding.y_m, sounding.depth_m, sounding.sd_m);
-    if (grid_->bytes() > kMostBytes)
+    if (grid_->bytes() > most_bytes_)
       throw UserError(
-          fmt::format("--cell {:g}: the soundings are so far apart that their cells take more than {} GB; "
-                      "use larger ones",
-                      grid_->cell_m(), kMostBytes / 1'000'000'000));
+          fmt::format("--cell {:g}: the soundings are so far apart that their cells take half of the "
+                      "machine's memory; use larger ones",
+                      grid_->cell_m()));
   }
   void choose() {
     std::vector<double> depths_m;
@@ -80,6 +86,7 @@ class Filling {
     waiting_.clear();
   }
 
+  std::uint64_t most_bytes_ = most_bytes();
   std::vector<Sounding> waiting_;
   std::optional<survey_grid::SoundingGrid> grid_;
 };

@@ -1,10 +1,12 @@
 #include "tools/info/summary.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "components/errors/exit_error.h"
 #include "components/formats/all/reader.h"
+#include "components/formats/all/writer.h"
 #include "components/formats/testing/sample.h"
 #include "tools/info/print.h"
 #include "tools/info/summarise.h"
@@ -66,6 +68,20 @@ TEST_CASE("a stream's rate is that of its values, its longest gap has a time") {
   CHECK(stream.backward == 1);
 }
 
+TEST_CASE("a ping without X is missed also after its number has come before") {
+  formats::all::Writer writer(2040, 1);
+  formats::Bytes bytes;
+  const auto ping = [&](bool whole) {
+    writer.append_ping(bytes, formats::sample::kBegin_ns, 7, 1, formats::all::RawRangeAngle{});
+    if (whole) writer.append_ping(bytes, formats::sample::kBegin_ns, 7, 1, formats::all::Soundings{});
+    writer.append_ping(bytes, formats::sample::kBegin_ns, 7, 1, formats::all::SeabedImage{});
+  };
+  for (const bool whole : {true, false, true}) ping(whole);
+  formats::Window file(bytes);
+  const auto notes = summarise(file).notes;
+  CHECK(std::count(notes.begin(), notes.end(), "pings without all of N, X and Y: 1; there are 3 N, 2 X and 3 Y") == 1);
+}
+
 TEST_CASE("a step back is held against the value before, of the same sensor") {
   Stream stream;
   for (const std::int64_t time_ns : {10, 5, 6, 7}) stream.add(time_ns);
@@ -114,7 +130,7 @@ TEST_CASE("a ping whose soundings are damaged is a fault, and not complete") {
   CHECK(summary.faults.count() == 1);
   CHECK(summary.pings.at("serial 157").count() == 1);
   REQUIRE(summary.notes.size() == 1);
-  CHECK(summary.notes[0] == "pings by number and serial: 2 with N, 1 with X, 2 with Y, which should be the same pings");
+  CHECK(summary.notes[0] == "pings without all of N, X and Y: 1; there are 2 N, 1 X and 2 Y");
   CHECK_THAT(text_of("file", summary), Contains("faults      1, ") && Contains("the checksum is "));
 }
 

@@ -1110,7 +1110,7 @@ class Mesh(Message):
     vertex_m [m]: east, north, up of each vertex
     triangle [1]: three vertices each
     split [1]: coarsest first: the vertex that it brings back, the one that it comes out of, parent and two children (-1: none), first and number of the triangles that come with it, in `born`
-    split_deviation_m [m]: estimate of the surface's distance without it and what is below it
+    split_deviation_m [m]: estimate of the surface's deviation without this split and those below it
     split_box_m [m]: least and greatest east, north, up, as vertices, of all triangles that change below it
     born [1]: triangles by the split that brings them
     coarsest [1]: triangles that are there without any split

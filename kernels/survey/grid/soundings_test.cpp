@@ -91,6 +91,17 @@ TEST_CASE("cells have their edges on multiples of their side, also west and sout
   CHECK(seen == 4);
 }
 
+TEST_CASE("memory is that of the blocks that have soundings") {
+  SoundingGrid grid(1.0);
+  CHECK(grid.bytes() == 0);
+  grid.add(0.5, 0.5, 10.0, kNotStated);
+  grid.add(7.5, 7.5, 10.0, kNotStated);
+  const std::uint64_t one = grid.bytes();
+  CHECK(one == 64 * sizeof(CellSums));
+  grid.add(-1e6, 1e6, 10.0, kNotStated);
+  CHECK(grid.bytes() == 2 * one);
+}
+
 TEST_CASE("a grid needs cells with a side") {
   CHECK_THROWS_AS(SoundingGrid(0.0), std::invalid_argument);
   CHECK_THROWS_AS(SoundingGrid(kNotStated), std::invalid_argument);
