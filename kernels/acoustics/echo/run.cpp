@@ -170,9 +170,9 @@ std::size_t Run::find_images(const Mirror& mirror) {
   const double level_m = mirror.level_enu_m - source_enu_m_.z(), longest_m = mirror.longest_m;
   std::int32_t images = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    const bool has = (z_m_[i] < level_m) & (out_m_[i] + image_out_m_[i] <= longest_m);
-    has_image_[i] = has ? 1 : 0;
-    images += has ? 1 : 0;
+    const std::int32_t below = z_m_[i] < level_m ? 1 : 0, early = out_m_[i] + image_out_m_[i] <= longest_m ? 1 : 0;
+    has_image_[i] = below & early;
+    images += below & early;
   }
   return static_cast<std::size_t>(images);
 }
@@ -214,7 +214,7 @@ array::Directions Run::launch(const Mirror& mirror, const Eigen::Matrix3d& head_
   take(find_images(mirror));
   const double *const x_m = imaged_.x_m, *const y_m = imaged_.y_m;
   const std::size_t count = imaged_.count;
-  const Eigen::Matrix3d R = head_from_enu;
+  const Eigen::Matrix3d& R = head_from_enu;
   for (std::size_t i = 0; i < count; ++i) {
     const double x = x_m[i], y = y_m[i], z = image_z_m_[i], per_m = 1.0 / image_out_m_[i];
     launch_x_[i] = static_cast<float>((R(0, 0) * x + R(0, 1) * y + R(0, 2) * z) * per_m);
