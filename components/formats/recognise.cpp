@@ -31,6 +31,9 @@ bool is_xtf(Window& file) {
 }  // namespace
 
 Format recognise(Window& file) {
+  // A .all file whose first length ends in 123 could pass for XTF, so whole frames at the very begin come first.
+  if (all::FrameFormat::check(file, 0).bytes > 0) return Format::all;
+  if (kmall::FrameFormat::check(file, 0).bytes > 0) return Format::kmall;
   if (is_xtf(file)) return Format::xtf;
   const std::uint64_t all = first_frame<all::FrameFormat>(file);
   const std::uint64_t kmall = first_frame<kmall::FrameFormat>(file);

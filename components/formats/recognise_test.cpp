@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "components/formats/all/installation_text.h"
+#include "components/formats/all/writer.h"
 #include "components/formats/kmall/installation_text.h"
 #include "components/formats/testing/sample.h"
 
@@ -27,6 +28,19 @@ TEST_CASE("a format is recognised by content, also where the first datagram is d
     }
   }
   CHECK(format_of(ByteView(xtf.bytes).first(1024)) == Format::xtf);  // a header and no packet
+}
+
+TEST_CASE("a .all file that begins like XTF and carries XTF is .all") {
+  const auto carrying = [](Bytes body) {
+    return all::Datagram{.type = '3', .header = {2040, 20260310, 0, 1, 157}, .body = Raw{std::move(body)}};
+  };
+  const sample::File xtf = sample::xtf_file();
+  Bytes bytes;
+  all::append(bytes, carrying(Bytes(104)));  // with header, marks and checksum 123 bytes
+  REQUIRE(bytes[0] == std::byte{123});
+  all::append(bytes, carrying(Bytes(2'000)));
+  all::append(bytes, carrying(Bytes(xtf.bytes.begin() + 1024, xtf.bytes.end())));
+  CHECK(format_of(bytes) == Format::all);
 }
 
 TEST_CASE("empty, foreign and cut files have no format") {

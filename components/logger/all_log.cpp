@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/formats/utc.h"
+#include "components/logger/all_image.h"
 #include "components/logger/all_ping.h"
 #include "components/logger/all_settings.h"
 #include "components/logger/gga.h"

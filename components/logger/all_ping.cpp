@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/logger/beam_fields.h"
+
 namespace ensonify::logger {
 
 using namespace formats::all;
@@ -11,26 +13,6 @@ using namespace formats::all;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::uint8_t kNoDetection = 0x84;  // not valid; all else is zero
-
-double at_or_nan(const msg::Array<float>& values, std::size_t i) {
-  return i < values.size() ? static_cast<double>(values[i]) : std::numeric_limits<double>::quiet_NaN();
-}
-
-bool valid(const msg::Soundings& soundings, std::size_t i) {
-  return i < soundings.valid.size() && soundings.valid[i] != 0;
-}
-
-std::uint8_t detection_of(const msg::Soundings& soundings, std::size_t i) {
-  if (!valid(soundings, i)) return kNoDetection;
-  return i < soundings.kind.size() && soundings.kind[i] == 2 ? 1 : 0;  // by phase, by amplitude
-}
-
-std::uint16_t count_of(double value) {
-  if (!(value > 0.0)) return 0;  // NaN too
-  return static_cast<std::uint16_t>(std::min(std::round(value), 65'534.0));
-}
-
 std::uint16_t window_samples(const msg::Soundings& soundings, std::size_t i) {
   return count_of(at_or_nan(soundings.window_s, i) / soundings.sample_period_s);
 }
@@ -46,8 +28,6 @@ std::uint16_t valid_beams(const msg::Soundings& soundings) {
   return static_cast<std::uint16_t>(std::count_if(soundings.valid.flat().begin(), soundings.valid.flat().end(),
                                                   [](std::uint8_t flag) { return flag != 0; }));
 }
-
-float sampling_hz(double sample_period_s) { return static_cast<float>(1.0 / sample_period_s); }
 
 RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorption_dbpm) {
   constexpr std::uint8_t kCentreArray = 1;  // of an EM 2040's three
@@ -103,7 +83,7 @@ RawRangeAngle raw_range_angle(const msg::Soundings& soundings) {
     beam.angle_deg = beam.angle_deg.of(-static_cast<double>(soundings.beam_angle_rad[i]) / kDegree);  // to port
     if (i < soundings.sector.size()) beam.sector = soundings.sector[i];
     beam.detection = detection_of(soundings, i);
-    if (valid(soundings, i)) {
+    if (is_valid(soundings, i)) {
       beam.window_samples = window_samples(soundings, i);
       beam.quality = quality_of(soundings, i);
       beam.travel_time_s = soundings.travel_time_s[i];
@@ -132,7 +112,7 @@ Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frame
   for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
     Soundings::Beam beam;
     beam.detection = detection_of(soundings, i);
-    if (valid(soundings, i)) {
+    if (is_valid(soundings, i)) {
       const double east_m = soundings.position_enu_m(i, 0) - origin_enu_m.x();
       const double north_m = soundings.position_enu_m(i, 1) - origin_enu_m.y();
       beam.x_m = static_cast<float>(east_m * sine + north_m * cosine);
@@ -145,49 +125,6 @@ Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frame
     xyz.beams.push_back(beam);
   }
   return xyz;
-}
-
-SeabedImage seabed_image(const msg::Soundings& soundings, const std::optional<msg::SeabedImage>& image) {
-  SeabedImage written;
-  written.sampling_hz = sampling_hz(image ? image->sample_period_s : soundings.sample_period_s);
-  written.transmit_width_deg = written.transmit_width_deg.of(soundings.applied.transmit_beamwidth_rad / kDegree);
-  if (image) {
-    const double samples =
-        2.0 * image->normal_incidence_range_m / soundings.applied.sound_speed_mps / image->sample_period_s;
-    written.normal_incidence_samples = count_of(samples);
-    written.normal_incidence_strength_db = written.normal_incidence_strength_db.of(image->normal_incidence_strength_db);
-    written.oblique_strength_db = written.oblique_strength_db.of(image->oblique_strength_db);
-    written.crossover_deg = written.crossover_deg.of(image->crossover_angle_rad / kDegree);
-  }
-  const auto tenths = [](double strength_db) { return formats::FixedPoint<std::int16_t, 10>::of(strength_db).count; };
-  std::size_t next = 0;  // of the image's series, whose beams rise
-  for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
-    SeabedImage::Beam beam;
-    // All samples run from port to starboard: on the port side the highest range comes first.
-    const bool reversed = soundings.beam_angle_rad[i] < 0.0F;
-    beam.direction = reversed ? -1 : 1;
-    beam.detection = detection_of(soundings, i);
-    const std::size_t number = i < soundings.beam.size() ? soundings.beam[i] : i;
-    if (image) {
-      while (next < image->beam.size() && image->beam[next] < number) ++next;
-      if (next < image->beam.size() && image->beam[next] == number && next + 1 < image->offset.size()) {
-        const std::size_t begin = image->offset[next], samples = image->offset[next + 1] - begin;
-        const std::size_t centre = image->centre[next];
-        beam.samples = count_of(static_cast<double>(samples));
-        beam.centre_sample = count_of(static_cast<double>(reversed ? samples - centre : centre + 1));
-        for (std::size_t k = 0; k < beam.samples; ++k) {
-          const std::size_t from = begin + (reversed ? samples - 1 - k : k);
-          written.strength_ddb.push_back(tenths(static_cast<double>(image->strength_db[from])));
-        }
-        ++next;
-      }
-    } else if (valid(soundings, i)) {
-      beam.samples = beam.centre_sample = 1;
-      written.strength_ddb.push_back(tenths(at_or_nan(soundings.backscatter_strength_db, i)));
-    }
-    written.beams.push_back(beam);
-  }
-  return written;
 }
 
 }  // namespace ensonify::logger

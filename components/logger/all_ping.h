@@ -1,14 +1,11 @@
 #pragma once
 
-#include <optional>
-
-#include "components/formats/all/image.h"
 #include "components/formats/all/soundings.h"
 #include "components/logger/vessel.h"
 #include "kernels/base/frames/local_projection.h"
 #include "messages/soundings.h"
 
-/// The three datagrams of a ping in a .all file: N, X and Y, with all beams in each, valid or not.
+/// N and X of a ping in a .all file, with all beams in each, valid or not. Y is in all_image.h.
 namespace ensonify::logger {
 
 /// Whether the head knew where it was: else there is no ping to log.
@@ -21,8 +18,5 @@ formats::all::RawRangeAngle raw_range_angle(const msg::Soundings& soundings);
 /// `heave_down_m`: measured, at transmission.
 formats::all::Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frames::LocalProjection& world,
                             double heave_down_m);
-
-/// Of the head's image of the same ping; without one, one sample a beam: the sounding's strength.
-formats::all::SeabedImage seabed_image(const msg::Soundings& soundings, const std::optional<msg::SeabedImage>& image);
 
 }  // namespace ensonify::logger

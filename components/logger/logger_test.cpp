@@ -8,6 +8,7 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/all/installation_text.h"
 #include "components/formats/all/reader.h"
+#include "components/logger/all_image.h"
 #include "components/logger/node.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "scenarios/world/world.h"
@@ -282,6 +283,44 @@ TEST_CASE("angles are positive to port, beams without a detection are all zero a
     CHECK(raw.valid_beams == kBeams - 11);
     CHECK(raw.sectors.at(0).index == 1);
     CHECK_THAT(raw.beams[51].reflectivity_db.value(), WithinAbs(-30.1, 0.051));
+  }
+}
+
+TEST_CASE("an image's samples run from port to starboard, and are cut around detections to what a network carries") {
+  const msg::Soundings soundings = ping_at(1_s, 0, {});
+  for (const std::uint32_t samples : {4U, 2'000U}) {
+    CAPTURE(samples);
+    msg::SeabedImage image;
+    image.sample_period_s = 5e-5;
+    const std::vector<std::uint16_t> beams{1, 51, 99};
+    const std::uint32_t centre = samples / 4;
+    std::vector<std::uint32_t> offsets{0};
+    std::vector<float> strengths;
+    for (std::size_t beam = 0; beam < beams.size(); ++beam) {
+      for (std::uint32_t k = 0; k < samples; ++k)
+        strengths.push_back(-0.1F * static_cast<float>(k));  // falls with range
+      offsets.push_back(static_cast<std::uint32_t>(strengths.size()));
+    }
+    image.beam = msg::Array<std::uint16_t>::of(beams);
+    image.centre = msg::Array<std::uint32_t>::of(std::vector<std::uint32_t>(beams.size(), centre));
+    image.offset = msg::Array<std::uint32_t>::of(offsets);
+    image.strength_db = msg::Array<float>::of(strengths);
+
+    const all::SeabedImage written = logger::seabed_image(soundings, image);
+    REQUIRE(written.beams.size() == kBeams);
+    CHECK(all::SeabedImage::samples(written.beams) == written.strength_ddb.size());
+    CHECK(written.strength_ddb.size() * sizeof(std::int16_t) <= logger::kMostImageBytes);
+    CHECK(written.beams[0].samples == 0);
+    const std::size_t kept = written.beams[1].samples;
+    CHECK(kept == std::min<std::size_t>(samples, logger::kMostImageBytes / 2 / kBeams));
+    std::size_t begin = 0;
+    for (const std::size_t beam : {1U, 51U, 99U}) {
+      const std::span<const std::int16_t> series(written.strength_ddb.data() + begin, kept);
+      CHECK((beam < 50 ? series.front() < series.back() : series.front() > series.back()));
+      // The sample of the detection is the one that the head gave: -0.1 dB by its number.
+      CHECK(series[written.beams[beam].centre_sample - 1U] == -static_cast<int>(centre));
+      begin += kept;
+    }
   }
 }
 

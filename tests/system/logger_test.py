@@ -5,6 +5,7 @@ What is read here is read by a small reader of its own, so that writer and reade
 import json
 import math
 import struct
+import subprocess
 import unittest
 
 import ensonify
@@ -138,6 +139,21 @@ class Logger(support.SystemTest):
         self.assertLess(horizontal_m.max(), 0.015)
         self.assertLess(vertical_m.max(), 0.05)
         self.assertLess(np.abs(np.mean(errors, axis=0)).max(), 0.01)
+
+    def test_a_full_disk_is_5_names_the_logger_and_leaves_whole_datagrams(self):
+        small = self.folder / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(small)], capture_output=True).returncode:
+            self.skipTest("cannot mount a small tmpfs here (needs root)")
+        try:
+            result = self.run_launch(LAUNCH.replace("head: bow }", f"head: bow, folder: {small} }}"), timeout=120)
+            self.assertEqual((result.code, result.report()["culprit"]), (5, "log"), result.stderr)
+            self.assertIn(NAME, result.stderr)
+            done = self.tool("info", "--json", small / NAME)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertGreater(json.loads(done.stdout)[0]["pings"]["serial 101"]["numbers"], 5)
+        finally:
+            subprocess.run(["umount", "-l", str(small)], check=True)
 
     def test_processes_and_one_process_write_the_same_bytes(self):
         apart, together = self.logged(out="apart"), self.logged("--in-process", out="together")

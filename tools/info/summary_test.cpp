@@ -147,6 +147,8 @@ TEST_CASE("an XTF file's pings are counted by head, and its depths are below the
 TEST_CASE("a file of no known format is refused with those that are known") {
   CHECK_THROWS_WITH(summary_of({}), "it is empty");
   const formats::Bytes foreign(1000, std::byte{'x'});
+  const std::string_view mcap = "\x89MCAP0\r\nrest";
+  CHECK_THROWS_WITH(summary_of(std::as_bytes(std::span(mcap))), Contains("it is an MCAP record"));
   CHECK_THROWS_WITH(summary_of(foreign), Contains("known are .all, .wcd, .kmall, .kmwcd and XTF"));
 }
 

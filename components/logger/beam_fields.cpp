@@ -1,0 +1,24 @@
+#include "components/logger/beam_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ensonify::logger {
+
+std::uint8_t detection_of(const msg::Soundings& soundings, std::size_t entry) {
+  constexpr std::uint8_t kAmplitude = 0, kPhase = 1, kNone = 0x84;  // bit 7: not valid
+  if (!is_valid(soundings, entry)) return kNone;
+  return entry < soundings.kind.size() && soundings.kind[entry] == 2 ? kPhase : kAmplitude;
+}
+
+std::uint16_t count_of(double value) {
+  if (!(value > 0.0)) return 0;  // NaN too
+  return static_cast<std::uint16_t>(std::min(std::round(value), 65'534.0));
+}
+
+double at_or_nan(const msg::Array<float>& values, std::size_t entry) {
+  return entry < values.size() ? static_cast<double>(values[entry]) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace ensonify::logger
