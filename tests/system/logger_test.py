@@ -143,7 +143,7 @@ class Logger(support.SystemTest):
     def test_a_full_disk_is_5_names_the_logger_and_leaves_whole_datagrams(self):
         small = self.folder / "small"
         small.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(small)], capture_output=True).returncode:
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(small)], capture_output=True).returncode:
             self.skipTest("cannot mount a small tmpfs here (needs root)")
         try:
             result = self.run_launch(LAUNCH.replace("head: bow }", f"head: bow, folder: {small} }}"), timeout=120)
