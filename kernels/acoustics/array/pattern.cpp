@@ -37,11 +37,15 @@ float amplitude_of(const FaceFactor& face, const Eigen::Vector3f& direction, flo
   return static_cast<float>(face_of(face, direction));
 }
 
+/// (1 - y^2)^power, power above 0.
+inline float cosine_power(float y, float power) {
+  const float squared = (1.0F - y) * (1.0F + y);
+  const float value = fast_math::exp2(std::numbers::log2e_v<float> * power * fast_math::log(squared));
+  return squared > 0.0F ? value : 0.0F;
+}
+
 float power_of(const CosineFactor& cosine, const Eigen::Vector3f& direction) {
-  const float u = direction.y(), squared = (1.0F - u) * (1.0F + u);
-  if (cosine.power == 0.0F) return 1.0F;
-  const float power = fast_math::exp2(std::numbers::log2e_v<float> * cosine.power * fast_math::log(squared));
-  return squared > 0.0F ? power : 0.0F;
+  return cosine.power == 0.0F ? 1.0F : cosine_power(direction.y(), cosine.power);
 }
 
 float amplitude_of(const CosineFactor& cosine, const Eigen::Vector3f& direction, float) {
@@ -132,6 +136,11 @@ void times_power(const Factor& factor, const Directions& directions, std::span<c
       const std::complex<float> a = on.amplitude(*factor.table, i);
       power[i] *= static_cast<double>(a.real() * a.real() + a.imag() * a.imag());
     }
+  } else if constexpr (std::is_same_v<Factor, CosineFactor>) {
+    const float fall = factor.power;
+    if (fall == 0.0F) return;
+    const float* const y = directions.y.data();
+    for (std::size_t i = 0; i < power.size(); ++i) power[i] *= static_cast<double>(cosine_power(y[i], fall));
   } else {
     for (std::size_t i = 0; i < power.size(); ++i)
       power[i] *= power_factor(factor, directions[i], range_of(range_m, i));
