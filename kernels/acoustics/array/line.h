@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -125,17 +126,7 @@ class PatternTable {
   PatternTable(const LineArray& array, double wavelength_m, double sin_steer = 0.0, double error = 1e-4);
 
   /// Complex amplitude; sines outside -1..1 count as -1 or 1.
-  std::complex<float> amplitude(double sine) const {
-    const double position = (std::clamp(sine, -1.0, 1.0) + 1.0) * steps_per_sine_;
-    const int step = std::min(static_cast<int>(position), steps_ - 1);
-    const auto t = static_cast<float>(position - step);
-    const std::complex<float>* p = points_.data() + step;  // at -1, 0, 1, 2 steps from `step`
-    const float before = t + 1.0F, after = t - 1.0F, beyond = t - 2.0F;
-    const float w0 = t * after * beyond * (-1.0F / 6.0F), w1 = before * after * beyond * 0.5F;
-    const float w2 = before * t * beyond * -0.5F, w3 = before * t * after * (1.0F / 6.0F);
-    return {w0 * p[0].real() + w1 * p[1].real() + w2 * p[2].real() + w3 * p[3].real(),
-            w0 * p[0].imag() + w1 * p[1].imag() + w2 * p[2].imag() + w3 * p[3].imag()};
-  }
+  std::complex<float> amplitude(double sine) const { return amplitude(scale().interval(sine)); }
 
   /// Squared magnitude.
   float power(double sine) const {
@@ -144,6 +135,31 @@ class PatternTable {
   }
 
   std::size_t size() const { return points_.size(); }
+
+  /// Between which points a sine lies, and their weights: amplitude() in parts, for vector code.
+  struct Interval {
+    std::int32_t step;
+    float before, at, after, beyond;
+  };
+  struct Scale {
+    double steps_per_sine;
+    std::int32_t steps;
+
+    Interval interval(double sine) const {
+      const double position = (std::clamp(sine, -1.0, 1.0) + 1.0) * steps_per_sine;
+      const std::int32_t step = std::min(static_cast<std::int32_t>(position), steps - 1);
+      const auto t = static_cast<float>(position - step);
+      const float before = t + 1.0F, after = t - 1.0F, beyond = t - 2.0F;
+      return {step, t * after * beyond * (-1.0F / 6.0F), before * after * beyond * 0.5F, before * t * beyond * -0.5F,
+              before * t * after * (1.0F / 6.0F)};
+    }
+  };
+  Scale scale() const { return {steps_per_sine_, steps_}; }
+  std::complex<float> amplitude(const Interval& in) const {
+    const std::complex<float>* p = points_.data() + in.step;
+    return {in.before * p[0].real() + in.at * p[1].real() + in.after * p[2].real() + in.beyond * p[3].real(),
+            in.before * p[0].imag() + in.at * p[1].imag() + in.after * p[2].imag() + in.beyond * p[3].imag()};
+  }
 
  private:
   int steps_ = 0;

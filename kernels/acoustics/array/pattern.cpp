@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <stdexcept>
+
+#include "kernels/base/fast_math/fast_math.h"
 
 namespace ensonify::array {
 namespace {
 
 constexpr double kNearest_m = 1e-3;  // range from which the near field is reckoned
 constexpr std::size_t kRun = 256;    // directions whose numbers stay in the first cache
-
-float amplitude_of(const LineFactor& line, const Eigen::Vector3f& direction, float) {
-  const double sine = static_cast<double>(line.axis_head.dot(direction)) - line.sin_steer;
-  return std::abs(sine) < static_cast<double>(line.end) ? line.table->amplitude(sine).real() : 0.0F;
-}
 
 float amplitude_of(const PistonFactor& piston, const Eigen::Vector3f& direction, float) {
   const float sine = direction.head<2>().norm();
@@ -38,9 +37,15 @@ float amplitude_of(const FaceFactor& face, const Eigen::Vector3f& direction, flo
   return static_cast<float>(face_of(face, direction));
 }
 
+/// (1 - y^2)^power, power above 0.
+inline float cosine_power(float y, float power) {
+  const float squared = (1.0F - y) * (1.0F + y);
+  const float value = fast_math::exp2(std::numbers::log2e_v<float> * power * fast_math::log(squared));
+  return squared > 0.0F ? value : 0.0F;
+}
+
 float power_of(const CosineFactor& cosine, const Eigen::Vector3f& direction) {
-  const float u = direction.y();
-  return std::pow(std::max(0.0F, (1.0F - u) * (1.0F + u)), cosine.power);
+  return cosine.power == 0.0F ? 1.0F : cosine_power(direction.y(), cosine.power);
 }
 
 float amplitude_of(const CosineFactor& cosine, const Eigen::Vector3f& direction, float) {
@@ -62,10 +67,7 @@ float amplitude_of(const GaussianFactor& gaussian, const Eigen::Vector3f& direct
 /// Square of a factor's amplitude; of a table, of all that it holds.
 template <class Factor>
 double power_factor(const Factor& factor, const Eigen::Vector3f& direction, float range_m) {
-  if constexpr (std::is_same_v<Factor, LineFactor>) {
-    const double sine = static_cast<double>(factor.axis_head.dot(direction)) - factor.sin_steer;
-    return std::abs(sine) < static_cast<double>(factor.end) ? static_cast<double>(factor.table->power(sine)) : 0.0;
-  } else if constexpr (std::is_same_v<Factor, FaceFactor>) {
+  if constexpr (std::is_same_v<Factor, FaceFactor>) {
     const double face = face_of(factor, direction);
     return face * face;
   } else if constexpr (std::is_same_v<Factor, CosineFactor>) {
@@ -85,28 +87,78 @@ void check(const Directions& directions, std::span<const float> range_m, std::si
 
 float range_of(std::span<const float> range_m, std::size_t i) { return range_m.empty() ? kFarField_m : range_m[i]; }
 
+template <class T>
+using Column = std::array<T, kRun>;
+
+/// Where on a line's table directions lie, kRun at most.
+struct OnLine {
+  alignas(64) Column<std::int32_t> step, inside;
+  alignas(64) Column<float> before, at, after, beyond;
+
+  OnLine(const LineFactor& line, const Directions& directions) {
+    const float ax = line.axis_head.x(), ay = line.axis_head.y(), az = line.axis_head.z();
+    const double sin_steer = line.sin_steer, end = static_cast<double>(line.end);
+    const PatternTable::Scale scale = line.table->scale();
+    const float *const x = directions.x.data(), *const y = directions.y.data(), *const z = directions.z.data();
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double sine = static_cast<double>(ax * x[i] + ay * y[i] + az * z[i]) - sin_steer;
+      const PatternTable::Interval in = scale.interval(sine);
+      step[i] = in.step;
+      before[i] = in.before, at[i] = in.at, after[i] = in.after, beyond[i] = in.beyond;
+      inside[i] = std::abs(sine) < end ? 1 : 0;
+    }
+  }
+  std::complex<float> amplitude(const PatternTable& table, std::size_t i) const {
+    return inside[i] ? table.amplitude({step[i], before[i], at[i], after[i], beyond[i]}) : std::complex<float>();
+  }
+};
+
+/// Multiplies by one factor's amplitudes, kRun at most.
+template <class Factor>
+void times(const Factor& factor, const Directions& directions, std::span<const float> range_m,
+           std::span<float> amplitude) {
+  if constexpr (std::is_same_v<Factor, LineFactor>) {
+    const OnLine on(factor, directions);
+    for (std::size_t i = 0; i < amplitude.size(); ++i) amplitude[i] *= on.amplitude(*factor.table, i).real();
+  } else {
+    for (std::size_t i = 0; i < amplitude.size(); ++i)
+      amplitude[i] *= amplitude_of(factor, directions[i], range_of(range_m, i));
+  }
+}
+
+/// The same of powers.
+template <class Factor>
+void times_power(const Factor& factor, const Directions& directions, std::span<const float> range_m,
+                 std::span<double> power) {
+  if constexpr (std::is_same_v<Factor, LineFactor>) {
+    const OnLine on(factor, directions);
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const std::complex<float> a = on.amplitude(*factor.table, i);
+      power[i] *= static_cast<double>(a.real() * a.real() + a.imag() * a.imag());
+    }
+  } else if constexpr (std::is_same_v<Factor, CosineFactor>) {
+    const float fall = factor.power;
+    if (fall == 0.0F) return;
+    const float* const y = directions.y.data();
+    for (std::size_t i = 0; i < power.size(); ++i) power[i] *= static_cast<double>(cosine_power(y[i], fall));
+  } else {
+    for (std::size_t i = 0; i < power.size(); ++i)
+      power[i] *= power_factor(factor, directions[i], range_of(range_m, i));
+  }
+}
+
 /// Multiplies by the factors' amplitudes.
 void multiply(std::span<const Pattern::Factor> factors, const Directions& directions, std::span<const float> range_m,
               std::span<float> amplitude) {
   for (const Pattern::Factor& one : factors) {
-    std::visit(
-        [&](const auto& factor) {
-          for (std::size_t i = 0; i < amplitude.size(); ++i)
-            amplitude[i] *= amplitude_of(factor, directions[i], range_of(range_m, i));
-        },
-        one);
+    std::visit([&](const auto& factor) { times(factor, directions, range_m, amplitude); }, one);
   }
 }
 
 void multiply_powers(std::span<const Pattern::Factor> factors, const Directions& directions,
                      std::span<const float> range_m, std::span<double> power) {
   for (const Pattern::Factor& one : factors) {
-    std::visit(
-        [&](const auto& factor) {
-          for (std::size_t i = 0; i < power.size(); ++i)
-            power[i] *= power_factor(factor, directions[i], range_of(range_m, i));
-        },
-        one);
+    std::visit([&](const auto& factor) { times_power(factor, directions, range_m, power); }, one);
   }
 }
 
