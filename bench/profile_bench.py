@@ -12,7 +12,7 @@ KINDS = {"forward_looking": 4, "multibeam": 30}
 def bench_profile(b):
     """Processor time of all processes of a head's run with --profile over that without, the median of pairs. One pair differs by
     one or two percent on a machine at work, so there are four times as many as of other benchmarks, and the standard error of their
-    median stands beside it."""
+    median stands beside it; the target counts as missed where the ratio is above it by more than two of these."""
     rows = []
     for kind, seconds in KINDS.items():
         options = ["--arg", f"kind={kind}", "--arg", f"seconds={seconds}"]
@@ -31,5 +31,5 @@ def bench_profile(b):
         error = 1.25 * statistics.stdev(ratios) / len(ratios) ** 0.5
         ratio = statistics.median(ratios)
         rows.append(row(f"{kind} with --profile (without; +-{error:.4f})", profiled, "s", plain, ratio,
-                        target="at most 1.01", ok=ratio <= 1.01))
+                        target="at most 1.01", ok=ratio - 2 * error <= 1.01))
     return rows
