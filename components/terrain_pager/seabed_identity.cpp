@@ -47,7 +47,7 @@ std::size_t padded(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
 
 /// The build ID among the notes of a segment, as hexadecimal digits, or "".
 std::string build_id(std::span<const char> notes) {
-  constexpr std::string_view kOwner{"GNU", 4};  // with its terminating zero
+  constexpr std::string_view kOwner("GNU\0", 4);  // with its terminating zero
   while (notes.size() >= sizeof(ElfW(Nhdr))) {
     ElfW(Nhdr) note;
     std::memcpy(&note, notes.data(), sizeof note);
