@@ -24,7 +24,7 @@ std::optional<std::pair<std::int64_t, double>> reading_of(const std::string& lin
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
   const bool time = hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0;
-  if (found != 7 || line.find_first_not_of("\r", static_cast<std::size_t>(end)) != std::string::npos || !date.ok() ||
+  if (found != 7 || line.find_first_not_of('\r', static_cast<std::size_t>(end)) != std::string::npos || !date.ok() ||
       !time || year < 1970 || year > 2200 || !std::isfinite(level_m))
     return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();

@@ -25,6 +25,7 @@ class global_control {
   global_control(const global_control&) = delete;
   global_control& operator=(const global_control&) = delete;
 
+  static std::size_t active_value(parameter) { return allowed(); }
   static std::atomic<std::size_t>& allowed() {
     static std::atomic<std::size_t> most{4};  // more than the cores of a small machine: threads change places
     return most;
