@@ -103,6 +103,13 @@ int main(int argc, char** argv) {
     argv[1] = const_cast<char*>(program.c_str());
     ::execv(program.c_str(), argv + 1);
   }
+  const bool known =
+      std::any_of(kKnownVerbs.begin(), kKnownVerbs.end(), [&](const auto& v) { return v.first == verb; });
+  if (known) {  // a build of some programs only, as that of the demo
+    fmt::print(stderr, "ensonify: {} is not built here: {} is missing; `./dev build` makes every program\n", verb,
+               program);
+    return kExitUserError;
+  }
   std::vector<std::string> all = programs.verbs;
   all.insert(all.end(), programs.processes.begin(), programs.processes.end());
   const std::string nearest = nearest_name(verb, all);

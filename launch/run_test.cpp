@@ -254,6 +254,13 @@ TEST_CASE("the dispatcher finds the nearest verb") {
   Program program(place, {"ensonify", "rnu"});
   CHECK(program.wait() == 2);
   CHECK(program.stated().find("ensonify: there is no rnu; did you mean run?") == 0);
+  // Where only some programs are built, as for the demo.
+  fs::create_directories(place.file("bin"));
+  const fs::path built = fs::path(std::getenv("ENSONIFY_BUILD")) / "bin";
+  fs::copy_file(built / "ensonify", place.file("bin/ensonify"));
+  Program alone(place, {fs::relative(place.file("bin/ensonify"), built), "info"});
+  CHECK(alone.wait() == 2);
+  CHECK(alone.stated().find("ensonify: info is not built here") == 0);
   Program help(place, {"ensonify", "--help"});
   CHECK(help.wait() == 0);
   CHECK(help.stated().find("Usage: ensonify VERB") == 0);

@@ -1,6 +1,7 @@
 """`ensonify grid`: what it writes is read by GDAL and h5py, and is what numpy makes of the same soundings."""
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -95,6 +96,16 @@ class Points(unittest.TestCase):
                 self.assertIn(cause, done.stderr.decode())
         done = grid("--points", "-", "--out", self.root / "no/such/folder.tif", given=point)
         self.assertEqual(done.returncode, 5, done.stderr)
+
+
+    def test_an_interrupted_grid_is_not_written(self):
+        file = self.root / "part.tif"
+        with subprocess.Popen([PROGRAM, "--points", "-", "--out", str(file)], stdin=subprocess.PIPE) as running:
+            running.stdin.write(np.tile([1.0, 1.0, 10.0, 0.1], 100_000).tobytes())  # more than the pipe holds: it is reading
+            running.send_signal(signal.SIGINT)
+            running.stdin.close()
+            self.assertEqual(running.wait(timeout=60), 130)
+        self.assertFalse(file.exists())
 
 
 class Records(unittest.TestCase):

@@ -72,6 +72,7 @@ int run(const Options& options) {
   for (const std::string& file : options.out) writer_of(file);
   const Gridded gridded =
       grid_of(opened(options), {options.cell_m > 0.0 ? std::optional(options.cell_m) : std::nullopt, options.crs});
+  if (interrupted()) return kExitInterrupted;  // part of the soundings is no survey: nothing is written
   if (gridded.grid.soundings() == 0) throw UserError("the files hold no accepted sounding");
   for (const std::string& file : options.out) writer_of(file)(file, gridded.grid, gridded.facts);
   const auto summary = summary_of(gridded);
@@ -95,7 +96,7 @@ int main(int argc, char** argv) {
       "Grids the accepted soundings of records: weighted mean, shoalest, number, standard deviation and uncertainty "
       "of\n"
       "each cell, as a GeoTIFF, or elevation and uncertainty as a BAG. Cells without soundings stay open.\n"
-      "Exit code: 0 done, 2 wrong input, 5 the file cannot be written.",
+      "Exit code: 0 done, 2 wrong input, 5 the file cannot be written, 130 interrupted: nothing is written.",
       "ensonify grid");
   Options options;
   app.add_option("FILE", options.files, "records with soundings/1, runs' folders with one, .all and .kmall files");

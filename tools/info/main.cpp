@@ -33,13 +33,14 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("FILE", files, "records; of any size, read once from front to back")->required();
   app.add_flag("--json", json, "print a list with one object a file");
-  return tool_main(app, argc, argv, [&] {
+  return tool_main(app, argc, argv, [&]() -> int {
     int code = kExitOk;
     auto list = nlohmann::ordered_json::array();
     for (const std::string& file : files) {
       try {
         formats::Window window(file);
         const info::Summary summary = info::summarise(window);
+        if (interrupted()) return kExitInterrupted;  // what was read so far is not the file
         if (json) list.push_back(info::json_of(file, summary));
         else fmt::print("{}\n", info::text_of(file, summary));
         if (summary.faults.count() > 0) code = std::max(code, kFaultsFound);

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-/// What the project uses of oneTBB, on plain threads: included in place of it by the preset tsan alone. The thread
-/// sanitizer does not see what order TBB's own library keeps between tasks, for that is not instrumented; it would have
-/// to be told to ignore every task, and would find nothing in them. Here it sees each thread begin and end, and nothing
-/// orders two tasks but that. Tasks within tasks run one after another. It is slow: a call starts its threads.
+/// What the project uses of oneTBB, on plain threads: included in place of it by the preset tsan alone. TBB's own
+/// library is not instrumented, so the sanitizer does not know what order it keeps between tasks, and would have to
+/// ignore every task. Here it sees each thread begin and end, and nothing orders two tasks but that. Tasks within tasks
+/// run one after another. It is slow: a call starts its threads.
 namespace tbb {
 
 class global_control {
@@ -50,6 +50,8 @@ namespace detail {
 inline thread_local bool in_task = false;
 
 /// Calls task(0), task(1), ... task(count - 1), each once, on several threads; throws what the first of them threw.
+/// Thread n takes tasks n, n + threads, n + 2 threads, ...: handed out on demand, one thread might do them all, and no
+/// two of them would be unordered.
 template <class Task>
 void run(std::size_t count, const Task& task) {
   const std::size_t threads = std::min(count, static_cast<std::size_t>(this_task_arena::max_concurrency()));
@@ -57,25 +59,24 @@ void run(std::size_t count, const Task& task) {
     for (std::size_t i = 0; i < count; ++i) task(i);
     return;
   }
-  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stopped{false};  // relaxed: it must not order tasks
   std::exception_ptr thrown;
   std::mutex mutex;
-  const auto work = [&](int index) {
-    this_task_arena::thread_index = index;
+  const auto work = [&](std::size_t index) {
+    this_task_arena::thread_index = static_cast<int>(index);
     in_task = true;
     try {
-      // Relaxed: taking a task must not order it after the one before.
-      for (std::size_t i = 0; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) task(i);
+      for (std::size_t i = index; i < count && !stopped.load(std::memory_order_relaxed); i += threads) task(i);
     } catch (...) {
+      stopped.store(true, std::memory_order_relaxed);
       const std::lock_guard lock(mutex);
       if (!thrown) thrown = std::current_exception();
-      next = count;
     }
     in_task = false;
     this_task_arena::thread_index = 0;
   };
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work, static_cast<int>(i));
+  for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work, i);
   work(0);
   for (std::thread& other : others) other.join();
   if (thrown) std::rethrow_exception(thrown);
