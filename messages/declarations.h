@@ -55,6 +55,7 @@ struct HeadDeclaration {
   static constexpr const char* kAbout =
       "What a sonar head declares before the run. It is part of `hello` and of a record, and no topic.";
   std::string kind;
+  std::string instrument;
   std::string beam_axis = "down";
   double finest_beam_rad = 0.0;
   double near_field_m = 0.0;
@@ -67,6 +68,8 @@ struct HeadDeclaration {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("kind", "", "kind of head, as in ping/1", self.kind);
+    visit("instrument", "", "class of instruments that the head stands for, such as em2040; empty: none in particular",
+          self.instrument);
     visit("beam_axis", "", "axis of the head from which beam angles count, positive to starboard: down or forward",
           self.beam_axis);
     visit("finest_beam_rad", "rad", "half-power width of the finest beam", self.finest_beam_rad);

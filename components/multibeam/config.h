@@ -143,6 +143,7 @@ struct MultibeamParameters {
   double detection_threshold_db = 13.0;          // signal to noise ratio of a sounding, at least
   double least_range_m = 2.0;                    // nearer, nothing is taken for the seabed
   bool refuse_second_echo = true;                // by way of the surface, where it stands for the seabed
+  std::string instrument = "generic";            // class whose settings these are
   std::string mode = "bathymetry";               // or water_column: every ping with amplitude and phase
   int amplitude_every = 1;                       // ping/1 is published for every n-th ping; soundings for all
   int phase_every = 0;                           // and has the phase in every n-th ping; 0: never
@@ -153,6 +154,9 @@ struct MultibeamParameters {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("frequency_hz", "Hz", in(50e3, 1e6), "centre frequency", self.frequency_hz);
+    visit("instrument", "", one_of({"generic", "em2040", "t50", "r2sonic2024", "norbit_iwbms"}),
+          "class of instruments whose settings these are; what files a logger writes follows from it",
+          self.instrument);
     visit("beams", "", in(2, 1024), "across the track", self.beams);
     visit("swath_deg", "deg", in(1, 170), "width of the swath at the start", self.swath_rad);
     visit("spacing", "",

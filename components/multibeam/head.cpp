@@ -52,7 +52,8 @@ HeadPlan Multibeam::plan(const Config& config) {
   return {.channels = {{"", config.start(), config.limits(), sectors}},
           .longest_reception_s = config.longest_reception_s(),
           .finest_beam_rad = std::min(config.transmit_beamwidth_rad, config.receive_beamwidth_rad),
-          .probe = true};
+          .probe = true,
+          .instrument = config.instrument};
 }
 
 Multibeam::Multibeam(const Config& config, std::size_t)

@@ -24,6 +24,7 @@ HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan) {
 msg::HeadDeclaration declaration_of(const std::string& kind, const HeadConfig& config, const HeadPlan& plan) {
   msg::HeadDeclaration head;
   head.kind = kind;
+  head.instrument = plan.instrument;
   head.beam_axis = plan.beam_axis == BeamAxis::kForward ? "forward" : "down";
   head.finest_beam_rad = plan.finest_beam_rad;
   head.near_field_m = plan.near_field_m;

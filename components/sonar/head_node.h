@@ -27,6 +27,7 @@ struct HeadPlan {
   BeamAxis beam_axis = BeamAxis::kDown;
   double near_field_m = 0.0;  // of the unfocused receive array; 0: not stated
   bool probe = false;         // for the sound speed at its face
+  std::string instrument = {};  // class that it stands for; "": none in particular
 };
 
 /// Output of a channel: its port and the longest message. In a head whose channels have names the port is `port_name`.
