@@ -198,7 +198,7 @@ function(ensonify_test_properties name labels timeout)
     math(EXPR timeout "5 * ${timeout}")
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
-    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_FOLDER=${CMAKE_CURRENT_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0;TSAN_OPTIONS=ignore_noninstrumented_modules=1 suppressions=${CMAKE_SOURCE_DIR}/cmake/thread_sanitizer/suppressions.txt")
+    ENVIRONMENT "ENSONIFY_SOURCE=${CMAKE_SOURCE_DIR};ENSONIFY_FOLDER=${CMAKE_CURRENT_SOURCE_DIR};ENSONIFY_BUILD=${CMAKE_BINARY_DIR};ENSONIFY_BIN=${CMAKE_BINARY_DIR}/bin;ENSONIFY_SHARED=${CMAKE_SOURCE_DIR}/../shared;ASAN_OPTIONS=alloc_dealloc_mismatch=0;TSAN_OPTIONS=ignore_noninstrumented_modules=1 suppressions=${CMAKE_SOURCE_DIR}/cmake/thread_sanitizer/suppressions.txt")
   # One launch at a time, from the start on, and other programs beside it; measurements run alone.
   foreach(launches system determinism)
     if(launches IN_LIST labels)

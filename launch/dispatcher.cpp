@@ -36,6 +36,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"replay", "feed a record back"},
     {"record", "record a live run from outside; repair a record whose writer was killed"},
     {"compare", "say where two records differ"},
+    {"convert", "a record as hydrographic software reads it (.all, .kmall, XTF)"},
     {"info", "what records of other formats hold (.all, .kmall, XTF), and what is wrong with them"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kDeepestReference_m = 10.0;  // of a vessel at the surface
 
+const std::vector<std::string> kFormats{"all"};
+
 /// All heads that vehicles of the scenario carry.
 std::vector<std::string> heads_of(const World& world) {
   std::vector<std::string> heads;
@@ -33,6 +35,31 @@ bool dives(const Mission& mission) {
 }
 
 }  // namespace
+
+void LoggedFormats::read(ConfigReader& from, const char* key) {
+  if (from.node(key) == nullptr) return;
+  std::vector<std::string> given;
+  from.required(key, given);
+  clear();
+  for (const std::string& word : given) {
+    if (std::find(kFormats.begin(), kFormats.end(), word) == kFormats.end())
+      from.problem(key, fmt::format("\"{}\" is no format; allowed: {}", word, fmt::join(kFormats, ", ")));
+    else if (std::find(begin(), end(), word) == end())
+      push_back(word);
+  }
+  if (given.empty()) from.problem(key, fmt::format("names none; allowed: {}", fmt::join(kFormats, ", ")));
+}
+
+ConfigNode LoggedFormats::in_file() const {
+  ConfigNode list;
+  list.kind = ConfigNode::Kind::kList;
+  for (const std::string& word : *this) list.items.push_back(ConfigNode::text(word));
+  return list;
+}
+
+std::string LoggedFormats::schema() {
+  return fmt::format(R"({{"type": "array", "minItems": 1, "items": {{"enum": ["{}"]}}}})", fmt::join(kFormats, R"(", ")"));
+}
 
 LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const std::string& /*process*/) {
   LoggerConfig config;

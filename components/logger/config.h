@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "components/config/config_node.h"
 #include "components/config/parameters.h"
 #include "components/logger/vessel.h"
 #include "kernels/base/frames/local_projection.h"
@@ -13,7 +15,16 @@ namespace ensonify {
 
 class ConfigReader;
 
+/// Formats that a logger writes, in the order given.
+struct LoggedFormats : std::vector<std::string> {
+  using std::vector<std::string>::vector;
+  void read(ConfigReader& from, const char* key);
+  ConfigNode in_file() const;
+  static std::string schema();
+};
+
 struct LoggerParameters {
+  LoggedFormats formats{"all"};
   std::string head;
   std::string folder = ".";
   std::string ship;
@@ -22,6 +33,7 @@ struct LoggerParameters {
   int position_rate_hz = 5;
 
   static void parameters(auto& self, auto&& visit) {
+    visit("formats", "", any(), "list of all (Kongsberg .all, model 2040)", self.formats);
     visit("head", "", any(), "the multibeam whose soundings are logged, by its process's name; \"\": the only head",
           self.head);
     visit("folder", "", any(), "folder of the files, relative to the run's output folder; it is made", self.folder);

@@ -15,7 +15,7 @@ std::vector<Attachment> attachments_of(const std::map<std::string, std::string>&
     if (fact != facts.end()) files.push_back({name, "text/plain", fact->second});
   }
   if (const auto fact = facts.find(kDeclarationsFact); fact != facts.end() && fact->second != "{}")
-    files.push_back({"declarations.json", "application/json", fact->second});
+    files.push_back({kDeclarationsName, "application/json", fact->second});
   msg::Value::Map own;  // of participants: PROCESS/KEY
   for (const auto& [name, text] : facts) {
     if (name.find('/') != std::string::npos) own.emplace_back(name, msg::Value{text});

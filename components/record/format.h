@@ -58,6 +58,9 @@ struct Attachment {
   std::string data;
 };
 
+/// Name of the attachment with what the processes of the run declared of themselves (runtime/declared.h).
+inline constexpr const char* kDeclarationsName = "declarations.json";
+
 /// Of the facts of a run those that a reader needs to repeat it (launch, scenario, version, seed), and what its
 /// processes declared of themselves.
 std::vector<Attachment> attachments_of(const std::map<std::string, std::string>& facts);

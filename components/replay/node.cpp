@@ -39,6 +39,7 @@ std::string with_place(const std::string& place, const std::string& text) {
 
 ReplayNode::ReplayNode(const Config& config, Ports& ports) : config_(config), ports_(ports), reader_(config.file) {
   declare_ports();
+  declare_again();
   check_topics();
   if (config_.finish) ports_.may_finish();
   has_next_ = read_next();
@@ -65,6 +66,18 @@ void ReplayNode::declare_ports() {
     const Load& load = loads[id];
     out_of_[id] = ports_.declare_out({port, channel.type, std::max(channel.max_bytes, load.max_bytes),
                                       Rate{std::max<std::int64_t>(load.most_per_second, 1), 1}});
+  }
+}
+
+/// What the recorded process of this name declared.
+void ReplayNode::declare_again() {
+  for (const record::Attachment& file : reader_.attachments()) {
+    if (file.name != record::kDeclarationsName) continue;
+    const msg::Value all = msg::from_json(file.data);
+    const msg::Value* own = all.find(ports_.process());
+    const auto* types = own == nullptr ? nullptr : own->as<msg::Value::Map>();
+    if (types == nullptr) continue;
+    for (const auto& [type, content] : *types) ports_.declare(type, content);
   }
 }
 

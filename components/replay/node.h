@@ -22,6 +22,7 @@ class ReplayNode {
 
  private:
   void declare_ports();
+  void declare_again();
   std::string port_of(const std::string& topic) const;
   void check_topics() const;
   bool read_next();

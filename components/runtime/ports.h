@@ -160,6 +160,9 @@ class Ports {
     declares_.insert_or_assign(M::kType, msg::to_value(declaration));
   }
 
+  /// A declaration whose type is only known at run time (replay).
+  void declare(const std::string& type, msg::Value content) { declares_.insert_or_assign(type, std::move(content)); }
+
   // --- for whatever runs the node ---
   const std::map<std::string, msg::Value>& declares() const { return declares_; }
   const std::vector<OutPort>& outs() const { return outs_; }

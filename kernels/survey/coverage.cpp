@@ -35,20 +35,20 @@ Coverage::Coverage(const Rectangle& r, double cell_m, int needed)
       corner_enu_m_(r.centre_enu_m - 0.5 * r.length_m * forward_ - 0.5 * r.width_m * starboard_),
       columns_(cells(r.width_m, cell_m)),
       rows_(cells(r.length_m, cell_m)),
+      soundings_(cell_m),
       cells_(columns_ * rows_) {
-  if (!(cell_m > 0.0) || needed < 1) throw std::invalid_argument("Coverage: cell_m must be above 0, needed at least 1");
+  if (needed < 1) throw std::invalid_argument("Coverage: needed must be at least 1");
 }
 
 void Coverage::add(const Vec2& place_enu_m, double height_m) {
   const Vec2 off = place_enu_m - corner_enu_m_;
-  const double column = std::floor(off.dot(starboard_) / cell_m_), row = std::floor(off.dot(forward_) / cell_m_);
+  const double across_m = off.dot(starboard_), along_m = off.dot(forward_);
+  const double column = std::floor(across_m / cell_m_), row = std::floor(along_m / cell_m_);
   if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) && row < static_cast<double>(rows_))) {
     return;
   }
-  Cell& cell = cells_[static_cast<std::size_t>(column) * rows_ + static_cast<std::size_t>(row)];
-  ++cell.soundings;
-  ++cell.of_this_line;
-  cell.sum_m += height_m;
+  soundings_.add(across_m, along_m, -height_m, std::numeric_limits<double>::quiet_NaN());
+  ++cells_[static_cast<std::size_t>(column) * rows_ + static_cast<std::size_t>(row)].of_this_line;
 }
 
 void Coverage::end_line() {
@@ -56,11 +56,6 @@ void Coverage::end_line() {
     cell.lines += cell.of_this_line >= needed_;
     cell.of_this_line = 0;
   }
-}
-
-double Coverage::height_m(std::size_t column, std::size_t row) const {
-  const Cell& cell = at(column, row);
-  return cell.soundings == 0 ? std::numeric_limits<double>::quiet_NaN() : cell.sum_m / cell.soundings;
 }
 
 std::vector<CoveredEdge> Coverage::open_rows(double across_m, double head_height_m) const {
@@ -130,8 +125,9 @@ double Coverage::overlapped() const {
 }
 
 std::size_t Coverage::holes() const {
-  return static_cast<std::size_t>(
-      std::count_if(cells_.begin(), cells_.end(), [&](const Cell& cell) { return cell.soundings < needed_; }));
+  std::size_t covered = 0;
+  soundings_.each([&](std::int64_t, std::int64_t, const survey_grid::CellSums& sums) { covered += sums.count() >= needed_; });
+  return cells_.size() - covered;
 }
 
 CubeSearch::CubeSearch(const Rectangle& r, double step_m)

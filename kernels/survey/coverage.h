@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/survey/grid/soundings.h"
 #include "kernels/survey/spacing.h"
 #include "kernels/vehicle/runlines/runline.h"
 
@@ -59,23 +60,26 @@ class Coverage {
   std::size_t columns() const { return columns_; }  // across
   std::size_t rows() const { return rows_; }        // ahead
   Vec2 corner_enu_m() const { return corner_enu_m_; }
-  std::uint32_t soundings(std::size_t column, std::size_t row) const { return at(column, row).soundings; }
+  std::uint32_t soundings(std::size_t column, std::size_t row) const { return sums(column, row).count(); }
   /// Mean of the cell's soundings; NaN without.
-  double height_m(std::size_t column, std::size_t row) const;
+  double height_m(std::size_t column, std::size_t row) const { return -sums(column, row).mean_m(); }
 
  private:
   struct Cell {
-    std::uint32_t soundings = 0, of_this_line = 0, lines = 0;
+    std::uint32_t of_this_line = 0, lines = 0;
     bool marked = false;
-    double sum_m = 0.0;
   };
   const Cell& at(std::size_t column, std::size_t row) const { return cells_[column * rows_ + row]; }
-  bool is_covered(std::size_t column, std::size_t row) const { return at(column, row).soundings >= needed_; }
+  const survey_grid::CellSums& sums(std::size_t column, std::size_t row) const {
+    return soundings_.at(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row));
+  }
+  bool is_covered(std::size_t column, std::size_t row) const { return soundings(column, row) >= needed_; }
 
   double cell_m_;
   std::uint32_t needed_;
   Vec2 forward_, starboard_, corner_enu_m_;
   std::size_t columns_, rows_;
+  survey_grid::SoundingGrid soundings_;  // across and along from the corner
   std::vector<Cell> cells_;
 };
 

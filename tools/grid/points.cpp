@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/tool.h"
 #include "tools/grid/input.h"
 
 namespace ensonify::grid_tool {
@@ -24,12 +25,12 @@ class Points : public SoundingFile {
 
   void read(const TakeSounding& take) override {
     std::array<double, std::size_t{4} * 4096> numbers;
-    for (std::size_t got = 0; (got = std::fread(numbers.data(), 1, sizeof numbers, stream_)) > 0;) {
+    for (std::size_t got = 0; (got = std::fread(numbers.data(), 1, sizeof numbers, stream_)) > 0 && !interrupted();) {
       if (got % 32 != 0) throw UserError(facts_.file + ": ends within a point; allowed: points of four doubles");
       for (std::size_t i = 0; i < got / sizeof(double); i += 4)
         take({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
     }
-    if (std::ferror(stream_) != 0) throw UserError(facts_.file + ": cannot be read");
+    if (std::ferror(stream_) != 0 && !interrupted()) throw UserError(facts_.file + ": cannot be read");
   }
 
  private:

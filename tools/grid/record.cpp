@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "components/errors/exit_error.h"
 #include "components/record/reader.h"
+#include "components/record/record_path.h"
 #include "components/runtime/tool.h"
 #include "messages/codec.h"
 #include "messages/motion.h"
@@ -58,21 +58,9 @@ class Working {
   std::map<std::string, Mission> missions_;  // by topic
 };
 
-std::string file_of(const std::string& path) {
-  namespace fs = std::filesystem;
-  if (!fs::is_directory(path)) return path;
-  std::vector<std::string> records;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.path().extension() == ".mcap") records.push_back(entry.path().string());
-  }
-  if (records.size() == 1) return records.front();
-  throw UserError(
-      fmt::format("{}: holds {} records (.mcap); allowed: a file, or a folder with one", path, records.size()));
-}
-
 class Record : public SoundingFile {
  public:
-  Record(const std::string& path, const ReadOptions& options) : file_(file_of(path)), options_(options) {
+  Record(const std::string& path, const ReadOptions& options) : file_(record::record_path(path)), options_(options) {
     if (options.tide)
       throw UserError("--tide " + options.tide->file() + ": " + file_ +
                       " has heights from chart datum already; allowed: files whose depths count from the water line");

@@ -7,7 +7,7 @@ import ensonify
 from ensonify_plot.received import Span, process_of, settings_line
 from ensonify_plot.level import Gain
 from ensonify_plot.pictures import entitle, new_figure
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 ONE_WAY_EQUIVALENT = 1.1288  # equivalent width of a uniform line's beam over its -3 dB width
 FEWEST = 10  # soundings that make a mean

@@ -1,12 +1,20 @@
 """Soundings on a grid: cell size, mean and count per cell, outline and coverage."""
+import os
+import tempfile
 from dataclasses import dataclass
 
 import numpy as np
+from osgeo import gdal
+
+from ensonify_plot.programs import run_program
+
+gdal.UseExceptions()
 
 CELL_SIZES_M = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 MIN_COUNT = 3  # soundings that a well-filled cell holds ...
 WELL_FILLED = 0.9  # ... and the share of the cells with soundings that are; the rest is the rim of the swath
 MAX_CELLS = 20_000_000
+MEAN, COUNT = 1, 3  # bands of `ensonify grid`
 
 
 @dataclass(frozen=True)
@@ -40,9 +48,8 @@ class Frame:
 
 def frame_around(east_m, north_m, cell_m: float, origin: tuple | None = None) -> Frame:
     """The smallest frame around all points."""
-    west, south = (np.floor(x.min() / cell_m) * cell_m for x in (east_m, north_m))
-    cols, rows = (int(np.floor((x.max() - low) / cell_m)) + 1 for x, low in ((east_m, west), (north_m, south)))
-    return Frame(float(west), float(south), cell_m, cols, rows, origin)
+    (west, east), (south, north) = ((int(np.floor(x.min() / cell_m)), int(np.floor(x.max() / cell_m))) for x in (east_m, north_m))
+    return Frame(west * cell_m, south * cell_m, cell_m, east - west + 1, north - south + 1, origin)
 
 
 def cells_of(east_m, north_m, cell_m: float) -> float:
@@ -64,25 +71,50 @@ def choose_cell_m(east_m, north_m) -> float:
 
 
 class Gridder:
-    """Means over the soundings of each cell."""
+    """Means over the soundings of each cell, as `ensonify grid` makes them."""
 
     def __init__(self, frame: Frame, east_m, north_m):
         self.frame = frame
-        self._index = frame.index(east_m, north_m)
-        self.count = self._shaped(np.bincount(self._index, minlength=frame.cols * frame.rows))
+        self._east_m, self._north_m = east_m, north_m
+        self._count = None
 
-    def _shaped(self, flat):
-        return flat.reshape(self.frame.rows, self.frame.cols)
+    @property
+    def count(self) -> np.ndarray:
+        """Soundings of each cell."""
+        if self._count is None:
+            self._gridded(np.zeros(len(self._east_m)))
+        return self._count
 
     def mean(self, values) -> np.ndarray:
         """NaN where there is no sounding; NaN values are left out."""
+        return self._gridded(np.asarray(values, float))
+
+    def _gridded(self, values: np.ndarray) -> np.ndarray:
+        shape = self.frame.rows, self.frame.cols
+        mean, count = np.full(shape, np.nan), np.zeros(shape, np.int64)
         known = np.isfinite(values)
-        cells = self.frame.cols * self.frame.rows
-        index, values = (self._index, values) if known.all() else (self._index[known], values[known])
-        total = self._shaped(np.bincount(index, values, cells))
-        count = self.count if known.all() else self._shaped(np.bincount(index, minlength=cells))
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.where(count > 0, total / count, np.nan)
+        if known.any():
+            points = np.stack([self._east_m, self._north_m, values, np.full(len(values), np.nan)], axis=1)[known]
+            band, counted, (west_m, south_m) = _run(points, self.frame.cell_m)
+            col, row = (round((at - low) / self.frame.cell_m)
+                        for at, low in ((west_m, self.frame.west_m), (south_m, self.frame.south_m)))
+            place = slice(row, row + band.shape[0]), slice(col, col + band.shape[1])
+            mean[place], count[place] = band, counted
+        if known.all():
+            self._count = count
+        return mean
+
+
+def _run(points: np.ndarray, cell_m: float) -> tuple:
+    """Means and numbers of points (x, y, value, NaN) in cells, row 0 in the south, and the west and south of the first."""
+    with tempfile.TemporaryDirectory(prefix="ensonify-") as folder:
+        file = os.path.join(folder, "grid.tif")
+        run_program("grid", "--points", "-", "--cell", repr(cell_m), "--out", file, given=np.ascontiguousarray(points, "<f8").tobytes())
+        raster = gdal.Open(file)
+        mean = -raster.GetRasterBand(MEAN).ReadAsArray()[::-1].astype(float)  # elevations are its depths' negatives
+        count = np.nan_to_num(raster.GetRasterBand(COUNT).ReadAsArray()[::-1])
+        west_m, _, _, north_m, _, _ = raster.GetGeoTransform()
+    return mean, count.astype(np.int64), (west_m, north_m - cell_m * mean.shape[0])
 
 
 def outline(frame: Frame, covered: np.ndarray) -> np.ndarray:

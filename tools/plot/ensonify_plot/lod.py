@@ -1,7 +1,5 @@
 """The mesh that one transmission makes of a seabed: its blocks, coloured by level of detail."""
 import json
-import os
-import subprocess
 
 import matplotlib
 import numpy as np
@@ -9,7 +7,7 @@ from matplotlib.collections import PatchCollection
 from matplotlib.patches import Patch, Rectangle
 
 from ensonify_plot.pictures import new_figure
-from ensonify_plot.survey import UserError
+from ensonify_plot.programs import run_program
 
 LEVELS = 6
 OWN = "#c2410c"  # triangles of an irregular mesh as they are in their source
@@ -42,14 +40,10 @@ def plot_lod(options) -> int:
 
 def read_mesh(options) -> dict:
     """What `ensonify terrain mesh` says."""
-    program = os.path.join(os.environ["ENSONIFY_BIN"], "ensonify-terrain")
-    words = [program, "mesh", options.seabed, "--at", *options.at]
+    words = ["mesh", options.seabed, "--at", *options.at]
     for name in ("altitude", "heading", "swath", "beam", "side_lobes"):
         words += ["--" + name.replace("_", "-"), getattr(options, name)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise UserError(done.stderr.strip() or f"{program} failed")
-    return json.loads(done.stdout)
+    return json.loads(run_program("terrain", *words))
 
 
 def lod_picture(mesh: dict):

@@ -13,7 +13,8 @@ from ensonify_plot.received import choose_ping, heads_with_soundings, process_of
 from ensonify_plot.ping import ping_picture
 from ensonify_plot.results import Writer, folder_of, open_record
 from ensonify_plot.summary import depth_statistics, run_facts
-from ensonify_plot.survey import Survey, UserError, read_survey
+from ensonify_plot.errors import UserError
+from ensonify_plot.survey import Survey, read_survey
 from ensonify_plot.verbs import RECORD_HELP, add_verbs, multibeam_topic
 
 

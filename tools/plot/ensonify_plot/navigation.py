@@ -6,7 +6,7 @@ import numpy as np
 
 import ensonify
 from ensonify_plot.pictures import new_figure
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 SEGMENTS = 8  # of a spectrum, half overlapping
 

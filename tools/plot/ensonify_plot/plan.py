@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 
 from ensonify_plot import files
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 
 def add_plan(command) -> None:

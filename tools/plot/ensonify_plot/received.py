@@ -7,7 +7,7 @@ import numpy as np
 import ensonify
 from ensonify_plot import geometry
 from ensonify_plot.level import Gain
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 PULSES = {"cw": "CW", "cw_tapered": "tapered CW", "fm_up": "FM up", "fm_down": "FM down"}
 

@@ -15,7 +15,8 @@ from osgeo import gdal, osr
 
 import ensonify
 from ensonify_plot.files import world_crs
-from ensonify_plot.survey import Survey, UserError
+from ensonify_plot.errors import UserError
+from ensonify_plot.survey import Survey
 
 gdal.UseExceptions()
 osr.UseExceptions()

@@ -4,7 +4,7 @@ import os
 import time
 
 import ensonify
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 
 def open_record(given: str | None) -> ensonify.Record:

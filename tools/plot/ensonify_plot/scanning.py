@@ -12,7 +12,7 @@ from ensonify_plot.level import gain_for, limits_of
 from ensonify_plot.ping import Show, bar
 from ensonify_plot.pictures import new_figure
 from ensonify_plot.stack import span_headline
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 SAME_RAD = math.radians(0.02)  # directions nearer than this are one: no head steps so finely
 SAME_STEP = 0.01  # a hundredth of the range, half a pixel

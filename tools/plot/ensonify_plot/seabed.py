@@ -2,7 +2,6 @@
 import dataclasses
 import json
 import os
-import subprocess
 import tempfile
 
 import numpy as np
@@ -12,7 +11,8 @@ from matplotlib.patches import Patch
 from ensonify_plot.grid import Frame
 from ensonify_plot.pictures import Relief, depth_bar, draw_plan, map_axes, map_size_in, new_figure
 from ensonify_plot.plan import add_plan, read_plan
-from ensonify_plot.survey import UserError
+from ensonify_plot.programs import run_program
+from ensonify_plot.errors import UserError
 
 CLASS_COLOURS = ["#d9cfa8", "#8a5a44", "#e8c98f", "#5b8c5a", "#4d6f94", "#c0504d", "#8064a2", "#7f7f7f"]
 
@@ -48,15 +48,11 @@ def plot_seabed(options) -> int:
 
 def read_seabed(options):
     """Frame, heights, classes and the world's origin of what was asked for, from `ensonify terrain grid`."""
-    program = os.path.join(os.environ["ENSONIFY_BIN"], "ensonify-terrain")
     with tempfile.NamedTemporaryFile(prefix="ensonify-") as raw:
-        words = [program, "grid", options.seabed, "--out", raw.name, "--posts", str(options.posts)]
+        words = ["grid", options.seabed, "--out", raw.name, "--posts", str(options.posts)]
         if options.around:
             words += ["--around", *map(str, options.around)]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise UserError(done.stderr.strip() or f"{program} failed")
-        facts = json.loads(done.stdout)
+        facts = json.loads(run_program("terrain", *words))
         with open(raw.name, "rb") as file:
             data = file.read()
     shape = facts["rows"], facts["columns"]

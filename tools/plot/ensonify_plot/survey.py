@@ -5,15 +5,12 @@ import numpy as np
 
 import ensonify
 from ensonify_plot import grid
+from ensonify_plot.errors import UserError
 from ensonify_plot.truth import Seabed
 
 
 TRACK_NS = 100_000_000  # finer than this no picture shows a track
 WORKING = ("on_line", "pass", "keep", "orbit")  # states of a mission whose soundings are wanted; the others are ways between
-
-
-class UserError(Exception):
-    """What the user gave cannot be plotted; the text says why. Exit code 2."""
 
 
 @dataclass

@@ -14,7 +14,8 @@ from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.plan import add_plan, read_plan
 from ensonify_plot.results import open_record, save_picture
 from ensonify_plot.seabed import add_seabed
-from ensonify_plot.survey import UserError, origin_of, read_survey
+from ensonify_plot.errors import UserError
+from ensonify_plot.survey import origin_of, read_survey
 
 GAIN_HELP = ("added to the received level for display: S,A for S log10 R + 2 A R (S in dB, A in dB/km, R slant range in m, held "
              "below 1 m); none; head: the head's own law without its offset; or auto: head, or ")

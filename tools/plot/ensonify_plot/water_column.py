@@ -8,7 +8,7 @@ from ensonify_plot.level import Gain, gain_for, level_db, limits_of
 from ensonify_plot.ping import ECHOES, EMPTY, FINDS, PERCENTILES, Show, bar, draw_beams, headline, levels
 from ensonify_plot.pictures import new_figure
 from ensonify_plot.stack import Track, second_axis, span_headline, stacked
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 CELLS = 500  # in range
 FARTHEST_RAD = np.radians(15.0)  # a head may roll or be mounted aslant; farther off its beam is not what was asked for

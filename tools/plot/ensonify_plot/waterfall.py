@@ -9,7 +9,7 @@ from ensonify_plot.level import Gain, Limits, gain_for, level_db, limits_of
 from ensonify_plot.ping import EMPTY, FINDS, Show, bar
 from ensonify_plot.pictures import new_figure
 from ensonify_plot.stack import ALONG, Track, second_axis, span_headline, stacked
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 COPPER = LinearSegmentedColormap.from_list("copper", ["#000000", "#3a1d08", "#8a4b12", "#cf8a2c", "#f3c870", "#fff6dc"])
 PERCENTILES = (2, 99.7)  # of the seabed

@@ -21,7 +21,8 @@ from ensonify_plot import files, grid  # noqa: E402
 from ensonify_plot.main import coverage, main, utc_texts  # noqa: E402
 from ensonify_plot.pictures import hillshade, in_minutes, round_minutes  # noqa: E402
 from ensonify_plot.plan import read_plan  # noqa: E402
-from ensonify_plot.survey import UserError, _mission, read_survey  # noqa: E402
+from ensonify_plot.errors import UserError
+from ensonify_plot.survey import _mission, read_survey  # noqa: E402
 from ensonify_plot.truth import Seabed  # noqa: E402
 
 HAS_MCAP = importlib.util.find_spec("mcap") is not None

@@ -11,7 +11,7 @@ from osgeo import gdal, osr
 
 from ensonify_plot import reduction
 from ensonify_plot.main import main
-from ensonify_plot.survey import UserError
+from ensonify_plot.errors import UserError
 
 try:
     import synthetic_record

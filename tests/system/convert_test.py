@@ -1,0 +1,85 @@
+"""`ensonify convert`: a record's survey as the logger writes it live, byte for byte; what it says where a record holds less."""
+import subprocess
+import unittest
+
+import support
+
+SECONDS = 6
+SEABED_IMAGE = "  bow:   { run: multibeam, config: { seabed_image: { published: true } } }\n"
+WITHOUT_LOGGER = support.bay(SECONDS, "[bow/soundings, bow/seabed_image, nav/*]").replace("  bow:   { run: multibeam }\n", SEABED_IMAGE)
+WITH_LOGGER = WITHOUT_LOGGER + "  log: { run: logger, config: { head: bow, ship: Alkor, line: 12, position_rate_hz: 10 } }\n"
+NAME = "0012_20250601_120000_Alkor.all"
+
+
+class Convert(support.SystemTest):
+    def record(self, launch=WITH_LOGGER):
+        result = self.run_launch(launch, timeout=120)
+        self.assertEqual(result.code, 0, result.stderr)
+        return result.out
+
+    def convert(self, *words):
+        done = self.tool("convert", *words, timeout=120)
+        left = list(self.folder.rglob(".convert-*"))
+        self.assertEqual(left, [])
+        return done
+
+    def test_bytes_are_those_of_the_live_logger(self):
+        out = self.record()
+        done = self.convert(out, "--to", "all", self.folder / "made")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout.split(), [str(self.folder / "made" / NAME)])
+        self.assertEqual((self.folder / "made" / NAME).read_bytes(), (out / NAME).read_bytes())
+
+    def test_a_record_of_a_run_without_a_logger_takes_parameters_from_the_command_line(self):
+        live = self.record()
+        wanted = (live / NAME).read_bytes()
+        out = self.record(WITHOUT_LOGGER)
+        sets = "ship=Alkor", "line=12", "position_rate_hz=10"
+        done = self.convert(out, "--to", "all", "--head", "bow", *(word for one in sets for word in ("--set", one)), self.folder / "made")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "made" / NAME).read_bytes(), wanted)
+
+    def test_without_a_seabed_image_it_says_so(self):
+        out = self.record(WITH_LOGGER.replace(", bow/seabed_image", ""))
+        done = self.convert(out, "--to", "all", self.folder / "made")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no seabed image of bow", done.stderr)
+        self.assertLess((self.folder / "made" / NAME).stat().st_size, (out / NAME).stat().st_size)
+
+    def test_what_is_wrong_is_2_and_says_what_is_allowed(self):
+        out = self.record()
+        for words, said in [
+                (["--head", "stern"], "--head stern: the record holds no soundings of it; it holds those of: bow"),
+                (["--logger", "black_box"], "--logger black_box: the run had no such logger; it had: log"),
+                (["--set", "line"], "line: is not KEY=VALUE"),
+                (["--set", "line=12000"], "line"),
+                (["--set", "lime=3"], "lime"),
+        ]:
+            with self.subTest(words):
+                done = self.convert(out, "--to", "all", *words, self.folder / "made")
+                self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertNotIn(".convert-", done.stderr)
+        self.assertEqual(list((self.folder / "made").glob("*")), [])
+        bare = self.folder / "bare.mcap"
+        subprocess.run([support.BUILD / "tests/write_sample_record", bare], check=True)
+        done = self.convert(bare, "--to", "all")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("says nothing of its scenario", done.stderr)
+
+    def test_a_full_disk_is_5_and_leaves_whole_datagrams(self):
+        out, small = self.record(), self.folder / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k", "none", str(small)], capture_output=True).returncode != 0:
+            self.skipTest("no file system can be mounted here")
+        try:
+            done = self.convert(out, "--to", "all", small)
+            self.assertEqual(done.returncode, 5, done.stderr)
+            self.assertIn(NAME, done.stderr)
+            self.assertEqual(self.tool("info", small / NAME).returncode, 0)
+        finally:
+            subprocess.run(["umount", "-l", str(small)], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

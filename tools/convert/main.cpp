@@ -1,0 +1,134 @@
+// ensonify convert: a record as hydrographic software reads it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "components/errors/exit_error.h"
+#include "components/logger/node.h"
+#include "components/record/record_path.h"
+#include "components/replay/node.h"
+#include "components/runtime/tool.h"
+#include "launch/process/run.h"
+#include "tools/convert/replay_launch.h"
+#include "tools/convert/recorded_run.h"
+
+namespace {
+
+using namespace ensonify;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string record, folder = ".";
+  std::vector<std::string> formats, sets;
+  convert::Wanted wanted;
+};
+
+/// A folder within another, gone at the end.
+class Workshop {
+ public:
+  explicit Workshop(const fs::path& within) {
+    std::error_code error;
+    fs::create_directories(within, error);
+    std::string path = (within / ".convert-XXXXXX").string();
+    if (error || ::mkdtemp(path.data()) == nullptr)
+      throw UserError(within.string() + ": no file can be made there");
+    path_ = path;
+  }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text;
+  if (!stream.flush()) throw DataLost(file.string() + ": cannot be written");
+}
+
+/// Moves all files there and names them.
+std::vector<std::string> moved(const fs::path& from, const fs::path& to) {
+  std::vector<std::string> names;
+  if (!fs::is_directory(from)) return names;
+  for (const auto& entry : fs::directory_iterator(from)) {
+    fs::rename(entry.path(), to / entry.path().filename());
+    names.push_back((to / entry.path().filename()).lexically_normal().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+int run(const Options& options) {
+  const convert::RecordedRun recorded = 
+      convert::recorded_run(fs::absolute(record::record_path(options.record)).string());
+  if (interrupted()) return kExitInterrupted;
+  const Workshop workshop(options.folder);
+  const fs::path files = workshop.path() / "files";
+  write(workshop.path() / "scenario.yaml", recorded.scenario);
+  const convert::ReplayLaunch replay = convert::replay_launch(recorded, options.wanted, "scenario.yaml", "files");
+  write(workshop.path() / "launch.yaml", replay.text);
+  LaunchOptions launch;
+  launch.sets.push_back(fmt::format("{}.formats=[{}]", replay.logger, fmt::join(options.formats, ", ")));
+  for (const std::string& set : options.sets) launch.sets.push_back(replay.logger + "." + set);
+  launch.file = (workshop.path() / "launch.yaml").string();
+  launch.out = workshop.path().string();
+  int code = kExitOk;
+  try {
+    code = run_local(read_launch(launch),
+                     {{"logger", factory_of<LoggerNode>()}, {"replay", factory_of<ReplayNode>()}});
+  } catch (const DataLost&) {
+    moved(files, options.folder);  // what arrived ends with a whole datagram
+    throw;
+  }
+  if (code != kExitOk) return code;
+  const auto names = moved(files, options.folder);
+  if (names.empty())
+    throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
+  fmt::print("{}\n", fmt::join(names, "\n"));
+  for (const std::string& head : recorded.heads()) {
+    if (recorded.has(head + "/soundings") && !recorded.has(head + "/seabed_image"))
+      fmt::print(stderr, "{}: holds no seabed image of {}: one sample a beam is written, its sounding's strength\n",
+                 recorded.file, head);
+  }
+  if (!recorded.truncated.empty()) fmt::print(stderr, "{}: ends early {}\n", recorded.file, recorded.truncated);
+  return kExitOk;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes a record as hydrographic software reads it, as the component logger does live: the same bytes, from a\n"
+      "record that holds what a logger reads (soundings, seabed image, estimate, attitude, position).\n"
+      "Exit code: 0 done, 2 wrong input, 5 the disk is full: what is there ends with a whole datagram, 130 interrupted.",
+      "ensonify convert");
+  Options options;
+  app.add_option("RECORD", options.record, "a record, or a run's folder with one")->required();
+  app.add_option("DIR", options.folder, "folder of the files; it is made")->capture_default_str();
+  app.add_option("--to", options.formats, "formats, with commas between: those of the component logger")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--head", options.wanted.head, "head whose soundings are written (default: that of the run's logger)");
+  app.add_option("--logger", options.wanted.logger,
+                 "logger of the recorded run whose parameters hold (default: its only one, or else the defaults)");
+  app.add_option("--set", options.sets, "KEY=VALUE, a parameter of the logger; may be given again")
+      ->allow_extra_args(false)
+      ->check([](const std::string& set) {
+        return set.find('=') == std::string::npos ? set + ": is not KEY=VALUE" : std::string();
+      });
+  return tool_main(app, argc, argv, [&] { return run(options); });
+}
