@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/logger/beam_fields.h"
+#include "components/logger/head_track.h"
 
 namespace ensonify::logger {
 
@@ -59,17 +60,6 @@ std::vector<msg::TransmitSector> sectors_of(const msg::AppliedSettings& settings
 
 }  // namespace
 
-bool has_track(const msg::Soundings& soundings) {
-  return soundings.track.pose_position_enu_m.size() >= 3 && soundings.track.pose_enu_from_head.size() >= 4;
-}
-
-frames::Pose pose_of(const msg::Soundings& soundings, const Vessel& vessel) {
-  const auto& position = soundings.track.pose_position_enu_m;
-  const auto& rotation = soundings.track.pose_enu_from_head;
-  return vessel.body_pose({frames::Vec3(position[0], position[1], position[2]),
-                           frames::quaternion_of({rotation[0], rotation[1], rotation[2], rotation[3]})});
-}
-
 RawRangeAngle raw_range_angle(const msg::Soundings& soundings) {
   RawRangeAngle raw;
   raw.sound_speed_mps = raw.sound_speed_mps.of(soundings.applied.sound_speed_mps);
@@ -96,7 +86,7 @@ RawRangeAngle raw_range_angle(const msg::Soundings& soundings) {
 
 Soundings xyz(const msg::Soundings& soundings, const Vessel& vessel, const frames::LocalProjection& world,
               double heave_down_m) {
-  const frames::Pose body = pose_of(soundings, vessel);
+  const frames::Pose body = body_pose_of(soundings.track, vessel);
   const frames::Vec3 head_enu_m = frames::enu_from_body(body, vessel.head.position_body_m);
   const frames::Vec3 origin_enu_m = vessel.horizontal_origin_enu_m(body);
   const double grid_heading_rad = frames::attitude_of(body.enu_from_body).heading_rad;

@@ -8,11 +8,6 @@
 /// N and X of a ping in a .all file, with all beams in each, valid or not. Y is in all_image.h.
 namespace ensonify::logger {
 
-/// Whether the head knew where it was: else there is no ping to log.
-bool has_track(const msg::Soundings& soundings);
-/// The body at transmission, by the estimate.
-frames::Pose pose_of(const msg::Soundings& soundings, const Vessel& vessel);
-
 formats::all::RawRangeAngle raw_range_angle(const msg::Soundings& soundings);
 
 /// `heave_down_m`: measured, at transmission.

@@ -14,7 +14,12 @@ namespace {
 
 constexpr double kDeepestReference_m = 10.0;  // of a vessel at the surface
 
-const std::vector<std::string> kFormats{"all"};
+constexpr const char *kAll = "all", *kXtf = "xtf";
+const std::vector<std::string> kFormats{kAll, kXtf};
+
+bool has(const std::vector<std::string>& formats, const char* format) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
 
 /// All heads that vehicles of the scenario carry.
 std::vector<std::string> heads_of(const World& world) {
@@ -44,8 +49,7 @@ void LoggedFormats::read(ConfigReader& from, const char* key) {
   for (const std::string& word : given) {
     if (std::find(kFormats.begin(), kFormats.end(), word) == kFormats.end())
       from.problem(key, fmt::format("\"{}\" is no format; allowed: {}", word, fmt::join(kFormats, ", ")));
-    else if (std::find(begin(), end(), word) == end())
-      push_back(word);
+    else if (std::find(begin(), end(), word) == end()) push_back(word);
   }
   if (given.empty()) from.problem(key, fmt::format("names none; allowed: {}", fmt::join(kFormats, ", ")));
 }
@@ -58,8 +62,37 @@ ConfigNode LoggedFormats::in_file() const {
 }
 
 std::string LoggedFormats::schema() {
-  return fmt::format(R"({{"type": "array", "minItems": 1, "items": {{"enum": ["{}"]}}}})", fmt::join(kFormats, R"(", ")"));
+  return fmt::format(R"({{"type": "array", "minItems": 1, "items": {{"enum": ["{}"]}}}})",
+                     fmt::join(kFormats, R"(", ")"));
 }
+
+namespace {
+
+/// The vehicle with a head, as files state it.
+logger::Vessel vessel_of(const ConfigReader& from, const char* key, const std::string& head, const World& world) {
+  logger::Vessel vessel;
+  const auto mounting = world.mounting(head);
+  if (!mounting) {
+    const std::vector<std::string> heads = heads_of(world);
+    from.problem(key, fmt::format("\"{}\" is no head of the scenario; its vehicles carry: {}", head,
+                                  heads.empty() ? "none" : fmt::format("{}", fmt::join(heads, ", "))));
+    return vessel;
+  }
+  const Vehicle& vehicle = world.vehicle(mounting->first);
+  vessel.head = mounting->second.measured;
+  vessel.dives = !vehicle.floats && dives(world.mission);
+  vessel.water_line_m = vehicle.floats ? -vehicle.floats->change_m : -world.mission.depth_m;
+  return vessel;
+}
+
+void check_formats_without_multibeam(const ConfigReader& from, const LoggedFormats& formats) {
+  for (const std::string& format : formats) {
+    if (format != kXtf)
+      from.problem("formats", fmt::format("{}: needs the soundings of a multibeam: head is not given", format));
+  }
+}
+
+}  // namespace
 
 LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const std::string& /*process*/) {
   LoggerConfig config;
@@ -68,27 +101,21 @@ LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const st
   config.profile = applied_profile(world);
   if (!world.site.origin_from_raster) config.origin = world.site.origin;
 
-  const std::vector<std::string> heads = heads_of(world);
-  if (config.head.empty() && heads.size() == 1) config.head = heads.front();
-  const auto mounting = world.mounting(config.head);
-  if (!mounting) {
-    from.problem("head", fmt::format("\"{}\" is no head of the scenario; its vehicles carry: {}", config.head,
-                                     heads.empty() ? "none" : fmt::format("{}", fmt::join(heads, ", "))));
-    return config;
+  if (config.head.empty() && config.sidescan.empty() && heads_of(world).size() == 1)
+    config.head = heads_of(world).front();
+  if (config.head.empty() && !config.sidescan.empty()) check_formats_without_multibeam(from, config.formats);
+  else config.vessel = vessel_of(from, "head", config.head, world);
+  if (!config.sidescan.empty()) {
+    config.sidescan_vessel = vessel_of(from, "sidescan", config.sidescan, world);
+    if (!has(config.formats, kXtf)) from.problem("sidescan", "is written in xtf alone, which formats does not name");
   }
-  const Vehicle& vehicle = world.vehicle(mounting->first);
-  if (config.ship.empty()) config.ship = vehicle.name;
-  config.vessel.head = mounting->second.measured;
-  if (vehicle.floats) {
-    config.vessel.water_line_m = -vehicle.floats->change_m;
-  } else {
-    config.vessel.water_line_m = -world.mission.depth_m;
-    if (dives(world.mission)) {
-      from.problem("",
-                   fmt::format("the vehicle {} dives, and depths of vehicles are not written yet; allowed: one that "
-                               "floats, or a mission at one depth of {} m at most",
-                               vehicle.name, kDeepestReference_m));
-    }
+  const auto mounting = world.mounting(config.head.empty() ? config.sidescan : config.head);
+  if (config.ship.empty() && mounting) config.ship = world.vehicle(mounting->first).name;
+  if (has(config.formats, kAll) && config.vessel.dives) {
+    from.problem("formats",
+                 fmt::format("all: the vehicle {} dives, and depths of vehicles are not written yet; allowed: one that "
+                             "floats, or a mission at one depth of {} m at most",
+                             mounting ? mounting->first : std::string(), kDeepestReference_m));
   }
   return config;
 }

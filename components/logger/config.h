@@ -7,6 +7,7 @@
 #include "components/config/config_node.h"
 #include "components/config/parameters.h"
 #include "components/logger/vessel.h"
+#include "components/logger/xtf/samples.h"
 #include "kernels/base/frames/local_projection.h"
 #include "kernels/water/refraction/profile.h"
 #include "scenarios/world/world.h"
@@ -31,23 +32,41 @@ struct LoggerParameters {
   int line = 0;
   int serial = 101;
   int position_rate_hz = 5;
+  std::string sidescan;
+  logger::XtfSamples xtf_samples = logger::XtfSamples::k16Bit;
+  double rotate_s = 0.0;
+  double rotate_mb = 0.0;
+  bool rotate_lines = false;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("formats", "", any(), "list of all (Kongsberg .all, model 2040)", self.formats);
-    visit("head", "", any(), "the multibeam whose soundings are logged, by its process's name; \"\": the only head",
-          self.head);
+    visit("formats", "", any(), "list of all (Kongsberg .all, model 2040) and xtf (Triton XTF)", self.formats);
+    visit(
+        "head", "", any(),
+        "the multibeam whose soundings are logged, by its process's name; \"\": the only head, or none with a sidescan",
+        self.head);
+    visit("sidescan", "", any(), "sidescan whose pings are logged in XTF, by its process's name; \"\": none",
+          self.sidescan);
     visit("folder", "", any(), "folder of the files, relative to the run's output folder; it is made", self.folder);
     visit("ship", "", any(), "name of the vessel in the files' names; \"\": the vehicle's", self.ship);
-    visit("line", "", in(0, 9999), "number of the line in the files' names", self.line);
+    visit("line", "", in(0, 9999), "number in the names of the first files; each next one counts on", self.line);
     visit("serial", "", in(1, 65534), "serial number that the system states", self.serial);
     visit("position_rate_hz", "Hz", in(1, 100), "positions; from 5 on they agree with the soundings to 1 cm",
           self.position_rate_hz);
+    visit("xtf_samples", "",
+          one_of({{"16_bit", logger::XtfSamples::k16Bit},
+                  {"8_bit", logger::XtfSamples::k8Bit},
+                  {"float", logger::XtfSamples::kFloat}}),
+          "samples of sidescan channels in XTF", self.xtf_samples);
+    visit("rotate_s", "s", in(0, 86'400), "time after which the next files begin; 0: never", self.rotate_s);
+    visit("rotate_mb", "MB", in(0, 1e6), "size of a file after which the next ones begin; 0: never", self.rotate_mb);
+    visit("rotate_lines", "", any(), "the next files begin with each of the mission's lines", self.rotate_lines);
   }
 };
 
 struct LoggerConfig : LoggerParameters {
   // From the scenario.
-  logger::Vessel vessel;
+  logger::Vessel vessel;                                                                   // with the multibeam
+  logger::Vessel sidescan_vessel;                                                          // with the sidescan
   refraction::SoundSpeedProfile profile = refraction::SoundSpeedProfile::uniform(1500.0);  // the applied one
   std::optional<frames::Geodetic> origin;                                                  // not given: by the chart
   std::int64_t start_unix_ns = 0;

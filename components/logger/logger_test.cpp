@@ -348,7 +348,7 @@ TEST_CASE("a head that is not there, a vehicle that dives and foreign soundings 
                     Contains("\"stern\" is no head of the scenario; its vehicles carry: bow"));
   World diving = bay();
   diving.mission.depth_m = 50;
-  CHECK_THROWS_WITH(config_of(diving), Contains("the vehicle boat dives"));
+  CHECK_THROWS_WITH(config_of(diving), Contains("all: the vehicle boat dives"));
 }
 
 TEST_CASE("without an estimate there is no file, and the pings left out are counted") {

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "components/errors/exit_error.h"
-#include "components/formats/utc.h"
+#include "components/logger/all_format.h"
+#include "components/logger/xtf/xtf_format.h"
+#include "components/runtime/declared.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
@@ -14,27 +16,42 @@ namespace {
 
 constexpr Rate kEventRate{10, 1};
 
-/// As instruments name their files: 0000_20250601_120000_boat.all.
-std::string file_name(const LoggerConfig& config) {
-  const formats::DayTime time = formats::day_time(config.start_unix_ns);
-  std::string ship = config.ship;
-  std::replace_if(
-      ship.begin(), ship.end(), [](char c) { return c == '/' || c == ' ' || c == ','; }, '-');
-  return fmt::format("{:04}_{:08}_{:02}{:02}{:02}_{}.all", config.line, time.date, time.time_ms / 3'600'000,
-                     time.time_ms / 60'000 % 60, time.time_ms / 1'000 % 60, ship);
+std::optional<msg::HeadDeclaration> declared_head(const Ports& ports, const std::string& head) {
+  if (head.empty()) return std::nullopt;
+  const auto heads = declared<msg::HeadDeclaration>(ports.facts());
+  const auto found = heads.find(head);
+  return found == heads.end() ? msg::HeadDeclaration{} : found->second;  // records of before have none
 }
 
 }  // namespace
 
 LoggerNode::LoggerNode(const Config& config, Ports& ports)
-    : config_(config), ports_(ports), due_(kEventRate), file_name_(file_name(config)), log_(config, file_name_) {
+    : config_(config), ports_(ports), due_(kEventRate), files_(ports.out_dir() / config.folder) {
   if (config.origin) world_.emplace(*config.origin);
-  ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) { log_.take(soundings); });
-  ports.in<msg::SeabedImage>("seabed_image", [this](const msg::SeabedImage& image) { log_.take(image); },
-                             {.optional = true});
-  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { log_.take(estimate); });
-  ports.in<msg::Attitude>("attitude", [this](const msg::Attitude& attitude) { log_.take(attitude); });
-  ports.in<msg::Position>("position", [this](const msg::Position& position) { log_.take(position); });
+  if (!config.head.empty()) {
+    ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) { log().take(soundings); });
+    ports.in<msg::SeabedImage>("seabed_image", [this](const msg::SeabedImage& image) { log().take(image); },
+                               {.optional = true});
+  }
+  if (!config.sidescan.empty()) {
+    const std::vector<std::string> all{config.sidescan + "/*"};
+    ports.in_topics<msg::Ping>("sidescan", all, [this](const std::string&, const msg::Ping& ping) {
+      log();
+      sidescan_->take(ping);
+    });
+    ports.in_topics<msg::BottomTrack>("bottom", all,
+                                      [this](const std::string&, const msg::BottomTrack& bottom) {
+                                        log();
+                                        sidescan_->take(bottom);
+                                      },
+                                      {.optional = true});
+  }
+  ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { log().take(estimate); });
+  ports.in<msg::Attitude>("attitude", [this](const msg::Attitude& attitude) { log().take(attitude); });
+  ports.in<msg::Position>("position", [this](const msg::Position& position) { log().take(position); });
+  if (config.rotate_lines) {
+    ports.in<msg::MissionState>("mission", [this](const msg::MissionState& state) { log().take(state); });
+  }
   if (!world_) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) {
       world_.emplace(frames::Geodetic{chart.origin_latitude_deg, chart.origin_longitude_deg});
@@ -54,30 +71,33 @@ void LoggerNode::check_head() const {
   }
 }
 
+logger::SurveyLog& LoggerNode::log() {
+  if (log_) return *log_;
+  check_head();
+  const auto multibeam = declared_head(ports_, config_.head), sidescan = declared_head(ports_, config_.sidescan);
+  if (sidescan) sidescan_.emplace(*sidescan);
+  std::vector<std::unique_ptr<logger::Format>> formats;
+  for (const std::string& format : config_.formats) {
+    if (format == "all") formats.push_back(std::make_unique<logger::AllFormat>(config_));
+    if (format == "xtf") formats.push_back(std::make_unique<logger::XtfFormat>(config_, sidescan, multibeam));
+  }
+  return log_.emplace(config_, std::move(formats), files_);
+}
+
 SimTime LoggerNode::step(SimTime now) {
-  if (due_.count() == 0) check_head();
   due_.due(now);
-  if (world_) put(log_.due(*world_));
-  if (log_.pings_left_out() > counted_) ports_.count("pings_left_out", log_.pings_left_out() - counted_);
-  counted_ = log_.pings_left_out();
+  logger::SurveyLog& log = this->log();
+  if (sidescan_) {
+    for (logger::SidescanPing& ping : sidescan_->complete()) log.take(std::move(ping));
+  }
+  if (world_) log.write(*world_);
+  if (log.pings_left_out() > counted_) ports_.count("pings_left_out", log.pings_left_out() - counted_);
+  counted_ = log.pings_left_out();
   return due_.next();
 }
 
-void LoggerNode::put(const formats::Bytes& bytes) {
-  if (bytes.empty()) return;
-  if (!file_) file_.emplace(ports_.out_dir() / config_.folder / file_name_, record::RecordFile::How::create);
-  const auto whole = file_->mark();
-  try {
-    file_->put(bytes);
-  } catch (const DataLost&) {
-    file_->cut_to(whole);  // the file ends with a whole datagram
-    throw;
-  }
-}
-
 void LoggerNode::finish_run() {
-  if (world_) put(log_.close(*world_));
-  if (file_) file_->close();
+  if (world_ && log_) log_->close(*world_);
 }
 
 }  // namespace ensonify

@@ -3,9 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "components/logger/all_log.h"
 #include "components/logger/config.h"
-#include "components/record/record_file.h"
+#include "components/logger/log_files.h"
+#include "components/logger/survey_log.h"
+#include "components/logger/xtf/sidescan_assembly.h"
 #include "components/runtime/ports.h"
 
 namespace ensonify {
@@ -19,20 +20,20 @@ class LoggerNode {
   LoggerNode(const Config& config, Ports& ports);
 
   SimTime step(SimTime now);
-  /// Closes the file.
+  /// Ends the files.
   void finish_run();
 
  private:
   void check_head() const;
-  void put(const formats::Bytes& bytes);
+  logger::SurveyLog& log();
 
   LoggerConfig config_;
   Ports& ports_;
   Periodic due_;
-  std::string file_name_;
-  logger::AllLog log_;
+  logger::LogFiles files_;
+  std::optional<logger::SurveyLog> log_;  // made for the first message, when it is known who declares what
+  std::optional<logger::SidescanAssembly> sidescan_;
   std::optional<frames::LocalProjection> world_;
-  std::optional<record::RecordFile> file_;
   std::int64_t counted_ = 0;  // pings left out, as health has it
 };
 

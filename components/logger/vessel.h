@@ -11,6 +11,7 @@ namespace ensonify::logger {
 struct Vessel {
   frames::Mounting head;      // measured
   double water_line_m = 0.0;  // z of the water line at rest from the reference point, positive down
+  bool dives = false;         // then it has no water line
 
   /// Where transmitter and receiver are installed. Readers of model 2040 add the phase centres of its arrays; the sum
   /// is the head's origin.

@@ -155,8 +155,7 @@ struct MultibeamParameters {
   static void parameters(Self& self, Visit&& visit) {
     visit("frequency_hz", "Hz", in(50e3, 1e6), "centre frequency", self.frequency_hz);
     visit("instrument", "", one_of({"generic", "em2040", "t50", "r2sonic2024", "norbit_iwbms"}),
-          "class of instruments whose settings these are; what files a logger writes follows from it",
-          self.instrument);
+          "class of instruments whose settings these are; what files a logger writes follows from it", self.instrument);
     visit("beams", "", in(2, 1024), "across the track", self.beams);
     visit("swath_deg", "deg", in(1, 170), "width of the swath at the start", self.swath_rad);
     visit("spacing", "",

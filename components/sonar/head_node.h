@@ -25,8 +25,8 @@ struct HeadPlan {
   double longest_reception_s = 0.0;           // with the longest range and pulse that can be set
   double finest_beam_rad = 0.0;
   BeamAxis beam_axis = BeamAxis::kDown;
-  double near_field_m = 0.0;  // of the unfocused receive array; 0: not stated
-  bool probe = false;         // for the sound speed at its face
+  double near_field_m = 0.0;    // of the unfocused receive array; 0: not stated
+  bool probe = false;           // for the sound speed at its face
   std::string instrument = {};  // class that it stands for; "": none in particular
 };
 

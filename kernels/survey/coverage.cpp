@@ -126,7 +126,8 @@ double Coverage::overlapped() const {
 
 std::size_t Coverage::holes() const {
   std::size_t covered = 0;
-  soundings_.each([&](std::int64_t, std::int64_t, const survey_grid::CellSums& sums) { covered += sums.count() >= needed_; });
+  soundings_.each(
+      [&](std::int64_t, std::int64_t, const survey_grid::CellSums& sums) { covered += sums.count() >= needed_; });
   return cells_.size() - covered;
 }
 

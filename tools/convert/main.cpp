@@ -1,23 +1,27 @@
 // ensonify convert: a record as hydrographic software reads it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 
+#include "components/config/data_paths.h"
 #include "components/errors/exit_error.h"
-#include "components/logger/node.h"
 #include "components/record/record_path.h"
-#include "components/replay/node.h"
 #include "components/runtime/tool.h"
-#include "launch/process/run.h"
-#include "tools/convert/replay_launch.h"
+#include "launch/file/launch_file.h"
 #include "tools/convert/recorded_run.h"
+#include "tools/convert/replay_launch.h"
 
 namespace {
 
@@ -37,8 +41,7 @@ class Workshop {
     std::error_code error;
     fs::create_directories(within, error);
     std::string path = (within / ".convert-XXXXXX").string();
-    if (error || ::mkdtemp(path.data()) == nullptr)
-      throw UserError(within.string() + ": no file can be made there");
+    if (error || ::mkdtemp(path.data()) == nullptr) throw UserError(within.string() + ": no file can be made there");
     path_ = path;
   }
   ~Workshop() {
@@ -71,8 +74,25 @@ std::vector<std::string> moved(const fs::path& from, const fs::path& to) {
   return names;
 }
 
+/// Runs the launch as `ensonify run --in-process` does; its exit code. What it says goes to our standard error.
+int run_in_one_process(const LaunchOptions& launch) {
+  std::vector<std::string> words = to_arguments(launch);
+  words.insert(words.begin(), program_folder() + "/ensonify-local");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = ::posix_spawn(&child, argv.front(), nullptr, nullptr, argv.data(), environ); error != 0)
+    throw UserError(words.front() + ": cannot be run: " + std::strerror(error));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    if (interrupted()) ::kill(child, SIGINT);
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kExitDied;
+}
+
 int run(const Options& options) {
-  const convert::RecordedRun recorded = 
+  const convert::RecordedRun recorded =
       convert::recorded_run(fs::absolute(record::record_path(options.record)).string());
   if (interrupted()) return kExitInterrupted;
   const Workshop workshop(options.folder);
@@ -80,23 +100,14 @@ int run(const Options& options) {
   write(workshop.path() / "scenario.yaml", recorded.scenario);
   const convert::ReplayLaunch replay = convert::replay_launch(recorded, options.wanted, "scenario.yaml", "files");
   write(workshop.path() / "launch.yaml", replay.text);
-  LaunchOptions launch;
+  LaunchOptions launch{.file = (workshop.path() / "launch.yaml").string(), .out = workshop.path().string()};
   launch.sets.push_back(fmt::format("{}.formats=[{}]", replay.logger, fmt::join(options.formats, ", ")));
   for (const std::string& set : options.sets) launch.sets.push_back(replay.logger + "." + set);
-  launch.file = (workshop.path() / "launch.yaml").string();
-  launch.out = workshop.path().string();
-  int code = kExitOk;
-  try {
-    code = run_local(read_launch(launch),
-                     {{"logger", factory_of<LoggerNode>()}, {"replay", factory_of<ReplayNode>()}});
-  } catch (const DataLost&) {
-    moved(files, options.folder);  // what arrived ends with a whole datagram
-    throw;
-  }
+  const int code = run_in_one_process(launch);
+  if (code == kExitDataLost) moved(files, options.folder);  // what arrived ends with a whole datagram
   if (code != kExitOk) return code;
   const auto names = moved(files, options.folder);
-  if (names.empty())
-    throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
+  if (names.empty()) throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
   fmt::print("{}\n", fmt::join(names, "\n"));
   for (const std::string& head : recorded.heads()) {
     if (recorded.has(head + "/soundings") && !recorded.has(head + "/seabed_image"))
@@ -113,7 +124,8 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Writes a record as hydrographic software reads it, as the component logger does live: the same bytes, from a\n"
       "record that holds what a logger reads (soundings, seabed image, estimate, attitude, position).\n"
-      "Exit code: 0 done, 2 wrong input, 5 the disk is full: what is there ends with a whole datagram, 130 interrupted.",
+      "Exit code: 0 done, 2 wrong input, 5 the disk is full: what is there ends with a whole datagram, 130 "
+      "interrupted.",
       "ensonify convert");
   Options options;
   app.add_option("RECORD", options.record, "a record, or a run's folder with one")->required();

@@ -30,8 +30,7 @@ ConfigNode in_launch_file(const ConfigNode& edge) {
   for (const auto& entry : edge.entries) {
     if (entry.key == "delay_ns")
       written.set("delay_ms", ConfigNode::text(fmt::format("{}", std::stod(entry.value.scalar) * 1e-6)));
-    else
-      written.set(entry.key, entry.value);
+    else written.set(entry.key, entry.value);
   }
   return written;
 }
@@ -89,8 +88,9 @@ RecordedRun recorded_run(const std::string& file) {
   run.truncated = reader.truncated();
   run.scenario = text_of(reader, "scenario.yaml");
   if (run.scenario.empty())
-    throw UserError(file + ": says nothing of its scenario, in which origin, start and mounting stand; allowed: a record of a "
-                           "launch with a scenario");
+    throw UserError(file +
+                    ": says nothing of its scenario, in which origin, start and mounting stand; allowed: a record of a "
+                    "launch with a scenario");
   run.loggers = loggers_of(text_of(reader, "launch.yaml"), file);
   return run;
 }

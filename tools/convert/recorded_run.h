@@ -21,11 +21,11 @@ struct RecordedLogger {
 /// What a record says of its run, as far as a logger is concerned.
 struct RecordedRun {
   std::string file;
-  std::string scenario;                             // text
-  std::vector<RecordedLogger> loggers;              // in the order of its launch file
+  std::string scenario;                                  // text
+  std::vector<RecordedLogger> loggers;                   // in the order of its launch file
   std::set<std::pair<std::string, std::string>> topics;  // topic, type: of what loggers read
-  SimTime end{0};                                   // of its last message
-  std::string truncated;                            // where and why it ends early; "": it is whole
+  SimTime end{0};                                        // of its last message
+  std::string truncated;                                 // where and why it ends early; "": it is whole
 
   bool has(const std::string& topic) const;
   /// Processes that published something that loggers read.

@@ -41,7 +41,8 @@ RecordedLogger logger_of(const RecordedRun& run, const std::string& name) {
 }
 
 void wire(RecordedLogger& logger, const RecordedRun& run, const std::string& head) {
-  std::erase_if(logger.wiring, [](const auto& edge) { return edge.first == "soundings" || edge.first == "seabed_image"; });
+  std::erase_if(logger.wiring,
+                [](const auto& edge) { return edge.first == "soundings" || edge.first == "seabed_image"; });
   for (const char* port : {"soundings", "seabed_image"}) {
     const std::string topic = head + "/" + port;
     if (run.has(topic)) logger.wiring.emplace_back(port, ConfigNode::text(topic));

@@ -18,7 +18,8 @@ struct ReplayLaunch {
 
 /// A launch in which the record's processes say again what a logger reads of them, to a logger with these parameters.
 /// Its names, times and wiring are those of the recorded run, so that the logger sees what one saw there. `scenario` is
-/// the path of a file with the record's scenario, `folder` where files go. Throws UserError: no such logger or head, or several and none named.
+/// the path of a file with the record's scenario, `folder` where files go. Throws UserError: no such logger or head, or
+/// several and none named.
 ReplayLaunch replay_launch(const RecordedRun& run, const Wanted& wanted, const std::string& scenario,
                            const std::string& folder);
 

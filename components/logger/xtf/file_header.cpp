@@ -22,7 +22,8 @@ ChannelInfo channel(ChannelInfo::Kind kind, const std::string& name, const msg::
   info.horizontal_width_deg = static_cast<float>(head.finest_beam_rad / kDegree);
   const auto& [forward_m, starboard_m, down_m] = head.position_body_m;
   info.offset_m = {static_cast<float>(starboard_m), static_cast<float>(forward_m), static_cast<float>(down_m)};
-  const frames::Attitude turned = frames::attitude_of(frames::enu_from_ned() * frames::quaternion_of(head.body_from_head));
+  const frames::Attitude turned =
+      frames::attitude_of(frames::enu_from_ned() * frames::quaternion_of(head.body_from_head));
   info.yaw_pitch_roll_deg = {static_cast<float>(frames::wrap_pi(turned.heading_rad) / kDegree),
                              static_cast<float>(turned.pitch_rad / kDegree),
                              static_cast<float>(turned.roll_rad / kDegree)};
@@ -46,9 +47,9 @@ FileHeader xtf_file_header(const std::string& file_name, const std::optional<msg
     for (const msg::ChannelDeclaration& transmission : sidescan->channels) {
       for (const bool port : {true, false}) {
         const std::string side = port ? "port" : "starboard";
-        ChannelInfo& info = channels.emplace_back(channel(port ? ChannelInfo::kPort : ChannelInfo::kStarboard,
-                                                          transmission.name.empty() ? side : side + " " + transmission.name,
-                                                          *sidescan, frequency_hz(transmission)));
+        ChannelInfo& info = channels.emplace_back(channel(
+            port ? ChannelInfo::kPort : ChannelInfo::kStarboard,
+            transmission.name.empty() ? side : side + " " + transmission.name, *sidescan, frequency_hz(transmission)));
         info.sub_channel = static_cast<std::uint8_t>(channels.size() - 1);
         info.bytes_per_sample = bytes_of(samples);
         info.sample_format = format_of(samples);
@@ -57,7 +58,8 @@ FileHeader xtf_file_header(const std::string& file_name, const std::optional<msg
     header.sonar_channels = static_cast<std::uint16_t>(channels.size());
   }
   if (multibeam) {
-    if (!sidescan) header.sonar = formats::padded<16>(multibeam->instrument.empty() ? "multibeam" : multibeam->instrument);
+    if (!sidescan)
+      header.sonar = formats::padded<16>(multibeam->instrument.empty() ? "multibeam" : multibeam->instrument);
     channels.push_back(channel(ChannelInfo::kBathymetry, "bathymetry", *multibeam,
                                multibeam->channels.empty() ? 0.0 : frequency_hz(multibeam->channels.front())));
     header.bathymetry_channels = 1;

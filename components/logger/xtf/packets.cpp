@@ -28,8 +28,8 @@ std::int64_t steps_of_second(std::int64_t unix_ns, std::int64_t step_ns) { retur
 /// Days since 1 January.
 std::uint16_t day_of_year(std::int64_t unix_ns) {
   const std::int64_t year = Time::of(unix_ns).year;
-  return static_cast<std::uint16_t>(
-      (unix_ns - formats::unix_ns(static_cast<std::uint32_t>(year * 10'000 + 101), 0)) / (86'400 * kSecond_ns));
+  return static_cast<std::uint16_t>((unix_ns - formats::unix_ns(static_cast<std::uint32_t>(year * 10'000 + 101), 0)) /
+                                    (86'400 * kSecond_ns));
 }
 
 std::array<std::uint8_t, 4> clock_time(const Time& time, std::uint8_t hundredths) {

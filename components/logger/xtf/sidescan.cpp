@@ -21,7 +21,8 @@ constexpr std::size_t kSides = 2;
 double greatest(XtfSamples samples) { return samples == XtfSamples::k8Bit ? 255.0 : 65535.0; }
 
 /// A side's amplitudes with the gain in them, in the units that are written.
-std::vector<float> side_of(const msg::Ping& ping, std::size_t side, std::span<const float> gain_db, XtfSamples samples) {
+std::vector<float> side_of(const msg::Ping& ping, std::size_t side, std::span<const float> gain_db,
+                           XtfSamples samples) {
   const bool counts = !ping.amplitude_count.empty();
   const std::size_t count = (counts ? ping.amplitude_count.shape() : ping.amplitude_upa.shape())[1];
   std::vector<float> values(count);
@@ -87,7 +88,8 @@ double full_scale_upa(const msg::AppliedSettings& settings) {
   constexpr double kAbove_db = 10.0;
   const double length_m = 0.5 * settings.sound_speed_mps *
                           (settings.bandwidth_hz > 0.0 ? 1.0 / settings.bandwidth_hz : settings.pulse_length_s);
-  const double spreading_db = std::max(0.0, (settings.gain_spreading_db - 30.0) * std::log10(std::max(settings.range_m, 1.0)));
+  const double spreading_db =
+      std::max(0.0, (settings.gain_spreading_db - 30.0) * std::log10(std::max(settings.range_m, 1.0)));
   const double level_db = settings.source_level_db + 10.0 * std::log10(length_m * settings.transmit_beamwidth_rad) +
                           spreading_db + settings.gain_offset_db + kAbove_db;
   return std::pow(10.0, level_db / 20.0);
@@ -111,11 +113,11 @@ std::vector<Channel> xtf_channels(const msg::Ping& ping, std::uint16_t first, Xt
     const double duration_s = static_cast<double>(shape[1]) * ping.sample_period_s;
     Channel channel{.number = static_cast<std::uint16_t>(first + side)};
     channel.downsample_method = each > 1 ? kRootMeanSquare : 0;
-    channel.slant_range_m =
-        static_cast<float>(0.5 * ping.applied.sound_speed_mps * (ping.first_sample_s + duration_s));
+    channel.slant_range_m = static_cast<float>(0.5 * ping.applied.sound_speed_mps * (ping.first_sample_s + duration_s));
     channel.delay_s = static_cast<float>(ping.first_sample_s);
     channel.duration_s = static_cast<float>(duration_s);
-    channel.seconds_per_ping = static_cast<float>(ping.applied.ping_rate_hz > 0.0 ? 1.0 / ping.applied.ping_rate_hz : duration_s);
+    channel.seconds_per_ping =
+        static_cast<float>(ping.applied.ping_rate_hz > 0.0 ? 1.0 / ping.applied.ping_rate_hz : duration_s);
     channel.frequency_khz = static_cast<std::uint16_t>(std::lround(1e-3 * ping.applied.frequency_hz));
     channel.bandwidth_khz = static_cast<std::uint16_t>(std::lround(1e-3 * ping.applied.bandwidth_hz));
     channel.sample_count = static_cast<std::uint32_t>(values.size());

@@ -5,21 +5,19 @@
 #include <vector>
 
 #include "components/formats/xtf/ping.h"
+#include "components/logger/xtf/samples.h"
 #include "messages/sonar.h"
 
 namespace ensonify::logger {
-
-/// Samples of sidescan channels.
-enum class XtfSamples { k16Bit, k8Bit, kFloat };
 
 std::uint16_t bytes_of(XtfSamples samples);
 /// The number that stands for them in a channel's head.
 std::uint8_t format_of(XtfSamples samples);
 
-/// Both sides of a transmission as channels `first` and `first` + 1, port far range first. Samples have the gain that the
-/// head applied in them: counts of its converter, where it has one, else amplitudes over full_scale_upa(). More samples
-/// than readers bear (formats::xtf::kMostSampleBytes) are joined, as root mean squares of equal numbers. Nothing for a
-/// ping that is not of two sides.
+/// Both sides of a transmission as channels `first` and `first` + 1, port far range first. Samples have the gain that
+/// the head applied in them: counts of its converter, where it has one, else amplitudes over full_scale_upa(). More
+/// samples than readers bear (formats::xtf::kMostSampleBytes) are joined, as root mean squares of equal numbers.
+/// Nothing for a ping that is not of two sides.
 std::vector<formats::xtf::Channel> xtf_channels(const msg::Ping& ping, std::uint16_t first, XtfSamples samples);
 
 /// How many samples of a ping become one.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "components/formats/all/writer.h"
+#include "components/logger/format.h"
+
+namespace ensonify::logger {
+
+/// Kongsberg .all, model 2040: I, R, U; then P, A and C as they are due, N, X and Y of each ping; i at its end.
+class AllFormat : public Format {
+ public:
+  explicit AllFormat(const LoggerConfig& config);
+
+  std::string ending() const override { return ".all"; }
+  void begin(const FileStart& start, formats::Bytes& out) override;
+  void moment(const Moment& moment, formats::Bytes& out) override;
+  void ping(const LoggedSoundings& ping, formats::Bytes& out) override;
+  using Format::ping;
+  void end(formats::Bytes& out) override;
+
+ private:
+  std::uint16_t serial() const { return static_cast<std::uint16_t>(config_.serial); }
+  void append(formats::Bytes& out, std::int64_t unix_ns, formats::all::Body body);
+  void finish_attitude(formats::Bytes& out);
+
+  LoggerConfig config_;
+  std::string file_name_;
+  formats::all::Writer writer_;
+  std::int64_t last_ns_ = 0;         // of what was written
+  formats::all::Attitude attitude_;  // of the second that is not over
+  std::int64_t attitude_begin_ns_ = 0;
+  std::optional<formats::all::Runtime> runtime_;  // as last written
+};
+
+}  // namespace ensonify::logger

@@ -1,0 +1,65 @@
+#include "components/logger/moment.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "components/logger/gga.h"
+
+namespace ensonify::logger {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// GGA's quality; of a system that does not state it, what has such a standard deviation.
+std::int64_t quality_of(const msg::Position& fix) {
+  if (fix.quality > 0) return fix.quality;
+  if (fix.sigma_horizontal_m <= 0.1) return 4;
+  return fix.sigma_horizontal_m <= 1.5 ? 2 : 1;
+}
+double hdop_of(const msg::Position& fix) { return fix.hdop > 0.0 ? fix.hdop : 1.0; }
+
+/// As such systems make it: the dilution of precision times a length by GGA's quality.
+double fix_quality_m(const msg::Position& fix) {
+  constexpr std::array<double, 6> kUnit_m{10.0, 10.0, 1.0, 2.0, 0.1, 0.5};
+  const auto quality = static_cast<std::size_t>(quality_of(fix));
+  return hdop_of(fix) * (quality < kUnit_m.size() ? kUnit_m[quality] : kUnit_m[0]);
+}
+
+}  // namespace
+
+Moment moment_of(const msg::Estimate& estimate, const msg::Position& fix, double heave_down_m,
+                 const LoggerConfig& config, const frames::LocalProjection& world) {
+  const auto& [east_m, north_m, up_m] = estimate.position_enu_m;
+  const frames::Pose body{frames::Vec3(east_m, north_m, up_m), frames::quaternion_of(estimate.enu_from_body)};
+  const frames::Attitude attitude = frames::attitude_of(body.enu_from_body);
+  const double convergence_rad = world.convergence_rad(body.position_enu_m.head<2>());
+  const auto& [east_mps, north_mps, up_mps] = estimate.velocity_enu_mps;
+  const double course_rad = std::atan2(east_mps, north_mps) + convergence_rad;
+
+  Moment moment;
+  moment.stamp_ns = estimate.stamp_ns;
+  moment.unix_ns = config.start_unix_ns + estimate.stamp_ns;
+  moment.reference = world.geodetic_of(body.position_enu_m.head<2>());
+  moment.water_line = world.geodetic_of(config.vessel.horizontal_origin_enu_m(body).head<2>());
+  moment.roll_deg = attitude.roll_rad / kDegree;
+  moment.pitch_deg = attitude.pitch_rad / kDegree;
+  moment.heading_deg = frames::wrap_two_pi(attitude.heading_rad + convergence_rad) / kDegree;
+  moment.heave_down_m = heave_down_m;
+  moment.speed_mps = std::hypot(east_mps, north_mps);
+  moment.course_deg = frames::wrap_two_pi(course_rad) / kDegree;
+  moment.north_mps = moment.speed_mps * std::cos(course_rad);
+  moment.east_mps = moment.speed_mps * std::sin(course_rad);
+  moment.down_mps = -up_mps;
+  moment.fix_quality_m = fix_quality_m(fix);
+  moment.height_m = fix.height_above_geoid_m + fix.geoid_above_ellipsoid_m;
+  return moment;
+}
+
+std::string gga_of(const Moment& moment, const msg::Position& fix) {
+  return gga_text({moment.unix_ns, moment.reference.latitude_deg, moment.reference.longitude_deg, quality_of(fix),
+                   hdop_of(fix), fix.height_above_geoid_m, fix.geoid_above_ellipsoid_m});
+}
+
+}  // namespace ensonify::logger
