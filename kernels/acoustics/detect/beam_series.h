@@ -9,8 +9,8 @@
 
 #include "kernels/acoustics/detect/bottom.h"
 
-/// Internal to this folder: what one beam received, the seabed it expects, its phase detection, and which beams took
-/// the echo by way of the surface for the bottom (bottom.h, SecondEcho).
+/// Internal to this folder: what one beam received, the seabed it expects, its strongest pulse, its detection by
+/// amplitude and by phase, and which beams took the echo by way of the surface for the bottom (bottom.h, SecondEcho).
 namespace ensonify::detect {
 
 /// One beam against time. The halves are empty where there is amplitude alone.
@@ -51,15 +51,19 @@ class ExpectedSeabed {
         tilt_rad_(tilt_rad),
         sin_tilt_(std::sin(tilt_rad)),
         cos_tilt_(std::cos(tilt_rad)),
-        incidence_rad_(std::asin(std::clamp(sin_beam, -1.0, 1.0)) - tilt_rad),
-        half_width_(half_width) {}
+        half_width_(half_width) {
+    const double incidence_rad = std::asin(std::clamp(sin_beam, -1.0, 1.0)) - tilt_rad;
+    sin_incidence_ = std::sin(incidence_rad);
+    cos_incidence_ = std::max(std::cos(incidence_rad), half_width);
+    side_ = std::copysign(cos_tilt_, incidence_rad);
+  }
 
   double sin_beam() const { return sin_beam_; }
   double cos_beam() const { return cos_beam_; }
   double half_width() const { return half_width_; }
   /// Cosine of the incidence on the plane's normal; a beam along the plane or above it is taken as almost along it.
-  double cos_incidence() const { return std::max(std::cos(incidence_rad_), half_width_); }
-  double sin_incidence() const { return std::sin(incidence_rad_); }
+  double cos_incidence() const { return cos_incidence_; }
+  double sin_incidence() const { return sin_incidence_; }
   double tan_incidence() const { return std::abs(sin_incidence()) / cos_incidence(); }
 
   /// Duration of the plane's echo between the half-power edges of the beam, without the pulse.
@@ -69,7 +73,7 @@ class ExpectedSeabed {
   /// echoes there is none: then the sine of its normal.
   double sine_at(double t_s, double axis_s) const {
     const double cosine = std::min(nearest_s(axis_s) / t_s, 1.0);
-    return sin_tilt_ * cosine + std::copysign(cos_tilt_, incidence_rad_) * std::sqrt(1.0 - cosine * cosine);
+    return sin_tilt_ * cosine + side_ * std::sqrt(1.0 - cosine * cosine);
   }
   /// The inverse: when an echo comes from `sine`, if the one at the axis comes at `axis_s`.
   double time_at(double sine, double axis_s) const {
@@ -79,8 +83,27 @@ class ExpectedSeabed {
   double nearest_s(double axis_s) const { return axis_s * cos_incidence(); }
 
  private:
-  double sin_beam_, cos_beam_, tilt_rad_, sin_tilt_, cos_tilt_, incidence_rad_, half_width_;
+  double sin_beam_, cos_beam_, tilt_rad_, sin_tilt_, cos_tilt_, half_width_;
+  double sin_incidence_, cos_incidence_;
+  double side_;  // cosine of the tilt, with the sign of the incidence
 };
+
+/// Samples [first, end).
+struct Interval {
+  int first = 0, end = 0;
+};
+
+/// Of a beam: the median of at most 256 samples that are spread evenly, over ln 2.
+double noise_power(const BeamSeries& series);
+
+struct Peak {
+  double power = 0.0;   // mean over a pulse
+  double time_s = 0.0;  // middle of that pulse
+};
+
+/// The first of the strongest pulses that lie within the interval; of power 0 where nothing is received or it is
+/// shorter. In single precision: which of two that differ by less than 1e-6 is chosen by rounding.
+Peak strongest(const BeamSeries& series, Interval where);
 
 /// A time from one method, with its predicted standard deviation.
 struct Estimate {
@@ -88,6 +111,15 @@ struct Estimate {
   double two_way_s = 0.0;
   double sd_s = 0.0;
 };
+
+/// Half the window of the centre of gravity about an echo.
+inline double gravity_window_s(const BeamSeries& series, const ExpectedSeabed& seabed, double two_way_s) {
+  return seabed.footprint_s(two_way_s) + series.pulse_length_s;
+}
+
+/// Amplitude detection (bottom.h) of the echo about `near_s`. loss_np_ps: of power, by absorption there and back.
+Estimate centre_of_gravity(const BeamSeries& series, const ExpectedSeabed& seabed, double near_s, double noise_power,
+                           double loss_np_ps);
 
 struct PhaseRamp {
   Estimate crossing;          // sd_s: as an error of the time at the beam's axis

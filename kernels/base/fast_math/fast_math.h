@@ -60,6 +60,27 @@ inline Direction direction_of(std::uint32_t turn) {
   return {((quadrant + 1U) & 2U) != 0 ? -cosine : cosine, (quadrant & 2U) != 0 ? -sine : sine};
 }
 
+/// The angle of (x, y) in turns, -0.5..0.5, 0 for (0, 0): [Abramowitz1964], 4.4.49. Error 6e-8 turns
+/// for lengths of 1e-20 to 1e37.
+inline float turns_of(float x, float y) {
+  const float across = std::abs(x), up = std::abs(y);
+  const bool steep = up > across;
+  const float more = steep ? up : across, less = steep ? across : up;
+  const float r = less / (more + 1e-37F), z = r * r;
+  float p = 0.0028662257F;
+  p = p * z - 0.0161657367F;
+  p = p * z + 0.0429096138F;
+  p = p * z - 0.0752896400F;
+  p = p * z + 0.1065626393F;
+  p = p * z - 0.1420889944F;
+  p = p * z + 0.1999355085F;
+  p = p * z - 0.3333314528F;
+  const float flat = (r + r * (z * p)) * (0.5F * std::numbers::inv_pi_v<float>);  // 0..1/8
+  const float quarter = steep ? 0.25F - flat : flat;
+  const float half = x < 0.0F ? 0.5F - quarter : quarter;
+  return std::copysign(half, y);
+}
+
 /// ln(x) for normal x > 0: Cephes' logf [Moshier1989]. Relative error 2e-7; where ln(x) is near 0, error 1e-8.
 inline float log(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);

@@ -49,6 +49,22 @@ TEST_CASE("cosine and sine of any part of a turn are right to 2e-7") {
   CHECK(worst < 2e-7);
 }
 
+TEST_CASE("an angle in turns is right to 6e-8 of a turn, at any length") {
+  double worst = 0.0;
+  for (const double length : {1e-20, 1.0, 3e36}) {
+    for (int i = -500'000; i <= 500'000; ++i) {
+      const double angle = 2e-6 * std::numbers::pi * i;
+      const auto x = static_cast<float>(length * std::cos(angle)), y = static_cast<float>(length * std::sin(angle));
+      const double want = std::atan2(static_cast<double>(y), static_cast<double>(x)) / (2.0 * std::numbers::pi);
+      worst = std::max(worst, std::abs(std::remainder(static_cast<double>(fast_math::turns_of(x, y)) - want, 1.0)));
+    }
+  }
+  CHECK(worst < 6e-8);
+  CHECK(fast_math::turns_of(0.0F, 0.0F) == 0.0F);
+  CHECK(fast_math::turns_of(1.0F, 1.0F) == Approx(0.125F));
+  CHECK(fast_math::turns_of(-1.0F, 0.0F) == 0.5F);
+}
+
 TEST_CASE("a logarithm is right to 2e-7 of it, or 1e-8 where it is small") {
   double worst = 0.0;
   for (float x = std::numeric_limits<float>::min(); x < 1e38F; x *= 1.00013F) {
