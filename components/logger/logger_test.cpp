@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -341,6 +342,67 @@ TEST_CASE("positions come at their rate and repeat the sentence's fix but for th
     CHECK_THAT(latitude_deg, WithinAbs(projection.geodetic_of(body.position_enu_m.head<2>()).latitude_deg, 1e-8));
     CHECK_THAT(position.speed_mps.value(), WithinAbs(std::hypot(2.0, 2.0), 0.006));
   }
+}
+
+TEST_CASE("after each rotation a file stands alone, and no ping is left out or written twice") {
+  const World world = bay();
+  for (const char* text : {"{ rotate_s: 2 }", "{ rotate_mb: 0.05 }", "{ rotate_lines: true }"}) {
+    CAPTURE(text);
+    const Folder folder;
+    const LoggerConfig config = config_of(world, text);
+    NodeUnderTest<LoggerNode> logger(config, "logger", folder.path);
+    give_navigation(logger, 10_s);
+    std::int64_t number = 0;
+    for (SimTime t{0}; t <= 9_s; t += kPingPeriod) logger.give("soundings", ping_at(t, number++, config.vessel.head));
+    if (config.rotate_lines) {
+      for (int line = 0; line < 3; ++line) {
+        msg::MissionState state;
+        state.stamp_ns = (3_s * line).count();
+        state.line = line;
+        logger.give("mission", state);
+      }
+    }
+    logger.run_until(10_s);
+    logger.node().finish_run();
+
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder.path)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    REQUIRE(files.size() >= 3);
+    std::vector<std::uint16_t> numbers;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      CHECK(files[i].filename().string().substr(0, 5) == fmt::format("{:04}_", i));
+      formats::Window window(files[i]);
+      all::Reader reader(window);
+      std::string types;
+      std::int64_t first_position_ns = 0, first_ping_ns = 0;
+      while (const auto datagram = reader.next()) {
+        types += datagram->type;
+        if (datagram->type == 'P' && first_position_ns == 0) first_position_ns = datagram->unix_ns();
+        if (datagram->type == 'N') numbers.push_back(datagram->header.counter);
+        if (datagram->type == 'N' && first_ping_ns == 0) first_ping_ns = datagram->unix_ns();
+      }
+      CHECK(reader.faults().count() == 0);
+      CHECK(types.starts_with("IRU"));
+      CHECK(types.back() == 'i');
+      const auto before = types.substr(0, types.find('N'));
+      CHECK(std::count(before.begin(), before.end(), 'P') >= 3);
+      CHECK(before.find('A') != std::string::npos);
+      CHECK(first_ping_ns - first_position_ns >= 1'000'000'000);
+    }
+    REQUIRE(numbers.size() > 50);
+    for (std::size_t i = 1; i < numbers.size(); ++i) CHECK(numbers[i] == numbers[i - 1] + 1);
+  }
+}
+
+TEST_CASE("formats that a sidescan alone cannot have, and a sidescan that nobody writes, are refused") {
+  World world = bay();
+  world.vehicles[0].mountings["side"] = {};
+  CHECK_THROWS_WITH(config_of(world, "{ sidescan: side }"), Contains("all: needs the soundings of a multibeam"));
+  CHECK_THROWS_WITH(config_of(world, "{ head: bow, sidescan: side }"), Contains("is written in xtf alone"));
+  CHECK_THROWS_WITH(config_of(world, "{ head: bow, formats: [dvd] }"),
+                    Contains("\"dvd\" is no format; allowed: all, xtf"));
+  CHECK(config_of(world, "{ sidescan: side, formats: [xtf] }").head.empty());
 }
 
 TEST_CASE("a head that is not there, a vehicle that dives and foreign soundings are refused") {

@@ -10,6 +10,7 @@ import unittest
 
 import ensonify
 import numpy as np
+import pyxtf
 import support
 
 SECONDS = 8
@@ -154,6 +155,57 @@ class Logger(support.SystemTest):
             self.assertGreater(json.loads(done.stdout)[0]["pings"]["serial 101"]["numbers"], 5)
         finally:
             subprocess.run(["umount", "-l", str(small)], check=True)
+
+    def test_pyxtf_reads_sidescan_and_soundings_of_the_record(self):
+        launch = LAUNCH.replace("[bow/soundings]", "[bow/soundings, side/*]").replace(
+            "  log: { run: logger, config: { head: bow } }", "  side: { run: sidescan }\n  log: { run: logger, config: { head: bow, sidescan: side, formats: [all, xtf] } }")
+        result = self.run_launch(launch, out="xtf", timeout=120)
+        self.assertEqual(result.code, 0, result.stderr)
+        file = result.out / NAME.replace(".all", ".xtf")
+        header, packets = pyxtf.xtf_read(str(file))
+        kinds = pyxtf.XTFHeaderType
+        self.assertEqual((header.NumberOfSonarChannels, header.NumberOfBathymetryChannels, header.NavUnits), (2, 1, 3))
+        self.assertIn(b"simulated by Ensonify", bytes(packets[kinds.notes][0].NotesText))
+        with ensonify.Record(result.out / "run.mcap") as record:
+            pings = {m.content.ping: m.content for m in record.messages("side/ping_main")}
+            soundings = {m.content.ping: m.content for m in record.messages("bow/soundings")}
+            bottoms = {m.content.ping: m.content for m in record.messages("side/bottom_main")}
+        read = packets[kinds.sonar]
+        self.assertGreater(len(read), 5 * (SECONDS - 2))
+        for packet in read:
+            ping = pings[packet.PingNumber]
+            amplitude = np.asarray(ping.amplitude_upa, float)
+            range_m = 0.5 * ping.sound_speed_mps * (ping.first_sample_s + ping.sample_period_s * np.arange(amplitude.shape[1]))
+            gain_db = ping.gain_spreading_db * np.log10(np.maximum(range_m, 1)) + 2 * ping.gain_absorption_dbpm * range_m + ping.gain_offset_db
+            wanted = amplitude * 10 ** (gain_db / 20)
+            port, starboard = packet.data
+            scale = np.median(starboard[starboard > 100] / wanted[1][starboard > 100])
+            np.testing.assert_allclose(starboard, np.minimum(65535, scale * wanted[1]), atol=0.6, rtol=1e-4)
+            np.testing.assert_allclose(port, np.minimum(65535, scale * wanted[0])[::-1], atol=0.6, rtol=1e-4)
+            self.assertGreater(np.median(starboard), 50)  # not black
+            self.assertLess(np.mean(starboard == 65535), 0.01)
+            self.assertAlmostEqual(packet.ping_chan_headers[0].SlantRange, 0.5 * ping.sound_speed_mps * ping.sample_period_s * amplitude.shape[1], places=2)
+            if bottoms[packet.PingNumber].valid:
+                self.assertAlmostEqual(packet.SensorPrimaryAltitude, bottoms[packet.PingNumber].altitude_m, places=3)
+            self.assertTrue(42 < packet.SensorYcoordinate < 43 and -71 < packet.SensorXcoordinate < -70)
+        for packet in packets[kinds.q_multibeam]:
+            message = soundings[packet.PingNumber]
+            valid = np.asarray(message.valid, bool)
+            self.assertEqual([beam.Quality > 0 for beam in packet.data], valid.tolist())
+            np.testing.assert_allclose([beam.BeamAngle for beam in packet.data], np.degrees(np.asarray(message.beam_angle_rad, float)), atol=1e-4)
+            np.testing.assert_allclose(np.array([beam.TwoWayTravelTime for beam in packet.data])[valid], np.asarray(message.travel_time_s, float)[valid], rtol=1e-6)
+        # The three formats' headings, positions and attitudes are one: the attitude packets have those of 'A'.
+        logged = AllFile(result.out / NAME)
+        clock = {round(1e-3 * (packet.Hour * 3_600_000 + packet.Minute * 60_000 + packet.Second * 1000 + packet.Millisecond), 3): packet
+                 for packet in packets[kinds.attitude]}
+        compared = 0
+        for t, roll, pitch, heave, heading in logged.attitude:
+            packet = clock.get(round(t, 3))
+            if packet is not None:
+                np.testing.assert_allclose([packet.Roll, packet.Pitch, -packet.Heave], [roll, pitch, heave], atol=0.0051)
+                self.assertLess(abs((packet.Heading - heading + 180) % 360 - 180), 0.0051)
+                compared += 1
+        self.assertGreater(compared, 100)
 
     def test_processes_and_one_process_write_the_same_bytes(self):
         apart, together = self.logged(out="apart"), self.logged("--in-process", out="together")
