@@ -25,11 +25,6 @@ std::uint8_t quality_of(const msg::Soundings& soundings, std::size_t i) {
       std::min<std::uint16_t>(count_of(2500.0 * at_or_nan(soundings.range_sd_m, i) / range_m), 254));
 }
 
-std::uint16_t valid_beams(const msg::Soundings& soundings) {
-  return static_cast<std::uint16_t>(std::count_if(soundings.valid.flat().begin(), soundings.valid.flat().end(),
-                                                  [](std::uint8_t flag) { return flag != 0; }));
-}
-
 RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorption_dbpm) {
   constexpr std::uint8_t kCentreArray = 1;  // of an EM 2040's three
   RawRangeAngle::Sector sector;
@@ -44,18 +39,6 @@ RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorpti
   const double tone_hz = 1.0 / std::max(sent.pulse_length_s, 1e-6);
   sector.bandwidth_hz = static_cast<float>(sent.bandwidth_hz > 0.0 ? sent.bandwidth_hz : tone_hz);
   return sector;
-}
-
-/// The sectors of a ping; of a head without any, its one transmission.
-std::vector<msg::TransmitSector> sectors_of(const msg::AppliedSettings& settings) {
-  if (!settings.sectors.empty()) return settings.sectors;
-  msg::TransmitSector only;
-  only.frequency_hz = settings.frequency_hz;
-  only.pulse = settings.pulse;
-  only.pulse_length_s = settings.pulse_length_s;
-  only.bandwidth_hz = settings.bandwidth_hz;
-  only.source_level_db = settings.source_level_db;
-  return {only};
 }
 
 }  // namespace

@@ -21,4 +21,20 @@ double at_or_nan(const msg::Array<float>& values, std::size_t entry) {
   return entry < values.size() ? static_cast<double>(values[entry]) : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::uint16_t valid_beams(const msg::Soundings& soundings) {
+  return static_cast<std::uint16_t>(std::count_if(soundings.valid.flat().begin(), soundings.valid.flat().end(),
+                                                  [](std::uint8_t flag) { return flag != 0; }));
+}
+
+std::vector<msg::TransmitSector> sectors_of(const msg::AppliedSettings& settings) {
+  if (!settings.sectors.empty()) return settings.sectors;
+  msg::TransmitSector only;
+  only.frequency_hz = settings.frequency_hz;
+  only.pulse = settings.pulse;
+  only.pulse_length_s = settings.pulse_length_s;
+  only.bandwidth_hz = settings.bandwidth_hz;
+  only.source_level_db = settings.source_level_db;
+  return {only};
+}
+
 }  // namespace ensonify::logger

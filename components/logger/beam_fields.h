@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "messages/soundings.h"
 
@@ -21,5 +22,10 @@ std::uint16_t count_of(double value);
 double at_or_nan(const msg::Array<float>& values, std::size_t entry);
 
 inline float sampling_hz(double sample_period_s) { return static_cast<float>(1.0 / sample_period_s); }
+
+std::uint16_t valid_beams(const msg::Soundings& soundings);
+
+/// The sectors of a ping; of a head without any, its one transmission.
+std::vector<msg::TransmitSector> sectors_of(const msg::AppliedSettings& settings);
 
 }  // namespace ensonify::logger
