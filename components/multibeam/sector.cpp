@@ -150,10 +150,9 @@ SectorBeams Sector::beamform(const PingEvent& event, const HeadSettings& setting
   std::vector<echo::InterferingTransmission> interfering = event.interfering;
   for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s;
   echoes_.sea().add_interference(shot, echoed[number_], interfering, pulse, foreign);
-  const auto images =
-      echoes_.beamform(shot, echoed[number_], design.shot,
-                       {event.number(), sampling, memory.sin_beams, design.volume_directions, foreign}, memory.beams);
-  echo::amplitude_upa(images.front(), amplitude_upa);
+  const auto images = echoes_.beamform(
+      shot, echoed[number_], design.shot,
+      {event.number(), sampling, memory.sin_beams, design.volume_directions, foreign, amplitude_upa}, memory.beams);
 
   const double echo_s = pulse.equivalent_length_s(), middle_s = 0.5 * (pulse.start_s + pulse.end_s());
   const double start_s = sampling.start_s + (0.5 * echo_s - middle_s);

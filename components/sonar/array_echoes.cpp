@@ -49,8 +49,8 @@ std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoe
                         gains(reception.foreign, {}, memory.foreign_gain)};
   const echo::Background noise = background(shot, echoed, design.pulse, reception, memory.volume_upa2);
   memory.images.resize(wanted_.size());
-  receiver_.form({sets, design.sampled, reception.sampling, noise, &design.squared}, reception.sin_beams, wanted_,
-                 memory.images, memory.receiver);
+  receiver_.form({sets, design.sampled, reception.sampling, noise, &design.squared, reception.amplitude_upa},
+                 reception.sin_beams, wanted_, memory.images, memory.receiver);
   return memory.images;
 }
 

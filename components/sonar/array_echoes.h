@@ -47,6 +47,7 @@ struct ArrayReception {
   std::span<const float> sin_beams;                // along the line, true
   std::span<const echo::VolumeDirections> volume;  // of ArrayEchoes::volume_directions; unused in clear water
   const echo::Arrivals& foreign;                   // of other transmissions
+  std::span<float> amplitude_upa = {};             // as of echo::LineReceiver::Input
 };
 
 /// Echoes of one transmission as the beams of a line array receive them, by the true motion and the true water: seabed,

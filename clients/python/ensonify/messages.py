@@ -149,6 +149,7 @@ class HeadDeclaration(Message):
     """What a sonar head declares before the run. It is part of `hello` and of a record, and no topic.
 
     kind: kind of head, as in ping/1
+    instrument: class of instruments that the head stands for, such as em2040; empty: none in particular
     beam_axis: axis of the head from which beam angles count, positive to starboard: down or forward
     finest_beam_rad [rad]: half-power width of the finest beam
     near_field_m [m]: range within which the unfocused receive array is in its near field; 0: not stated
@@ -161,6 +162,7 @@ class HeadDeclaration(Message):
 
     TYPE = "head_declaration/1"
     kind: str = ""
+    instrument: str = ""
     beam_axis: str = "down"
     finest_beam_rad: float = 0.0
     near_field_m: float = 0.0

@@ -97,9 +97,9 @@ RawNavigation xtf_navigation(const XtfMoment& at) {
   return navigation;
 }
 
-MultibeamPing xtf_multibeam(PingHeader header, const msg::Soundings& soundings) {
+MultibeamPing xtf_multibeam(const PingHeader& header, const msg::Soundings& soundings) {
   constexpr std::int32_t kGood = 3;
-  MultibeamPing ping{.header = std::move(header)};
+  MultibeamPing ping{.header = header};
   const auto& sectors = soundings.applied.sectors;
   for (std::size_t i = 0; i < soundings.beam_angle_rad.size(); ++i) {
     MultibeamPing::Beam beam{.number = static_cast<std::int32_t>(i)};

@@ -36,7 +36,7 @@ formats::xtf::RawNavigation xtf_navigation(const XtfMoment& at);
 
 /// A multibeam's ping, every beam: angle in the head's frame from its down axis, to port negative; travel time, 0 where
 /// nothing was detected; quality 3 and 0; tilt and delay of the beam's sector.
-formats::xtf::MultibeamPing xtf_multibeam(formats::xtf::PingHeader header, const msg::Soundings& soundings);
+formats::xtf::MultibeamPing xtf_multibeam(const formats::xtf::PingHeader& header, const msg::Soundings& soundings);
 
 formats::xtf::Notes xtf_notes(std::int64_t unix_ns, const std::string& text);
 

@@ -34,8 +34,6 @@ bool is_sum(std::span<const std::span<const float>> weights) {
 
 float component_sd(double mean_square) { return static_cast<float>(std::sqrt(0.5 * mean_square)); }
 
-const float* floats(const std::complex<float>* numbers) { return reinterpret_cast<const float*>(numbers); }
-
 }  // namespace
 
 LineGrid::LineGrid(const ElementLine& line)
@@ -100,8 +98,9 @@ void LineGrid::check(const Input& input, std::span<const std::span<const float>>
   }
 }
 
-void LineGrid::form(const Input& input, std::span<const float> sin_beams,
-                    std::span<const std::span<const float>> weights, std::span<Image> images, Memory& memory) const {
+bool LineGrid::form(const Input& input, std::span<const float> sin_beams,
+                    std::span<const std::span<const float>> weights, std::span<Image> images,
+                    std::span<float> amplitude_upa, Memory& memory) const {
   check(input, weights, images.size());
   const SineGrid on_grid = grid();
   GridPoints{input.echoes, input.whose, input.pulse, input.sampling, on_grid}.sort(memory.points);
@@ -110,10 +109,13 @@ void LineGrid::form(const Input& input, std::span<const float> sin_beams,
     const SineGrid::At at = on_grid.at(sine);
     memory.steer.push_back({at.cell, spreading_.taps(at.offset)});
   }
+  const bool halved = is_sum(weights);
+  const Form form{halved, halved ? amplitude_upa : std::span<float>{}};
   for (Image& image : images) {
     trace::make_room(image.envelope_upa, sin_beams.size() * static_cast<std::size_t>(input.sampling.count));
     image.resize(static_cast<int>(sin_beams.size()), input.sampling.count);
   }
+  if (!form.amplitude_upa.empty()) images[0].envelope_upa.clear();
 
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   if (memory.threads.size() < threads) memory.threads.resize(threads);
@@ -125,15 +127,16 @@ void LineGrid::form(const Input& input, std::span<const float> sin_beams,
     own.spectrum.resize(row);
     own.field.resize(row);
     own.sum.resize(row);
+    own.scale.resize(static_cast<std::size_t>(line_.elements));
     const auto drawn = static_cast<std::size_t>(kBlock + input.pulse.support() - 1);
     const auto size = [&](bool received, int each) { return received ? drawn * static_cast<std::size_t>(each) : 0; };
     own.volume.resize(size(!input.background.volume_upa2.empty(), cells_));
     own.isotropic.resize(size(hears_field(input.background), cells_));
     own.noise.resize(size(hears_elements(input.background), line_.elements));
   });
-  const bool halved = is_sum(weights);
   tbb::parallel_for(0, memory.points.blocks(),
-                    [&](int block) { form_block(input, block, weights, halved, memory, images); });
+                    [&](int block) { form_block(input, block, weights, form, memory, images); });
+  return !form.amplitude_upa.empty();
 }
 
 /// Draws for every sample that a block's filter reaches back to: of the cells with mean square 1, of the elements with
@@ -167,8 +170,10 @@ void LineGrid::filter(const Input& input, int r, std::span<const std::complex<fl
   std::fill(sum.begin(), sum.end(), std::complex<float>{});
   for (std::size_t k = 0; k < response.size(); ++k) {
     const std::size_t row = static_cast<std::size_t>(r) + response.size() - 1 - k;
-    const std::complex<float>* drawn = draws.data() + row * sum.size();
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += response[k] * drawn[i];
+    const std::complex<float>* const drawn = draws.data() + row * sum.size();
+    std::complex<float>* const to = sum.data();
+    const float share = response[k];
+    for (std::size_t i = 0; i < sum.size(); ++i) to[i] += share * drawn[i];
   }
 }
 
@@ -202,17 +207,19 @@ void LineGrid::to_elements(const Input& input, int block, int sample, Thread& me
 
   const int M = line_.elements;
   std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
-  for (int m = 0; m < M; ++m) elements[m] = spectrum[harmonic(m)] * unspread_[static_cast<std::size_t>(m)];
+  const float* const unspread = unspread_.data();
+  for_harmonics([=](int m, int h) { elements[m] = spectrum[h] * unspread[m]; });
   const Background& background = input.background;
   if (hears_field(background) || !background.volume_upa2.empty()) {
     make_field(input, block, sample, memory);
     to_elements_(memory.field.data(), spectrum);
-    for (int m = 0; m < M; ++m) elements[m] += spectrum[harmonic(m)];
+    for_harmonics([=](int m, int h) { elements[m] += spectrum[h]; });
   }
   if (hears_elements(background)) {
     const auto sum = std::span(memory.sum).first(static_cast<std::size_t>(M));
     filter(input, r, memory.noise, sum);
-    for (int m = 0; m < M; ++m) elements[m] += sum[static_cast<std::size_t>(m)];
+    const std::complex<float>* const noise = sum.data();
+    for (int m = 0; m < M; ++m) elements[m] += noise[m];
   }
 }
 
@@ -221,44 +228,26 @@ void LineGrid::to_beam_grid(int samples, std::span<const float> weights, Thread&
   const int M = line_.elements;
   std::complex<float>* spectrum = memory.spectrum.data();
   std::fill_n(spectrum, cells_, std::complex<float>{});  // and so it stays between the elements' harmonics
+  float* const scale = memory.scale.data();
+  for (int m = 0; m < M; ++m) scale[m] = weights[static_cast<std::size_t>(m)] * unspread_[static_cast<std::size_t>(m)];
   for (int r = 0; r < samples; ++r) {
     std::complex<float>* row = memory.grid.data() + static_cast<std::ptrdiff_t>(r) * stride_;
     const std::complex<float>* elements = memory.elements.data() + static_cast<std::ptrdiff_t>(r) * M;
-    for (int m = 0; m < M; ++m) {
-      const auto i = static_cast<std::size_t>(m);
-      spectrum[harmonic(m)] = elements[m] * (weights[i] * unspread_[i]);
-    }
+    for_harmonics([=](int m, int h) { spectrum[h] = elements[m] * scale[m]; });
     to_beams_(spectrum, row + kLeft);
     for (int i = 0; i < kLeft; ++i) row[i] = row[i + cells_];
     for (int i = kLeft; i < kWidth; ++i) row[i + cells_] = row[i];
   }
 }
 
-void LineGrid::read_beams(int block, int samples, std::span<const Steer> steers, const Thread& memory,
-                          Image& image) const {
-  for (int beam = 0; beam < image.beams; ++beam) {
-    const Steer& steer = steers[static_cast<std::size_t>(beam)];
-    std::complex<float>* out = image.row(beam).data() + block * kBlock;
-    const float* cell = floats(memory.grid.data() + steer.first);
-    for (int r = 0; r < samples; ++r, cell += 2 * stride_) {
-      const Spreading::Taps product = steer.taps * Eigen::Map<const Spreading::Taps>(cell);
-      const Eigen::Array4f sum = product.segment<4>(0) + product.segment<4>(4) + product.segment<4>(8);
-      out[r] = {sum[0] + sum[2], sum[1] + sum[3]};
-    }
-  }
-}
-
-void LineGrid::form_block(const Input& input, int block, std::span<const std::span<const float>> weights, bool halved,
-                          Memory& memory, std::span<Image> images) const {
+void LineGrid::form_block(const Input& input, int block, std::span<const std::span<const float>> weights,
+                          const Form& form, Memory& memory, std::span<Image> images) const {
   const Background& background = input.background;
   const int first = block * kBlock, samples = std::min(kBlock, input.sampling.count - first);
   const bool silent = !hears_field(background) && !hears_elements(background) && background.volume_upa2.empty() &&
                       !memory.points.any(block);
   if (silent) {
-    for (Image& image : images) {
-      for (int beam = 0; beam < image.beams; ++beam)
-        std::fill_n(image.row(beam).data() + first, samples, std::complex<float>{});
-    }
+    silence(first, samples, images, form);
     return;
   }
   Thread& own = memory.threads[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
@@ -273,16 +262,19 @@ void LineGrid::form_block(const Input& input, int block, std::span<const std::sp
   }
   const profile::Span span(profile::Stage::kTransforms);
   for (int sample = first; sample < first + samples; ++sample) to_elements(input, block, sample, own);
-  for (std::size_t i = halved ? 1 : 0; i < images.size(); ++i) {
-    to_beam_grid(samples, weights[i], own);
-    read_beams(block, samples, memory.steer, own, images[i]);
+  const auto grid_stride = static_cast<std::size_t>(stride_);
+  if (form.halved) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      to_beam_grid(samples, weights[i + 1], own);
+      own.rows[i].set(own.grid.data(), grid_stride);
+    }
+    read_beams(block, samples, memory.steer, own.rows, images, form);
+    return;
   }
-  if (!halved) return;
-  for (int beam = 0; beam < images[0].beams; ++beam) {
-    const std::complex<float>* one = images[1].row(beam).data() + first;
-    const std::complex<float>* other = images[2].row(beam).data() + first;
-    std::complex<float>* whole = images[0].row(beam).data() + first;
-    for (int k = 0; k < samples; ++k) whole[k] = one[k] + other[k];
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    to_beam_grid(samples, weights[i], own);
+    own.rows[0].set(own.grid.data(), grid_stride);
+    read_beams(block, samples, memory.steer, std::span(own.rows).first(1), images.subspan(i, 1), form);
   }
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "kernels/acoustics/echo/arrival.h"
+#include "kernels/acoustics/echo/beam_rows.h"
 #include "kernels/acoustics/echo/grid_point.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
@@ -82,8 +84,10 @@ class LineGrid {
     };
     struct Thread {
       std::vector<std::complex<float>> grid, elements, spectrum, field, sum;
+      std::vector<float> scale;  // of elements
       // Draws of a block and of what its filter reaches back to: by sample and cell, or sample and element.
       std::vector<std::complex<float>> volume, isotropic, noise;
+      std::array<BeamRows, 2> rows;  // of one or two sets of weights
     };
     ByTime<GridPoint> points;
     std::vector<Steer> steer;
@@ -92,9 +96,10 @@ class LineGrid {
 
   /// One image (beam by sample) for each set of element weights; images are resized and overwritten. sin_beams: sines
   /// of the beams' axes along the line's axis, true, any order. Of three sets of weights of which the first is the sum
-  /// of the others (a whole and its halves), the first image costs an addition only.
-  void form(const Input& input, std::span<const float> sin_beams, std::span<const std::span<const float>> weights,
-            std::span<Image> images, Memory& memory) const;
+  /// of the others (a whole and its halves), the first image costs an addition only. Where amplitude_upa (beam by
+  /// sample) is given for these, its magnitudes come there and its envelope stays empty. Returns whether they did.
+  bool form(const Input& input, std::span<const float> sin_beams, std::span<const std::span<const float>> weights,
+            std::span<Image> images, std::span<float> amplitude_upa, Memory& memory) const;
 
  private:
   using Steer = Memory::Steer;
@@ -110,9 +115,12 @@ class LineGrid {
   bool hears_elements(const Background& background) const {
     return (background.isotropic_upa2 > 0.0 && white_) || hears_electronic(background);
   }
-  /// Index of element m in a transform.
-  int harmonic(int m) const {
-    return m < line_.elements / 2 ? m - line_.elements / 2 + cells_ : m - line_.elements / 2;
+  /// use(m, index of element m in a transform): those before the middle, then the others.
+  template <class Use>
+  void for_harmonics(const Use& use) const {
+    const int half = line_.elements / 2;
+    for (int m = 0; m < half; ++m) use(m, m - half + cells_);
+    for (int m = half; m < line_.elements; ++m) use(m, m - half);
   }
   void draw(const Input& input, int block, Thread& memory) const;
   static void filter(const Input& input, int r, std::span<const std::complex<float>> draws,
@@ -120,8 +128,14 @@ class LineGrid {
   void make_field(const Input& input, int block, int sample, Thread& memory) const;
   void to_elements(const Input& input, int block, int sample, Thread& memory) const;
   void to_beam_grid(int samples, std::span<const float> weights, Thread& memory) const;
-  void read_beams(int block, int samples, std::span<const Steer> steers, const Thread& memory, Image& image) const;
-  void form_block(const Input& input, int block, std::span<const std::span<const float>> weights, bool halved,
+  struct Form {
+    bool halved;                     // the first set of weights is the sum of two others
+    std::span<float> amplitude_upa;  // of its image; empty: the image as a whole
+  };
+  static void silence(int first, int samples, std::span<Image> images, const Form& form);
+  static void read_beams(int block, int samples, std::span<const Steer> steers, std::span<const BeamRows> rows,
+                         std::span<Image> images, const Form& form);
+  void form_block(const Input& input, int block, std::span<const std::span<const float>> weights, const Form& form,
                   Memory& memory, std::span<Image> images) const;
 
   ElementLine line_;

@@ -84,33 +84,37 @@ void LineReceiver::form(const Input& input, std::span<const float> sin_beams, st
   std::size_t end = 0;
   for (std::size_t first = 0; first < wanted.size(); first = end) {
     for (end = first + 1; end < wanted.size() && alike(wanted[first], wanted[end]);) ++end;
-    form_alike(input, sin_beams, wanted.subspan(first, end - first), images.subspan(first, end - first), memory);
+    const std::span<float> amplitude_upa = first == 0 ? input.amplitude_upa : std::span<float>{};
+    const bool done = form_alike(input, sin_beams, wanted.subspan(first, end - first),
+                                 images.subspan(first, end - first), amplitude_upa, memory);
+    if (!done && !amplitude_upa.empty()) echo::amplitude_upa(images.front(), amplitude_upa);
   }
 }
 
-void LineReceiver::form_alike(const Input& input, std::span<const float> sin_beams, std::span<const WantedImage> wanted,
-                              std::span<Image> images, Memory& memory) const {
+bool LineReceiver::form_alike(const Input& input, std::span<const float> sin_beams, std::span<const WantedImage> wanted,
+                              std::span<Image> images, std::span<float> amplitude_upa, Memory& memory) const {
   const ContributorSet& whose = wanted.front().contributors;
   Background background;
   if (whose.holds(trace::kNoise)) background = input.background;
   memory.weights.clear();
   for (const WantedImage& one : wanted) memory.weights.push_back(one.weights);
   if (wanted.front().sum == Sum::kPressure) {
-    pressure_.form({input.echoes, whose, input.pulse, input.sampling, background}, sin_beams, memory.weights, images,
-                   memory.grid);
-    return;
+    return pressure_.form({input.echoes, whose, input.pulse, input.sampling, background}, sin_beams, memory.weights,
+                          images, amplitude_upa, memory.grid);
   }
   if (!power_ || !input.squared)
     throw std::invalid_argument("images of mean squares need a receiver and a pulse for them");
-  pressure_.form({{}, kAll, input.pulse, input.sampling, background}, sin_beams, memory.weights, images, memory.grid);
+  pressure_.form({{}, kAll, input.pulse, input.sampling, background}, sin_beams, memory.weights, images, {},
+                 memory.grid);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::span<const float> weights = wanted[i].power_weights;
     power_->form({input.echoes, whose, *input.squared, input.sampling, {}}, sin_beams, {&weights, 1},
-                 memory.mean_square, memory.grid);
+                 memory.mean_square, {}, memory.grid);
     const auto& mean_square = memory.mean_square.front().envelope_upa;
     auto& envelope = images[i].envelope_upa;
     for (std::size_t k = 0; k < envelope.size(); ++k) envelope[k] += std::sqrt(std::max(0.0F, mean_square[k].real()));
   }
+  return false;
 }
 
 }  // namespace ensonify::echo

@@ -57,6 +57,8 @@ class LineReceiver {
     Sampling sampling;
     Background background;                  // of the contributor trace::kNoise
     const SampledPulse* squared = nullptr;  // for mean squares: the pulse's
+    /// Beam by sample: where there is room, the first image's magnitudes. Whether its envelope is kept then is open.
+    std::span<float> amplitude_upa = {};
   };
 
   /// Memory of forming: its contents do not matter.
@@ -75,8 +77,9 @@ class LineReceiver {
             std::span<Image> images, Memory& memory) const;
 
  private:
-  void form_alike(const Input& input, std::span<const float> sin_beams, std::span<const WantedImage> wanted,
-                  std::span<Image> images, Memory& memory) const;
+  /// Returns whether the amplitudes of the first image are there.
+  bool form_alike(const Input& input, std::span<const float> sin_beams, std::span<const WantedImage> wanted,
+                  std::span<Image> images, std::span<float> amplitude_upa, Memory& memory) const;
 
   LineGrid pressure_;
   std::optional<LineGrid> power_;

@@ -67,9 +67,14 @@ void add_gaussian(const Stream& stream, std::uint64_t a, std::uint64_t b, float 
         im[half][i] = radius * direction.sine;
       }
     }
+    alignas(64) float drawn[4 * kBlocks];  // number by number
+    for (std::size_t i = 0; i < kBlocks; ++i) {
+      drawn[4 * i] = re[0][i], drawn[4 * i + 1] = im[0][i];
+      drawn[4 * i + 2] = re[1][i], drawn[4 * i + 3] = im[1][i];
+    }
     const std::size_t count = std::min(2 * kBlocks, numbers.size() - first);
-    for (std::size_t k = 0; k < count; ++k)
-      numbers[first + k] += std::complex<float>(re[k % 2][k / 2], im[k % 2][k / 2]);
+    auto* const sums = reinterpret_cast<float*>(numbers.data() + first);
+    for (std::size_t k = 0; k < 2 * count; ++k) sums[k] += drawn[k];
   }
 }
 
