@@ -49,8 +49,8 @@ Position position_of(const Moment& moment) {
 
 }  // namespace
 
-AllFormat::AllFormat(const LoggerConfig& config)
-    : config_(config), writer_(kModel, static_cast<std::uint16_t>(config.serial)) {}
+AllFormat::AllFormat(const LoggerConfig& config, std::string mark)
+    : config_(config), mark_(std::move(mark)), writer_(kModel, static_cast<std::uint16_t>(config.serial)) {}
 
 void AllFormat::append(formats::Bytes& out, std::int64_t unix_ns, Body body) {
   last_ns_ = std::max(last_ns_, unix_ns);
@@ -63,7 +63,7 @@ void AllFormat::begin(const FileStart& start, formats::Bytes& out) {
   file_name_ = start.name;
   last_ns_ = 0;
   runtime_ = runtime(start.settings);
-  append(out, start.unix_ns, installation(config_.vessel, serial(), file_name_));
+  append(out, start.unix_ns, installation(config_.vessel, serial(), file_name_, mark_));
   append(out, start.unix_ns, *runtime_);
   append(out, start.unix_ns, profile(config_.profile, config_.start_unix_ns));
 }
@@ -101,7 +101,7 @@ void AllFormat::ping(const LoggedSoundings& ping, formats::Bytes& out) {
 
 void AllFormat::end(formats::Bytes& out) {
   finish_attitude(out);
-  writer_.append_close(out, to_millisecond(last_ns_), installation(config_.vessel, serial(), file_name_));
+  writer_.append_close(out, to_millisecond(last_ns_), installation(config_.vessel, serial(), file_name_, mark_));
 }
 
 }  // namespace ensonify::logger

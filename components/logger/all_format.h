@@ -11,7 +11,8 @@ namespace ensonify::logger {
 /// Kongsberg .all, model 2040: I, R, U; then P, A and C as they are due, N, X and Y of each ping; i at its end.
 class AllFormat : public Format {
  public:
-  explicit AllFormat(const LoggerConfig& config);
+  /// `mark` says that files are simulated.
+  AllFormat(const LoggerConfig& config, std::string mark);
 
   std::string ending() const override { return ".all"; }
   void begin(const FileStart& start, formats::Bytes& out) override;
@@ -26,6 +27,7 @@ class AllFormat : public Format {
   void finish_attitude(formats::Bytes& out);
 
   LoggerConfig config_;
+  std::string mark_;
   std::string file_name_;
   formats::all::Writer writer_;
   std::int64_t last_ns_ = 0;         // of what was written

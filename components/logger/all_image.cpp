@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "components/logger/beam_fields.h"
+#include "components/logger/image_series.h"
 
 namespace ensonify::logger {
 
@@ -12,22 +13,6 @@ using formats::all::SeabedImage;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// Samples of one beam in the image's strengths, by rising range.
-struct Series {
-  std::size_t begin = 0;
-  std::size_t count = 0;
-  std::size_t centre = 0;  // of the detection, from `begin`
-};
-
-Series series_of(const msg::SeabedImage& image, std::size_t number, std::size_t most) {
-  const std::size_t begin = image.offset[number], end = image.offset[number + 1];
-  const std::size_t samples = std::min<std::size_t>(end, image.strength_db.size()) - begin;
-  const std::size_t centre = std::min<std::size_t>(image.centre[number], samples);
-  if (samples <= most) return {begin, samples, centre};
-  const std::size_t cut = std::min(centre - std::min(centre, most / 2), samples - most);
-  return {begin + cut, most, centre - cut};
-}
 
 /// What the head's image says of itself.
 SeabedImage header(const msg::SeabedImage& image, double sound_speed_mps) {
@@ -41,10 +26,8 @@ SeabedImage header(const msg::SeabedImage& image, double sound_speed_mps) {
   return written;
 }
 
-std::int16_t tenths(double strength_db) { return formats::FixedPoint<std::int16_t, 10>::of(strength_db).count; }
-
 /// All samples of a ping run from port to starboard: on the port side the highest range comes first.
-void append(const msg::SeabedImage& image, const Series& series, SeabedImage::Beam& beam, SeabedImage& written) {
+void append(const msg::SeabedImage& image, const ImageSeries& series, SeabedImage::Beam& beam, SeabedImage& written) {
   const bool reversed = beam.direction < 0;
   beam.samples = static_cast<std::uint16_t>(series.count);
   beam.centre_sample = static_cast<std::uint16_t>(reversed ? series.count - series.centre : series.centre + 1);
@@ -63,18 +46,15 @@ SeabedImage seabed_image(const msg::Soundings& soundings, const std::optional<ms
 
   const std::size_t entries = soundings.beam_angle_rad.size();
   const std::size_t most = kMostImageBytes / sizeof(std::int16_t) / std::max<std::size_t>(entries, 1);
-  std::size_t next = 0;  // of the image's series, whose beams rise
+  std::vector<std::optional<ImageSeries>> series(entries);
+  if (image) series = image_series(soundings, *image, most);
   for (std::size_t i = 0; i < entries; ++i) {
     SeabedImage::Beam beam;
     beam.direction = soundings.beam_angle_rad[i] < 0.0F ? -1 : 1;
     beam.detection = detection_of(soundings, i);
-    const std::size_t number = i < soundings.beam.size() ? soundings.beam[i] : i;
-    if (image) {
-      while (next < image->beam.size() && image->beam[next] < number) ++next;
-      const bool has_series =
-          next < image->beam.size() && image->beam[next] == number && next + 1 < image->offset.size();
-      if (has_series) append(*image, series_of(*image, next++, most), beam, written);
-    } else if (is_valid(soundings, i)) {
+    if (series[i]) {
+      append(*image, *series[i], beam, written);
+    } else if (!image && is_valid(soundings, i)) {
       beam.samples = beam.centre_sample = 1;
       written.strength_ddb.push_back(tenths(at_or_nan(soundings.backscatter_strength_db, i)));
     }

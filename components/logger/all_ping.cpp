@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/logger/beam_fields.h"
+#include "components/logger/em2040.h"
 #include "components/logger/head_track.h"
 
 namespace ensonify::logger {
@@ -14,6 +15,7 @@ using namespace formats::all;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+
 std::uint16_t window_samples(const msg::Soundings& soundings, std::size_t i) {
   return count_of(at_or_nan(soundings.window_s, i) / soundings.sample_period_s);
 }
@@ -34,10 +36,9 @@ RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorpti
   sector.delay_s = static_cast<float>(sent.delay_s);
   sector.centre_hz = static_cast<float>(sent.frequency_hz);
   sector.absorption_dbpkm = sector.absorption_dbpkm.of(1e3 * absorption_dbpm);
-  if (sent.pulse.starts_with("fm")) sector.waveform = sent.pulse == "fm_down" ? 2 : 1;
+  sector.waveform = waveform_of(sent.pulse);
   sector.index = kCentreArray;
-  const double tone_hz = 1.0 / std::max(sent.pulse_length_s, 1e-6);
-  sector.bandwidth_hz = static_cast<float>(sent.bandwidth_hz > 0.0 ? sent.bandwidth_hz : tone_hz);
+  sector.bandwidth_hz = static_cast<float>(bandwidth_hz(sent));
   return sector;
 }
 

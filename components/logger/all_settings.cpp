@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "components/formats/utc.h"
+#include "components/logger/em2040.h"
 
 namespace ensonify::logger {
 
@@ -26,15 +27,10 @@ std::string transducer_text(const char* name, const frames::Vec3& position_m,
                      turned.roll_rad / kDegree + 0.0);
 }
 
-/// Of the three frequencies of an EM 2040 the nearest: 0, 1, 2 are 200, 300, 400 kHz.
-std::uint8_t frequency_mode(double frequency_hz) {
-  if (frequency_hz < 250e3) return 0;
-  return frequency_hz < 350e3 ? 1 : 2;
-}
-
 }  // namespace
 
-Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& file_name) {
+Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& file_name,
+                          const std::string& mark) {
   constexpr const char* kVersion = "0.1.0 250101";
   std::string text = fmt::format("WLZ={:.4f},SMH={},STC=0,", vessel.water_line_m + 0.0, serial);
   text += transducer_text("S1", vessel.transmitter_body_m(), vessel.head.body_from_head);
@@ -51,16 +47,16 @@ Installation installation(const Vessel& vessel, std::uint16_t serial, const std:
       "P3S=1,MSX=0.000,MSY=0.000,MSZ=0.000,MRP=RP,MSD=0,MSR=0.000,MSP=0.000,MSG=0.000,"
       "NSX=0.000,NSY=0.000,NSZ=0.000,NRP=RP,NSD=0,NSR=0.000,NSP=0.000,NSG=0.000,MAS=1.000,GCG=0.000,"
       "APS=0,AHS=2,ARO=2,AHE=2,CLS=1,CLO=0,PPS=0,VSN=0,VSE=2,VSU=3001,VTE=0,VTU=3000,"
-      "VSI=192.168.1.1,VSM=255.255.0.0,SID=simulated by Ensonify,";
-  text += fmt::format("RFN={},", file_name);
+      "VSI=192.168.1.1,VSM=255.255.0.0,";
+  text += fmt::format("SID={},RFN={},", mark, file_name);
   return {0, text};
 }
 
 Runtime runtime(const msg::AppliedSettings& settings) {
   constexpr std::uint8_t kChirp = 0x20, kReceiver1 = 0x01, kPitchStabilised = 0x80, kYawStabilised = 0x01;
   Runtime runtime;
-  const bool chirp = settings.pulse.starts_with("fm");
-  runtime.mode = static_cast<std::uint8_t>(frequency_mode(settings.frequency_hz) | (chirp ? kChirp : 0));
+  const bool chirp = is_chirp(settings.pulse);
+  runtime.mode = static_cast<std::uint8_t>(frequency_index(settings.frequency_hz) | (chirp ? kChirp : 0));
   runtime.mode_2 = kReceiver1;
   runtime.maximum_depth_m = static_cast<std::uint16_t>(std::min(settings.range_m, 65'534.0));
   runtime.absorption_dbpkm = runtime.absorption_dbpkm.of(1e3 * settings.gain_absorption_dbpm);

@@ -13,7 +13,8 @@
 namespace ensonify::logger {
 
 /// Of a system that states its mountings. It says in its survey's name that it is simulated.
-formats::all::Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& file_name);
+formats::all::Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& file_name,
+                                        const std::string& mark);
 
 formats::all::Runtime runtime(const msg::AppliedSettings& settings);
 

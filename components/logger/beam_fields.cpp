@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/formats/fixed_point.h"
+
 namespace ensonify::logger {
 
 std::uint8_t detection_of(const msg::Soundings& soundings, std::size_t entry) {
@@ -20,6 +22,8 @@ std::uint16_t count_of(double value) {
 double at_or_nan(const msg::Array<float>& values, std::size_t entry) {
   return entry < values.size() ? static_cast<double>(values[entry]) : std::numeric_limits<double>::quiet_NaN();
 }
+
+std::int16_t tenths(double strength_db) { return formats::FixedPoint<std::int16_t, 10>::of(strength_db).count; }
 
 std::uint16_t valid_beams(const msg::Soundings& soundings) {
   return static_cast<std::uint16_t>(std::count_if(soundings.valid.flat().begin(), soundings.valid.flat().end(),

@@ -5,7 +5,7 @@
 
 #include "messages/soundings.h"
 
-/// What N, X and Y say of a beam alike.
+/// What a format's datagrams, and the formats, say of a beam alike.
 namespace ensonify::logger {
 
 inline bool is_valid(const msg::Soundings& soundings, std::size_t entry) {
@@ -22,6 +22,9 @@ std::uint16_t count_of(double value);
 double at_or_nan(const msg::Array<float>& values, std::size_t entry);
 
 inline float sampling_hz(double sample_period_s) { return static_cast<float>(1.0 / sample_period_s); }
+
+/// Tenths of a decibel, as images have them.
+std::int16_t tenths(double strength_db);
 
 std::uint16_t valid_beams(const msg::Soundings& soundings);
 

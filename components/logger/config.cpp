@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDeepestReference_m = 10.0;  // of a vessel at the surface
 
-constexpr const char *kAll = "all", *kXtf = "xtf";
-const std::vector<std::string> kFormats{kAll, kXtf};
+constexpr const char *kAll = "all", *kKmall = "kmall", *kXtf = "xtf";
+const std::vector<std::string> kFormats{kAll, kKmall, kXtf};
 
 bool has(const std::vector<std::string>& formats, const char* format) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -111,11 +111,12 @@ LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const st
   }
   const auto mounting = world.mounting(config.head.empty() ? config.sidescan : config.head);
   if (config.ship.empty() && mounting) config.ship = world.vehicle(mounting->first).name;
-  if (has(config.formats, kAll) && config.vessel.dives) {
+  for (const char* format : {kAll, kKmall}) {
+    if (!has(config.formats, format) || !config.vessel.dives) continue;
     from.problem("formats",
-                 fmt::format("all: the vehicle {} dives, and depths of vehicles are not written yet; allowed: one that "
+                 fmt::format("{}: the vehicle {} dives, and depths of vehicles are not written yet; allowed: one that "
                              "floats, or a mission at one depth of {} m at most",
-                             mounting ? mounting->first : std::string(), kDeepestReference_m));
+                             format, mounting ? mounting->first : std::string(), kDeepestReference_m));
   }
   return config;
 }

@@ -24,6 +24,9 @@ struct LoggedFormats : std::vector<std::string> {
   static std::string schema();
 };
 
+/// Where files say that they are simulated: in texts alone, or in the fields for simulators too.
+enum class SimulatedMarks { kText, kDatagrams };
+
 struct LoggerParameters {
   LoggedFormats formats{"all"};
   std::string head;
@@ -34,12 +37,15 @@ struct LoggerParameters {
   int position_rate_hz = 5;
   std::string sidescan;
   logger::XtfSamples xtf_samples = logger::XtfSamples::k16Bit;
+  SimulatedMarks mark_simulated = SimulatedMarks::kText;
   double rotate_s = 0.0;
   double rotate_mb = 0.0;
   bool rotate_lines = false;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("formats", "", any(), "list of all (Kongsberg .all, model 2040) and xtf (Triton XTF)", self.formats);
+    visit("formats", "", any(),
+          "list of all (Kongsberg .all, model 2040), kmall (Kongsberg .kmall, EM 2040) and xtf (Triton XTF)",
+          self.formats);
     visit(
         "head", "", any(),
         "the multibeam whose soundings are logged, by its process's name; \"\": the only head, or none with a sidescan",
@@ -57,6 +63,10 @@ struct LoggerParameters {
                   {"8_bit", logger::XtfSamples::k8Bit},
                   {"float", logger::XtfSamples::kFloat}}),
           "samples of sidescan channels in XTF", self.xtf_samples);
+    visit("mark_simulated", "", one_of({{"text", SimulatedMarks::kText}, {"datagrams", SimulatedMarks::kDatagrams}}),
+          "where files say that they are simulated: in their texts, or in the fields for simulators too, which some "
+          "software refuses",
+          self.mark_simulated);
     visit("rotate_s", "s", in(0, 86'400), "time after which the next files begin; 0: never", self.rotate_s);
     visit("rotate_mb", "MB", in(0, 1e6), "size of a file after which the next ones begin; 0: never", self.rotate_mb);
     visit("rotate_lines", "", any(), "the next files begin with each of the mission's lines", self.rotate_lines);

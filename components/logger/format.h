@@ -15,6 +15,7 @@ namespace ensonify::logger {
 struct FileStart {
   std::int64_t unix_ns = 0;  // of its first moment
   std::string name;
+  frames::Geodetic place;                // of the reference point
   const msg::AppliedSettings& settings;  // of its first ping
 };
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,11 +9,11 @@
 #include "components/formats/all/installation_text.h"
 #include "components/formats/all/reader.h"
 #include "components/logger/all_image.h"
-#include "components/logger/node.h"
-#include "components/runtime/testing/node_under_test.h"
-#include "scenarios/world/world.h"
+#include "components/logger/instruments.h"
+#include "components/logger/testing/survey.h"
 
 using namespace ensonify;
+using namespace ensonify::logger::testing;
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
 namespace all = ensonify::formats::all;
@@ -23,134 +22,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kReferenceDepth_m = 0.7;
-constexpr double kSeabedDepth_m = 20.0;
-constexpr double kSoundSpeed_mps = 1490.0;
-constexpr std::size_t kBeams = 101;
 
-/// A folder of this test program, gone at its end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ensonify_logger_test_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
-World bay() {
-  World world;
-  world.site.origin = {54.0, 8.0};
-  world.start_unix_ns = 1'748'779'200'000'000'000;  // 2025-06-01 12:00:00
-  world.mission.depth_m = kReferenceDepth_m;
-  world.water.profile.sound_speed_mps = kSoundSpeed_mps;
-  Vehicle boat;
-  boat.name = "boat";
-  HeadMounting bow;
-  bow.measured.position_body_m = {1.5, 0.2, 0.8};
-  bow.measured.body_from_head = frames::enu_from_ned().conjugate() *
-                                frames::enu_from_body({.heading_rad = 0.01, .pitch_rad = 0.02, .roll_rad = -0.03});
-  boat.mountings["bow"] = bow;
-  world.vehicles = {boat};
-  return world;
-}
-
-LoggerConfig config_of(const World& world, const char* text = "{}") {
-  ConfigReader from = ConfigReader::from_text(text, "logger.yaml");
-  LoggerConfig config = LoggerConfig::read(from, world, "logger");
-  from.finish();
-  return config;
-}
-
-/// The vessel rolls, pitches and heaves on its way to the north-east, far enough from the origin to feel the
-/// convergence.
-double heave_up_m(SimTime t) { return 0.3 * std::sin(1.1 * seconds(t)); }
-frames::Pose pose_at(SimTime t) {
-  const double t_s = seconds(t);
-  frames::Pose pose;
-  pose.position_enu_m = {20'000.0 + 2.0 * t_s, 1'000.0 + 2.0 * t_s, heave_up_m(t) - kReferenceDepth_m};
-  pose.enu_from_body = frames::enu_from_body({.heading_rad = 45 * kDegree,
-                                              .pitch_rad = 3 * kDegree * std::sin(t_s),
-                                              .roll_rad = 8 * kDegree * std::cos(0.9 * t_s)});
-  return pose;
-}
-
-void give_navigation(NodeUnderTest<LoggerNode>& logger, SimTime until) {
-  for (SimTime t{0}; t <= until; t += 10_ms) {
-    const frames::Pose pose = pose_at(t);
-    msg::Estimate estimate;
-    estimate.stamp_ns = t.count();
-    estimate.position_enu_m = {pose.position_enu_m.x(), pose.position_enu_m.y(), pose.position_enu_m.z()};
-    estimate.enu_from_body = frames::wxyz_of(pose.enu_from_body);
-    estimate.velocity_enu_mps = {2.0, 2.0, 0.0};
-    logger.give("estimate", estimate);
-    msg::Attitude attitude;
-    attitude.stamp_ns = t.count();
-    attitude.heave_m = heave_up_m(t);
-    logger.give("attitude", attitude);
-  }
-  msg::Position position;
-  position.quality = 4;
-  position.hdop = 0.8;
-  position.height_above_geoid_m = 3.0;
-  logger.give("position", position);
-}
-
-/// Soundings on a flat seabed; every tenth beam has none.
-msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& mounting) {
-  const frames::HeadPose head = frames::head_pose(pose_at(t), mounting);
-  msg::Soundings soundings;
-  soundings.stamp_ns = t.count();
-  soundings.ping = number;
-  soundings.sample_period_s = 5e-5;
-  soundings.applied.sound_speed_mps = kSoundSpeed_mps;
-  soundings.applied.frequency_hz = 300e3;
-  soundings.applied.pulse_length_s = 1e-4;
-  soundings.beam_angle_rad = msg::Array<float>({kBeams});
-  soundings.travel_time_s = msg::Array<float>({kBeams});
-  soundings.backscatter_strength_db = msg::Array<float>({kBeams});
-  soundings.range_sd_m = msg::Array<float>({kBeams});
-  soundings.window_s = msg::Array<float>({kBeams});
-  soundings.kind = msg::Array<std::uint8_t>({kBeams});
-  soundings.valid = msg::Array<std::uint8_t>({kBeams});
-  soundings.position_enu_m = msg::Array<double>({kBeams, 3});
-  for (std::size_t i = 0; i < kBeams; ++i) {
-    const double angle_rad = (static_cast<double>(i) - 50.0) * kDegree;
-    const frames::Vec3 direction = head.enu_from_head * frames::Vec3(0.0, std::sin(angle_rad), std::cos(angle_rad));
-    const double range_m = (kSeabedDepth_m + head.position_enu_m.z()) / -direction.z();
-    const frames::Vec3 where = head.position_enu_m + range_m * direction;
-    const bool valid = i % 10 != 0;
-    const auto no = std::numeric_limits<double>::quiet_NaN();
-    soundings.beam_angle_rad[i] = static_cast<float>(angle_rad);
-    soundings.travel_time_s[i] = static_cast<float>(valid ? 2.0 * range_m / kSoundSpeed_mps : no);
-    soundings.backscatter_strength_db[i] = static_cast<float>(valid ? -25.0 - 0.1 * static_cast<double>(i) : no);
-    soundings.range_sd_m[i] = 0.02F;
-    soundings.window_s[i] = 1e-3F;
-    soundings.kind[i] = i < 40 || i > 60 ? 2 : 1;
-    soundings.valid[i] = valid ? 1 : 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      soundings.position_enu_m(i, axis) = valid ? where[static_cast<Eigen::Index>(axis)] : no;
-    }
-  }
-  soundings.track.pose_position_enu_m = msg::Array<double>({1, 3});
-  soundings.track.pose_enu_from_head = msg::Array<double>({1, 4});
-  const auto wxyz = frames::wxyz_of(head.enu_from_head);
-  for (std::size_t k = 0; k < 3; ++k)
-    soundings.track.pose_position_enu_m[k] = head.position_enu_m[static_cast<Eigen::Index>(k)];
-  for (std::size_t k = 0; k < 4; ++k) soundings.track.pose_enu_from_head[k] = wxyz[k];
-  return soundings;
-}
-
-constexpr SimTime kPingPeriod = 137_ms;
-
-/// Ten seconds of survey, pings from the start on.
+/// The datagrams of a survey's file.
 std::vector<all::Datagram> survey(const World& world, const char* text = "{}") {
   const Folder folder;
-  const LoggerConfig config = config_of(world, text);
-  NodeUnderTest<LoggerNode> logger(config, "logger", folder.path);
-  give_navigation(logger, 10_s);
-  std::int64_t number = 65'500;
-  for (SimTime t{0}; t <= 9_s; t += kPingPeriod) logger.give("soundings", ping_at(t, number++, config.vessel.head));
-  logger.run_until(10_s);
-  logger.node().finish_run();
-
+  logger::testing::survey(world, text, folder.path);
   const fs::path path = folder.path / "0000_20250601_120000_boat.all";
   REQUIRE(fs::exists(path));
   formats::Window window(path);
@@ -193,7 +69,7 @@ TEST_CASE("a .all file begins with I, R, U and a second of navigation, and ends 
   const auto positions = all_of<all::Position>(file);
   CHECK(file[first_ping].unix_ns() - positions.front().first >= 1'000'000'000);
   CHECK_THAT(std::get<all::Installation>(file[0].body).text,
-             Contains("RFN=0000_20250601_120000_boat.all,") && Contains("SID=simulated by Ensonify,"));
+             Contains("RFN=0000_20250601_120000_boat.all,") && Contains("SID=simulated by Ensonify: a generic head,"));
 }
 
 TEST_CASE("each ping has N, X and Y with one number and time, and none is left out once it has begun") {
@@ -426,4 +302,27 @@ TEST_CASE("without an estimate there is no file, and the pings left out are coun
   logger.run_until(1_s);
   logger.node().finish_run();
   CHECK(fs::is_empty(folder.path));
+}
+
+TEST_CASE(
+    "Kongsberg's formats are refused of heads that stand for others, and of frequencies that are none of theirs") {
+  const auto declared = [](const char* instrument, double frequency_hz) {
+    msg::HeadDeclaration head{.kind = "multibeam", .instrument = instrument};
+    head.channels.push_back({.sectors = {{.frequency_hz = frequency_hz}}});
+    return head;
+  };
+  const auto check = [](const LoggedFormats& formats, const msg::HeadDeclaration& head) {
+    logger::check_instrument("log", formats, "bow", head);
+  };
+  for (const char* instrument : {"t50", "r2sonic2024", "norbit_iwbms"}) {
+    CHECK_THROWS_WITH(check({"xtf", "kmall"}, declared(instrument, 300e3)),
+                      Contains("log: formats: kmall: bow stands for the class") && Contains(instrument));
+    CHECK_NOTHROW(check({"xtf"}, declared(instrument, 300e3)));
+  }
+  CHECK_NOTHROW(check({"all", "kmall"}, declared("em2040", 300e3)));
+  CHECK_NOTHROW(check({"all"}, declared("generic", 200e3)));
+  CHECK_THROWS_WITH(check({"all"}, declared("generic", 100e3)), Contains("bow sends at 100 kHz; allowed: xtf"));
+  CHECK_NOTHROW(check({"all"}, {}));  // a record of before
+  CHECK(logger::simulated_by("em2040") == "simulated by Ensonify");
+  CHECK_THAT(logger::simulated_by("generic"), Contains("generic head"));
 }

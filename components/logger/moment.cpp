@@ -57,9 +57,11 @@ Moment moment_of(const msg::Estimate& estimate, const msg::Position& fix, double
   return moment;
 }
 
-std::string gga_of(const Moment& moment, const msg::Position& fix) {
-  return gga_text({moment.unix_ns, moment.reference.latitude_deg, moment.reference.longitude_deg, quality_of(fix),
-                   hdop_of(fix), fix.height_above_geoid_m, fix.geoid_above_ellipsoid_m});
+std::string gga_of(const Moment& moment, const msg::Position& fix, SimulatedMarks marks) {
+  constexpr std::int64_t kSimulator = 8;
+  return gga_text({moment.unix_ns, moment.reference.latitude_deg, moment.reference.longitude_deg,
+                   marks == SimulatedMarks::kDatagrams ? kSimulator : quality_of(fix), hdop_of(fix),
+                   fix.height_above_geoid_m, fix.geoid_above_ellipsoid_m});
 }
 
 }  // namespace ensonify::logger

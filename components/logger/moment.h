@@ -31,6 +31,6 @@ Moment moment_of(const msg::Estimate& estimate, const msg::Position& fix, double
                  const LoggerConfig& config, const frames::LocalProjection& world);
 
 /// The sentence of a moment's position.
-std::string gga_of(const Moment& moment, const msg::Position& fix);
+std::string gga_of(const Moment& moment, const msg::Position& fix, SimulatedMarks marks);
 
 }  // namespace ensonify::logger

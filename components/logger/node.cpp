@@ -6,6 +6,8 @@
 
 #include "components/errors/exit_error.h"
 #include "components/logger/all_format.h"
+#include "components/logger/instruments.h"
+#include "components/logger/kmall/kmall_format.h"
 #include "components/logger/xtf/xtf_format.h"
 #include "components/runtime/declared.h"
 #include "messages/terrain.h"
@@ -77,9 +79,12 @@ logger::SurveyLog& LoggerNode::log() {
   const auto multibeam = declared_head(ports_, config_.head), sidescan = declared_head(ports_, config_.sidescan);
   if (sidescan) sidescan_.emplace(*sidescan);
   std::vector<std::unique_ptr<logger::Format>> formats;
+  if (multibeam) logger::check_instrument(ports_.process(), config_.formats, config_.head, *multibeam);
+  const std::string mark = logger::simulated_by(multibeam ? multibeam->instrument : std::string());
   for (const std::string& format : config_.formats) {
-    if (format == "all") formats.push_back(std::make_unique<logger::AllFormat>(config_));
-    if (format == "xtf") formats.push_back(std::make_unique<logger::XtfFormat>(config_, sidescan, multibeam));
+    if (format == "all") formats.push_back(std::make_unique<logger::AllFormat>(config_, mark));
+    if (format == "kmall") formats.push_back(std::make_unique<logger::KmallFormat>(config_, mark));
+    if (format == "xtf") formats.push_back(std::make_unique<logger::XtfFormat>(config_, mark, sidescan, multibeam));
   }
   return log_.emplace(config_, std::move(formats), files_);
 }

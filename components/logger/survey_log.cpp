@@ -80,7 +80,7 @@ void SurveyLog::add(const msg::Estimate& estimate, const frames::LocalProjection
   Moment moment = moment_of(estimate, fix, heave_.down_m(estimate.stamp_ns), config_, world);
   moment.position_due = is_due(next_position_ns_, moment.stamp_ns, kSecond_ns / config_.position_rate_hz);
   moment.clock_due = is_due(next_clock_ns_, moment.stamp_ns, kSecond_ns);
-  if (moment.position_due) moment.gga = gga_of(moment, fix);
+  if (moment.position_due) moment.gga = gga_of(moment, fix, config_.mark_simulated);
   if (files_begun_ > 0) each_format([&](Format& format, formats::Bytes& out) { format.moment(moment, out); });
   lead_.push_back(std::move(moment));
   while (lead_.front().stamp_ns < estimate.stamp_ns - 5 * lead_ns() / 2) lead_.pop_front();
@@ -130,7 +130,7 @@ void SurveyLog::start_files(const Ping& first) {
     files_.open(i, name);
     formats::Bytes out;
     formats_[i]->begin(
-        {begin_ns, name,
+        {begin_ns, name, lead_.front().reference,
          std::visit([](const auto& one) -> const msg::AppliedSettings& { return settings_of(one); }, first)},
         out);
     for (const Moment& moment : lead_) formats_[i]->moment(moment, out);

@@ -7,7 +7,7 @@ import support
 SECONDS = 6
 SEABED_IMAGE = "  bow:   { run: multibeam, config: { seabed_image: { published: true } } }\n"
 WITHOUT_LOGGER = support.bay(SECONDS, "[bow/soundings, bow/seabed_image, nav/*]").replace("  bow:   { run: multibeam }\n", SEABED_IMAGE)
-WITH_LOGGER = WITHOUT_LOGGER + "  log: { run: logger, config: { head: bow, ship: Alkor, line: 12, position_rate_hz: 10 } }\n"
+WITH_LOGGER = WITHOUT_LOGGER + "  log: { run: logger, config: { head: bow, formats: [all, kmall, xtf], ship: Alkor, line: 12, position_rate_hz: 10 } }\n"
 NAME = "0012_20250601_120000_Alkor.all"
 
 
@@ -25,10 +25,12 @@ class Convert(support.SystemTest):
 
     def test_bytes_are_those_of_the_live_logger(self):
         out = self.record()
-        done = self.convert(out, "--to", "all", self.folder / "made")
+        done = self.convert(out, "--to", "all,kmall,xtf", self.folder / "made")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(done.stdout.split(), [str(self.folder / "made" / NAME)])
-        self.assertEqual((self.folder / "made" / NAME).read_bytes(), (out / NAME).read_bytes())
+        names = [NAME, NAME.replace(".all", ".kmall"), NAME.replace(".all", ".xtf")]
+        self.assertEqual(sorted(done.stdout.split()), [str(self.folder / "made" / name) for name in names])
+        for name in names:
+            self.assertEqual((self.folder / "made" / name).read_bytes(), (out / name).read_bytes(), name)
 
     def test_a_record_of_a_run_without_a_logger_takes_parameters_from_the_command_line(self):
         live = self.record()

@@ -8,6 +8,7 @@ import struct
 import subprocess
 import unittest
 
+import cones
 import ensonify
 import numpy as np
 import pyxtf
@@ -59,10 +60,8 @@ class AllFile:
         self.attitude[:, 4] = np.degrees(np.unwrap(np.radians(self.attitude[:, 4])))
 
     def ned_from_body(self, t):
-        roll, pitch, heading = (math.radians(np.interp(t, self.attitude[:, 0], self.attitude[:, k])) for k in (1, 2, 4))
-        (cr, sr), (cp, sp), (ch, sh) = ((math.cos(a), math.sin(a)) for a in (roll, pitch, heading))
-        return np.array([[ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr],
-                         [sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr], [-sp, cp * sr, cp * cr]])
+        roll, pitch, heading = (np.interp(t, self.attitude[:, 0], self.attitude[:, k]) for k in (1, 2, 4))
+        return cones.ned_from_body(roll, pitch, heading)
 
     def head_ned_m(self, t, since, lever_m):
         """Of the head, from where the reference point was at `since`, but for its heave."""
@@ -77,15 +76,7 @@ class AllFile:
         t_transmit = t + sector[3]
         transmit, receive = (self.head_ned_m(time, t, lever_m) for time in (t_transmit, t_transmit + travel_s))
         along, across = self.ned_from_body(t_transmit)[:, 0], self.ned_from_body(t_transmit + travel_s)[:, 1]
-        wanted = np.array([math.sin(math.radians(0.01 * sector[0])), math.sin(math.radians(-0.01 * angle)), speed * travel_s])
-        there = transmit + 0.5 * speed * travel_s * np.array([0, 0, 1.0]) + across * 0.5 * speed * travel_s * wanted[1]
-        for _ in range(20):  # Newton's steps
-            out, back = there - transmit, there - receive
-            out_m, back_m = np.linalg.norm(out), np.linalg.norm(back)
-            u, v = out / out_m, back / back_m
-            error = np.array([along @ u, across @ v, out_m + back_m]) - wanted
-            slope = np.array([(along - (along @ u) * u) / out_m, (across - (across @ v) * v) / back_m, u + v])
-            there = there - np.linalg.solve(slope, error)
+        there = cones.sounding(transmit, receive, along, across, 0.01 * sector[0], -0.01 * angle, speed * travel_s)
         heading = math.radians(self.xyz[ping][0])
         forward, starboard = (math.cos(heading), math.sin(heading), 0), (-math.sin(heading), math.cos(heading), 0)
         return there @ forward, there @ starboard, there[2] - self.head_ned_m(t, t, lever_m)[2]

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "components/logger/em2040.h"
+
 namespace ensonify::logger::kmall {
 
 using namespace formats::kmall;
@@ -29,17 +31,13 @@ std::string array_text(const char* name, std::uint16_t serial, const frames::Vec
                      turned.pitch_rad / kDegree + 0.0, frames::wrap_pi(turned.heading_rad) / kDegree + 0.0);
 }
 
-/// Of the three frequencies of an EM 2040 the nearest.
-int frequency_khz(double frequency_hz) {
-  if (frequency_hz < 250e3) return 200;
-  return frequency_hz < 350e3 ? 300 : 400;
-}
+int frequency_khz(double frequency_hz) { return 200 + 100 * frequency_index(frequency_hz); }
 
 const char* on_off(bool on) { return on ? "On" : "Off"; }
 
 }  // namespace
 
-Installation installation(const Vessel& vessel, std::uint16_t serial) {
+Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& mark) {
   const frames::Vec3 transmitter_m = vessel.transmitter_body_m(), receiver_m = vessel.receiver_body_m();
   const frames::Quaternion head_from_body = vessel.head.body_from_head.conjugate();
   const frames::Vec3 transmit_arm_m = head_from_body * (vessel.head.position_body_m - transmitter_m);
@@ -47,7 +45,7 @@ Installation installation(const Vessel& vessel, std::uint16_t serial) {
 
   Installation installation;
   std::string& text = installation.text;
-  text = "OSCV:simulated by Ensonify,EMXV:EM2040,\nPU_0,\n";
+  text = fmt::format("OSCV:{},EMXV:EM2040,\nPU_0,\n", mark);
   text += fmt::format("SN={},\nIP=192.168.1.1:0xffff0000,\nUDP=1997,\nTYPE=CON_TECH_PP_B12_SMP_CPU,\n", serial);
   text += "VERSIONS:,\nCPU:0.1.0 2025-01-01,\nVERSIONS-END,\n";
   text += fmt::format("SERIALno:\nTX:{0},\nRX:{0},\nSERIALno-END,\n", serial);
@@ -66,9 +64,8 @@ Installation installation(const Vessel& vessel, std::uint16_t serial) {
   return installation;
 }
 
-Runtime runtime(const msg::AppliedSettings& settings) {
+Runtime runtime(const msg::AppliedSettings& settings, bool simulator) {
   const double half_swath_deg = 0.5 * settings.swath_rad / kDegree;
-  const bool chirp = settings.pulse.starts_with("fm");
   Runtime runtime;
   std::string& text = runtime.text;
   text = fmt::format(
@@ -78,7 +75,7 @@ Runtime runtime(const msg::AppliedSettings& settings) {
   text += fmt::format(
       "\nDepth settings\nForced depth: --\nMin. depth: 1.0\nMax. depth: {:.1f}\nDual swath: Off\nDepth mode: Shallow\n"
       "Frequency: {}kHz\nDetector mode: Normal\nFM disable: {}\nWater column data: On\n",
-      settings.range_m, frequency_khz(settings.frequency_hz), on_off(!chirp));
+      settings.range_m, frequency_khz(settings.frequency_hz), on_off(!is_chirp(settings.pulse)));
   text += fmt::format(
       "\nTransmit Control\nPitch stabilisation: {}\nTransmit angle Along: 0.0\nMax. Ping Freq. (Hz): {:.1f}\n"
       "Min. Swath Dist.: 0.0\nExternal Trigger: Off\n\nYaw Stabilisation Mode: {}\n",
@@ -91,7 +88,8 @@ Runtime runtime(const msg::AppliedSettings& settings) {
   text += fmt::format("\nAbsorption Coefficient\nSource: Manual\n{}kHz: {:.3f}\n", frequency_khz(settings.frequency_hz),
                       1e3 * settings.gain_absorption_dbpm);
   text += "\nTX Power\nTransmit power level: 0 dB\n\nSpecial Mode\nSonar mode: Off\nPassive: Off\n";
-  text += "\nSimulation setup\nEnable Simulation: Off\n\nScope Display\nScope display enabled: Off\n\n";
+  text += fmt::format("\nSimulation setup\nEnable Simulation: {}\n\nScope Display\nScope display enabled: Off\n\n",
+                      on_off(simulator));
   return runtime;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "components/formats/kmall/installation.h"
 #include "components/formats/kmall/sound_speed.h"
@@ -12,10 +13,10 @@
 /// What a .kmall file begins with.
 namespace ensonify::logger::kmall {
 
-/// Of an EM 2040 that states its mountings. It says that it is simulated.
-formats::kmall::Installation installation(const Vessel& vessel, std::uint16_t serial);
+/// Of an EM 2040 that states its mountings. `mark` says that it is simulated.
+formats::kmall::Installation installation(const Vessel& vessel, std::uint16_t serial, const std::string& mark);
 
-formats::kmall::Runtime runtime(const msg::AppliedSettings& settings);
+formats::kmall::Runtime runtime(const msg::AppliedSettings& settings, bool simulator);
 
 /// The applied profile from the surface down to 12 km, as such files have it.
 formats::kmall::SoundSpeedProfile profile(const refraction::SoundSpeedProfile& applied, std::int64_t unix_ns,

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "components/formats/utc.h"
@@ -14,7 +14,6 @@ using namespace formats::kmall;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kHundredth_ns = 10'000'000;
 
@@ -23,64 +22,70 @@ std::uint32_t rest_of(std::int64_t unix_ns) { return static_cast<std::uint32_t>(
 /// Sentences have hundredths of a second: the nearest.
 std::int64_t in_sentence(std::int64_t unix_ns) { return (unix_ns + kHundredth_ns / 2) / kHundredth_ns * kHundredth_ns; }
 
-std::array<float, 3> floats(const std::array<double, 3>& values) {
-  return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
-}
-
 std::string framed(const std::string& sentence) { return "$" + sentence + "\r\n"; }
 
 template <class Kind>
-Kind position_of(const VesselState& state, const FixSentence& fix) {
+Kind position_of(const Moment& moment, const frames::Geodetic& place, double height_m) {
   constexpr std::uint16_t kActive = 1, kTimeFromSentence = 1 << 9, kMotionCorrected = 1 << 10;
-  const auto& [north_mps, east_mps, down_mps] = state.velocity_ned_mps;
-  const std::int64_t sentence_ns = in_sentence(fix.unix_ns);
-  const double course_deg = std::atan2(east_mps, north_mps) / kDegree;
+  const std::int64_t sentence_ns = in_sentence(moment.unix_ns);
   Kind position;
   position.sensor = {0, kActive | kTimeFromSentence | kMotionCorrected, 0};
   position.sensor_time_s = seconds_of(sentence_ns);
   position.sensor_time_ns = rest_of(sentence_ns);
-  position.fix_quality_m = static_cast<float>(fix.fix_quality_m);
-  position.latitude_deg = state.latitude_deg;
-  position.longitude_deg = state.longitude_deg;
-  position.speed_mps = static_cast<float>(std::hypot(north_mps, east_mps));
-  position.course_deg = static_cast<float>(course_deg < 0.0 ? course_deg + 360.0 : course_deg);
-  position.height_m = static_cast<float>(state.ellipsoid_height_m);
-  position.sentence = framed(fix.gga);
+  position.fix_quality_m = static_cast<float>(moment.fix_quality_m);
+  position.latitude_deg = place.latitude_deg;
+  position.longitude_deg = place.longitude_deg;
+  position.speed_mps = static_cast<float>(moment.speed_mps);
+  position.course_deg = static_cast<float>(moment.course_deg);
+  position.height_m = static_cast<float>(height_m);
+  position.sentence = framed(moment.gga);
   return position;
 }
 
-Motion::Sample sample_of(const VesselState& state) {
+Motion::Sample sample_of(const Moment& moment) {
   constexpr std::uint32_t kNoAcceleration = 0x10, kNoErrors = 0x20, kNoDelayedHeave = 0x40;
   Motion::Sample sample;
-  sample.time_s = seconds_of(state.unix_ns);
-  sample.time_ns = rest_of(state.unix_ns);
+  sample.time_s = seconds_of(moment.unix_ns);
+  sample.time_ns = rest_of(moment.unix_ns);
   sample.status = kNoAcceleration | kNoErrors | kNoDelayedHeave;
-  sample.latitude_deg = state.latitude_deg;
-  sample.longitude_deg = state.longitude_deg;
-  sample.ellipsoid_height_m = static_cast<float>(state.ellipsoid_height_m);
-  sample.roll_deg = static_cast<float>(state.roll_deg);
-  sample.pitch_deg = static_cast<float>(state.pitch_deg);
-  sample.heading_deg = static_cast<float>(state.heading_deg);
-  sample.heave_m = static_cast<float>(state.heave_down_m);
-  sample.rate_degps = floats(state.rate_degps);
-  sample.velocity_mps = floats(state.velocity_ned_mps);
+  sample.latitude_deg = moment.reference.latitude_deg;
+  sample.longitude_deg = moment.reference.longitude_deg;
+  sample.ellipsoid_height_m = static_cast<float>(moment.height_m);
+  sample.roll_deg = static_cast<float>(moment.roll_deg);
+  sample.pitch_deg = static_cast<float>(moment.pitch_deg);
+  sample.heading_deg = static_cast<float>(moment.heading_deg);
+  sample.heave_m = static_cast<float>(moment.heave_down_m);
+  sample.velocity_mps = {static_cast<float>(moment.north_mps), static_cast<float>(moment.east_mps),
+                         static_cast<float>(moment.down_mps)};
   return sample;
+}
+
+/// Of roll, pitch and yaw, in degrees a second.
+std::array<float, 3> rates(const Moment& from, const Moment& to) {
+  const double time_s = static_cast<double>(to.unix_ns - from.unix_ns) * 1e-9;
+  if (time_s <= 0.0) return {};
+  return {static_cast<float>((to.roll_deg - from.roll_deg) / time_s),
+          static_cast<float>((to.pitch_deg - from.pitch_deg) / time_s),
+          static_cast<float>(std::remainder(to.heading_deg - from.heading_deg, 360.0) / time_s)};
 }
 
 }  // namespace
 
-Position position(const VesselState& state, const FixSentence& fix) { return position_of<Position>(state, fix); }
+Position position(const Moment& moment) { return position_of<Position>(moment, moment.reference, moment.height_m); }
 
-CompatiblePosition compatible_position(const VesselState& state, const FixSentence& fix) {
-  return position_of<CompatiblePosition>(state, fix);
+CompatiblePosition compatible_position(const Moment& moment) {
+  return position_of<CompatiblePosition>(moment, moment.water_line, moment.height_m);
 }
 
-Motion motion(std::span<const VesselState> states) {
+Motion motion(std::span<const Moment> moments) {
   constexpr std::uint8_t kActive = 1;
   constexpr std::uint16_t kKmBinary = 1, kAllOfKmBinary = 0x7F;
-  if (states.size() > kMostMotionSamples) throw std::invalid_argument("more samples than a #SKM holds");
+  if (moments.size() > kMostMotionSamples) throw std::invalid_argument("more samples than a #SKM holds");
   Motion motion{.status = kActive, .input_format = kKmBinary, .contents = kAllOfKmBinary};
-  for (const VesselState& state : states) motion.samples.push_back(sample_of(state));
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    motion.samples.push_back(sample_of(moments[i]));
+    motion.samples.back().rate_degps = rates(moments[i > 0 ? i - 1 : i], moments[i + 1 < moments.size() ? i + 1 : i]);
+  }
   return motion;
 }
 

@@ -31,13 +31,17 @@ XtfMoment xtf_moment(const Moment& moment) {
 
 }  // namespace
 
-XtfFormat::XtfFormat(const LoggerConfig& config, std::optional<msg::HeadDeclaration> sidescan,
+XtfFormat::XtfFormat(const LoggerConfig& config, std::string mark, std::optional<msg::HeadDeclaration> sidescan,
                      std::optional<msg::HeadDeclaration> multibeam)
-    : config_(config), sidescan_(std::move(sidescan)), multibeam_(std::move(multibeam)), clock_{config.start_unix_ns} {}
+    : config_(config),
+      mark_(std::move(mark)),
+      sidescan_(std::move(sidescan)),
+      multibeam_(std::move(multibeam)),
+      clock_{config.start_unix_ns} {}
 
 void XtfFormat::begin(const FileStart& start, formats::Bytes& out) {
   append(out, xtf_file_header(start.name, sidescan_, multibeam_, config_.xtf_samples));
-  append(out, packet_of(xtf_notes(start.unix_ns, "simulated by Ensonify")));
+  append(out, packet_of(xtf_notes(start.unix_ns, mark_)));
 }
 
 void XtfFormat::moment(const Moment& moment, formats::Bytes& out) {

@@ -13,8 +13,8 @@ namespace ensonify::logger {
 /// Triton XTF: sidescan and multibeam, with raw navigation and attitude; a remark first that it is simulated.
 class XtfFormat : public Format {
  public:
-  /// Heads that it writes, as they are declared.
-  XtfFormat(const LoggerConfig& config, std::optional<msg::HeadDeclaration> sidescan,
+  /// Heads that it writes, as they are declared; `mark` says that files are simulated.
+  XtfFormat(const LoggerConfig& config, std::string mark, std::optional<msg::HeadDeclaration> sidescan,
             std::optional<msg::HeadDeclaration> multibeam);
 
   std::string ending() const override { return ".xtf"; }
@@ -29,6 +29,7 @@ class XtfFormat : public Format {
                       const frames::LocalProjection& world) const;
 
   LoggerConfig config_;
+  std::string mark_;
   std::optional<msg::HeadDeclaration> sidescan_, multibeam_;
   XtfClock clock_;
   double speed_mps_ = 0.0;  // last known

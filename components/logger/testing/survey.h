@@ -1,0 +1,45 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "components/logger/node.h"
+#include "components/runtime/testing/node_under_test.h"
+#include "scenarios/world/world.h"
+
+/// A survey over a flat seabed, for tests: what a logger reads of it.
+namespace ensonify::logger::testing {
+
+inline constexpr double kSeabedDepth_m = 20.0;
+inline constexpr double kSoundSpeed_mps = 1490.0;
+inline constexpr std::size_t kBeams = 101;  // a degree apart; every tenth has no sounding
+inline constexpr SimTime kPingPeriod = 137_ms;
+
+/// A folder of this test program, gone at its end.
+struct Folder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("ensonify_logger_test_" + std::to_string(::getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+/// Far from the north pole, with a boat whose head "bow" is turned about all axes.
+World bay();
+LoggerConfig config_of(const World& world, const char* text = "{}");
+
+/// The vessel rolls, pitches and heaves on its way to the north-east, far enough from the origin to feel the
+/// convergence.
+double heave_up_m(SimTime t);
+frames::Pose pose_at(SimTime t);
+
+void give_navigation(NodeUnderTest<LoggerNode>& logger, SimTime until);
+
+/// Soundings on the flat seabed; every tenth beam has none.
+msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& mounting);
+
+/// Ten seconds of survey, pings from the start on; the files lie in `folder`.
+void survey(const World& world, const char* text, const std::filesystem::path& folder);
+
+}  // namespace ensonify::logger::testing
