@@ -7,10 +7,10 @@ namespace ensonify::logger {
 namespace {
 
 ImageSeries series_of(const msg::SeabedImage& image, std::size_t number, std::size_t most) {
-  const std::size_t begin = image.offset[number], end = image.offset[number + 1];
-  const std::size_t samples = std::min<std::size_t>(end, image.strength_db.size()) - begin;
-  const std::size_t centre = std::min<std::size_t>(image.centre[number], samples);
-  const auto first_s = static_cast<double>(image.first_sample_s[number]);
+  const std::size_t end = std::min<std::size_t>(image.offset[number + 1], image.strength_db.size());
+  const std::size_t begin = std::min<std::size_t>(image.offset[number], end), samples = end - begin;
+  const std::size_t centre = number < image.centre.size() ? std::min<std::size_t>(image.centre[number], samples) : 0;
+  const double first_s = number < image.first_sample_s.size() ? static_cast<double>(image.first_sample_s[number]) : 0.0;
   if (samples <= most) return {begin, samples, centre, first_s};
   const std::size_t cut = std::min(centre - std::min(centre, most / 2), samples - most);
   return {begin + cut, most, centre - cut, first_s + static_cast<double>(cut) * image.sample_period_s};

@@ -21,6 +21,7 @@ KmallFormat::KmallFormat(const LoggerConfig& config, std::string mark)
 
 void KmallFormat::begin(const FileStart& start, formats::Bytes& out) {
   motion_.clear();
+  before_.reset();
   sound_speed_mps_ = start.settings.sound_speed_mps;
   runtime_ = kmall::runtime(start.settings, simulator());
   writer_.append_body(out, start.unix_ns,
@@ -46,7 +47,8 @@ void KmallFormat::moment(const Moment& moment, formats::Bytes& out) {
 
 void KmallFormat::finish_motion(formats::Bytes& out) {
   if (motion_.empty()) return;
-  writer_.append_body(out, motion_.front().unix_ns, kmall::motion(motion_));
+  writer_.append_body(out, motion_.front().unix_ns, kmall::motion(motion_, before_));
+  before_ = motion_.back();
   motion_.clear();
 }
 

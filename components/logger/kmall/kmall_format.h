@@ -31,8 +31,9 @@ class KmallFormat : public Format {
   LoggerConfig config_;
   std::string mark_;
   formats::kmall::Writer writer_;
-  std::vector<Moment> motion_;  // of the second that is not over
-  double height_m_ = 0.0;       // of the last moment
+  std::vector<Moment> motion_;    // of the second that is not over
+  std::optional<Moment> before_;  // it
+  double height_m_ = 0.0;         // of the last moment
   double sound_speed_mps_ = 0.0;
   std::optional<formats::kmall::Runtime> runtime_;  // as last written
 };

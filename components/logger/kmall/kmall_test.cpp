@@ -179,9 +179,9 @@ TEST_CASE("more samples than a #SKM holds are refused, and a turn over north is 
   moments[0].heading_deg = 359.9;
   moments[1].heading_deg = 0.1;
   moments[1].unix_ns = 10'000'000;
-  CHECK_THAT(logger::kmall::motion(moments).samples[0].rate_degps[2], WithinAbs(20.0, 1e-3));
+  CHECK_THAT(logger::kmall::motion(moments, {}).samples[0].rate_degps[2], WithinAbs(20.0, 1e-3));
   moments.resize(logger::kmall::kMostMotionSamples + 1);
-  CHECK_THROWS_AS(logger::kmall::motion(moments), std::invalid_argument);
+  CHECK_THROWS_AS(logger::kmall::motion(moments, {}), std::invalid_argument);
 }
 
 TEST_CASE("fields for simulators are set where that is wanted, and only there") {

@@ -77,14 +77,15 @@ CompatiblePosition compatible_position(const Moment& moment) {
   return position_of<CompatiblePosition>(moment, moment.water_line, moment.height_m);
 }
 
-Motion motion(std::span<const Moment> moments) {
+Motion motion(std::span<const Moment> moments, const std::optional<Moment>& before) {
   constexpr std::uint8_t kActive = 1;
   constexpr std::uint16_t kKmBinary = 1, kAllOfKmBinary = 0x7F;
   if (moments.size() > kMostMotionSamples) throw std::invalid_argument("more samples than a #SKM holds");
   Motion motion{.status = kActive, .input_format = kKmBinary, .contents = kAllOfKmBinary};
   for (std::size_t i = 0; i < moments.size(); ++i) {
     motion.samples.push_back(sample_of(moments[i]));
-    motion.samples.back().rate_degps = rates(moments[i > 0 ? i - 1 : i], moments[i + 1 < moments.size() ? i + 1 : i]);
+    const Moment earlier = i > 0 ? moments[i - 1] : before.value_or(moments[i]);
+    motion.samples.back().rate_degps = rates(earlier, moments[i + 1 < moments.size() ? i + 1 : i]);
   }
   return motion;
 }

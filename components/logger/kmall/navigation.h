@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -20,8 +21,8 @@ formats::kmall::CompatiblePosition compatible_position(const Moment& moment);
 inline constexpr std::size_t kMostMotionSamples = 148;
 
 /// Of moments in their order, at most kMostMotionSamples: else std::invalid_argument. Rates are the differences of
-/// neighbours.
-formats::kmall::Motion motion(std::span<const Moment> moments);
+/// neighbours; `before` is the moment before the first, where there was one.
+formats::kmall::Motion motion(std::span<const Moment> moments, const std::optional<Moment>& before);
 
 /// "INZDA,120000.00,01,06,2025,00,00*7B": without $ and line end.
 std::string zda_text(std::int64_t unix_ns);

@@ -9,7 +9,6 @@ namespace ensonify::logger::testing {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kReferenceDepth_m = 0.7;
 
 }  // namespace
 

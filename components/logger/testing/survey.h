@@ -12,6 +12,7 @@
 /// A survey over a flat seabed, for tests: what a logger reads of it.
 namespace ensonify::logger::testing {
 
+inline constexpr double kReferenceDepth_m = 0.7;  // of the vessel, at rest
 inline constexpr double kSeabedDepth_m = 20.0;
 inline constexpr double kSoundSpeed_mps = 1490.0;
 inline constexpr std::size_t kBeams = 101;  // a degree apart; every tenth has no sounding
