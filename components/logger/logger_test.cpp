@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 
 #include "components/errors/exit_error.h"
 #include "components/formats/all/installation_text.h"
@@ -246,6 +247,7 @@ TEST_CASE("after each rotation a file stands alone, and no ping is left out or w
     std::sort(files.begin(), files.end());
     REQUIRE(files.size() >= 3);
     std::vector<std::uint16_t> numbers;
+    std::set<std::int64_t> position_times, attitude_times;  // of all files: none comes twice
     for (std::size_t i = 0; i < files.size(); ++i) {
       CHECK(files[i].filename().string().substr(0, 5) == fmt::format("{:04}_", i));
       formats::Window window(files[i]);
@@ -254,6 +256,11 @@ TEST_CASE("after each rotation a file stands alone, and no ping is left out or w
       std::int64_t first_position_ns = 0, first_ping_ns = 0;
       while (const auto datagram = reader.next()) {
         types += datagram->type;
+        if (datagram->type == 'P') CHECK(position_times.insert(datagram->unix_ns()).second);
+        if (const auto* attitude = std::get_if<all::Attitude>(&datagram->body)) {
+          for (const auto& entry : attitude->entries)
+            CHECK(attitude_times.insert(datagram->unix_ns() + entry.after_ms * std::int64_t{1'000'000}).second);
+        }
         if (datagram->type == 'P' && first_position_ns == 0) first_position_ns = datagram->unix_ns();
         if (datagram->type == 'N') numbers.push_back(datagram->header.counter);
         if (datagram->type == 'N' && first_ping_ns == 0) first_ping_ns = datagram->unix_ns();
@@ -325,4 +332,21 @@ TEST_CASE(
   CHECK_NOTHROW(check({"all"}, {}));  // a record of before
   CHECK(logger::simulated_by("em2040") == "simulated by Ensonify");
   CHECK_THAT(logger::simulated_by("generic"), Contains("generic head"));
+}
+
+TEST_CASE("halfway between two moments lies their mean, over north and the antimeridian too") {
+  logger::Moment earlier, later;
+  earlier.unix_ns = 10;
+  later.unix_ns = 20;
+  earlier.heading_deg = 359.0;
+  later.heading_deg = 2.0;
+  earlier.reference = {10.0, 179.9999};
+  later.reference = {11.0, -179.9997};
+  later.roll_deg = 1.0;
+  const logger::Moment middle = logger::between(earlier, later);
+  CHECK(middle.unix_ns == 15);
+  CHECK_THAT(middle.heading_deg, WithinAbs(0.5, 1e-9));
+  CHECK_THAT(middle.reference.latitude_deg, WithinAbs(10.5, 1e-12));
+  CHECK_THAT(middle.reference.longitude_deg, WithinAbs(-179.9999, 1e-9));
+  CHECK_THAT(middle.roll_deg, WithinAbs(0.5, 1e-12));
 }

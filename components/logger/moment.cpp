@@ -57,6 +57,34 @@ Moment moment_of(const msg::Estimate& estimate, const msg::Position& fix, double
   return moment;
 }
 
+Moment between(const Moment& earlier, const Moment& later) {
+  const auto middle = [](double a, double b) { return a + 0.5 * (b - a); };
+  const auto turned = [](double a_deg, double b_deg) { return a_deg + 0.5 * std::remainder(b_deg - a_deg, 360.0); };
+  const auto course_of = [&](double a_deg, double b_deg) {
+    const double turned_deg = turned(a_deg, b_deg);
+    return turned_deg < 0.0 ? turned_deg + 360.0 : std::fmod(turned_deg, 360.0);
+  };
+  const auto place = [&](const frames::Geodetic& a, const frames::Geodetic& b) {
+    return frames::Geodetic{middle(a.latitude_deg, b.latitude_deg),
+                            std::remainder(turned(a.longitude_deg, b.longitude_deg), 360.0)};
+  };
+  Moment moment = later;
+  moment.stamp_ns = earlier.stamp_ns + (later.stamp_ns - earlier.stamp_ns) / 2;
+  moment.unix_ns = earlier.unix_ns + (later.unix_ns - earlier.unix_ns) / 2;
+  moment.reference = place(earlier.reference, later.reference);
+  moment.water_line = place(earlier.water_line, later.water_line);
+  moment.roll_deg = middle(earlier.roll_deg, later.roll_deg);
+  moment.pitch_deg = middle(earlier.pitch_deg, later.pitch_deg);
+  moment.heading_deg = course_of(earlier.heading_deg, later.heading_deg);
+  moment.heave_down_m = middle(earlier.heave_down_m, later.heave_down_m);
+  moment.speed_mps = middle(earlier.speed_mps, later.speed_mps);
+  moment.course_deg = course_of(earlier.course_deg, later.course_deg);
+  moment.north_mps = middle(earlier.north_mps, later.north_mps);
+  moment.east_mps = middle(earlier.east_mps, later.east_mps);
+  moment.down_mps = middle(earlier.down_mps, later.down_mps);
+  return moment;
+}
+
 std::string gga_of(const Moment& moment, const msg::Position& fix, SimulatedMarks marks) {
   constexpr std::int64_t kSimulator = 8;
   return gga_text({moment.unix_ns, moment.reference.latitude_deg, moment.reference.longitude_deg,

@@ -30,6 +30,10 @@ struct Moment {
 Moment moment_of(const msg::Estimate& estimate, const msg::Position& fix, double heave_down_m,
                  const LoggerConfig& config, const frames::LocalProjection& world);
 
+/// Halfway between two moments that follow each other; what is due is what is due at the later one, but for its
+/// sentence.
+Moment between(const Moment& earlier, const Moment& later);
+
 /// The sentence of a moment's position.
 std::string gga_of(const Moment& moment, const msg::Position& fix, SimulatedMarks marks);
 

@@ -34,6 +34,9 @@ std::int64_t stamp_of(const msg::Soundings& soundings) { return soundings.stamp_
 std::int64_t stamp_of(const SidescanPing& ping) { return ping.transmissions.front().stamp_ns; }
 bool has_pose(const msg::Soundings& soundings) { return has_track(soundings.track); }
 bool has_pose(const SidescanPing& ping) { return has_track(ping.transmissions.front().track); }
+std::int64_t sent_ns(const std::variant<msg::Soundings, SidescanPing>& ping) {
+  return std::visit([](const auto& one) { return stamp_of(one); }, ping);
+}
 const msg::AppliedSettings& settings_of(const msg::Soundings& soundings) { return soundings.applied; }
 const msg::AppliedSettings& settings_of(const SidescanPing& ping) { return ping.transmissions.front().applied; }
 
@@ -60,9 +63,10 @@ void SurveyLog::close(const frames::LocalProjection& world) {
 void SurveyLog::write(const frames::LocalProjection& world, bool all) {
   for (const msg::Estimate& estimate : estimates_) add(estimate, world);
   estimates_.clear();
+  std::stable_sort(pings_.begin(), pings_.end(), [](const Ping& a, const Ping& b) { return sent_ns(a) < sent_ns(b); });
   for (; !pings_.empty(); pings_.pop_front()) {
     const Ping& ping = pings_.front();
-    const std::int64_t ping_ns = std::visit([](const auto& one) { return stamp_of(one); }, ping);
+    const std::int64_t ping_ns = sent_ns(ping);
     // Its heave lies between two that are known.
     if (!all && heave_.newest_ns().value_or(0) < ping_ns) break;
     const bool posed = std::visit([](const auto& one) { return has_pose(one); }, ping);
@@ -83,7 +87,7 @@ void SurveyLog::add(const msg::Estimate& estimate, const frames::LocalProjection
   if (moment.position_due) moment.gga = gga_of(moment, fix, config_.mark_simulated);
   if (files_begun_ > 0) each_format([&](Format& format, formats::Bytes& out) { format.moment(moment, out); });
   lead_.push_back(std::move(moment));
-  while (lead_.front().stamp_ns < estimate.stamp_ns - 5 * lead_ns() / 2) lead_.pop_front();
+  while (lead_.front().stamp_ns < estimate.stamp_ns - kept_ns()) lead_.pop_front();
 }
 
 bool SurveyLog::begins(std::int64_t ping_ns) const {
@@ -93,6 +97,7 @@ bool SurveyLog::begins(std::int64_t ping_ns) const {
 }
 
 bool SurveyLog::next_file_due(std::int64_t ping_ns) const {
+  if (ping_ns - begun_ns_ < kept_ns()) return false;  // else navigation would be said a third time
   if (config_.rotate_lines && line_changed_) return true;
   if (config_.rotate_s > 0.0 && static_cast<double>(ping_ns - begun_ns_) >= config_.rotate_s * 1e9) return true;
   if (config_.rotate_mb <= 0.0) return false;
@@ -122,21 +127,33 @@ std::string SurveyLog::file_name(const Format& format, std::int64_t unix_ns) con
                      format.ending());
 }
 
+std::vector<Moment> SurveyLog::lead_of_files() const {
+  if (files_begun_ == 0) return {lead_.begin(), lead_.end()};
+  std::vector<Moment> lead;
+  for (std::size_t i = 1; i < lead_.size(); ++i) {
+    lead.push_back(between(lead_[i - 1], lead_[i]));
+    if (lead.back().position_due)
+      lead.back().gga = gga_of(lead.back(), fix_.value_or(msg::Position{}), config_.mark_simulated);
+  }
+  return lead;
+}
+
 void SurveyLog::start_files(const Ping& first) {
   end_files();
-  const std::int64_t begin_ns = lead_.front().unix_ns;
+  const std::vector<Moment> lead = lead_of_files();
+  const std::int64_t begin_ns = lead.front().unix_ns;
   for (std::size_t i = 0; i < formats_.size(); ++i) {
     const std::string name = file_name(*formats_[i], begin_ns);
     files_.open(i, name);
     formats::Bytes out;
     formats_[i]->begin(
-        {begin_ns, name, lead_.front().reference,
+        {begin_ns, name, lead.front().reference,
          std::visit([](const auto& one) -> const msg::AppliedSettings& { return settings_of(one); }, first)},
         out);
-    for (const Moment& moment : lead_) formats_[i]->moment(moment, out);
+    for (const Moment& moment : lead) formats_[i]->moment(moment, out);
     files_.put(i, out);
   }
-  begun_ns_ = std::visit([](const auto& one) { return stamp_of(one); }, first);
+  begun_ns_ = sent_ns(first);
   line_changed_ = false;
   ++files_begun_;
 }
@@ -148,7 +165,7 @@ void SurveyLog::end_files() {
 }
 
 void SurveyLog::write(const Ping& ping, const frames::LocalProjection& world) {
-  const std::int64_t ping_ns = std::visit([](const auto& one) { return stamp_of(one); }, ping);
+  const std::int64_t ping_ns = sent_ns(ping);
   const std::int64_t unix_ns = config_.start_unix_ns + ping_ns;
   const double heave_down_m = heave_.down_m(ping_ns);
   if (const auto* soundings = std::get_if<msg::Soundings>(&ping)) {

@@ -31,7 +31,8 @@ class Files {
 ///
 /// Navigation is kept until the first ping that has lead_ns() of it before it, then all formats' files begin with that;
 /// pings before are left out. A file after the first begins with the last of the navigation again, so that each stands
-/// alone, and no ping is left out.
+/// alone, and no ping is left out; its times lie between those of the file before, as readers of all files refuse a
+/// time that comes twice.
 class SurveyLog {
  public:
   SurveyLog(const LoggerConfig& config, std::vector<std::unique_ptr<Format>> formats, Files& files);
@@ -59,6 +60,7 @@ class SurveyLog {
   void add(const msg::Estimate& estimate, const frames::LocalProjection& world);
   bool begins(std::int64_t ping_ns) const;
   bool next_file_due(std::int64_t ping_ns) const;
+  std::vector<Moment> lead_of_files() const;
   void start_files(const Ping& first);
   void end_files();
   void write(const Ping& ping, const frames::LocalProjection& world);
@@ -67,6 +69,7 @@ class SurveyLog {
   std::string file_name(const Format& format, std::int64_t unix_ns) const;
   std::optional<msg::SeabedImage> image_of(std::int64_t ping);
   std::int64_t lead_ns() const;
+  std::int64_t kept_ns() const { return 5 * lead_ns() / 2; }  // of navigation, for the next files
 
   LoggerConfig config_;
   std::vector<std::unique_ptr<Format>> formats_;

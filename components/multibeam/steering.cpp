@@ -25,14 +25,19 @@ array::HighDensity layout_of(const MultibeamConfig& c, double swath_rad) {
   return layout;
 }
 
+constexpr double kMostYaw_rad = 10.0 * MultibeamConfig::kDegree;  // assumed: beyond it fans are held no further
+
 /// From the head to the frame in which angles are counted, by what is estimated.
 frames::Quaternion held_from_head(const MultibeamConfig& config, const SteeringInputs& inputs) {
   if (!inputs.vehicle) return frames::Quaternion::Identity();
   const frames::Attitude head =
       frames::attitude_of(frames::enu_from_body(*inputs.vehicle) * config.mounting.measured.body_from_head);
-  const double head_over_vehicle_rad = head.heading_rad - inputs.vehicle->heading_rad;
+  const double heading_rad = inputs.vehicle->heading_rad;
+  const double yaw_rad = frames::wrap_pi(heading_rad - inputs.mean_heading_rad);
+  const bool follows = std::abs(yaw_rad) <= kMostYaw_rad;
+  const double reference_rad = follows ? inputs.mean_heading_rad : heading_rad - std::copysign(kMostYaw_rad, yaw_rad);
   return array::held_from_head({config.pitch_stabilised, config.yaw_stabilised, config.roll_stabilised}, head,
-                               inputs.mean_heading_rad + head_over_vehicle_rad);
+                               reference_rad + head.heading_rad - heading_rad);
 }
 
 /// Sine to steer to for a direction at an angle on the cone of a sector's fan.

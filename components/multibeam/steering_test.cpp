@@ -107,6 +107,29 @@ TEST_CASE("each sector's fan passes through the middle of its part of the swath"
   }
 }
 
+TEST_CASE("in a turn the fans lag the heading by ten degrees at most") {
+  MultibeamConfig config = head_in_plain_water();
+  config.sectors = {{.frequency_hz = 300e3}, {.frequency_hz = 300e3}, {.frequency_hz = 300e3}};
+  config.yaw_stabilised = true;
+  const auto sines = [&](double yaw_deg, double mean_rad) {
+    const frames::Attitude attitude{frames::wrap_two_pi(mean_rad + yaw_deg * kDegree), 0.0, 0.0};
+    const Steering steering = steer(config, config.swath_rad, {1500.0, attitude, mean_rad});
+    return std::array{steering.sectors[0].sin_transmit, steering.sectors[2].sin_transmit};
+  };
+  for (const double mean_rad : {1.0, 0.05}) {
+    for (const double sign : {-1.0, 1.0}) {
+      const auto limit = sines(sign * 10.0, mean_rad);
+      CHECK_THAT(std::abs(limit[0]), WithinAbs(std::sin(10.0 * kDegree) * std::sin(43.333 * kDegree), 1e-4));
+      for (const double yaw_deg : {30.0, 90.0, 170.0}) {
+        const auto turned = sines(sign * yaw_deg, mean_rad);
+        CHECK_THAT(turned[0], WithinAbs(limit[0], 1e-9));
+        CHECK_THAT(turned[1], WithinAbs(limit[1], 1e-9));
+      }
+      CHECK(std::abs(sines(sign * 5.0, mean_rad)[0]) < 0.6 * std::abs(limit[0]));
+    }
+  }
+}
+
 TEST_CASE("the mean heading follows slowly, the short way round") {
   HeadingMean mean(10.0);
   mean.update(0.0, 6.2);

@@ -49,7 +49,7 @@ Installation installation(const Vessel& vessel, std::uint16_t serial, const std:
   text += fmt::format("SN={},\nIP=192.168.1.1:0xffff0000,\nUDP=1997,\nTYPE=CON_TECH_PP_B12_SMP_CPU,\n", serial);
   text += "VERSIONS:,\nCPU:0.1.0 2025-01-01,\nVERSIONS-END,\n";
   text += fmt::format("SERIALno:\nTX:{0},\nRX:{0},\nSERIALno-END,\n", serial);
-  text += "DCL:0.1.0 2025-01-01,\nKMALL:Rev I 2021-06-04,\nSYSTEM:EM 2040,";
+  text += "DCL:0.1.0 2025-01-01,\nKMALL:Rev I 2021-06-04,\nSYSTEM:EM 2040 - Single Tx single Rx,";
   // The head has one transmit array: whichever of the three a reader takes, it comes to the head's origin.
   text += array_text("TRAI_TX1", serial, transmitter_m, vessel.head);
   for (const char* array : {"IP", "IC", "IS"}) text += arm_text(array, transmit_arm_m);
