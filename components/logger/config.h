@@ -63,10 +63,11 @@ struct LoggerParameters {
                   {"8_bit", logger::XtfSamples::k8Bit},
                   {"float", logger::XtfSamples::kFloat}}),
           "samples of sidescan channels in XTF", self.xtf_samples);
-    visit("mark_simulated", "", one_of({{"text", SimulatedMarks::kText}, {"datagrams", SimulatedMarks::kDatagrams}}),
-          "where files say that they are simulated: in their texts, or in the fields for simulators too, which some "
-          "software refuses",
-          self.mark_simulated);
+    visit(
+        "mark_simulated", "", one_of({{"text", SimulatedMarks::kText}, {"datagrams", SimulatedMarks::kDatagrams}}),
+        "place where files say that they are simulated: their texts, or fields for simulators too, which some software "
+        "refuses",
+        self.mark_simulated);
     visit("rotate_s", "s", in(0, 86'400), "time after which the next files begin; 0: never", self.rotate_s);
     visit("rotate_mb", "MB", in(0, 1e6), "size of a file after which the next ones begin; 0: never", self.rotate_mb);
     visit("rotate_lines", "", any(), "the next files begin with each of the mission's lines", self.rotate_lines);
