@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "components/formats/utc.h"
+#include "components/logger/all_column.h"
 #include "components/logger/all_image.h"
 #include "components/logger/all_ping.h"
 #include "components/logger/all_settings.h"
@@ -49,8 +50,11 @@ Position position_of(const Moment& moment) {
 
 }  // namespace
 
-AllFormat::AllFormat(const LoggerConfig& config, std::string mark)
-    : config_(config), mark_(std::move(mark)), writer_(kModel, static_cast<std::uint16_t>(config.serial)) {}
+AllFormat::AllFormat(const LoggerConfig& config, std::string mark, Part part)
+    : config_(config),
+      mark_(std::move(mark)),
+      part_(part),
+      writer_(kModel, static_cast<std::uint16_t>(config.serial)) {}
 
 void AllFormat::append(formats::Bytes& out, std::int64_t unix_ns, Body body) {
   last_ns_ = std::max(last_ns_, unix_ns);
@@ -86,6 +90,7 @@ void AllFormat::finish_attitude(formats::Bytes& out) {
 }
 
 void AllFormat::ping(const LoggedSoundings& ping, formats::Bytes& out) {
+  if (part_ == Part::kWaterColumn && !ping.water_column) return;
   const msg::Soundings& soundings = ping.soundings;
   const std::int64_t time_ns = to_millisecond(ping.unix_ns);
   const auto number = static_cast<std::uint16_t>(soundings.ping);
@@ -93,10 +98,15 @@ void AllFormat::ping(const LoggedSoundings& ping, formats::Bytes& out) {
     append(out, ping.unix_ns, settings);
     runtime_ = settings;
   }
+  last_ns_ = std::max(last_ns_, ping.unix_ns);
+  if (part_ == Part::kWaterColumn) {
+    for (WaterColumn& column : water_column(ping, config_.vessel))
+      writer_.append_ping(out, time_ns, number, serial(), std::move(column));
+    return;
+  }
   writer_.append_ping(out, time_ns, number, serial(), raw_range_angle(soundings));
   writer_.append_ping(out, time_ns, number, serial(), xyz(soundings, config_.vessel, ping.world, ping.heave_down_m));
   writer_.append_ping(out, time_ns, number, serial(), seabed_image(soundings, ping.image));
-  last_ns_ = std::max(last_ns_, ping.unix_ns);
 }
 
 void AllFormat::end(formats::Bytes& out) {

@@ -8,13 +8,14 @@
 
 namespace ensonify::logger {
 
-/// Kongsberg .all, model 2040: I, R, U; then P, A and C as they are due, N, X and Y of each ping; i at its end.
+/// Kongsberg .all, model 2040: I, R, U; then P, A and C as they are due, N, X and Y of each ping; i at its end. A .wcd
+/// has k of pings with a water column in place of N, X and Y.
 class AllFormat : public Format {
  public:
   /// `mark` says that files are simulated.
-  AllFormat(const LoggerConfig& config, std::string mark);
+  AllFormat(const LoggerConfig& config, std::string mark, Part part);
 
-  std::string ending() const override { return ".all"; }
+  std::string ending() const override { return part_ == Part::kSoundings ? ".all" : ".wcd"; }
   void begin(const FileStart& start, formats::Bytes& out) override;
   void moment(const Moment& moment, formats::Bytes& out) override;
   void ping(const LoggedSoundings& ping, formats::Bytes& out) override;
@@ -28,6 +29,7 @@ class AllFormat : public Format {
 
   LoggerConfig config_;
   std::string mark_;
+  Part part_;
   std::string file_name_;
   formats::all::Writer writer_;
   std::int64_t last_ns_ = 0;         // of what was written

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDeepestReference_m = 10.0;  // of a vessel at the surface
 
-constexpr const char *kAll = "all", *kKmall = "kmall", *kXtf = "xtf";
-const std::vector<std::string> kFormats{kAll, kKmall, kXtf};
+constexpr const char *kAll = "all", *kKmall = "kmall", *kWcd = "wcd", *kKmwcd = "kmwcd", *kXtf = "xtf";
+const std::vector<std::string> kFormats{kAll, kKmall, kWcd, kKmwcd, kXtf};
 
 bool has(const std::vector<std::string>& formats, const char* format) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -94,6 +94,8 @@ void check_formats_without_multibeam(const ConfigReader& from, const LoggedForma
 
 }  // namespace
 
+bool LoggerConfig::water_column() const { return has(formats, kWcd) || has(formats, kKmwcd); }
+
 LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const std::string& /*process*/) {
   LoggerConfig config;
   read_parameters<LoggerParameters>(from, config);
@@ -111,7 +113,7 @@ LoggerConfig LoggerConfig::read(ConfigReader& from, const World& world, const st
   }
   const auto mounting = world.mounting(config.head.empty() ? config.sidescan : config.head);
   if (config.ship.empty() && mounting) config.ship = world.vehicle(mounting->first).name;
-  for (const char* format : {kAll, kKmall}) {
+  for (const char* format : {kAll, kKmall, kWcd, kKmwcd}) {
     if (!has(config.formats, format) || !config.vessel.dives) continue;
     from.problem("formats",
                  fmt::format("{}: the vehicle {} dives, and depths of vehicles are not written yet; allowed: one that "

@@ -44,7 +44,9 @@ struct LoggerParameters {
 
   static void parameters(auto& self, auto&& visit) {
     visit("formats", "", any(),
-          "list of all (Kongsberg .all, model 2040), kmall (Kongsberg .kmall, EM 2040) and xtf (Triton XTF)",
+          "list of all (Kongsberg .all, model 2040), kmall (Kongsberg .kmall, EM 2040), wcd and kmwcd (the water "
+          "column beside "
+          "either) and xtf (Triton XTF)",
           self.formats);
     visit(
         "head", "", any(),
@@ -81,6 +83,8 @@ struct LoggerConfig : LoggerParameters {
   refraction::SoundSpeedProfile profile = refraction::SoundSpeedProfile::uniform(1500.0);  // the applied one
   std::optional<frames::Geodetic> origin;                                                  // not given: by the chart
   std::int64_t start_unix_ns = 0;
+
+  bool water_column() const;  // whether a format has it
 
   static LoggerConfig read(ConfigReader& from, const World& world, const std::string& process);
 };

@@ -23,6 +23,7 @@ struct FileStart {
 struct LoggedSoundings {
   const msg::Soundings& soundings;
   const std::optional<msg::SeabedImage>& image;
+  const std::optional<msg::Ping>& water_column;
   std::int64_t unix_ns = 0;
   double heave_down_m = 0.0;
   const frames::LocalProjection& world;
@@ -39,6 +40,9 @@ struct LoggedSidescan {
   double heave_down_m = 0.0;
   const frames::LocalProjection& world;
 };
+
+/// Soundings and what belongs to them, or the water column, which stands in files of its own.
+enum class Part { kSoundings, kWaterColumn };
 
 /// One of the formats that a survey is written in: what it appends to its file, whole datagrams each time. A file is
 /// begun, gets moments and pings in their order, and is ended; then the next may begin.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLowest_hz = 200e3, kHighest_hz = 400e3;  // of an EM 2040
 
-bool is_kongsberg(const std::string& format) { return format == "all" || format == "kmall"; }
+bool is_kongsberg(const std::string& format) { return format != "xtf"; }
 
 }  // namespace
 

@@ -284,7 +284,7 @@ TEST_CASE("formats that a sidescan alone cannot have, and a sidescan that nobody
   CHECK_THROWS_WITH(config_of(world, "{ sidescan: side }"), Contains("all: needs the soundings of a multibeam"));
   CHECK_THROWS_WITH(config_of(world, "{ head: bow, sidescan: side }"), Contains("is written in xtf alone"));
   CHECK_THROWS_WITH(config_of(world, "{ head: bow, formats: [dvd] }"),
-                    Contains("\"dvd\" is no format; allowed: all, kmall, xtf"));
+                    Contains("\"dvd\" is no format; allowed: all, kmall, wcd, kmwcd, xtf"));
   CHECK(config_of(world, "{ sidescan: side, formats: [xtf] }").head.empty());
 }
 

@@ -34,6 +34,10 @@ LoggerNode::LoggerNode(const Config& config, Ports& ports)
     ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) { log().take(soundings); });
     ports.in<msg::SeabedImage>("seabed_image", [this](const msg::SeabedImage& image) { log().take(image); },
                                {.optional = true});
+    if (config.water_column()) {
+      ports.in_topics<msg::Ping>("water_column", {config.head + "/ping"},
+                                 [this](const std::string&, const msg::Ping& ping) { log().take(ping); });
+    }
   }
   if (!config.sidescan.empty()) {
     const std::vector<std::string> all{config.sidescan + "/*"};
@@ -82,9 +86,10 @@ logger::SurveyLog& LoggerNode::log() {
   if (multibeam) logger::check_instrument(ports_.process(), config_.formats, config_.head, *multibeam);
   const std::string mark = logger::simulated_by(multibeam ? multibeam->instrument : std::string());
   for (const std::string& format : config_.formats) {
-    if (format == "all") formats.push_back(std::make_unique<logger::AllFormat>(config_, mark));
-    if (format == "kmall") formats.push_back(std::make_unique<logger::KmallFormat>(config_, mark));
+    const logger::Part part = format.ends_with("wcd") ? logger::Part::kWaterColumn : logger::Part::kSoundings;
     if (format == "xtf") formats.push_back(std::make_unique<logger::XtfFormat>(config_, mark, sidescan, multibeam));
+    else if (format.starts_with("km")) formats.push_back(std::make_unique<logger::KmallFormat>(config_, mark, part));
+    else formats.push_back(std::make_unique<logger::AllFormat>(config_, mark, part));
   }
   return log_.emplace(config_, std::move(formats), files_);
 }

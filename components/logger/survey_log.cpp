@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLeastLead_ns = kSecond_ns;
 constexpr int kLeastPositions = 3;
-constexpr std::size_t kImagesKept = 16;  // each comes with its soundings
+constexpr std::size_t kKept = 16;  // images and water columns: each comes with its soundings
 
 /// The next multiple of a period, at `stamp_ns` or later.
 std::int64_t next_multiple(std::int64_t stamp_ns, std::int64_t period_ns) {
@@ -39,6 +39,18 @@ std::int64_t sent_ns(const std::variant<msg::Soundings, SidescanPing>& ping) {
 }
 const msg::AppliedSettings& settings_of(const msg::Soundings& soundings) { return soundings.applied; }
 const msg::AppliedSettings& settings_of(const SidescanPing& ping) { return ping.transmissions.front().applied; }
+
+/// The one of a ping, of those that came by rising number; they and what is older are forgotten.
+template <class Message>
+std::optional<Message> taken_of(std::int64_t ping, std::deque<Message>& kept) {
+  std::optional<Message> found;
+  while (!kept.empty() && kept.front().ping <= ping) {
+    if (kept.front().ping == ping) found = std::move(kept.front());
+    kept.pop_front();
+  }
+  while (kept.size() > kKept) kept.pop_front();
+  return found;
+}
 
 }  // namespace
 
@@ -169,23 +181,14 @@ void SurveyLog::write(const Ping& ping, const frames::LocalProjection& world) {
   const std::int64_t unix_ns = config_.start_unix_ns + ping_ns;
   const double heave_down_m = heave_.down_m(ping_ns);
   if (const auto* soundings = std::get_if<msg::Soundings>(&ping)) {
-    const auto image = image_of(soundings->ping);
-    const LoggedSoundings logged{*soundings, image, unix_ns, heave_down_m, world};
+    const auto image = taken_of(soundings->ping, images_);
+    const auto column = taken_of(soundings->ping, columns_);
+    const LoggedSoundings logged{*soundings, image, column, unix_ns, heave_down_m, world};
     each_format([&](Format& format, formats::Bytes& out) { format.ping(logged, out); });
   } else {
     const LoggedSidescan logged{std::get<SidescanPing>(ping), unix_ns, heave_down_m, world};
     each_format([&](Format& format, formats::Bytes& out) { format.ping(logged, out); });
   }
-}
-
-std::optional<msg::SeabedImage> SurveyLog::image_of(std::int64_t ping) {
-  std::optional<msg::SeabedImage> found;
-  while (!images_.empty() && images_.front().ping <= ping) {
-    if (images_.front().ping == ping) found = std::move(images_.front());
-    images_.pop_front();
-  }
-  while (images_.size() > kImagesKept) images_.pop_front();
-  return found;
 }
 
 }  // namespace ensonify::logger

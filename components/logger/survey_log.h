@@ -42,6 +42,7 @@ class SurveyLog {
   void take(const msg::Estimate& estimate) { estimates_.push_back(estimate); }
   void take(const msg::Soundings& soundings) { pings_.emplace_back(soundings); }
   void take(const msg::SeabedImage& image) { images_.push_back(image); }
+  void take(const msg::Ping& water_column) { columns_.push_back(water_column); }
   void take(const msg::MissionState& state);
   void take(SidescanPing ping) { pings_.emplace_back(std::move(ping)); }
 
@@ -67,7 +68,6 @@ class SurveyLog {
   template <class Append>
   void each_format(const Append& append);
   std::string file_name(const Format& format, std::int64_t unix_ns) const;
-  std::optional<msg::SeabedImage> image_of(std::int64_t ping);
   std::int64_t lead_ns() const;
   std::int64_t kept_ns() const { return 5 * lead_ns() / 2; }  // of navigation, for the next files
 
@@ -81,6 +81,7 @@ class SurveyLog {
   std::vector<msg::Estimate> estimates_;
   std::deque<Ping> pings_;
   std::deque<msg::SeabedImage> images_;
+  std::deque<msg::Ping> columns_;
   std::deque<Moment> lead_;  // the last of them
   std::optional<std::int64_t> next_position_ns_, next_clock_ns_;
 

@@ -114,6 +114,12 @@ int run(const Options& options) {
       fmt::print(stderr, "{}: holds no seabed image of {}: one sample a beam is written, its sounding's strength\n",
                  recorded.file, head);
   }
+  const bool column = std::any_of(options.formats.begin(), options.formats.end(),
+                                  [](const std::string& format) { return format.ends_with("wcd"); });
+  for (const std::string& head : recorded.heads()) {
+    if (column && recorded.has(head + "/soundings") && !recorded.has(head + "/ping"))
+      fmt::print(stderr, "{}: holds no ping/1 of {}: there is no water column in its files\n", recorded.file, head);
+  }
   if (!recorded.truncated.empty()) fmt::print(stderr, "{}: ends early {}\n", recorded.file, recorded.truncated);
   return kExitOk;
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "components/logger/kmall/column.h"
 #include "components/logger/kmall/installation.h"
 #include "components/logger/kmall/navigation.h"
 #include "components/logger/kmall/ping.h"
@@ -16,8 +17,8 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 }  // namespace
 
-KmallFormat::KmallFormat(const LoggerConfig& config, std::string mark)
-    : config_(config), mark_(std::move(mark)), writer_(kSounder) {}
+KmallFormat::KmallFormat(const LoggerConfig& config, std::string mark, Part part)
+    : config_(config), mark_(std::move(mark)), part_(part), writer_(kSounder) {}
 
 void KmallFormat::begin(const FileStart& start, formats::Bytes& out) {
   motion_.clear();
@@ -31,6 +32,10 @@ void KmallFormat::begin(const FileStart& start, formats::Bytes& out) {
 }
 
 void KmallFormat::moment(const Moment& moment, formats::Bytes& out) {
+  if (part_ == Part::kWaterColumn) {
+    if (moment.position_due) writer_.append_body(out, moment.unix_ns, kmall::position(moment));
+    return;
+  }
   const bool full = motion_.size() == kmall::kMostMotionSamples;
   if (!motion_.empty() && (full || moment.unix_ns - motion_.front().unix_ns >= kSecond_ns)) finish_motion(out);
   motion_.push_back(moment);
@@ -53,11 +58,17 @@ void KmallFormat::finish_motion(formats::Bytes& out) {
 }
 
 void KmallFormat::ping(const LoggedSoundings& ping, formats::Bytes& out) {
+  if (part_ == Part::kWaterColumn && !ping.water_column) return;
   const msg::AppliedSettings& settings = ping.soundings.applied;
   sound_speed_mps_ = settings.sound_speed_mps;
   if (const formats::kmall::Runtime now = kmall::runtime(settings, simulator()); now != runtime_) {
     writer_.append_body(out, ping.unix_ns, now);
     runtime_ = now;
+  }
+  if (part_ == Part::kWaterColumn) {
+    writer_.append_body(out, ping.unix_ns, kmall::heave(ping, config_.vessel));
+    writer_.append_body(out, ping.unix_ns, kmall::water_column(ping, config_.vessel));
+    return;
   }
   auto written = kmall::soundings(ping, config_.vessel, height_m_);
   if (simulator()) written.info.detection_mode = static_cast<std::uint8_t>(written.info.detection_mode + kSimulator);

@@ -10,13 +10,13 @@
 namespace ensonify::logger {
 
 /// Kongsberg .kmall, revision I, EM 2040: #IIP, #IOP, #SVP; then #SKM, #SPO, #CPO, #SCL and #SVT as they are due, #MRZ
-/// of each ping.
+/// of each ping. A .kmwcd has #SPO, and #CHE and #MWC of pings with a water column, in place of those after #SVP.
 class KmallFormat : public Format {
  public:
   /// `mark` says that files are simulated.
-  KmallFormat(const LoggerConfig& config, std::string mark);
+  KmallFormat(const LoggerConfig& config, std::string mark, Part part);
 
-  std::string ending() const override { return ".kmall"; }
+  std::string ending() const override { return part_ == Part::kSoundings ? ".kmall" : ".kmwcd"; }
   void begin(const FileStart& start, formats::Bytes& out) override;
   void moment(const Moment& moment, formats::Bytes& out) override;
   void ping(const LoggedSoundings& ping, formats::Bytes& out) override;
@@ -30,6 +30,7 @@ class KmallFormat : public Format {
 
   LoggerConfig config_;
   std::string mark_;
+  Part part_;
   formats::kmall::Writer writer_;
   std::vector<Moment> motion_;    // of the second that is not over
   std::optional<Moment> before_;  // it

@@ -112,12 +112,38 @@ msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& m
   return soundings;
 }
 
+msg::Ping column_of(const msg::Soundings& soundings) {
+  msg::Ping column;
+  column.stamp_ns = soundings.stamp_ns;
+  column.ping = soundings.ping;
+  column.sample_period_s = kColumnPeriod_s;
+  column.applied = soundings.applied;
+  column.applied.source_level_db = kSourceLevel_db;
+  column.applied.gain_spreading_db = 30.0;
+  column.applied.gain_absorption_dbpm = 0.06;
+  column.beam_angle_rad = soundings.beam_angle_rad;
+  column.amplitude_upa = msg::Array<float>({kBeams, kColumnSamples});
+  for (std::size_t beam = 0; beam < kBeams; ++beam) {
+    const double bottom = static_cast<double>(soundings.travel_time_s[beam]) / kColumnPeriod_s;
+    for (std::size_t k = 0; k < kColumnSamples; ++k) {
+      const double level_db =
+          100.0 + 0.1 * static_cast<double>(beam) + (std::abs(static_cast<double>(k) - bottom) < 0.5 ? 60.0 : 0.0);
+      column.amplitude_upa(beam, k) = static_cast<float>(std::pow(10.0, level_db / 20.0));
+    }
+  }
+  return column;
+}
+
 void survey(const World& world, const char* text, const std::filesystem::path& folder) {
   const LoggerConfig config = config_of(world, text);
   NodeUnderTest<LoggerNode> logger(config, "logger", folder);
   give_navigation(logger, 10_s);
   std::int64_t number = 65'500;
-  for (SimTime t{0}; t <= 9_s; t += kPingPeriod) logger.give("soundings", ping_at(t, number++, config.vessel.head));
+  for (SimTime t{0}; t <= 9_s; t += kPingPeriod) {
+    const msg::Soundings soundings = ping_at(t, number++, config.vessel.head);
+    logger.give("soundings", soundings);
+    if (config.water_column() && soundings.ping % 3 == 0) logger.give("bow/ping", column_of(soundings));
+  }
   logger.run_until(10_s);
   logger.node().finish_run();
 }

@@ -40,7 +40,15 @@ void give_navigation(NodeUnderTest<LoggerNode>& logger, SimTime until);
 /// Soundings on the flat seabed; every tenth beam has none.
 msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& mounting);
 
-/// Ten seconds of survey, pings from the start on; the files lie in `folder`.
+inline constexpr std::size_t kColumnSamples = 601;  // the last is one too many for an even number
+inline constexpr double kColumnPeriod_s = 5e-5;
+inline constexpr double kSourceLevel_db = 210.0;
+
+/// The water column of a ping: in beam b a level of 100 + b / 10 dB re 1 uPa, 60 dB more where the bottom is.
+msg::Ping column_of(const msg::Soundings& soundings);
+
+/// Ten seconds of survey, pings from the start on, every third with a water column where that is logged; the files lie
+/// in `folder`.
 void survey(const World& world, const char* text, const std::filesystem::path& folder);
 
 }  // namespace ensonify::logger::testing
