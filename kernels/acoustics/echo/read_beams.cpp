@@ -27,7 +27,7 @@ void LineGrid::silence(int first, int samples, std::span<Image> images, const Fo
 /// amplitudes alone.
 void LineGrid::read_beams(int block, int samples, std::span<const Steer> steers, std::span<const BeamRows> rows,
                           std::span<Image> images, const Form& form) {
-  const auto first = static_cast<std::size_t>(block * kBlock), count = static_cast<std::size_t>(samples);
+  const auto first = static_cast<std::size_t>(block) * kBlock, count = static_cast<std::size_t>(samples);
   const auto put = [&](const BeamRows::Row& row, Image& image, std::size_t beam) {
     std::complex<float>* const out = image.row(static_cast<int>(beam)).data() + first;
     std::copy_n(row.data(), 2 * count, reinterpret_cast<float*>(out));
