@@ -65,7 +65,47 @@ class KmallFile:
         return there @ (math.cos(heading), math.sin(heading), 0), there @ (-math.sin(heading), math.cos(heading), 0), there[2]
 
 
+def water_columns(file):
+    """#MWC by number."""
+    reader = kmall(str(file))
+    with contextlib.redirect_stdout(io.StringIO()):
+        reader.index_file()
+    columns = {}
+    for kind, offset in zip(reader.Index["MessageType"].astype(str), reader.Index["ByteOffset"]):
+        if "MWC" in kind:
+            reader.FID.seek(int(offset))
+            column = reader.read_EMdgmMWC()
+            columns[column["cmnPart"]["pingCnt"]] = column
+    reader.closeFile()
+    return columns
+
+
 class LoggerKmall(support.SystemTest):
+    def test_another_reader_finds_the_water_column_of_the_record_which_convert_makes_too(self):
+        launch = support.bay(4, "[bow/*, nav/*]").replace("  bow:   { run: multibeam }\n", "  bow:   { run: multibeam, config: { mode: water_column, beams: 32, phase_every: 0 } }\n") + \
+            "  log: { run: logger, config: { head: bow, formats: [wcd, kmwcd] } }\n"
+        result = self.run_launch(launch, timeout=120)
+        self.assertEqual(result.code, 0, result.stderr)
+        columns = water_columns(result.out / NAME.replace(".kmall", ".kmwcd"))
+        self.assertGreater(len(columns), 20)
+        with ensonify.Record(result.out / "run.mcap") as record:
+            pings = {m.content.ping: m.content for m in record.messages("bow/ping")}
+        for number, column in list(columns.items())[::5]:
+            ping, head = pings[number], column["rxInfo"]
+            level_db = 20 * np.log10(np.asarray(ping.amplitude_upa, float)) - ping.source_level_db
+            range_m = 0.5 * ping.sound_speed_mps * ping.sample_period_s * np.arange(level_db.shape[1])
+            tvg_db = head["TVGfunctionApplied"] * np.log10(np.maximum(range_m, 1)) + 2 * ping.gain_absorption_dbpm * range_m + head["TVGoffset_dB"]
+            wanted = np.clip(level_db + tvg_db, -64, 63.5)
+            for beam, samples in enumerate(column["beamData"]["sampleAmplitude05dB_p"]):
+                np.testing.assert_allclose(0.5 * np.array(samples), wanted[beam, :len(samples)], atol=0.26)
+            self.assertGreater(wanted.max(), -40)  # the seabed
+        made = self.folder / "made"
+        done = self.tool("convert", result.out, "--to", "wcd,kmwcd", made, timeout=120)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for ending in (".wcd", ".kmwcd"):
+            name = NAME.replace(".kmall", ending)
+            self.assertEqual((made / name).read_bytes(), (result.out / name).read_bytes(), name)
+
     def test_another_reader_finds_the_soundings_of_the_record_and_what_they_follow_from(self):
         result = self.run_launch(LAUNCH, timeout=120)
         self.assertEqual(result.code, 0, result.stderr)

@@ -109,15 +109,16 @@ int run(const Options& options) {
   const auto names = moved(files, options.folder);
   if (names.empty()) throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
   fmt::print("{}\n", fmt::join(names, "\n"));
+  const auto wanted = [&](std::initializer_list<const char*> some) {
+    return std::find_first_of(options.formats.begin(), options.formats.end(), some.begin(), some.end()) !=
+           options.formats.end();
+  };
   for (const std::string& head : recorded.heads()) {
-    if (recorded.has(head + "/soundings") && !recorded.has(head + "/seabed_image"))
+    if (!recorded.has(head + "/soundings")) continue;
+    if (wanted({"all", "kmall"}) && !recorded.has(head + "/seabed_image"))
       fmt::print(stderr, "{}: holds no seabed image of {}: one sample a beam is written, its sounding's strength\n",
                  recorded.file, head);
-  }
-  const bool column = std::any_of(options.formats.begin(), options.formats.end(),
-                                  [](const std::string& format) { return format.ends_with("wcd"); });
-  for (const std::string& head : recorded.heads()) {
-    if (column && recorded.has(head + "/soundings") && !recorded.has(head + "/ping"))
+    if (wanted({"wcd", "kmwcd"}) && !recorded.has(head + "/ping"))
       fmt::print(stderr, "{}: holds no ping/1 of {}: there is no water column in its files\n", recorded.file, head);
   }
   if (!recorded.truncated.empty()) fmt::print(stderr, "{}: ends early {}\n", recorded.file, recorded.truncated);

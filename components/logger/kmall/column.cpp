@@ -1,6 +1,5 @@
 #include "components/logger/kmall/column.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "components/logger/beam_fields.h"
@@ -14,13 +13,6 @@ using formats::kmall::WaterColumn;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-std::vector<std::int16_t> hundredths_of_degrees(const msg::Ping& column, std::size_t beam, std::size_t samples) {
-  std::vector<std::int16_t> phase(samples);
-  for (std::size_t k = 0; k < samples; ++k)
-    phase[k] = static_cast<std::int16_t>(std::lround(100.0 * static_cast<double>(column.phase_rad(beam, k)) / kDegree));
-  return phase;
-}
 
 }  // namespace
 
@@ -39,9 +31,7 @@ WaterColumn water_column(const LoggedSoundings& ping, const Vessel& vessel) {
   WaterColumn written;
   written.ping.ping = static_cast<std::uint16_t>(ping.soundings.ping);
   written.heave_m = static_cast<float>(ping.heave_down_m);
-  written.phase = column.phase_rad.shape() == column.amplitude_upa.shape() && !column.phase_rad.empty()
-                      ? WaterColumn::kHighResolution
-                      : WaterColumn::kNoPhase;
+  written.phase = WaterColumn::kNoPhase;  // themachinethatgoesping 0.35 loses its place over them
   written.tvg_log_factor = samples.log_factor;
   written.tvg_offset_db = samples.offset_db;
   written.sampling_hz = sampling_hz(column.sample_period_s);
@@ -63,8 +53,6 @@ WaterColumn water_column(const LoggedSoundings& ping, const Vessel& vessel) {
     beam.detected_sample_fine = static_cast<float>(from.detected_sample);
     beam.sector = from.sector;
     beam.amplitude_half_db = std::move(from.half_db);
-    if (written.phase == WaterColumn::kHighResolution)
-      beam.phase_high = hundredths_of_degrees(column, i, beam.amplitude_half_db.size());
     written.beams.push_back(std::move(beam));
   }
   return written;

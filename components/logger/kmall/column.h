@@ -9,7 +9,7 @@ namespace ensonify::logger::kmall {
 /// #CHE of a ping: heave at the transducer.
 formats::kmall::Heave heave(const LoggedSoundings& ping, const Vessel& vessel);
 
-/// #MWC of a ping with a water column; with phases where the head gives them.
+/// #MWC of a ping with a water column, without phases.
 formats::kmall::WaterColumn water_column(const LoggedSoundings& ping, const Vessel& vessel);
 
 }  // namespace ensonify::logger::kmall
