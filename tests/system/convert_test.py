@@ -41,6 +41,16 @@ class Convert(support.SystemTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "made" / NAME).read_bytes(), wanted)
 
+    def test_what_a_logger_reads_and_the_record_does_not_hold_is_named(self):
+        out = self.record(WITH_LOGGER.replace("nav/*", "nav/estimate"))
+        for words, missing in ((["--to", "all"], "holds no attitude/1"),):
+            done = self.convert(out, *words, self.folder / "made")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn(missing, done.stderr)
+        done = self.convert(self.record(), "--to", "all,wcd", self.folder / "made")
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertIn("holds no ping/1, which a logger reads; record the head's ping for --to all,wcd", done.stderr)
+
     def test_without_a_seabed_image_it_says_so(self):
         out = self.record(WITH_LOGGER.replace(", bow/seabed_image", ""))
         done = self.convert(out, "--to", "all", self.folder / "made")

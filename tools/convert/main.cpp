@@ -91,14 +91,36 @@ int run_in_one_process(const LaunchOptions& launch) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitDied;
 }
 
+/// Whether one of these formats is wanted.
+bool to(const Options& options, std::initializer_list<const char*> some) {
+  return std::find_first_of(options.formats.begin(), options.formats.end(), some.begin(), some.end()) !=
+         options.formats.end();
+}
+
+/// A UserError names what a logger reads and the record does not hold.
+void check_held(const convert::RecordedRun& recorded, const Options& options) {
+  std::vector<std::string> read{"estimate/1", "attitude/1", "position/1"};
+  if (to(options, {"wcd", "kmwcd"})) read.emplace_back("ping/1");
+  for (const std::string& type : read) {
+    const bool held = std::any_of(recorded.topics.begin(), recorded.topics.end(),
+                                  [&](const auto& one) { return one.second == type; });
+    if (!held)
+      throw UserError(fmt::format("{}: holds no {}, which a logger reads; record {} for --to {}", recorded.file, type,
+                                  type == "ping/1" ? "the head's ping" : "nav/*", fmt::join(options.formats, ",")));
+  }
+}
+
 int run(const Options& options) {
   const convert::RecordedRun recorded =
       convert::recorded_run(fs::absolute(record::record_path(options.record)).string());
   if (interrupted()) return kExitInterrupted;
+  check_held(recorded, options);
   const Workshop workshop(options.folder);
   const fs::path files = workshop.path() / "files";
   write(workshop.path() / "scenario.yaml", recorded.scenario);
-  const convert::ReplayLaunch replay = convert::replay_launch(recorded, options.wanted, "scenario.yaml", "files");
+  convert::Wanted wanted = options.wanted;
+  wanted.sidescan = to(options, {"xtf"});
+  const convert::ReplayLaunch replay = convert::replay_launch(recorded, wanted, "scenario.yaml", "files");
   write(workshop.path() / "launch.yaml", replay.text);
   LaunchOptions launch{.file = (workshop.path() / "launch.yaml").string(), .out = workshop.path().string()};
   launch.sets.push_back(fmt::format("{}.formats=[{}]", replay.logger, fmt::join(options.formats, ", ")));
@@ -109,16 +131,12 @@ int run(const Options& options) {
   const auto names = moved(files, options.folder);
   if (names.empty()) throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
   fmt::print("{}\n", fmt::join(names, "\n"));
-  const auto wanted = [&](std::initializer_list<const char*> some) {
-    return std::find_first_of(options.formats.begin(), options.formats.end(), some.begin(), some.end()) !=
-           options.formats.end();
-  };
   for (const std::string& head : recorded.heads()) {
     if (!recorded.has(head + "/soundings")) continue;
-    if (wanted({"all", "kmall"}) && !recorded.has(head + "/seabed_image"))
+    if (to(options, {"all", "kmall"}) && !recorded.has(head + "/seabed_image"))
       fmt::print(stderr, "{}: holds no seabed image of {}: one sample a beam is written, its sounding's strength\n",
                  recorded.file, head);
-    if (wanted({"wcd", "kmwcd"}) && !recorded.has(head + "/ping"))
+    if (to(options, {"wcd", "kmwcd"}) && !recorded.has(head + "/ping"))
       fmt::print(stderr, "{}: holds no ping/1 of {}: there is no water column in its files\n", recorded.file, head);
   }
   if (!recorded.truncated.empty()) fmt::print(stderr, "{}: ends early {}\n", recorded.file, recorded.truncated);

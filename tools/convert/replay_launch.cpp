@@ -77,6 +77,8 @@ ReplayLaunch replay_launch(const RecordedRun& run, const Wanted& wanted, const s
     logger.config.set("head", ConfigNode::text(wanted.head));
     wire(logger, run, wanted.head);
   }
+  if (!wanted.sidescan && logger.config.find("sidescan") != nullptr)
+    logger.config.set("sidescan", ConfigNode::text(""));
   logger.config.set("folder", ConfigNode::text(folder));
 
   ConfigNode processes = ConfigNode::map();

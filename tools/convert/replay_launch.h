@@ -7,8 +7,9 @@
 namespace ensonify::convert {
 
 struct Wanted {
-  std::string logger;  // process of the recorded run whose parameters hold; "": its only one, or none
-  std::string head;    // "": as that logger has it, else the only one
+  std::string logger;    // process of the recorded run whose parameters hold; "": its only one, or none
+  std::string head;      // "": as that logger has it, else the only one
+  bool sidescan = true;  // or without it, whatever the recorded logger had
 };
 
 struct ReplayLaunch {
