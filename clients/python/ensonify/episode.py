@@ -61,10 +61,11 @@ class Episode:
         try:
             event = next(self._steps, None)
         except RunError as error:
-            self._gone()
-            raise (error if error.code in (EXIT_BAD_INPUT, EXIT_STALL) else self._launch.fault()) from None
+            ours = bool(error.culprit) or error.code in (EXIT_BAD_INPUT, EXIT_STALL)  # else the run has ended, and knows why
+            self._go(interrupt=ours)
+            raise (error if ours else self._launch.fault()) from None
         if event is None:
-            self._gone()
+            self._go(interrupt=False)
             raise self._launch.fault()
         self.seen = Seen(event.t_ns, self._inputs)
         return self.seen
@@ -81,8 +82,9 @@ class Episode:
         self._over = True
         self._launch.wait()
 
-    def _gone(self) -> None:
-        """The run has ended without being asked to, or is to."""
+    def _go(self, *, interrupt: bool) -> None:
+        """Leaves a run that has ended without being asked to, or is to."""
         self._over = True
         self._me.leave(stay=False)
-        self._launch.end()
+        if interrupt:
+            self._launch.end()

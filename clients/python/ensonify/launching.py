@@ -13,6 +13,8 @@ from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError
 START_S = 60.0  # wall time until the clock has an endpoint
 END_S = 20.0  # wall time until everything is gone, once it has been asked to end
 LOG = "launcher.log"
+WHERE = re.compile(r"ensonify run: (?:tools reach this run|external processes take part)")
+CLOCK = re.compile(r"external processes take part at (\S+)")
 
 # The launcher, and beside it a shell that waits at our end of a pipe: should we be killed, it ends the run as Ctrl-C does.
 GUARDED = 'exec 3<&0; (read line <&3 || kill -INT $$ 2>/dev/null) & exec "$@" 3<&- </dev/null'
@@ -57,10 +59,10 @@ class Launch:
         while time.monotonic() < until:
             ended = self._child.poll() is not None
             said = self._said()
-            if found := re.search(r"external processes take part at (\S+)", said):
+            if found := CLOCK.search(said):
                 return found[1]
             if ended:
-                raise RunError(said.strip() or f"{file} ended with exit code {self._child.returncode}", self._child.returncode)
+                raise RunError(self._complaints() or f"{file} ended with exit code {self._child.returncode}", self._child.returncode)
             if "tools reach this run" in said:
                 raise RunError(f"{file}: awaits nobody: it needs a process with `external: true`", EXIT_BAD_INPUT)
             time.sleep(0.002)
@@ -68,6 +70,10 @@ class Launch:
 
     def _said(self) -> str:
         return (self._out / LOG).read_text(errors="replace")
+
+    def _complaints(self) -> str:
+        """What it has said, without how it is reached."""
+        return "\n".join(line for line in self._said().splitlines() if line and not WHERE.match(line))
 
     def interrupt(self) -> None:
         """Asks it to end in order; whoever takes part is to answer the end, then wait()."""
@@ -90,13 +96,15 @@ class Launch:
         return self.wait()
 
     def fault(self) -> RunError:
-        """Why it ended, once it has: the process, its exit code or signal, and what it said."""
+        """Why it ended, or is about to: the process, its exit code or signal, and what was said."""
         code = self.wait()
         try:
             result = json.loads((self._out / "run.json").read_text())
         except (OSError, ValueError):
-            return RunError(self._said().strip() or f"the run ended with exit code {code}", code)
+            return RunError(self._complaints() or f"the run ended with exit code {code}", code)
         culprit = result.get("culprit", "")
+        if code == EXIT_BAD_INPUT:
+            return RunError(self._complaints(), code, culprit)
         own = next((process for process in result.get("processes", ()) if process["name"] == culprit), {})
         how = f" with exit code {own['exit_code']}" if own.get("exit_code") is not None else ""
         said = result.get("message") or "it came to its end"

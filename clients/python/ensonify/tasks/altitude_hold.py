@@ -58,14 +58,13 @@ class AltitudeHold(Env):
 
 
 class Baseline:
-    """A classical controller: climbs and dives in proportion to the error of the last valid altitude, less its own climb."""
+    """A classical controller: dives in proportion to what the last valid altitude is too large."""
 
-    def __init__(self, gain_per_m: float = 1.0, damping_s_per_m: float = 0.0):
-        self._gain_per_m, self._damping_s_per_m = gain_per_m, damping_s_per_m
+    def __init__(self, gain_per_m: float = 0.5):
+        self._gain_per_m = gain_per_m
         self._altitude_m = ALTITUDE_M
 
     def __call__(self, observation: dict) -> np.ndarray:
         if observation["nav/altitude/valid"][0]:
             self._altitude_m = observation["nav/altitude/range_m"][0]
-        down = self._gain_per_m * (self._altitude_m - ALTITUDE_M) + self._damping_s_per_m * observation["nav/estimate"][0]
-        return np.clip([down], -1, 1).astype(np.float32)
+        return np.clip([self._gain_per_m * (self._altitude_m - ALTITUDE_M)], -1, 1).astype(np.float32)
