@@ -1,6 +1,7 @@
 """The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -254,6 +255,17 @@ class Surroundings(unittest.TestCase):
         program = "import sys; sys.modules['gymnasium'] = None; import ensonify; ensonify.Observer; ensonify.Env"
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
         self.assertIn("ImportError: ensonify.Env needs Gymnasium: pip install 'ensonify[gym]'", done.stderr)
+
+    def test_the_launch_files_of_tasks_are_installed_with_the_client(self):
+        client = pathlib.Path(__file__).resolve().parents[1]
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            source, target = pathlib.Path(folder) / "source", pathlib.Path(folder) / "installed"
+            shutil.copytree(client, source / "clients" / "python", symlinks=True, ignore=shutil.ignore_patterns("build", "*.egg-info"))
+            shutil.copytree(client.parents[1] / "launch", source / "launch")
+            subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation",
+                            "--target", target, source / "clients" / "python"], check=True)
+            for file in (client / "ensonify" / "tasks").glob("*.yaml"):
+                self.assertEqual((target / "ensonify" / "tasks" / file.name).read_text(), file.read_text())
 
     def test_a_launch_ends_with_the_program_that_started_it(self):
         program = ("import os, signal, sys, gymnasium, ensonify; env = gymnasium.make('Ensonify/AltitudeHold-v0', out=sys.argv[1]);"
