@@ -19,7 +19,8 @@ import gymnasium
 import numpy as np
 
 from ensonify.episode import Episode, Seen
-from ensonify.messages import Mesh, Pose, Tile
+from ensonify.images import picture
+from ensonify.messages import Mesh, Ping, Pose, Tile
 from ensonify.spaces import Act, Array, Fields, checked
 
 ALWAYS_TRUTH = (Pose, Tile, Mesh)  # message types that no instrument gives
@@ -38,27 +39,36 @@ class Env(gymnasium.Env):
     reward, done: functions of what is Seen after a step; done ends the episode, `seconds` of sim time truncate it
     truth: topics and message types that reward and done read besides: what must not be observed
     rate: steps per second of sim time
+    image: topic of a head's pings, for render() with render_mode="rgb_array"
     set: parameters in every episode, as `--set`; reset(options={"set": {...}}) adds to them
     out: folder in which episodes leave their results (0000, 0001, ...); without it they leave none
     settle_s: sim time within which all topics must have come for the first time
     patience_s: wall time that the launch may take for one step
     """
 
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(self, launch: str | os.PathLike, *, observe: Mapping[str, Fields | Array], act: Act,
                  reward: Callable[[Seen], float], done: Callable[[Seen], bool] = lambda seen: False,
                  truth: Mapping[str, type] | None = None, rate: Any = 10, seconds: float = math.inf,
-                 set: Mapping[str, Any] | None = None, agent: str = "agent", out: str | os.PathLike | None = None,
-                 settle_s: float = 10.0, patience_s: float = 300.0, render_mode: str | None = None):
+                 image: str | None = None, set: Mapping[str, Any] | None = None, agent: str = "agent",
+                 out: str | os.PathLike | None = None, settle_s: float = 10.0, patience_s: float = 300.0,
+                 render_mode: str | None = None):
         truth = dict(truth or {})
         refuse_truth(observe, truth)
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {render_mode!r}; allowed: None, 'rgb_array'")
+        if render_mode and not image:
+            raise ValueError("render_mode='rgb_array' needs image=TOPIC, the pings of a head")
         self.observation_space = gymnasium.spaces.Dict(
             {key: space for topic, part in observe.items() for key, space in part.spaces(topic).items()})
         self.action_space = act.space
         self.render_mode = render_mode
         self._observe, self._act, self._reward, self._done = dict(observe), act, reward, done
         self._topics = {topic: part.message_type for topic, part in observe.items()} | truth
+        self._image = image if render_mode else None
+        if self._image:
+            self._topics.setdefault(self._image, Ping)
         self._launch, self._agent, self._rate, self._seconds = launch, agent, rate, seconds
         self._set, self._out = dict(set or {}), out
         self._settle_s, self._patience_s = settle_s, patience_s
@@ -110,6 +120,14 @@ class Env(gymnasium.Env):
         if terminated or truncated:
             self._ended = "the episode has ended"
         return self._observation(seen), reward, terminated, truncated, {"t_s": seen.t_s}
+
+    def render(self) -> np.ndarray | None:
+        """The newest ping of `image`, as ensonify.images.picture draws it."""
+        if not self._image:
+            return None
+        if self._running.episode is None:
+            raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
+        return picture(self._running.episode.seen[self._image])
 
     def close(self) -> None:
         """Ends the launch and waits for its end."""

@@ -11,10 +11,11 @@ from typing import Any, Mapping
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError
 
 START_S = 60.0  # wall time until the clock has an endpoint
+SILENCE_S = 2.0  # wall time in which the launcher then names it, if anybody is awaited
 END_S = 20.0  # wall time until everything is gone, once it has been asked to end
 LOG = "launcher.log"
 WHERE = re.compile(r"ensonify run: (?:tools reach this run|external processes take part)")
-CLOCK = re.compile(r"external processes take part at (\S+)")
+CLOCK = re.compile(r"external processes take part at (\S+)\s")
 
 # The launcher, and beside it a shell that waits at our end of a pipe: should we be killed, it ends the run as Ctrl-C does.
 GUARDED = 'exec 3<&0; (read line <&3 || kill -INT $$ 2>/dev/null) & exec "$@" 3<&- </dev/null'
@@ -63,9 +64,11 @@ class Launch:
                 return found[1]
             if ended:
                 raise RunError(self._complaints() or f"{file} ended with exit code {self._child.returncode}", self._child.returncode)
-            if "tools reach this run" in said:
-                raise RunError(f"{file}: awaits nobody: it needs a process with `external: true`", EXIT_BAD_INPUT)
+            if WHERE.search(said):  # then the endpoint comes at once, if at all
+                until = min(until, time.monotonic() + SILENCE_S)
             time.sleep(0.002)
+        if WHERE.search(self._said()):
+            raise RunError(f"{file}: awaits nobody: it needs a process with `external: true`", EXIT_BAD_INPUT)
         raise RunError(f"{file} did not start within {START_S:g} s", EXIT_DIED)
 
     def _said(self) -> str:

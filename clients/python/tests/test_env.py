@@ -1,6 +1,7 @@
 """The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -15,6 +16,7 @@ import numpy as np
 from gymnasium.utils.env_checker import check_env
 
 import ensonify
+from ensonify.images import picture
 from ensonify.spaces import checked
 from ensonify.tasks.altitude_hold import Baseline
 
@@ -146,7 +148,7 @@ class Episodes(unittest.TestCase):
             total += reward
             over = terminated or truncated
         env.close()
-        self.assertGreater(total, 440)  # 485 on average, of 600 (docs/manual/gymnasium.md)
+        self.assertGreater(total, 440)  # 508 on average, of 600 (docs/manual/gymnasium.md)
 
     def test_done_ends_an_episode_and_no_step_follows(self):
         env = self.make(done=lambda seen: seen["judge/altitude"].range_m > 1)
@@ -241,6 +243,27 @@ class Episodes(unittest.TestCase):
                     env.step(np.float32([20]))
 
 
+    def test_a_picture_is_the_newest_ping_with_port_left_and_far_first(self):
+        ping = ensonify.Ping(beam_angle_rad=np.float32([0.1, -0.1]), amplitude_upa=np.float32([[1000, 1, 100], [1, 10, 1000]]))
+        image = picture(ping)  # of the port beam 60, 40 and 0 dB below the strongest
+        self.assertEqual(image[..., 0].tolist(), [[255, 170], [85, 0], [0, 255]])
+        self.assertEqual((image.shape, image.dtype), ((3, 2, 3), np.uint8))
+
+    def test_a_head_renders(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            with_head = pathlib.Path(folder) / "with_head.yaml"
+            head = "  eye: { run: multibeam, config: { beams: 16, ping_rate_hz: 5 } }\n  agent: {"
+            text = LAUNCH.read_text().replace("  agent: {", head)
+            text += "wiring: { eye.estimate: nav/estimate, eye.sound_speed: nav/sound_speed, eye.attitude: nav/attitude }\n"
+            with_head.write_text(text.replace("      start:", "      mountings: { eye: { actual: {} } }\n      start:"))
+            env = self.make(launch=with_head, image="eye/ping", render_mode="rgb_array")
+            env.reset(seed=1)
+            image = env.render()
+            self.assertEqual((image.shape[1:], image.dtype, image.max()), ((16, 3), np.uint8, 255))
+        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=TOPIC"):
+            environment(render_mode="rgb_array")
+
+
 class Surroundings(unittest.TestCase):
     def test_without_the_programs_an_exception_says_so(self):
         with mock.patch.dict(os.environ, {"ENSONIFY_BIN": "/nowhere"}):
@@ -255,6 +278,14 @@ class Surroundings(unittest.TestCase):
         program = "import sys; sys.modules['gymnasium'] = None; import ensonify; ensonify.Observer; ensonify.Env"
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
         self.assertIn("ImportError: ensonify.Env needs Gymnasium: pip install 'ensonify[gym]'", done.stderr)
+
+    def test_the_manuals_code_runs_as_it_stands(self):
+        root = pathlib.Path(__file__).resolve().parents[3]
+        code = re.findall(r"^```python\n(.*?)^```", (root / "docs/manual/gymnasium.md").read_text(), re.M | re.S)
+        self.assertEqual(len(code), 3)
+        done = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=root, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(float(done.stdout), 440)
 
     def test_the_launch_files_of_tasks_are_installed_with_the_client(self):
         client = pathlib.Path(__file__).resolve().parents[1]

@@ -44,6 +44,8 @@ def climb(estimate: Estimate) -> list:
 class AltitudeHold(Env):
     """Ensonify/AltitudeHold-v0. Keywords are Env's, to change it."""
 
+    metadata = {"render_modes": []}
+
     def __init__(self, **changes: Any):
         super().__init__(**{
             "launch": pathlib.Path(__file__).with_name("altitude_hold.yaml"),
