@@ -1,4 +1,5 @@
 """The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
+import importlib
 import os
 import pathlib
 import re
@@ -18,8 +19,10 @@ from gymnasium.utils.env_checker import check_env
 import ensonify
 from ensonify.images import picture
 from ensonify.spaces import checked
-from ensonify.tasks.altitude_hold import Baseline
+from ensonify.tasks import TASKS
+from ensonify.tasks.__main__ import measured
 
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 TASK = "Ensonify/AltitudeHold-v0"
 LAUNCH = pathlib.Path(ensonify.__file__).parent / "tasks" / "altitude_hold.yaml"
 
@@ -101,12 +104,13 @@ class Episodes(unittest.TestCase):
         return env
 
     def test_the_official_checker_is_content(self):
-        env = gymnasium.make(f"ensonify:{TASK}")
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", UserWarning)
-            warnings.filterwarnings("ignore", message=".*observation space (minimum|maximum) value")
-            check_env(env.unwrapped)
-        env.close()
+        for name in TASKS:
+            env = gymnasium.make(f"ensonify:Ensonify/{name}-v0")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", UserWarning)
+                warnings.filterwarnings("ignore", message=".*observation space (minimum|maximum) value")
+                check_env(env.unwrapped)
+            env.close()
 
     def test_the_same_seed_and_actions_give_the_same_observations(self):
         env = self.make()
@@ -138,17 +142,15 @@ class Episodes(unittest.TestCase):
             self.assertNotEqual(*seen["nav/altitude/range_m"].ravel())
             envs.close()
 
-    def test_the_baseline_keeps_its_altitude(self):
-        env = gymnasium.make(TASK)
-        baseline, total = Baseline(), 0.0
-        seen, _ = env.reset(seed=100)
-        over = False
-        while not over:
-            seen, reward, terminated, truncated, _ = env.step(baseline(seen))
-            total += reward
-            over = terminated or truncated
-        env.close()
-        self.assertGreater(total, 440)  # 508 on average, of 600 (docs/manual/gymnasium.md)
+    def test_baselines_earn_what_the_manual_says(self):
+        page = (ROOT / "docs/manual/gymnasium.md").read_text()
+        for name, module in TASKS.items():
+            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((\d+) to (\d+)\) \|$", page, re.M).groups())
+            env = gymnasium.make(f"Ensonify/{name}-v0")
+            policy = importlib.import_module(f"ensonify.tasks.{module}").Baseline()
+            total, _, _ = measured(env, policy, seed=101)
+            env.close()
+            self.assertTrue(least - 0.5 <= total <= most + 0.5, f"{name}: {total}")
 
     def test_done_ends_an_episode_and_no_step_follows(self):
         env = self.make(done=lambda seen: seen["judge/altitude"].range_m > 1)
@@ -280,10 +282,9 @@ class Surroundings(unittest.TestCase):
         self.assertIn("ImportError: ensonify.Env needs Gymnasium: pip install 'ensonify[gym]'", done.stderr)
 
     def test_the_manuals_code_runs_as_it_stands(self):
-        root = pathlib.Path(__file__).resolve().parents[3]
-        code = re.findall(r"^```python\n(.*?)^```", (root / "docs/manual/gymnasium.md").read_text(), re.M | re.S)
+        code = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/manual/gymnasium.md").read_text(), re.M | re.S)
         self.assertEqual(len(code), 3)
-        done = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=root, capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=ROOT, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(float(done.stdout), 440)
 
