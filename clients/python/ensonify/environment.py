@@ -106,12 +106,14 @@ class Env(gymnasium.Env):
         if self._ended:
             raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
         episode = self._running.episode
-        message = self._act.function(checked(action, self.action_space), episode.seen)
+        action = checked(action, self.action_space)
+        message = self._act.function(action, episode.seen)
         try:
             seen = episode.step(message)
         except BaseException:
             self._ended = "the episode broke off"
             raise
+        seen.action = action
         reward = float(self._reward(seen))
         if not math.isfinite(reward):
             raise ValueError(f"the reward at t = {seen.t_s:.3f} s is {reward}")
@@ -146,11 +148,13 @@ class Running:
     """The episode that goes on, if any, and its folder. Holds nothing of the Env, which it may outlive."""
 
     def __init__(self):
+        self._owner = os.getpid()
         self.episode: Episode | None = None
         self._scratch: tempfile.TemporaryDirectory | None = None
 
     def start(self, episode: Callable[[pathlib.Path], Episode], out: pathlib.Path | None) -> Seen:
         """Starts one in a folder that is to stay, else in one that goes with it. What it has seen first."""
+        self._owner = os.getpid()
         if out is None:
             self._scratch = tempfile.TemporaryDirectory(prefix="ensonify-env-")
             out = pathlib.Path(self._scratch.name)
@@ -162,7 +166,9 @@ class Running:
         return self.episode.seen
 
     def end(self) -> None:
-        """Ends it and waits for its end."""
+        """Ends it and waits for its end; a fork of the process that started it leaves it alone."""
+        if os.getpid() != self._owner:
+            return
         episode, self.episode = self.episode, None
         scratch, self._scratch = self._scratch, None
         try:

@@ -18,6 +18,7 @@ class Seen:
 
     def __init__(self, t_ns: int, inputs: Mapping[str, Any]):
         self.t_ns = t_ns  # sim time of the step
+        self.action: Any = None  # that was taken for it, an array of the action space; None after a reset
         self._latest = {topic: port.latest for topic, port in inputs.items()}
         self._new = {topic: [received.content for received in port.received] for topic, port in inputs.items()}
 

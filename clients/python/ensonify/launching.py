@@ -35,8 +35,13 @@ def changes(settings: Mapping[str, Any]) -> list:
     """Parameters and their values as words of `ensonify run`."""
     words = []
     for key, value in settings.items():
-        words += ["--set", f"{key}={value if isinstance(value, str) else json.dumps(value)}"]
+        words += ["--set", f"{key}={value if isinstance(value, str) else json.dumps(value, default=plain)}"]
     return words
+
+
+def plain(value: Any) -> Any:
+    """A numpy number or array as JSON has it."""
+    return value.tolist()
 
 
 class Launch:

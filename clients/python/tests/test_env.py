@@ -234,6 +234,23 @@ class Episodes(unittest.TestCase):
             with self.assertRaisesRegex(ensonify.RunError, "alone.yaml: awaits nobody: it needs a process with `external: true`"):
                 self.make(launch=alone).reset()
 
+    def test_two_environments_do_not_share_a_folder(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            first, second = self.make(out=folder), self.make(out=folder)
+            first.reset(seed=1)
+            with self.assertRaisesRegex(ensonify.RunError, f"{folder}/0000: another run puts its results there"):
+                second.reset(seed=1)
+            first.step(np.float32([20]))
+
+    def test_a_reward_may_depend_on_the_action(self):
+        env = self.make(reward=lambda seen: -float(seen.action[0]))
+        env.reset(seed=1, options={"set": {"nav.altimeter.rotation_deg": np.zeros(3)}})
+        self.assertEqual(env.step(np.float32([20]))[1], -20)
+        env = self.make(reward=lambda seen: float("nan"))
+        env.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, "^the reward at t = [0-9.]+ s is nan$"):
+            env.step(np.float32([20]))
+
     def test_a_launch_that_ends_too_soon_says_when(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
             short = pathlib.Path(folder) / "short.yaml"
