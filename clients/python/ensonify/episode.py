@@ -5,6 +5,7 @@ import pathlib
 from typing import Any, Mapping
 
 from ensonify.launching import Launch
+from ensonify.observer import Observer
 from ensonify.participant import Participant, Received
 from ensonify.session import EXIT_BAD_INPUT, EXIT_STALL, RunError
 from ensonify.typed import Message
@@ -62,6 +63,8 @@ class Episode:
         try:
             event = next(self._steps, None)
         except RunError as error:
+            if error.code == EXIT_STALL:
+                error = self._stalled(error)
             ours = bool(error.culprit) or error.code in (EXIT_BAD_INPUT, EXIT_STALL)  # else the run has ended, and knows why
             self._go(interrupt=ours)
             raise (error if ours else self._launch.fault()) from None
@@ -82,6 +85,15 @@ class Episode:
             pass  # the clock was gone already
         self._over = True
         self._launch.wait()
+
+    def _stalled(self, error: RunError) -> RunError:
+        """The same with the names of those that have been granted time and do not answer."""
+        try:
+            with Observer(self._launch.clock) as run:
+                busy = [each["name"] for each in run.ask("status")["participants"] if each["running"]]
+        except (RunError, KeyError):
+            return error
+        return RunError(f"{', '.join(busy)}: no answer; {error}", EXIT_STALL, busy[0]) if busy else error
 
     def _go(self, *, interrupt: bool) -> None:
         """Leaves a run that has ended without being asked to, or is to."""

@@ -219,9 +219,10 @@ class Episodes(unittest.TestCase):
             env = self.make(out=folder, seconds=1000, patience_s=2)
             env.reset(seed=1)
             os.kill(process(f"{folder}/0000", "nav"), signal.SIGSTOP)
-            with self.assertRaisesRegex(ensonify.RunError, "^agent: the others have made no progress for 2 s$"):
+            with self.assertRaisesRegex(ensonify.RunError, "^nav: no answer; agent: the others have made no progress for 2 s$") as raised:
                 for _ in range(5000):
                     env.step(np.float32([20]))
+            self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "nav"))
             with self.assertRaises(AssertionError):
                 process(f"{folder}/0000", "nav")
 

@@ -16,6 +16,8 @@ def main(name: str, first_seed: int = 100, episodes: int = 5) -> None:
     baseline = importlib.import_module(f"ensonify.tasks.{TASKS[name]}").Baseline
     with gymnasium.make(f"Ensonify/{name}-v0", disable_env_checker=True) as env:
         results = [measured(env, baseline(), seed) for seed in range(first_seed, first_seed + episodes)]
+    for seed, (total, reset_s, rate) in enumerate(results, first_seed):
+        print(f"seed {seed}: return {total:.1f}, reset {reset_s:.3f} s, {rate:.0f} steps/s")
     totals, resets, rates = zip(*results)
     print(f"mean: return {sum(totals) / episodes:.1f} ({min(totals):.1f} to {max(totals):.1f}), "
           f"reset {sum(resets) / episodes:.3f} s, {sum(rates) / episodes:.0f} steps/s")
@@ -30,9 +32,7 @@ def measured(env: gymnasium.Env, policy, seed: int) -> tuple:
     while not over:
         seen, reward, terminated, truncated, _ = env.step(policy(seen))
         total, steps, over = total + reward, steps + 1, terminated or truncated
-    rate = steps / (time.perf_counter() - started)
-    print(f"seed {seed}: return {total:.1f} in {steps} steps, reset {started - began:.3f} s, {rate:.0f} steps/s")
-    return total, started - began, rate
+    return total, started - began, steps / (time.perf_counter() - started)
 
 
 if __name__ == "__main__":
