@@ -17,6 +17,7 @@ import sys
 
 from bus_benches import bench_free, bench_observers, bench_python, bench_round, bench_start, bench_stream
 from drive_bench import bench_drive
+from environment_bench import bench_environment
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
 from navigation_bench import bench_navigation
@@ -38,7 +39,7 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "observers": bench_observers, "heads": bench_heads,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty,
            "kernels": bench_kernels}
 

@@ -28,7 +28,7 @@ STATIC = ("docs/site/iframe-worker.js",)
 ORDER = (
     ("Ensonify", ["README.md", "docs/README.md", "docs/architecture.md", "docs/contributing.md", "docs/adding-a-head.md",
                   "docs/glossary.md"]),
-    ("Manual", ["docs/manual/README.md", "docs/manual/first-survey.md", "docs/manual/train-a-detector.md",
+    ("Manual", ["docs/manual/README.md", "docs/manual/first-survey.md", "docs/manual/train-a-detector.md", "docs/manual/gymnasium.md",
                 "docs/manual/test-my-autopilot.md", "docs/manual/ship-nmea.md", "docs/manual/patch-test.md", "docs/manual/*"]),
     ("Physics", ["docs/physics/README.md", "docs/physics/acceptance.md", "docs/physics/gallery.md",
                  *(f"docs/physics/{chapter}/" for chapter in

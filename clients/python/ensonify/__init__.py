@@ -1,4 +1,7 @@
 """Watch an Ensonify sonar simulation, or take part in it."""
+import importlib
+import importlib.util
+
 from ensonify.messages import *  # noqa: F401,F403  the message types, as ensonify.Ping
 from ensonify.messages import TYPES
 from ensonify.observer import Observer
@@ -9,3 +12,23 @@ from ensonify.session import RunError
 from ensonify.wire import NEVER, DecodeError, Envelope
 
 __version__ = "0.1.0"
+
+# What needs Gymnasium, and where it is.
+_GYM = {"Env": "environment", "TruthError": "environment", "Seen": "episode", "Fields": "spaces", "Array": "spaces", "Act": "spaces",
+        "steer": "spaces"}
+
+
+def __getattr__(name: str):
+    if name not in _GYM:
+        raise AttributeError(f"module 'ensonify' has no attribute {name!r}")
+    try:
+        return getattr(importlib.import_module(f"ensonify.{_GYM[name]}"), name)
+    except ModuleNotFoundError as error:
+        if error.name != "gymnasium":
+            raise
+        raise ImportError(f"ensonify.{name} needs Gymnasium: pip install 'ensonify[gym]'") from None
+
+
+if importlib.util.find_spec("gymnasium") is not None:
+    from ensonify import tasks
+    tasks.register()

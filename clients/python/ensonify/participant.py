@@ -11,6 +11,7 @@
 import collections
 import fractions
 import json
+import math
 import os
 import sys
 from typing import Any, Iterator
@@ -113,12 +114,13 @@ class Participant:
     """
 
     def __init__(self, name: str | None = None, *, clock: str | None = None, config: dict | None = None,
-                 may_finish: bool = False):
+                 may_finish: bool = False, patience_s: float = math.inf):
         self.name = name or os.environ.get("ENSONIFY_NAME") or os.path.splitext(os.path.basename(sys.argv[0]))[0]
         self.config = configuration() if config is None else config
         self._clock = clock or os.environ.get("ENSONIFY_CLOCK")
         self.facts: dict = {}  # of the epoch, known once joined: "launch", "scenario", ...
         self._may_finish = may_finish
+        self._patience_s = patience_s  # wall seconds that the others may take between two steps
         self._finish = False
         self._ins: list = []
         self._outs: list = []
@@ -198,6 +200,17 @@ class Participant:
             raise RuntimeError("only a participant made with may_finish=True can end the run")
         self._finish = True
 
+    def leave(self, *, stay: bool = True) -> None:
+        """Promises to publish nothing more, stays until the run has ended, and gives the sockets back. A context manager
+        does it by itself. Without `stay` it goes at once: that is for a run that is gone."""
+        if self._session is None:
+            return
+        try:
+            if stay and not self._left:
+                self._idle()
+        finally:
+            self._session.close()
+
     @property
     def end_code(self) -> int | None:
         """Exit code of the run, None while it goes on."""
@@ -239,7 +252,7 @@ class Participant:
             raise RuntimeError("steps() can be used once")
         if not self._clock:
             raise RunError(f"{self.name}: no clock to join: ENSONIFY_CLOCK is not set", EXIT_BAD_INPUT)
-        self._session = Session(self.name, self._clock)
+        self._session = Session(self.name, self._clock, self._patience_s)
         hello = {**self.declaration(), "pid": os.getpid(), "first_ns": first_ns, "facts": {}}
         welcome = self._session.join(hello)
         self.facts = welcome.get("facts", {})

@@ -1,5 +1,6 @@
 """A participant's sockets: joining, proving edges, collecting what a grant names, answering it (docs/manual/wire.md)."""
 import json
+import math
 import os
 import re
 import socket
@@ -20,7 +21,7 @@ WAKE_MS = 1000  # how often a waiting participant checks whether the clock is st
 
 _EVENTS, _POLLIN, _SNDMORE, _RCVMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE), int(zmq.RCVMORE)  # plain numbers: pyzmq's enums cost more than the calls
 
-EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_DATA_LOST = 0, 2, 3, 5
+EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_STALL, EXIT_DATA_LOST = 0, 2, 3, 4, 5
 
 
 class RunError(Exception):
@@ -45,8 +46,9 @@ class Session:
     """Everything between a participant and ZeroMQ. No thread of ours: libzmq's own drains the data, and the clock's
     window bounds how much can be on its way, so the receiving queue needs no limit."""
 
-    def __init__(self, name: str, clock: str):
+    def __init__(self, name: str, clock: str, longest_wait_s: float = math.inf):
         self.name = name
+        self._longest_wait_s = longest_wait_s  # wall time for the clock's next word
         self._context = zmq.Context()
         self._keys = keys_for(clock, os.environ.get("ENSONIFY_RUN_DIR"))
         self._gate = Gate(self._context, self._keys) if self._keys else None
@@ -240,11 +242,14 @@ class Session:
         self._control.send(json.dumps(what, separators=(",", ":")).encode())
 
     def _receive_control(self) -> bytes:
-        while True:
+        waited_ms = 0
+        while waited_ms <= 1000 * self._longest_wait_s:
             try:
                 return self._control.recv()
             except zmq.Again:
                 self._check_clock()
+                waited_ms += WAKE_MS
+        raise RunError(f"{self.name}: the others have made no progress for {self._longest_wait_s:g} s", EXIT_STALL)
 
     def _await_json(self, kind: str) -> dict:
         while True:

@@ -1,0 +1,103 @@
+"""One episode: a launch with us as one of its processes, stepped event by event.
+
+A launch is started for each. Whatever replaces that keeps start, step and end."""
+import pathlib
+from typing import Any, Mapping
+
+from ensonify.launching import Launch
+from ensonify.observer import Observer
+from ensonify.participant import Participant, Received
+from ensonify.session import EXIT_BAD_INPUT, EXIT_STALL, RunError
+from ensonify.typed import Message
+
+# An agent may learn for long between two steps: what hangs is noticed here, not by the clock.
+DEADLINE_S = 3600
+
+
+class Seen:
+    """What is known at a step: `seen[topic]` is the newest message, None before the first."""
+
+    def __init__(self, t_ns: int, inputs: Mapping[str, Any]):
+        self.t_ns = t_ns  # sim time of the step
+        self.action: Any = None  # that was taken for it, an array of the action space; None after a reset
+        self._latest = {topic: port.latest for topic, port in inputs.items()}
+        self._new = {topic: [received.content for received in port.received] for topic, port in inputs.items()}
+
+    @property
+    def t_s(self) -> float:
+        """Sim time of the step in seconds."""
+        return self.t_ns * 1e-9
+
+    def __getitem__(self, topic: str) -> Any:
+        if topic not in self._latest:
+            raise KeyError(f"{topic} is in neither observe nor truth; there are {', '.join(self._latest)}")
+        return self._latest[topic]
+
+    def new(self, topic: str) -> list:
+        """Messages that have come since the last step, in order."""
+        self[topic]
+        return self._new[topic]
+
+
+class Episode:
+    """Starts `file` with us as its process `agent`, which reads `topics` (name to message type) and publishes on `port`."""
+
+    def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
+                 port: str, message_type: type, rate: Any, patience_s: float):
+        self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
+        self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
+        self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
+        self._command = self._me.publish(port, message_type, rate=rate, max_bytes=1 << 16)
+        self._steps = self._me.steps(rate=rate)
+        self._over = False
+        try:
+            self.seen = self.step()
+        except BaseException:
+            self.end()
+            raise
+
+    def step(self, message: Message | None = None) -> Seen:
+        """Publishes, and goes on to the next event."""
+        if message is not None:
+            self._command.send(message)
+        try:
+            event = next(self._steps, None)
+        except RunError as error:
+            if error.code == EXIT_STALL:
+                error = self._stalled(error)
+            ours = bool(error.culprit) or error.code in (EXIT_BAD_INPUT, EXIT_STALL)  # else the run has ended, and knows why
+            self._go(interrupt=ours)
+            raise (error if ours else self._launch.fault()) from None
+        if event is None:
+            self._go(interrupt=False)
+            raise self._launch.fault()
+        self.seen = Seen(event.t_ns, self._inputs)
+        return self.seen
+
+    def end(self) -> None:
+        """Ends the launch, in order where it still goes on."""
+        if self._over:
+            return
+        self._launch.interrupt()
+        try:
+            self._me.leave()
+        except RunError:
+            pass  # the clock was gone already
+        self._over = True
+        self._launch.wait()
+
+    def _stalled(self, error: RunError) -> RunError:
+        """The same with the names of those that have been granted time and do not answer."""
+        try:
+            with Observer(self._launch.clock) as run:
+                busy = [each["name"] for each in run.ask("status")["participants"] if each["running"]]
+        except (RunError, KeyError):
+            return error
+        return RunError(f"{', '.join(busy)}: no answer; {error}", EXIT_STALL, busy[0]) if busy else error
+
+    def _go(self, *, interrupt: bool) -> None:
+        """Leaves a run that has ended without being asked to, or is to."""
+        self._over = True
+        self._me.leave(stay=False)
+        if interrupt:
+            self._launch.end()

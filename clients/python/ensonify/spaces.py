@@ -1,0 +1,109 @@
+"""Spaces for what messages carry, and what an agent may do with them."""
+import dataclasses
+from typing import Any, Callable
+
+import gymnasium
+import numpy as np
+
+from ensonify.messages import Guidance
+from ensonify.typed import Message
+
+Box = gymnasium.spaces.Box
+
+
+class Fields:
+    """Fields of a message as arrays, each in a space of its own: a number as an array of one, a boolean as 0 or 1.
+    Without names all fields but the stamp."""
+
+    def __init__(self, message_type: type, *names: str):
+        self.message_type = message_type
+        known = {field.name: field for field in dataclasses.fields(message_type)}
+        for name in names:
+            if name not in known:
+                raise ValueError(f"{message_type.TYPE} has no field {name}; it has {', '.join(known)}")
+        chosen = names or [name for name in known if name != "stamp_ns" and box_of(known[name]) is not None]
+        self._boxes = {name: box_of(known[name]) for name in chosen}
+        for name, box in self._boxes.items():
+            if box is None:
+                raise ValueError(f"{message_type.TYPE}.{name} has no fixed shape: make an array of it with ensonify.Array(...)")
+
+    def spaces(self, topic: str) -> dict:
+        """Each field's space, under TOPIC/FIELD."""
+        return {f"{topic}/{name}": box for name, box in self._boxes.items()}
+
+    def values(self, topic: str, message: Message) -> dict:
+        """What the message has in them."""
+        return {f"{topic}/{name}": np.array(getattr(message, name), box.dtype).reshape(box.shape)
+                for name, box in self._boxes.items()}
+
+
+class Array:
+    """What a function makes of a message, in a space that you state."""
+
+    def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
+        self.message_type = message_type
+        self._function = function
+        self._space = space
+
+    def spaces(self, topic: str) -> dict:
+        """The space, under the topic's name."""
+        return {topic: self._space}
+
+    def values(self, topic: str, message: Message) -> dict:
+        """What the function says of the message. A ValueError where that is not in the space's shape."""
+        value = np.asarray(self._function(message), self._space.dtype)
+        if value.shape != self._space.shape:
+            raise ValueError(f"{topic}: the function's array has shape {value.shape}, its space {self._space.shape}")
+        return {topic: value}
+
+
+def box_of(field: dataclasses.Field) -> Box | None:
+    """The space of a message's field; None for texts, lists, and arrays, whose shape no type states."""
+    value = field.default
+    if value is dataclasses.MISSING:
+        return None
+    first, shape = (value[0], (len(value),)) if isinstance(value, tuple) else (value, (1,))
+    if isinstance(first, bool):
+        return Box(0, 1, shape, np.uint8)
+    if isinstance(first, int):
+        limits = np.iinfo(np.int64)
+        return Box(limits.min, limits.max, shape, np.int64)
+    return Box(-np.inf, np.inf, shape, np.float64) if isinstance(first, float) else None
+
+
+class Act:
+    """What an agent publishes: a function makes a message of the action, which is in `space`, and of what was seen last."""
+
+    def __init__(self, message_type: type, function: Callable[[np.ndarray, Any], Message], space: Box, *, port: str = "command"):
+        self.message_type = message_type
+        self.function = function
+        self.space = space
+        self.port = port
+
+
+def steer(*, heading_rad: Any = 0.0, speed_mps: Any = 1.0, depth_m: Any = float("nan")) -> Act:
+    """Guidance: grid heading, speed through the water, depth below the water level. Each is (least, most), and then one
+    number of the action, in this order, or fixed."""
+    given = {"heading_grid_rad": heading_rad, "speed_mps": speed_mps, "depth_m": depth_m}
+    chosen = {name: value for name, value in given.items() if isinstance(value, tuple)}
+    fixed = {name: value for name, value in given.items() if name not in chosen}
+    if not chosen:
+        raise ValueError("an action has at least one of heading_rad, speed_mps and depth_m as (least, most)")
+    least, most = np.array(list(chosen.values()), np.float32).T
+    return Act(Guidance, lambda action, seen: Guidance(stamp_ns=seen.t_ns, **fixed, **dict(zip(chosen, map(float, action)))),
+               Box(least, most, dtype=np.float32))
+
+
+def checked(action: Any, space: Box) -> np.ndarray:
+    """The action as an array of the space. A TypeError or a ValueError says what is wrong with it."""
+    given = np.asarray(action)
+    if given.dtype.kind not in "fiu" or not np.can_cast(given.dtype, space.dtype, "same_kind"):
+        raise TypeError(f"an action of {given.dtype} does not fit {space.dtype}")
+    if given.shape != space.shape:
+        raise ValueError(f"the action has shape {given.shape}, not {space.shape}")
+    array = given.astype(space.dtype)
+    wrong = np.argwhere(~((array >= space.low) & (array <= space.high)))  # NaN is in no range
+    if len(wrong):
+        at = tuple(wrong[0])
+        raise ValueError(f"action[{', '.join(map(str, at))}]: {array[at]:g} is outside [{space.low[at]:g}, {space.high[at]:g}]")
+    return array

@@ -1,0 +1,11 @@
+"""Registered environments: `gymnasium.make("Ensonify/AltitudeHold-v0")`. Each has a file of its own and a launch file."""
+import gymnasium
+
+TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow"}
+
+
+def register() -> None:
+    """Makes the tasks known to Gymnasium, once."""
+    for name, module in TASKS.items():
+        if f"Ensonify/{name}-v0" not in gymnasium.registry:
+            gymnasium.register(f"Ensonify/{name}-v0", entry_point=f"ensonify.tasks.{module}:{name}")

@@ -1,0 +1,333 @@
+"""The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
+import importlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from unittest import mock
+
+import gymnasium
+import numpy as np
+from gymnasium.utils.env_checker import check_env
+
+import ensonify
+from ensonify.images import picture
+from ensonify.spaces import checked
+from ensonify.tasks import TASKS
+from ensonify.tasks.__main__ import measured
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+TASK = "Ensonify/AltitudeHold-v0"
+LAUNCH = pathlib.Path(ensonify.__file__).parent / "tasks" / "altitude_hold.yaml"
+
+
+def environment(**changes):
+    """One that sees its altitude and orders depths."""
+    return ensonify.Env(**{"launch": LAUNCH, "observe": {"nav/altitude": ensonify.Fields(ensonify.Altitude)},
+                           "act": ensonify.steer(speed_mps=1.5, depth_m=(10, 28)), "truth": {"judge/altitude": ensonify.Altitude},
+                           "reward": lambda seen: -abs(seen["judge/altitude"].range_m - 6), "seconds": 2, **changes})
+
+
+def process(out, name):
+    """The process id of one process of the launch whose results go to `out`."""
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().decode().split("\0")
+        except OSError:
+            continue
+        if "--name" in words and words[words.index("--name") + 1] == name and str(out) in words:
+            return int(folder.name)
+    raise AssertionError(f"{name} does not run")
+
+
+class Spaces(unittest.TestCase):
+    def test_fields_become_arrays_of_their_own_kind(self):
+        spaces = ensonify.Fields(ensonify.VelocityLog).spaces("nav/velocity_log")
+        self.assertNotIn("nav/velocity_log/stamp_ns", spaces)
+        self.assertEqual(spaces["nav/velocity_log/range_m"], gymnasium.spaces.Box(-np.inf, np.inf, (4,), np.float64))
+        self.assertEqual(spaces["nav/velocity_log/bottom_lock"], gymnasium.spaces.Box(0, 1, (1,), np.uint8))
+        message = ensonify.VelocityLog(bottom_lock=True, range_m=(1.0, 2.0, 3.0, 4.0))
+        for key, value in ensonify.Fields(ensonify.VelocityLog).values("nav/velocity_log", message).items():
+            self.assertTrue(spaces[key].contains(value), key)
+
+    def test_fields_without_a_shape_or_of_no_message_are_named(self):
+        with self.assertRaisesRegex(ValueError, r"^ping/1.amplitude_upa has no fixed shape: make an array of it with ensonify.Array"):
+            ensonify.Fields(ensonify.Ping, "amplitude_upa")
+        with self.assertRaisesRegex(ValueError, r"^depth/1 has no field depth; it has stamp_ns, depth_m$"):
+            ensonify.Fields(ensonify.Depth, "depth")
+
+    def test_a_function_makes_an_array_of_the_stated_shape(self):
+        box = gymnasium.spaces.Box(0, 100, (2,), np.float32)
+        part = ensonify.Array(ensonify.Depth, lambda depth: [depth.depth_m, 1], box)
+        self.assertEqual(part.values("nav/depth", ensonify.Depth(depth_m=3.0))["nav/depth"].tolist(), [3, 1])
+        with self.assertRaisesRegex(ValueError, r"^nav/depth: the function's array has shape \(1,\), its space \(2,\)$"):
+            ensonify.Array(ensonify.Depth, lambda depth: [1], box).values("nav/depth", ensonify.Depth())
+
+    def test_an_action_must_fit_its_space(self):
+        box = gymnasium.spaces.Box(np.float32([-1, 0]), np.float32([1, 5]))
+        self.assertEqual(checked([0, 2], box).dtype, np.float32)
+        for action, error, text in (
+                ([0.0], ValueError, r"^the action has shape \(1,\), not \(2,\)$"),
+                ([0.0, np.nan], ValueError, r"^action\[1\]: nan is outside \[0, 5\]$"),
+                ([-1.5, 2.0], ValueError, r"^action\[0\]: -1.5 is outside \[-1, 1\]$"),
+                (["a", "b"], TypeError, r"^an action of <U1 does not fit float32$"),
+                ([1j, 0], TypeError, r"^an action of complex128 does not fit float32$")):
+            with self.assertRaisesRegex(error, text):
+                checked(action, box)
+
+    def test_steering_takes_what_is_a_range_from_the_action(self):
+        act = ensonify.steer(heading_rad=(-np.pi, np.pi), speed_mps=1.5, depth_m=(0, 40))
+        seen = mock.Mock(t_ns=7)
+        command = act.function(np.float32([0.5, 12]), seen)
+        self.assertEqual((command.stamp_ns, command.heading_grid_rad, command.speed_mps, command.depth_m), (7, 0.5, 1.5, 12.0))
+        with self.assertRaisesRegex(ValueError, "at least one of heading_rad, speed_mps and depth_m"):
+            ensonify.steer(speed_mps=1.5)
+
+    def test_truth_is_not_observed(self):
+        seen = {"judge/altitude": ensonify.Fields(ensonify.Altitude)}
+        with self.assertRaisesRegex(ValueError, "^judge/altitude is marked as truth: reward and done may read it, an observation may not$"):
+            environment(observe=seen)
+        with self.assertRaisesRegex(ValueError, "^auv/pose is pose/1, which is truth"):
+            environment(observe={"auv/pose": ensonify.Fields(ensonify.Pose)})
+
+
+class Episodes(unittest.TestCase):
+    def make(self, **changes):
+        env = environment(**changes)
+        self.addCleanup(env.close)
+        return env
+
+    def test_the_official_checker_is_content(self):
+        for name in TASKS:
+            env = gymnasium.make(f"ensonify:Ensonify/{name}-v0")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", UserWarning)
+                warnings.filterwarnings("ignore", message=".*observation space (minimum|maximum) value")
+                check_env(env.unwrapped)
+            env.close()
+
+    def test_the_same_seed_and_actions_give_the_same_observations(self):
+        env = self.make()
+
+        def episode(seed):
+            seen, info = env.reset(seed=seed)
+            self.assertEqual(info["seed"], seed)
+            observed, over = [seen], False
+            for depth_m in np.linspace(12, 26, 30):
+                if not over:
+                    seen, reward, terminated, over, _ = env.step(np.float32([depth_m]))
+                    observed.append({**seen, "reward": np.float64(reward)})
+                    self.assertFalse(terminated)
+            self.assertTrue(over)  # after 2 s
+            self.assertEqual(len(observed), 21)
+            return [{key: value.tobytes() for key, value in one.items()} for one in observed]
+
+        first = episode(3)
+        self.assertEqual(first, episode(3))
+        self.assertNotEqual(first, episode(4))
+
+    def test_vector_environments_run_several_launches(self):
+        for mode in ("sync", "async"):
+            envs = gymnasium.make_vec(TASK, 2, vectorization_mode=mode)
+            seen, _ = envs.reset(seed=[5, 6])
+            for _ in range(10):
+                seen, *_ = envs.step(np.full((2, 1), 0.5, np.float32))
+            self.assertEqual(seen["nav/altitude/range_m"].shape, (2, 1))
+            self.assertNotEqual(*seen["nav/altitude/range_m"].ravel())
+            envs.close()
+
+    def test_baselines_earn_what_the_manual_says(self):
+        page = (ROOT / "docs/manual/gymnasium.md").read_text()
+        for name, module in TASKS.items():
+            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((\d+) to (\d+)\) \|$", page, re.M).groups())
+            env = gymnasium.make(f"Ensonify/{name}-v0")
+            policy = importlib.import_module(f"ensonify.tasks.{module}").Baseline()
+            total, _, _ = measured(env, policy, seed=101)
+            env.close()
+            self.assertTrue(least - 0.5 <= total <= most + 0.5, f"{name}: {total}")
+
+    def test_done_ends_an_episode_and_no_step_follows(self):
+        env = self.make(done=lambda seen: seen["judge/altitude"].range_m > 1)
+        with self.assertRaisesRegex(gymnasium.error.ResetNeeded, r"^there is no episode yet: call reset\(\) first$"):
+            env.step(np.float32([20]))
+        env.reset(seed=1)
+        self.assertEqual(env.step(np.float32([20]))[2:4], (True, False))
+        with self.assertRaisesRegex(gymnasium.error.ResetNeeded, r"^the episode has ended: call reset\(\) first$"):
+            env.step(np.float32([20]))
+        env.reset(seed=1)
+        env.close()
+        with self.assertRaisesRegex(gymnasium.error.ResetNeeded, r"^the environment was closed: call reset\(\) first$"):
+            env.step(np.float32([20]))
+
+    def test_a_bad_action_does_not_end_the_episode(self):
+        env = self.make()
+        env.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, r"^action\[0\]: nan is outside \[10, 28\]$"):
+            env.step(np.float32([np.nan]))
+        env.step(np.float32([20]))
+
+    def test_a_topic_that_nobody_publishes_is_named(self):
+        env = self.make(observe={"nav/altitud": ensonify.Fields(ensonify.Altitude)})
+        with self.assertRaisesRegex(ensonify.RunError, r"no process publishes nav/altitud \(did you mean nav/altitude\?\)"):
+            env.reset()
+
+    def test_a_topic_of_another_type_is_named(self):
+        env = self.make(observe={"nav/altitude": ensonify.Fields(ensonify.Depth)})
+        with self.assertRaisesRegex(ensonify.RunError, "nav/altitude is altitude/1, the input takes depth/1"):
+            env.reset()
+
+    def test_a_topic_that_stays_silent_is_named(self):
+        env = self.make(set={"nav.altimeter.outages_s": [0, 100]}, settle_s=2)
+        with self.assertRaisesRegex(TimeoutError, "^nav/altitude: nothing came within 2 s of sim time$"):
+            env.reset()
+
+    def test_parameters_may_change_with_each_reset(self):
+        env = self.make(set={"nav.altimeter.dropout": 0})
+        seen, _ = env.reset(seed=1, options={"set": {"nav.altimeter.dropout": 1}})
+        self.assertEqual(seen["nav/altitude/valid"], [0])
+        seen, _ = env.reset(seed=1)
+        self.assertEqual(seen["nav/altitude/valid"], [1])
+        with self.assertRaisesRegex(ensonify.RunError, "nav.altimeter.drop_out: is not a known key; did you mean dropout"):
+            env.reset(options={"set": {"nav.altimeter.drop_out": 1}})
+        with self.assertRaisesRegex(ValueError, r"^set: seed is given by reset\(seed=...\)$"):
+            env.reset(options={"set": {"seed": 1}})
+        with self.assertRaisesRegex(ValueError, "^options has 'sets'; allowed: 'set'$"):
+            env.reset(options={"sets": {}})
+
+    def test_a_process_that_dies_is_named(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            env = self.make(out=folder, seconds=1000)
+            env.reset(seed=1)
+            os.kill(process(f"{folder}/0000", "nav"), signal.SIGKILL)
+            with self.assertRaisesRegex(ensonify.RunError, "with exit code 3: process nav: was killed by signal 9") as raised:
+                for _ in range(5000):
+                    env.step(np.float32([20]))
+            self.assertEqual((raised.exception.code, raised.exception.culprit), (3, "nav"))
+            with self.assertRaisesRegex(gymnasium.error.ResetNeeded, "^the episode broke off"):
+                env.step(np.float32([20]))
+            env.reset(seed=1)  # and all is well again
+            env.step(np.float32([20]))
+
+    def test_a_process_that_hangs_is_noticed(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            env = self.make(out=folder, seconds=1000, patience_s=2)
+            env.reset(seed=1)
+            os.kill(process(f"{folder}/0000", "nav"), signal.SIGSTOP)
+            with self.assertRaisesRegex(ensonify.RunError, "^nav: no answer; agent: the others have made no progress for 2 s$") as raised:
+                for _ in range(5000):
+                    env.step(np.float32([20]))
+            self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "nav"))
+            with self.assertRaises(AssertionError):
+                process(f"{folder}/0000", "nav")
+
+    def test_a_launch_that_awaits_nobody_or_is_not_there_says_so(self):
+        with self.assertRaisesRegex(ensonify.RunError, "nowhere.yaml: no such file"):
+            self.make(launch="nowhere.yaml").reset()
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            alone = pathlib.Path(folder) / "alone.yaml"
+            alone.write_text(LAUNCH.read_text().replace("agent: { external: true }", ""))
+            with self.assertRaisesRegex(ensonify.RunError, "alone.yaml: awaits nobody: it needs a process with `external: true`"):
+                self.make(launch=alone).reset()
+
+    def test_two_environments_do_not_share_a_folder(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            first, second = self.make(out=folder), self.make(out=folder)
+            first.reset(seed=1)
+            with self.assertRaisesRegex(ensonify.RunError, f"{folder}/0000: another run puts its results there"):
+                second.reset(seed=1)
+            first.step(np.float32([20]))
+
+    def test_a_reward_may_depend_on_the_action(self):
+        env = self.make(reward=lambda seen: -float(seen.action[0]))
+        env.reset(seed=1, options={"set": {"nav.altimeter.rotation_deg": np.zeros(3)}})
+        self.assertEqual(env.step(np.float32([20]))[1], -20)
+        env = self.make(reward=lambda seen: float("nan"))
+        env.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, "^the reward at t = [0-9.]+ s is nan$"):
+            env.step(np.float32([20]))
+
+    def test_a_launch_that_ends_too_soon_says_when(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            short = pathlib.Path(folder) / "short.yaml"
+            short.write_text(LAUNCH.read_text().replace("duration_s: 3600", "duration_s: 1"))
+            env = self.make(launch=short, seconds=1000)
+            env.reset(seed=1)
+            with self.assertRaisesRegex(ensonify.RunError, "the run ended at t = 1.000 s with exit code 0"):
+                for _ in range(5000):
+                    env.step(np.float32([20]))
+
+
+    def test_a_picture_is_the_newest_ping_with_port_left_and_far_first(self):
+        ping = ensonify.Ping(beam_angle_rad=np.float32([0.1, -0.1]), amplitude_upa=np.float32([[1000, 1, 100], [1, 10, 1000]]))
+        image = picture(ping)  # of the port beam 60, 40 and 0 dB below the strongest
+        self.assertEqual(image[..., 0].tolist(), [[255, 170], [85, 0], [0, 255]])
+        self.assertEqual((image.shape, image.dtype), ((3, 2, 3), np.uint8))
+
+    def test_a_head_renders(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            with_head = pathlib.Path(folder) / "with_head.yaml"
+            head = "  eye: { run: multibeam, config: { beams: 16, ping_rate_hz: 5 } }\n  agent: {"
+            text = LAUNCH.read_text().replace("  agent: {", head)
+            text += "wiring: { eye.estimate: nav/estimate, eye.sound_speed: nav/sound_speed, eye.attitude: nav/attitude }\n"
+            with_head.write_text(text.replace("      start:", "      mountings: { eye: { actual: {} } }\n      start:"))
+            env = self.make(launch=with_head, image="eye/ping", render_mode="rgb_array")
+            env.reset(seed=1)
+            image = env.render()
+            self.assertEqual((image.shape[1:], image.dtype, image.max()), ((16, 3), np.uint8, 255))
+        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=TOPIC"):
+            environment(render_mode="rgb_array")
+
+
+class Surroundings(unittest.TestCase):
+    def test_without_the_programs_an_exception_says_so(self):
+        with mock.patch.dict(os.environ, {"ENSONIFY_BIN": "/nowhere"}):
+            with self.assertRaisesRegex(ensonify.RunError, r"^the program `ensonify` is not in /nowhere \(ENSONIFY_BIN\)$"):
+                environment().reset()
+        with mock.patch.dict(os.environ, {"PATH": "/nowhere"}):
+            del os.environ["ENSONIFY_BIN"]
+            with self.assertRaisesRegex(ensonify.RunError, "^the program `ensonify` is not on PATH; ENSONIFY_BIN can name the folder"):
+                environment().reset()
+
+    def test_without_gymnasium_the_rest_of_the_client_works(self):
+        program = "import sys; sys.modules['gymnasium'] = None; import ensonify; ensonify.Observer; ensonify.Env"
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+        self.assertIn("ImportError: ensonify.Env needs Gymnasium: pip install 'ensonify[gym]'", done.stderr)
+
+    def test_the_manuals_code_runs_as_it_stands(self):
+        code = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/manual/gymnasium.md").read_text(), re.M | re.S)
+        self.assertEqual(len(code), 3)
+        done = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(float(done.stdout), 440)
+
+    def test_the_launch_files_of_tasks_are_installed_with_the_client(self):
+        client = pathlib.Path(__file__).resolve().parents[1]
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            source, target = pathlib.Path(folder) / "source", pathlib.Path(folder) / "installed"
+            shutil.copytree(client, source / "clients" / "python", symlinks=True, ignore=shutil.ignore_patterns("build", "*.egg-info"))
+            shutil.copytree(client.parents[1] / "launch", source / "launch")
+            subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation",
+                            "--target", target, source / "clients" / "python"], check=True)
+            for file in (client / "ensonify" / "tasks").glob("*.yaml"):
+                self.assertEqual((target / "ensonify" / "tasks" / file.name).read_text(), file.read_text())
+
+    def test_a_launch_ends_with_the_program_that_started_it(self):
+        program = ("import os, signal, sys, gymnasium, ensonify; env = gymnasium.make('Ensonify/AltitudeHold-v0', out=sys.argv[1]);"
+                   "env.reset(seed=1); print('started', flush=True); ENDING")
+        for ending in ("raise SystemExit", "os.kill(os.getpid(), signal.SIGKILL)"):
+            with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+                done = subprocess.run([sys.executable, "-c", program.replace("ENDING", ending), folder], capture_output=True, text=True)
+                self.assertEqual(done.stdout, "started\n", done.stderr)
+                result = pathlib.Path(folder) / "0000" / "run.json"
+                while not result.exists():  # written last; a run that goes on is ended by the test's time limit
+                    pass
+
+
+if __name__ == "__main__":
+    unittest.main()
