@@ -20,6 +20,7 @@ from drive_bench import bench_drive
 from environment_bench import bench_environment
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
+from logger_bench import bench_logger
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
 from uncertainty_bench import bench_uncertainty
@@ -39,7 +40,7 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "logger": bench_logger,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty,
            "kernels": bench_kernels}
 
