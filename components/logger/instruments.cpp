@@ -39,6 +39,17 @@ void check_instrument(const std::string& process, const LoggedFormats& formats, 
   }
 }
 
+void check_soundings(const std::string& process, const LoggedFormats& formats, const std::string& head,
+                     std::size_t soundings) {
+  constexpr std::size_t kMostSoundings = 1'024;
+  const auto unwanted = std::find_if(formats.begin(), formats.end(), is_kongsberg);
+  if (unwanted == formats.end() || soundings <= kMostSoundings) return;
+  throw UserError(
+      fmt::format("{}: formats: {}: {} gives {} soundings a ping, and readers of the format have room for {}; "
+                  "allowed: fewer beams, soundings or detections_per_beam, or xtf",
+                  process, *unwanted, head, soundings, kMostSoundings));
+}
+
 std::string simulated_by(const std::string& instrument) {
   const bool generic = instrument.empty() || instrument == "generic";
   return generic ? "simulated by Ensonify: a generic head" : "simulated by Ensonify";

@@ -13,6 +13,10 @@ namespace ensonify::logger {
 void check_instrument(const std::string& process, const LoggedFormats& formats, const std::string& head,
                       const msg::HeadDeclaration& declared);
 
+/// Throws UserError where a ping has more soundings than Kongsberg's formats hold.
+void check_soundings(const std::string& process, const LoggedFormats& formats, const std::string& head,
+                     std::size_t soundings);
+
 /// What files say of how they came to be: "simulated by Ensonify" and, of a generic head, that it is one. Without
 /// commas.
 std::string simulated_by(const std::string& instrument);

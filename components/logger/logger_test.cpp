@@ -330,6 +330,10 @@ TEST_CASE(
   CHECK_NOTHROW(check({"all"}, declared("generic", 200e3)));
   CHECK_THROWS_WITH(check({"all"}, declared("generic", 100e3)), Contains("bow sends at 100 kHz; allowed: xtf"));
   CHECK_NOTHROW(check({"all"}, {}));  // a record of before
+  CHECK_NOTHROW(logger::check_soundings("log", {"all"}, "bow", 1'024));
+  CHECK_NOTHROW(logger::check_soundings("log", {"xtf"}, "bow", 2'048));
+  CHECK_THROWS_WITH(logger::check_soundings("log", {"kmall"}, "bow", 1'025),
+                    Contains("bow gives 1025 soundings a ping") && Contains("1024"));
   CHECK(logger::simulated_by("em2040") == "simulated by Ensonify");
   CHECK_THAT(logger::simulated_by("generic"), Contains("generic head"));
 }

@@ -31,7 +31,10 @@ LoggerNode::LoggerNode(const Config& config, Ports& ports)
     : config_(config), ports_(ports), due_(kEventRate), files_(ports.out_dir() / config.folder) {
   if (config.origin) world_.emplace(*config.origin);
   if (!config.head.empty()) {
-    ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) { log().take(soundings); });
+    ports.in<msg::Soundings>("soundings", [this](const msg::Soundings& soundings) {
+      logger::check_soundings(ports_.process(), config_.formats, config_.head, soundings.beam_angle_rad.size());
+      log().take(soundings);
+    });
     ports.in<msg::SeabedImage>("seabed_image", [this](const msg::SeabedImage& image) { log().take(image); },
                                {.optional = true});
     if (config.water_column()) {
