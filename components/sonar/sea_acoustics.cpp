@@ -78,8 +78,7 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
               memory.insonified);
   }
   const profile::Span span(profile::Stage::kMerge);
-  echo::SpeckleCells::gather(memory.insonified, memory.scatterers);
-  return {memory.scatterers, sums};
+  return {echo::SpeckleCells::gather(memory.insonified), sums};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.

@@ -115,7 +115,7 @@ struct Shot {
   std::span<const array::Pattern> transmit;  // of all transducers that send at once
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
   /// So many rays are in memory at a time; a multiple of 16. No more depends on it than the rounding of the mean depth.
-  std::size_t rays_per_batch = 65'536;
+  std::size_t rays_per_batch = 16'384;
   /// After transmission. Nobody receives echoes that arrive later (latest_arrival_s).
   double latest_s = std::numeric_limits<double>::infinity();
 
@@ -170,7 +170,6 @@ struct ShotMemory {
   std::vector<float> source_upa2m2, backscatter;
   // Of all.
   echo::SpeckleCells::Accumulator insonified;
-  echo::Scatterers scatterers;
   echo::Receivers receivers;
   echo::EchoMemory echoes;
   echo::Arrivals arrivals;

@@ -48,7 +48,7 @@ struct Ping {
   trace::Hits hits;
   echo::SpeckleCells cells{0.075, {1, "seabed"}};
   echo::SpeckleCells::Accumulator sum;
-  echo::Scatterers found;
+  const echo::Scatterers* found = nullptr;
   echo::Receivers receivers;
   echo::Arrivals arrivals;
   echo::LineReceiver receiver{echo::element_line(receive_array(), kWave_m)};
@@ -83,11 +83,11 @@ struct Ping {
     for (std::size_t i = 0; i < hits.size(); ++i) backscatter[i] = normal * hits[i].sin_grazing * hits[i].sin_grazing;
     sum.clear();
     cells.add({kHead, rays, hits, source, backscatter}, sum);
-    echo::SpeckleCells::gather(sum, found);
+    found = &echo::SpeckleCells::gather(sum);
   }
   void arrive() {
     arrivals.clear();
-    echo::add_direct_echoes({300e3, 0.07}, kHead.position_enu_m, found, receivers, arrivals);
+    echo::add_direct_echoes({300e3, 0.07}, kHead.position_enu_m, *found, receivers, arrivals);
   }
   void form(std::uint64_t number) {
     receiver.form(
@@ -201,7 +201,7 @@ void part_of_ping(benchmark::State& state, const Part& part) {
   ping.whole(0);
   for (auto _ : state) part(ping);
   set_rays(state, ping.rays.size());
-  state.counters["scatterers"] = static_cast<double>(ping.found.size());
+  state.counters["scatterers"] = static_cast<double>(ping.found->size());
 }
 void trace_part(benchmark::State& state) {
   part_of_ping(state, [](Ping& ping) { ping.trace(); });
@@ -233,8 +233,8 @@ void echoes_part(benchmark::State& state) {
   const echo::Multipath multipath{{220.0, {&transmit, 1}}, {}, {}};
   const echo::Multipath* const by = state.range(0) != 0 ? &multipath : nullptr;
   echo::EchoMemory memory;
-  for (auto _ : state) echo::make_echoes({300e3, 0.07}, kHead, ping.found, ping.receivers, by, memory, ping.arrivals);
-  set_rays(state, ping.found.size());
+  for (auto _ : state) echo::make_echoes({300e3, 0.07}, kHead, *ping.found, ping.receivers, by, memory, ping.arrivals);
+  set_rays(state, ping.found->size());
 }
 
 /// Echoes of a chirp that lasts for 15 samples onto the beams of an imaging head: each arrival is spread over 15

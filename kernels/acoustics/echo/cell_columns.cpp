@@ -21,22 +21,32 @@ inline std::uint64_t steps(double whole) {
   return static_cast<std::uint64_t>(static_cast<std::int32_t>(whole - kTurn * std::floor(whole * (1.0 / kTurn))));
 }
 
+/// A cell's number, of its steps east, north and up.
+inline std::uint64_t cell_at(double east, double north, double up) {
+  return steps(east) | steps(north) << kCellBits | steps(up) << (2 * kCellBits);
+}
+
 }  // namespace
+
+void find_cells(const trace::Hits& hits, double cell_m, std::size_t first, std::span<std::uint64_t> cells) {
+  const double per_cell = 1.0 / cell_m;
+  const double *const x = hits.position_enu_m.x.data() + first, *const y = hits.position_enu_m.y.data() + first,
+                      *const z = hits.position_enu_m.z.data() + first;
+  const float* const range_m = hits.range_m.data() + first;
+  const double shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
+  std::uint64_t* const cell = cells.data();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint64_t number = cell_at(std::floor(x[i] * per_cell + shift_x), std::floor(y[i] * per_cell + shift_y),
+                                         std::floor(z[i] * per_cell + shift_z));
+    cell[i] = range_m[i] > 0.0F ? number : kNoCell;
+  }
+}
 
 void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits) {
   alignas(64) Column<std::uint64_t> cell;
   alignas(64) Column<float> scattered, cross_section;
   const std::size_t count = hits.size();
-  const double per_cell = 1.0 / cell_m;
-  const double *const x = batch.hits.position_enu_m.x.data() + first,
-                      *const y = batch.hits.position_enu_m.y.data() + first,
-                      *const z = batch.hits.position_enu_m.z.data() + first;
-  const double shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
-  for (std::size_t i = 0; i < count; ++i) {
-    cell[i] = steps(std::floor(x[i] * per_cell + shift_x)) | steps(std::floor(y[i] * per_cell + shift_y)) << kCellBits |
-              steps(std::floor(z[i] * per_cell + shift_z)) << (2 * kCellBits);
-  }
-  const float* const range_m = batch.hits.range_m.data() + first;
+  find_cells(batch.hits, cell_m, first, std::span(cell).first(count));
   const float* const sin_grazing = batch.hits.sin_grazing.data() + first;
   const float* const tube_m2 = batch.hits.tube_m2.data() + first;
   const float* const solid_angle_sr = batch.rays.solid_angle_sr.data() + first;
@@ -49,8 +59,7 @@ void find_cells(const Insonification& batch, double cell_m, std::size_t first, s
   }
   const std::uint32_t* const contributor = batch.hits.contributor.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
-    hits[i] = {range_m[i] > 0.0F ? cell[i] : kNoCell, static_cast<std::uint32_t>(first + i), contributor[i],
-               scattered[i], cross_section[i]};
+    hits[i] = {cell[i], static_cast<std::uint32_t>(first + i), contributor[i], scattered[i], cross_section[i]};
   }
 }
 
@@ -96,33 +105,41 @@ struct Bits {
 }  // namespace
 
 void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
-                   std::span<const std::uint64_t> cells, std::span<const std::uint32_t> rays, CellGeometry* found) {
-  const std::size_t count = cells.size();
-  Gathered hit(batch, rays);
-  const Bits bits(stream, cells);
-  // Somewhere in the cell, then down to the facet.
-  alignas(64) Column<double> off_x, off_y, off_z;
+                   std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first) {
+  const std::size_t count = rays.size();
+  const Gathered hit(batch, rays);
   const double per_cell = 1.0 / cell_m, shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
-  const auto somewhere = [=](double position, double shift, std::uint32_t inside) {
-    const double cell = std::floor(position * per_cell + shift);
-    return cell_m * (cell + 0x1p-16 * static_cast<std::int32_t>(inside) - shift);
+  alignas(64) Column<double> east, north, up;  // steps of the cell, then how far the scatterer is from the hit
+  alignas(64) Column<std::uint64_t> cell;
+  for (std::size_t i = 0; i < count; ++i) {
+    east[i] = std::floor(hit.x[i] * per_cell + shift_x);
+    north[i] = std::floor(hit.y[i] * per_cell + shift_y);
+    up[i] = std::floor(hit.z[i] * per_cell + shift_z);
+  }
+  for (std::size_t i = 0; i < count; ++i) cell[i] = cell_at(east[i], north[i], up[i]);
+  const Bits bits(stream, std::span(cell).first(count));
+  // Somewhere in the cell, then down to the facet.
+  const auto somewhere = [=](double steps, double shift, std::uint32_t inside) {
+    return cell_m * (steps + 0x1p-16 * static_cast<std::int32_t>(inside) - shift);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    off_x[i] = somewhere(hit.x[i], shift_x, bits.word[2][i] & 0xffff) - hit.x[i];
-    off_y[i] = somewhere(hit.y[i], shift_y, bits.word[2][i] >> 16) - hit.y[i];
-    off_z[i] = somewhere(hit.z[i], shift_z, bits.word[3][i] & 0xffff) - hit.z[i];
+    east[i] = somewhere(east[i], shift_x, bits.word[2][i] & 0xffff) - hit.x[i];
+    north[i] = somewhere(north[i], shift_y, bits.word[2][i] >> 16) - hit.y[i];
+    up[i] = somewhere(up[i], shift_z, bits.word[3][i] & 0xffff) - hit.z[i];
   }
-  alignas(64) Column<double> at_x, at_y, at_z;
+  double *const at_x = found.position_enu_m.x.data() + first, *const at_y = found.position_enu_m.y.data() + first,
+                *const at_z = found.position_enu_m.z.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
     const auto nx = static_cast<double>(hit.normal_x[i]), ny = static_cast<double>(hit.normal_y[i]),
                nz = static_cast<double>(hit.normal_z[i]);
-    const double above = nx * off_x[i] + ny * off_y[i] + nz * off_z[i];
-    at_x[i] = hit.x[i] + (off_x[i] - nx * above);
-    at_y[i] = hit.y[i] + (off_y[i] - ny * above);
-    at_z[i] = hit.z[i] + (off_z[i] - nz * above);
+    const double above = nx * east[i] + ny * north[i] + nz * up[i];
+    at_x[i] = hit.x[i] + (east[i] - nx * above);
+    at_y[i] = hit.y[i] + (north[i] - ny * above);
+    at_z[i] = hit.z[i] + (up[i] - nz * above);
   }
   // The ray's direction at the head, less that of the straight line.
-  alignas(64) Column<float> bend_x, bend_y, bend_z;
+  float *const bend_x = found.bend_enu.x.data() + first, *const bend_y = found.bend_enu.y.data() + first,
+               *const bend_z = found.bend_enu.z.data() + first;
   const Eigen::Matrix3d R = batch.pose.enu_from_head.toRotationMatrix();
   const frames::Vec3 head = batch.pose.position_enu_m;
   for (std::size_t i = 0; i < count; ++i) {
@@ -134,7 +151,7 @@ void find_geometry(const Insonification& batch, double cell_m, const random::Str
     bend_z[i] = static_cast<float>(R(2, 0) * x + R(2, 1) * y + R(2, 2) * z - (hit.z[i] - head.z()) * per_m);
   }
   // A complex Gaussian of mean square 1 (Box and Muller [BoxMuller1958]).
-  alignas(64) Column<float> re, im;
+  float *const re = found.response_re.data() + first, *const im = found.response_im.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
     const float u = (static_cast<float>(static_cast<std::int32_t>(bits.word[0][i] >> 8)) + 0.5F) * 0x1p-24F;
     const float radius = std::sqrt(-fast_math::log(u));
@@ -142,20 +159,13 @@ void find_geometry(const Insonification& batch, double cell_m, const random::Str
     re[i] = radius * direction.cosine;
     im[i] = radius * direction.sine;
   }
+  float *const slowness_spm = found.slowness_spm.data() + first, *const stretch = found.stretch.data() + first,
+               *const spreading = found.spreading.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
     const float range_m = hit.range_m[i];
-    hit.time_s[i] /= range_m;
-    hit.length_m[i] /= range_m;
-    hit.tube_m2[i] /= range_m * range_m;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    found[i] = {{at_x[i], at_y[i], at_z[i]},
-                {bend_x[i], bend_y[i], bend_z[i]},
-                hit.time_s[i],
-                hit.length_m[i],
-                hit.tube_m2[i],
-                re[i],
-                im[i]};
+    slowness_spm[i] = hit.time_s[i] / range_m;
+    stretch[i] = hit.length_m[i] / range_m;
+    spreading[i] = hit.tube_m2[i] / (range_m * range_m);
   }
 }
 

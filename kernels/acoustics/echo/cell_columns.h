@@ -37,18 +37,15 @@ struct CellHit {
   float scattered_upa2m2, cross_section_m2;
 };
 
+/// Cells of rays first..first + cells.size() - 1, kCellRun at most.
+void find_cells(const trace::Hits& hits, double cell_m, std::size_t first, std::span<std::uint64_t> cells);
 /// Parts of rays first..first + hits.size() - 1, kCellRun at most.
 void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits);
 
-/// Where a cell's scatterer is and what is known of it before energies are summed: from one ray that hit the cell.
-struct CellGeometry {
-  frames::Vec3 position_enu_m;
-  Eigen::Vector3f bend_enu;
-  float slowness_spm, stretch, spreading, response_re, response_im;
-};
-
-/// For cells, kCellRun at most, each with its ray. Position and response depend on (stream, cell) and on the facet.
+/// Where the scatterers of cells are and what is known of them before energies are summed, into rows first.. of
+/// `found`: one for each of these rays, kCellRun at most, that hit something. Position and response depend on (stream,
+/// cell) and on the facet.
 void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
-                   std::span<const std::uint64_t> cells, std::span<const std::uint32_t> rays, CellGeometry* found);
+                   std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first);
 
 }  // namespace ensonify::echo

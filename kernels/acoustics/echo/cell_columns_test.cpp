@@ -88,35 +88,36 @@ TEST_CASE("a scatterer's position and response are those of its cell's bits, one
   const Hits some(1000);
   const random::Stream stream{5, "seabed"};
   const double cell_m = 0.05;
-  std::vector<std::uint64_t> cells;
   std::vector<std::uint32_t> rays;
-  for (std::uint32_t ray = 0; cells.size() < 250; ray += 3) {
-    if (!some.hits.hit(ray)) continue;
-    cells.push_back(number(steps(some.hits[ray].position_enu_m, cell_m)));
-    rays.push_back(ray);
+  for (std::uint32_t ray = 0; rays.size() < 250; ray += 3) {
+    if (some.hits.hit(ray)) rays.push_back(ray);
   }
-  std::vector<CellGeometry> found(cells.size());
-  find_geometry(some.all(), cell_m, stream, cells, rays, found.data());
+  constexpr std::size_t kBefore = 7;  // rows that others have
+  Scatterers all;
+  all.resize(kBefore + rays.size());
+  find_geometry(some.all(), cell_m, stream, rays, all, kBefore);
+  for (std::size_t i = 0; i < kBefore; ++i) REQUIRE(all.slowness_spm[i] == 0.0F);
   const Vec3 shift(0.3819660113, 0.6180339887, 0.2360679775);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Scatterer found = all[kBefore + i];
     const trace::Hit hit = some.hits[rays[i]];
-    const auto bits = stream.bits(cells[i]);
+    const auto cell = steps(hit.position_enu_m, cell_m);
+    const auto bits = stream.bits(number(cell));
     const Vec3 inside(double(bits[2] & 0xffff) / 65536, double(bits[2] >> 16) / 65536,
                       double(bits[3] & 0xffff) / 65536);
-    const auto cell = steps(hit.position_enu_m, cell_m);
     const Vec3 at = cell_m * (Vec3(double(cell[0]), double(cell[1]), double(cell[2])) + inside - shift);
     const Vec3 normal = hit.normal_enu.cast<double>();
     const Vec3 on_facet = at - normal * normal.dot(at - hit.position_enu_m);
-    REQUIRE((found[i].position_enu_m - on_facet).norm() < 1e-11);
+    REQUIRE((found.position_enu_m - on_facet).norm() < 1e-11);
     const Vec3 straight = (hit.position_enu_m - some.pose.position_enu_m) / double(hit.range_m);
     const Vec3 launch = some.pose.enu_from_head * some.rays[rays[i]].direction_head.cast<double>();
-    REQUIRE((found[i].bend_enu.cast<double>() - (launch - straight)).norm() < 1e-12);
+    REQUIRE((found.bend_enu.cast<double>() - (launch - straight)).norm() < 1e-12);
     const double radius = std::sqrt(-std::log((double(bits[0] >> 8) + 0.5) / 16777216));
     const auto response = std::polar(radius, 2 * std::numbers::pi * double(bits[1]) / 4294967296);
-    REQUIRE(std::abs(std::complex<double>(found[i].response_re, found[i].response_im) - response) < 2e-6);
-    REQUIRE(found[i].slowness_spm == hit.travel_time_s / hit.range_m);
-    REQUIRE(found[i].stretch == hit.path_length_m / hit.range_m);
-    REQUIRE(double(found[i].spreading) == Approx(0.9).epsilon(1e-6));
+    REQUIRE(std::abs(std::complex<double>(found.response) - response) < 2e-6);
+    REQUIRE(found.slowness_spm == hit.travel_time_s / hit.range_m);
+    REQUIRE(found.stretch == hit.path_length_m / hit.range_m);
+    REQUIRE(double(found.spreading) == Approx(0.9).epsilon(1e-6));
   }
 }
 

@@ -32,21 +32,17 @@ std::size_t after(std::size_t slot, std::size_t table_size) { return (slot + kLi
 
 }  // namespace
 
-void SpeckleCells::Bucket::reserve(std::size_t size) {
-  entries.reserve(size);
-  geometry.reserve(size);
-  rays.reserve(size);
-}
-
+/// The next ping may have some more: no memory for them then.
 void SpeckleCells::Accumulator::clear() {
   for (Bucket& bucket : buckets_) {
-    // The next ping may have some more: no memory for them then.
     const std::size_t size = bucket.entries.size();
     bucket.entries.clear();
-    bucket.geometry.clear();
-    if (bucket.entries.capacity() < size + size / 2) bucket.reserve(2 * size);
-    std::ranges::fill(bucket.table, -1);
+    bucket.numbered = 0;
+    if (bucket.entries.capacity() < size + size / 2) bucket.entries.reserve(2 * size);
   }
+  const std::size_t size = found_.size();
+  found_.clear();
+  found_.make_room(size + size / 8);
 }
 
 SpeckleCells::SpeckleCells(double cell_m, const random::Stream& stream) : cell_m_(cell_m), stream_(stream) {
@@ -54,82 +50,98 @@ SpeckleCells::SpeckleCells(double cell_m, const random::Stream& stream) : cell_m
 }
 
 void SpeckleCells::add(const Insonification& batch, Accumulator& sum) const {
-  const auto each_run = [&](std::size_t begin, std::size_t end, const auto& work) {
-    std::array<CellHit, kCellRun> hits;
-    for (; begin < end; begin += kCellRun) {
-      const auto run = std::span(hits).first(std::min(kCellRun, end - begin));
-      find_cells(batch, cell_m_, begin, run);
-      for (const CellHit& hit : run) work(hit);
-    }
+  const auto bucket_of = [](std::uint64_t cell) {
+    return cell == kNoCell ? kBuckets : static_cast<std::size_t>(spread(cell & kBlock) >> 56);
   };
-  const auto bucket_of = [](const CellHit& hit) {
-    return hit.cell == kNoCell ? kBuckets : static_cast<std::size_t>(spread(hit.cell & kBlock) >> 56);
+  const auto each_run = [](std::size_t begin, std::size_t end, auto& run, const auto& work) {
+    for (; begin < end; begin += kCellRun) work(begin, std::span(run).first(std::min(kCellRun, end - begin)));
   };
   sum.by_bucket_.count(batch.hits.size(), kBuckets, [&](std::size_t begin, std::size_t end, const auto& add) {
-    each_run(begin, end, [&](const CellHit& hit) { add(bucket_of(hit)); });
+    std::array<std::uint64_t, kCellRun> cells;
+    each_run(begin, end, cells, [&](std::size_t first, const auto& run) {
+      find_cells(batch.hits, cell_m_, first, run);
+      for (const std::uint64_t cell : run) add(bucket_of(cell));
+    });
   });
   sum.by_bucket_.fill([&](std::size_t begin, std::size_t end, const auto& add) {
-    each_run(begin, end, [&](const CellHit& hit) { add(bucket_of(hit), hit); });
+    std::array<CellHit, kCellRun> hits;
+    each_run(begin, end, hits, [&](std::size_t first, const auto& run) {
+      find_cells(batch, cell_m_, first, run);
+      for (const CellHit& hit : run) add(bucket_of(hit.cell), hit);
+    });
   });
+  sum.number_.assign(batch.hits.size(), 0);
   tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
-    merge(batch, std::as_const(sum.by_bucket_).bucket(bucket), sum.buckets_[bucket]);
+    merge(std::as_const(sum.by_bucket_).bucket(bucket), sum.buckets_[bucket], sum.number_);
   });
+  find_new(batch, sum);
+  tbb::parallel_for(std::size_t{0}, kBuckets,
+                    [&](std::size_t bucket) { number_new(sum.number_, sum.buckets_[bucket], sum.found_); });
 }
 
 /// Adds rays to the entries of their cells and contributors, which are made when they are first found.
-void SpeckleCells::merge(const Insonification& batch, std::span<const CellHit> hits, Bucket& bucket) const {
-  auto& [entries, geometry, table, rays] = bucket;
-  const std::size_t before = entries.size();
-  rays.clear();
+void SpeckleCells::merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes) {
+  if (hits.empty()) return;
+  auto& [entries, table, numbered] = bucket;
+  if (table.empty()) table.resize(kLeastTable);
+  if (entries.empty()) std::ranges::fill(table, -1);  // not before: the cache has it now
   for (const CellHit& hit : hits) {
     if (2 * (entries.size() + 1) > table.size()) grow(bucket);
     std::size_t slot = slot_of(hit.cell, table.size());
     while (table[slot] >= 0 && entries[static_cast<std::size_t>(table[slot])].cell != hit.cell)
       slot = after(slot, table.size());
     const auto number = static_cast<std::int32_t>(entries.size());
-    if (table[slot] < 0) {
-      table[slot] = number;
-      entries.push_back(
-          {hit.cell, hit.scattered_upa2m2, hit.cross_section_m2, hit.scattered_upa2m2, hit.contributor, number, -1});
-      rays.push_back(hit.ray);
+    const std::int32_t first = table[slot] >= 0 ? table[slot] : number;
+    std::int32_t* link = &table[slot];  // to the entry of this contributor
+    while (*link >= 0 && entries[static_cast<std::size_t>(*link)].contributor != hit.contributor)
+      link = &entries[static_cast<std::size_t>(*link)].next;
+    if (*link >= 0) {
+      Entry& same = entries[static_cast<std::size_t>(*link)];
+      same.scattered_upa2m2 += hit.scattered_upa2m2;
+      same.cross_section_m2 += hit.cross_section_m2;
       continue;
     }
-    Entry& cell = entries[static_cast<std::size_t>(table[slot])];
-    cell.scattered_upa2m2 += hit.scattered_upa2m2;
-    cell.cross_section_m2 += hit.cross_section_m2;
-    Entry* same = &cell;
-    while (same->contributor != hit.contributor && same->next >= 0)
-      same = &entries[static_cast<std::size_t>(same->next)];
-    if (same->contributor == hit.contributor) {
-      same->own_upa2m2 += hit.scattered_upa2m2;
-    } else {
-      same->next = number;
-      entries.push_back({hit.cell, 0.0F, 0.0F, hit.scattered_upa2m2, hit.contributor, table[slot], -1});
-      rays.push_back(hit.ray);
-    }
+    *link = number;
+    entries.push_back({hit.cell, hit.scattered_upa2m2, hit.cross_section_m2, hit.contributor, hit.ray, first, -1});
+    makes[hit.ray] = 1;
   }
-  find_new(batch, before, bucket);
 }
 
-/// Geometry of entries from `begin` on: of a cell's first by its ray, of the others that of the first.
-void SpeckleCells::find_new(const Insonification& batch, std::size_t begin, Bucket& bucket) const {
-  auto& [entries, geometry, table, rays] = bucket;
-  geometry.resize(entries.size());
-  std::array<std::uint64_t, kCellRun> cells;
-  for (std::size_t done = begin; done < entries.size(); done += kCellRun) {
-    const std::size_t count = std::min(kCellRun, entries.size() - done);
-    for (std::size_t i = 0; i < count; ++i) cells[i] = entries[done + i].cell;
-    find_geometry(batch, cell_m_, stream_, std::span(cells).first(count), std::span(rays).subspan(done - begin, count),
-                  geometry.data() + done);
+/// Numbers the scatterers that rays of this batch make, in the order of rays, and finds where they are.
+void SpeckleCells::find_new(const Insonification& batch, Accumulator& sum) const {
+  auto &number = sum.number_, &makers = sum.makers_;
+  const std::size_t before = sum.found_.size();
+  trace::make_elements(makers, number.size() + 1);
+  std::uint32_t count = 0;
+  for (std::uint32_t ray = 0; ray < number.size(); ++ray) {
+    const std::uint32_t makes = number[ray];
+    makers[count] = ray;
+    number[ray] = static_cast<std::uint32_t>(before) + count;
+    count += makes;
   }
-  for (std::size_t i = begin; i < entries.size(); ++i)
-    geometry[i] = geometry[static_cast<std::size_t>(entries[i].first)];
+  sum.found_.resize(before + count);
+  tbb::parallel_for(std::size_t{0}, (count + kCellRun - 1) / kCellRun, [&](std::size_t run) {
+    const std::size_t first = run * kCellRun;
+    const auto rays = std::span(makers).subspan(first, std::min(kCellRun, count - first));
+    find_geometry(batch, cell_m_, stream_, rays, sum.found_, before + first);
+  });
+}
+
+/// Gives new entries their scatterers' numbers. Those of one cell share the place and the response of its first.
+void SpeckleCells::number_new(std::span<const std::uint32_t> number, Bucket& bucket, Scatterers& found) {
+  auto& [entries, table, numbered] = bucket;
+  for (; numbered < entries.size(); ++numbered) {
+    Entry& entry = entries[numbered];
+    entry.scatterer = number[entry.scatterer];
+    const auto first = static_cast<std::size_t>(entry.first);
+    if (first != numbered) found.set(entry.scatterer, found[entries[first].scatterer]);
+  }
 }
 
 void SpeckleCells::grow(Bucket& bucket) {
   const auto& entries = bucket.entries;
   auto& table = bucket.table;
-  table.assign(std::max(kLeastTable, 2 * table.size()), -1);
+  table.assign(2 * table.size(), -1);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (static_cast<std::size_t>(entries[i].first) != i) continue;
     std::size_t slot = slot_of(entries[i].cell, table.size());
@@ -138,31 +150,36 @@ void SpeckleCells::grow(Bucket& bucket) {
   }
 }
 
-void SpeckleCells::gather(Accumulator& sum, Scatterers& found) {
-  auto& start = sum.start_;
-  start.assign(1, 0);
-  for (const Bucket& bucket : sum.buckets_) start.push_back(start.back() + bucket.entries.size());
-  found.make_elements(start.back());
-  tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t number) {
-    const auto& [entries, geometry, table, rays] = sum.buckets_[number];
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      const Entry& own = entries[i];
-      const Entry& cell = entries[static_cast<std::size_t>(own.first)];  // of all of its contributors
-      const CellGeometry& at = geometry[i];
-      Scatterer one{at.position_enu_m,
-                    at.bend_enu,
-                    at.slowness_spm,
-                    at.stretch,
-                    at.spreading,
-                    cell.scattered_upa2m2,
-                    cell.cross_section_m2,
-                    {at.response_re, at.response_im},
-                    1.0F,
-                    own.contributor};
-      if (cell.next >= 0 && one.scattered_upa2m2 > 0.0F) one.share = own.own_upa2m2 / one.scattered_upa2m2;
-      found.set(start[number] + i, one);
-    }
-  });
+/// Of all cells: a cell's contributors share what it scatters as their energies are.
+void SpeckleCells::take_energies(const Bucket& bucket, Scatterers& found) {
+  const auto& entries = bucket.entries;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (static_cast<std::size_t>(entries[i].first) != i) continue;
+    float scattered_upa2m2 = 0.0F, cross_section_m2 = 0.0F;
+    const auto each = [&](const auto& visit) {
+      for (const Entry* entry = &entries[i];; entry = &entries[static_cast<std::size_t>(entry->next)]) {
+        visit(*entry);
+        if (entry->next < 0) return;
+      }
+    };
+    each([&](const Entry& entry) {
+      scattered_upa2m2 += entry.scattered_upa2m2;
+      cross_section_m2 += entry.cross_section_m2;
+    });
+    each([&](const Entry& entry) {
+      const std::size_t k = entry.scatterer;
+      found.scattered_upa2m2[k] = scattered_upa2m2;
+      found.cross_section_m2[k] = cross_section_m2;
+      found.share[k] = scattered_upa2m2 > 0.0F ? entry.scattered_upa2m2 / scattered_upa2m2 : 1.0F;
+      found.contributor[k] = entry.contributor;
+    });
+  }
+}
+
+const Scatterers& SpeckleCells::gather(Accumulator& sum) {
+  tbb::parallel_for(std::size_t{0}, kBuckets,
+                    [&](std::size_t bucket) { take_energies(sum.buckets_[bucket], sum.found_); });
+  return sum.found_;
 }
 
 }  // namespace ensonify::echo

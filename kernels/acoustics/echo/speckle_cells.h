@@ -32,24 +32,22 @@ class SpeckleCells {
   /// Of a cell, one for each contributor: sums of its rays.
   struct Entry {
     std::uint64_t cell;
-    float scattered_upa2m2, cross_section_m2;  // of all contributors, in the cell's first entry
-    float own_upa2m2;                          // of this contributor
+    float scattered_upa2m2, cross_section_m2;
     std::uint32_t contributor;
+    std::uint32_t scatterer;   // while a batch is merged, of a new entry: the first ray
     std::int32_t first, next;  // entries of the cell; -1: there is no other
   };
   /// Cells that are near each other, in the order in which they are first found.
   struct Bucket {
     std::vector<Entry> entries;
-    std::vector<CellGeometry> geometry;  // of each entry
-    std::vector<std::int32_t> table;     // of cells' first entries, by hash
-    std::vector<std::uint32_t> rays;     // of a batch, the first of each new entry
-
-    void reserve(std::size_t size);
+    std::vector<std::int32_t> table;  // of cells' first entries, by hash; of an earlier ping while there are no entries
+    std::size_t numbered = 0;         // entries that have their scatterer
   };
 
  public:
   /// What the batches of a transmission have insonified so far. Memory of the caller's: as long as there are
-  /// scatterers, and as the longest batch.
+  /// scatterers, and as the longest batch. Scatterers are in the order of the rays that first find them, so the rows of
+  /// hits that make some are read, and those of scatterers written, one after the other and once.
   class Accumulator {
    public:
     Accumulator() : buckets_(kBuckets) {}
@@ -59,7 +57,9 @@ class SpeckleCells {
     friend SpeckleCells;
     Partition<CellHit> by_bucket_;
     std::vector<Bucket> buckets_;
-    std::vector<std::size_t> start_;
+    std::vector<std::uint32_t> number_;  // by ray of a batch: 1 if it makes a scatterer; then that one's number
+    std::vector<std::uint32_t> makers_;  // rays of a batch that make one
+    Scatterers found_;                   // yet without energies
   };
 
   /// Throws std::invalid_argument unless cell_m > 0.
@@ -72,13 +72,16 @@ class SpeckleCells {
   /// by the rays themselves. sin(theta) below 0.001 counts as that.
   void add(const Insonification& batch, Accumulator& sum) const;
 
-  /// The scatterers of all batches since the accumulator was cleared, in a fixed order. `found` is overwritten.
-  static void gather(Accumulator& sum, Scatterers& found);
+  /// The scatterers of all batches since the accumulator was cleared, in the order in which rays find them, whatever
+  /// the batches. They lie in the accumulator until it is cleared.
+  static const Scatterers& gather(Accumulator& sum);
 
  private:
-  void merge(const Insonification& batch, std::span<const CellHit> hits, Bucket& bucket) const;
-  void find_new(const Insonification& batch, std::size_t begin, Bucket& bucket) const;
+  static void merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes);
+  void find_new(const Insonification& batch, Accumulator& sum) const;
+  static void number_new(std::span<const std::uint32_t> number, Bucket& bucket, Scatterers& found);
   static void grow(Bucket& bucket);
+  static void take_energies(const Bucket& bucket, Scatterers& found);
 
   double cell_m_;
   random::Stream stream_;

@@ -153,18 +153,16 @@ TEST_CASE("threads change no bit of the scatterers, and they allocate once") {
   const auto hits = strip().hits(pose);
   const SpeckleCells cells(0.03, {1, "seabed"});
   SpeckleCells::Accumulator sum;
-  const auto ping = [&](std::size_t threads, Scatterers& found) {
+  const auto ping = [&](std::size_t threads) -> const Scatterers& {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     sum.clear();
     cells.add({pose, strip().rays, hits, strip().source, strip().backscatter}, sum);
-    SpeckleCells::gather(sum, found);
+    return SpeckleCells::gather(sum);
   };
-  Scatterers one, two;
-  ping(1, one);
-  ping(2, two);
-  CHECK(one == two);
+  const Scatterers one = ping(1);
+  CHECK(ping(2) == one);
   const long before = allocations();
-  ping(2, two);
+  ping(2);
   CHECK(allocations() - before == 0);
   CHECK_THROWS_AS(SpeckleCells(0.0, {1, "seabed"}), std::invalid_argument);
 }
@@ -186,11 +184,8 @@ TEST_CASE("batches of rays make the scatterers of all rays at once, to the bit")
                  std::span(strip().backscatter).subspan(first, end - first)},
                 sum);
     }
-    Scatterers found;
-    SpeckleCells::gather(sum, found);
-    CHECK(found == whole);
+    CHECK(SpeckleCells::gather(sum) == whole);
     sum.clear();
-    SpeckleCells::gather(sum, found);
-    CHECK(found.empty());
+    CHECK(SpeckleCells::gather(sum).empty());
   }
 }

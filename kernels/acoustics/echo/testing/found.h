@@ -8,9 +8,7 @@ namespace ensonify::echo {
 inline Scatterers scatterers_of(const SpeckleCells& cells, const Insonification& all) {
   SpeckleCells::Accumulator sum;
   cells.add(all, sum);
-  Scatterers found;
-  SpeckleCells::gather(sum, found);
-  return found;
+  return SpeckleCells::gather(sum);
 }
 
 }  // namespace ensonify::echo
