@@ -21,6 +21,7 @@ from ensonify.images import picture
 from ensonify.spaces import checked
 from ensonify.tasks import TASKS
 from ensonify.tasks.__main__ import measured
+from ensonify.tasks.wall_follow import image
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 TASK = "Ensonify/AltitudeHold-v0"
@@ -268,6 +269,15 @@ class Episodes(unittest.TestCase):
         image = picture(ping)  # of the port beam 60, 40 and 0 dB below the strongest
         self.assertEqual(image[..., 0].tolist(), [[255, 170], [85, 0], [0, 255]])
         self.assertEqual((image.shape, image.dtype), ((3, 2, 3), np.uint8))
+
+    def test_a_wall_image_has_near_first_port_left_and_a_fixed_scale(self):
+        amplitude = np.full((64, 256), 1e-3, np.float32)
+        amplitude[0, 3], amplitude[63, 255] = 1e6, 1e8  # 120 and 160 dB; 80 is black
+        ping = ensonify.Ping(beam_angle_rad=np.linspace(1, -1, 64, dtype=np.float32), amplitude_upa=amplitude,
+                             sample_period_s=40 / 1480 / 256)
+        seen = image(ping)
+        self.assertEqual((seen.shape, seen.dtype), ((64, 64), np.uint8))
+        self.assertEqual([(*map(int, at), int(seen[tuple(at)])) for at in np.argwhere(seen)], [(0, 63, 128), (63, 0, 255)])
 
     def test_a_head_renders(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:

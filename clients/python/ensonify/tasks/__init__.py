@@ -1,7 +1,7 @@
 """Registered environments: `gymnasium.make("Ensonify/AltitudeHold-v0")`. Each has a file of its own and a launch file."""
 import gymnasium
 
-TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow"}
+TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow", "WallFollow": "wall_follow"}
 
 
 def register() -> None:
