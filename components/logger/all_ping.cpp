@@ -20,11 +20,11 @@ std::uint16_t window_samples(const msg::Soundings& soundings, std::size_t i) {
   return count_of(at_or_nan(soundings.window_s, i) / soundings.sample_period_s);
 }
 
-/// 2500 times the standard deviation of the range over the range.
+/// 2500 times the standard deviation of the range over the range, rounded up: 0 would say that there is none.
 std::uint8_t quality_of(const msg::Soundings& soundings, std::size_t i) {
   const double range_m = 0.5 * at_or_nan(soundings.travel_time_s, i) * soundings.applied.sound_speed_mps;
   return static_cast<std::uint8_t>(
-      std::min<std::uint16_t>(count_of(2500.0 * at_or_nan(soundings.range_sd_m, i) / range_m), 254));
+      std::min<std::uint16_t>(count_of(std::ceil(2500.0 * at_or_nan(soundings.range_sd_m, i) / range_m)), 254));
 }
 
 RawRangeAngle::Sector sector_of(const msg::TransmitSector& sent, double absorption_dbpm) {

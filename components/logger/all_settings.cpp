@@ -53,7 +53,8 @@ Installation installation(const Vessel& vessel, std::uint16_t serial, const std:
 }
 
 Runtime runtime(const msg::AppliedSettings& settings) {
-  constexpr std::uint8_t kChirp = 0x20, kReceiver1 = 0x01, kPitchStabilised = 0x80, kYawStabilised = 0x01;
+  constexpr std::uint8_t kChirp = 0x20, kReceiver1 = 0x01, kPitchStabilised = 0x80,
+                         kYawStabilised = 0x02;  // to the mean heading
   Runtime runtime;
   const bool chirp = is_chirp(settings.pulse);
   runtime.mode = static_cast<std::uint8_t>(frequency_index(settings.frequency_hz) | (chirp ? kChirp : 0));

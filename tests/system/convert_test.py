@@ -36,6 +36,8 @@ class Convert(support.SystemTest):
         live = self.record()
         wanted = (live / NAME).read_bytes()
         out = self.record(WITHOUT_LOGGER)
+        plain = self.convert(out, "--to", "all", self.folder / "plain")  # its only head with soundings
+        self.assertEqual(plain.returncode, 0, plain.stderr)
         sets = "ship=Alkor", "line=12", "position_rate_hz=10"
         done = self.convert(out, "--to", "all", "--head", "bow", *(word for one in sets for word in ("--set", one)), self.folder / "made")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -64,6 +66,8 @@ class Convert(support.SystemTest):
                 (["--head", "stern"], "--head stern: the record holds no soundings of it; it holds those of: bow"),
                 (["--logger", "black_box"], "--logger black_box: the run had no such logger; it had: log"),
                 (["--set", "line"], "line: is not KEY=VALUE"),
+                (["--set", "formats=[xtf]"], "formats: is given by --to"),
+                (["--set", "folder=elsewhere"], "folder: is given as DIR"),
                 (["--set", "line=12000"], "line"),
                 (["--set", "lime=3"], "lime"),
         ]:

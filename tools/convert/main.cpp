@@ -132,7 +132,6 @@ int run(const Options& options) {
   if (names.empty()) throw UserError(recorded.file + ": makes no file: no ping has a second of navigation before it");
   fmt::print("{}\n", fmt::join(names, "\n"));
   for (const std::string& head : recorded.heads()) {
-    if (!recorded.has(head + "/soundings")) continue;
     if (to(options, {"all", "kmall"}) && !recorded.has(head + "/seabed_image"))
       fmt::print(stderr, "{}: holds no seabed image of {}: one sample a beam is written, its sounding's strength\n",
                  recorded.file, head);
@@ -164,8 +163,13 @@ int main(int argc, char** argv) {
                  "logger of the recorded run whose parameters hold (default: its only one, or else the defaults)");
   app.add_option("--set", options.sets, "KEY=VALUE, a parameter of the logger; may be given again")
       ->allow_extra_args(false)
-      ->check([](const std::string& set) {
-        return set.find('=') == std::string::npos ? set + ": is not KEY=VALUE" : std::string();
+      ->check([](const std::string& set) -> std::string {
+        const auto end = set.find('=');
+        if (end == std::string::npos) return set + ": is not KEY=VALUE";
+        const std::string key = set.substr(0, end);
+        if (key == "formats") return "formats: is given by --to";
+        if (key == "folder") return "folder: is given as DIR";
+        return {};
       });
   return tool_main(app, argc, argv, [&] { return run(options); });
 }

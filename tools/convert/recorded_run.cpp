@@ -72,7 +72,7 @@ std::set<std::string> RecordedRun::publishers() const {
 std::set<std::string> RecordedRun::heads() const {
   std::set<std::string> heads;
   for (const auto& [topic, type] : topics) {
-    if (type == "soundings/1" || type == "ping/1") heads.insert(process_of(topic));
+    if (type == "soundings/1") heads.insert(process_of(topic));
   }
   return heads;
 }

@@ -30,7 +30,7 @@ struct RecordedRun {
   bool has(const std::string& topic) const;
   /// Processes that published something that loggers read.
   std::set<std::string> publishers() const;
-  /// Heads whose soundings or pings it holds.
+  /// Heads whose soundings it holds.
   std::set<std::string> heads() const;
 };
 

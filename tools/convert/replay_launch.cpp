@@ -70,12 +70,14 @@ ReplayLaunch replay_launch(const RecordedRun& run, const Wanted& wanted, const s
                            const std::string& folder) {
   RecordedLogger logger = logger_of(run, wanted.logger);
   const auto heads = run.heads();
-  if (!wanted.head.empty()) {
-    if (!heads.contains(wanted.head))
-      throw UserError(fmt::format("--head {}: the record holds no soundings of it; it holds those of: {}", wanted.head,
+  const bool stated = logger.config.find("head") != nullptr || logger.config.find("sidescan") != nullptr;
+  const std::string head = wanted.head.empty() && !stated && heads.size() == 1 ? *heads.begin() : wanted.head;
+  if (!head.empty()) {
+    if (!heads.contains(head))
+      throw UserError(fmt::format("--head {}: the record holds no soundings of it; it holds those of: {}", head,
                                   heads.empty() ? "none" : fmt::format("{}", fmt::join(heads, ", "))));
-    logger.config.set("head", ConfigNode::text(wanted.head));
-    wire(logger, run, wanted.head);
+    logger.config.set("head", ConfigNode::text(head));
+    wire(logger, run, head);
   }
   if (!wanted.sidescan && logger.config.find("sidescan") != nullptr)
     logger.config.set("sidescan", ConfigNode::text(""));
