@@ -12,8 +12,8 @@ namespace ensonify::logger {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kOffset_db =
-    20.0;  // so that noise of the water and the strongest seabed both are within what is written
+// Noise of the water and the strongest seabed both are within what is written.
+constexpr double kOffset_db = 40.0;
 constexpr std::size_t kMostSamples = 65'000;
 
 double level_db(double amplitude_upa) { return 20.0 * std::log10(amplitude_upa); }

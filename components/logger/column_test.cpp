@@ -22,25 +22,18 @@ template <class Datagram, class Reader>
 std::vector<Datagram> survey(const char* text, const char* name) {
   const Folder folder;
   logger::testing::survey(bay(), text, folder.path);
-  const auto path = folder.path / name;
-  REQUIRE(std::filesystem::exists(path));
-  formats::Window window(path);
-  Reader reader(window);
-  std::vector<Datagram> datagrams;
-  while (auto datagram = reader.next()) datagrams.push_back(std::move(*datagram));
-  CHECK(reader.faults().count() == 0);
-  return datagrams;
+  return read<Datagram, Reader>(folder.path / name);
 }
 
 /// Every third ping has a water column; counters in files are modulo 65,536, and the survey begins at 65,500.
 bool has_column(std::uint16_t counter) { return (counter < 60'000 ? counter + 65'536 : counter) % 3 == 0; }
 
-/// What column_of() gives, as files have it: level less source level, 30 log R + 2 alpha R and 20 dB, in halves.
+/// What column_of() gives, as files have it: level less source level, 30 log R + 2 alpha R and 40 dB, in halves.
 double expected_half_db(std::size_t beam, std::size_t sample, double bottom_sample) {
   const double range_m = std::max(0.5 * static_cast<double>(sample) * kColumnPeriod_s * kSoundSpeed_mps, 1.0);
   const double bottom_db = std::abs(static_cast<double>(sample) - bottom_sample) < 0.5 ? 60.0 : 0.0;
   const double db = 100.0 + 0.1 * static_cast<double>(beam) + bottom_db - kSourceLevel_db + 30.0 * std::log10(range_m) +
-                    2.0 * 0.06 * range_m + 20.0;
+                    2.0 * 0.06 * range_m + 40.0;
   return std::clamp(2.0 * db, -128.0, 127.0);
 }
 
@@ -69,7 +62,7 @@ TEST_CASE("a .wcd has the settings and navigation of the .all, and k of the ping
     REQUIRE(has_column(datagram.header.counter));
     REQUIRE(column->ping_beams == kBeams);
     REQUIRE(column->tvg_log_factor == 30);
-    REQUIRE(column->tvg_offset_db == 20);
+    REQUIRE(column->tvg_offset_db == 40);
     REQUIRE_THAT(column->sampling_hz.value(), WithinAbs(20'000.0, 1e-9));
     REQUIRE(column->datagrams >= 1);
     for (const auto& beam : column->beams) {

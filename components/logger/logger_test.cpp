@@ -10,6 +10,8 @@
 #include "components/formats/all/installation_text.h"
 #include "components/formats/all/reader.h"
 #include "components/logger/all_image.h"
+#include "components/logger/all_ping.h"
+#include "components/logger/all_settings.h"
 #include "components/logger/instruments.h"
 #include "components/logger/testing/survey.h"
 
@@ -29,13 +31,7 @@ std::vector<all::Datagram> survey(const World& world, const char* text = "{}") {
   const Folder folder;
   logger::testing::survey(world, text, folder.path);
   const fs::path path = folder.path / "0000_20250601_120000_boat.all";
-  REQUIRE(fs::exists(path));
-  formats::Window window(path);
-  all::Reader reader(window);
-  std::vector<all::Datagram> datagrams;
-  while (auto datagram = reader.next()) datagrams.push_back(std::move(*datagram));
-  REQUIRE(reader.faults().count() == 0);
-  return datagrams;
+  return read<all::Datagram, all::Reader>(path);
 }
 
 template <class Body>
@@ -353,4 +349,19 @@ TEST_CASE("halfway between two moments lies their mean, over north and the antim
   CHECK_THAT(middle.reference.latitude_deg, WithinAbs(10.5, 1e-12));
   CHECK_THAT(middle.reference.longitude_deg, WithinAbs(-179.9999, 1e-9));
   CHECK_THAT(middle.roll_deg, WithinAbs(0.5, 1e-12));
+}
+
+TEST_CASE("R states what is stabilised, and N no soundings without a deviation") {
+  msg::AppliedSettings settings;
+  CHECK(logger::runtime(settings).stabilisation == 0);
+  settings.yaw_stabilised = true;
+  CHECK(logger::runtime(settings).stabilisation == 0x02);
+  settings.pitch_stabilised = true;
+  CHECK(logger::runtime(settings).stabilisation == 0x82);
+
+  msg::Soundings soundings = ping_at(5_s, 1, bay().vehicles[0].mountings.at("bow").measured);
+  soundings.range_sd_m[51] = 1e-4F;  // an eightieth of a step
+  const auto raw = logger::raw_range_angle(soundings);
+  CHECK(raw.beams[51].quality == 1);
+  CHECK(raw.beams[52].quality == 3);  // 0.02 m at 19 m
 }

@@ -20,17 +20,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-template <class Datagram, class Reader>
-std::vector<Datagram> read(const fs::path& path) {
-  REQUIRE(fs::exists(path));
-  formats::Window window(path);
-  Reader reader(window);
-  std::vector<Datagram> datagrams;
-  while (auto datagram = reader.next()) datagrams.push_back(std::move(*datagram));
-  CHECK(reader.faults().count() == 0);
-  return datagrams;
-}
-
 std::vector<kmall::Datagram> survey(const World& world, const char* text = "formats: [kmall]") {
   const Folder folder;
   logger::testing::survey(world, text, folder.path);

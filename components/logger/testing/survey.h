@@ -2,9 +2,13 @@
 
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "components/formats/window.h"
 #include "components/logger/node.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "scenarios/world/world.h"
@@ -43,6 +47,18 @@ msg::Soundings ping_at(SimTime t, std::int64_t number, const frames::Mounting& m
 inline constexpr std::size_t kColumnSamples = 601;  // the last is one too many for an even number
 inline constexpr double kColumnPeriod_s = 5e-5;
 inline constexpr double kSourceLevel_db = 210.0;
+
+/// The datagrams of a file, which has no faults.
+template <class Datagram, class Reader>
+std::vector<Datagram> read(const std::filesystem::path& path) {
+  REQUIRE(std::filesystem::exists(path));
+  formats::Window window(path);
+  Reader reader(window);
+  std::vector<Datagram> datagrams;
+  while (auto datagram = reader.next()) datagrams.push_back(std::move(*datagram));
+  REQUIRE(reader.faults().count() == 0);
+  return datagrams;
+}
 
 /// The water column of a ping: in beam b a level of 100 + b / 10 dB re 1 uPa, 60 dB more where the bottom is.
 msg::Ping column_of(const msg::Soundings& soundings);
