@@ -34,12 +34,12 @@ struct Options {
   convert::Wanted wanted;
 };
 
-/// A folder within another, gone at the end.
+/// A folder within another, gone at the end; so is the other where it was made for this and stays empty.
 class Workshop {
  public:
   explicit Workshop(const fs::path& within) {
     std::error_code error;
-    fs::create_directories(within, error);
+    made_ = fs::create_directories(within, error);
     std::string path = (within / ".convert-XXXXXX").string();
     if (error || ::mkdtemp(path.data()) == nullptr) throw UserError(within.string() + ": no file can be made there");
     path_ = path;
@@ -47,6 +47,7 @@ class Workshop {
   ~Workshop() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    if (made_) fs::remove(path_.parent_path(), ignored);  // unless it holds files now
   }
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
@@ -54,6 +55,7 @@ class Workshop {
 
  private:
   fs::path path_;
+  bool made_ = false;
 };
 
 void write(const fs::path& file, const std::string& text) {
@@ -97,30 +99,34 @@ bool to(const Options& options, std::initializer_list<const char*> some) {
          options.formats.end();
 }
 
-/// A UserError names what a logger reads and the record does not hold.
-void check_held(const convert::RecordedRun& recorded, const Options& options) {
-  std::vector<std::string> read{"estimate/1", "attitude/1", "position/1"};
-  if (to(options, {"wcd", "kmwcd"})) read.emplace_back("ping/1");
-  for (const std::string& type : read) {
-    const bool held = std::any_of(recorded.topics.begin(), recorded.topics.end(),
-                                  [&](const auto& one) { return one.second == type; });
+/// A UserError names what a logger of this head reads and the record does not hold.
+void check_held(const convert::RecordedRun& recorded, const std::string& head, const Options& options) {
+  const auto demand = [&](bool held, const std::string& what, const std::string& topics) {
     if (!held)
-      throw UserError(fmt::format("{}: holds no {}, which a logger reads; record {} for --to {}", recorded.file, type,
-                                  type == "ping/1" ? "the head's ping" : "nav/*", fmt::join(options.formats, ",")));
-  }
+      throw UserError(fmt::format("{}: holds no {}, which a logger reads; record {} for --to {}", recorded.file, what,
+                                  topics, fmt::join(options.formats, ",")));
+  };
+  const auto holds = [&](const std::string& type) {
+    return std::any_of(recorded.topics.begin(), recorded.topics.end(),
+                       [&](const auto& one) { return one.second == type; });
+  };
+  for (const char* type : {"estimate/1", "attitude/1", "position/1"}) demand(holds(type), type, "nav/*");
+  if (!to(options, {"wcd", "kmwcd"})) return;
+  if (head.empty()) demand(holds("ping/1"), "ping/1", "the head's ping");
+  else demand(recorded.has(head + "/ping"), "ping/1 of " + head, head + "/ping");
 }
 
 int run(const Options& options) {
   const convert::RecordedRun recorded =
       convert::recorded_run(fs::absolute(record::record_path(options.record)).string());
   if (interrupted()) return kExitInterrupted;
-  check_held(recorded, options);
-  const Workshop workshop(options.folder);
-  const fs::path files = workshop.path() / "files";
-  write(workshop.path() / "scenario.yaml", recorded.scenario);
   convert::Wanted wanted = options.wanted;
   wanted.sidescan = to(options, {"xtf"});
   const convert::ReplayLaunch replay = convert::replay_launch(recorded, wanted, "scenario.yaml", "files");
+  check_held(recorded, replay.head, options);
+  const Workshop workshop(options.folder);
+  const fs::path files = workshop.path() / "files";
+  write(workshop.path() / "scenario.yaml", recorded.scenario);
   write(workshop.path() / "launch.yaml", replay.text);
   LaunchOptions launch{.file = (workshop.path() / "launch.yaml").string(), .out = workshop.path().string()};
   launch.sets.push_back(fmt::format("{}.formats=[{}]", replay.logger, fmt::join(options.formats, ", ")));

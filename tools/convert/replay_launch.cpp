@@ -98,7 +98,8 @@ ReplayLaunch replay_launch(const RecordedRun& run, const Wanted& wanted, const s
   ConfigNode wiring = ConfigNode::map();
   for (const auto& [port, topic] : logger.wiring) wiring.set(logger.process + "." + port, topic);
   if (!wiring.entries.empty()) root.set("wiring", std::move(wiring));
-  return {block_yaml(root), logger.process};
+  const ConfigNode* own = logger.config.find("head");
+  return {block_yaml(root), logger.process, own ? own->scalar : ""};
 }
 
 }  // namespace ensonify::convert

@@ -15,6 +15,7 @@ struct Wanted {
 struct ReplayLaunch {
   std::string text;
   std::string logger;  // its process
+  std::string head;    // whose soundings it writes; "": the scenario's only one, or none
 };
 
 /// A launch in which the record's processes say again what a logger reads of them, to a logger with these parameters.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "components/errors/exit_error.h"
 #include "components/formats/recognise.h"
 
 namespace ensonify::grid_tool {
@@ -13,6 +14,9 @@ std::unique_ptr<SoundingFile> open_file(const std::string& file, const ReadOptio
       case formats::Format::all: return open_all(file, options);
       case formats::Format::kmall: return open_kmall(file, options);
       case formats::Format::xtf:
+        throw UserError(file +
+                        ": is an XTF file; allowed: records with soundings/1, runs' folders with one, .all and .kmall "
+                        "files");
       case formats::Format::unknown: break;
     }
   }

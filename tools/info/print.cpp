@@ -32,12 +32,12 @@ std::string extent_text(const Extent& extent) {
                      extent.latitude_deg().high, extent.west_deg(), extent.east_deg());
 }
 
-std::string pings_text(const std::string& head, const Pings& pings) {
+std::string pings_text(const char* what, const std::string& head, const Pings& pings) {
   const auto gaps = pings.gaps();
   std::uint64_t missing = 0;
   for (const auto& gap : gaps) missing += gap.count;
   std::string text =
-      fmt::format("pings       {}: {}; missing by number: {}\n", head, rate_text(pings.times()), missing);
+      fmt::format("{:<11} {}: {}; missing by number: {}\n", what, head, rate_text(pings.times()), missing);
   for (std::size_t i = 0; i < gaps.size() && i < kShown; ++i) {
     text += fmt::format("  missing   {} from number {} on, after {}\n", gaps[i].count, gaps[i].first,
                         iso_time(gaps[i].after_ns));
@@ -91,7 +91,8 @@ std::string text_of(const std::string& file, const Summary& summary) {
                         summary.depth_of);
   }
   text += fmt::format("positions   {}\nattitude    {}\n", rate_text(summary.positions), rate_text(summary.attitudes));
-  for (const auto& [head, pings] : summary.pings) text += pings_text(head, pings);
+  for (const auto& [head, pings] : summary.pings) text += pings_text("pings", head, pings);
+  for (const auto& [head, pings] : summary.water_columns) text += pings_text("water column", head, pings);
   for (const auto& [type, kind] : summary.kinds) {
     text += fmt::format("{:>8}    {:<4} {}\n", kind.count, type, kind.about.empty() ? "(kept as bytes)" : kind.about);
   }
@@ -137,6 +138,8 @@ nlohmann::ordered_json json_of(const std::string& file, const Summary& summary) 
   json["attitude"] = json_of(summary.attitudes);
   json["pings"] = nlohmann::ordered_json::object();
   for (const auto& [head, pings] : summary.pings) json["pings"][head] = json_of(pings);
+  json["water_columns"] = nlohmann::ordered_json::object();
+  for (const auto& [head, pings] : summary.water_columns) json["water_columns"][head] = json_of(pings);
   json["datagrams"] = nlohmann::ordered_json::object();
   for (const auto& [type, kind] : summary.kinds) {
     json["datagrams"][printable(type)] = {{"count", kind.count}, {"about", kind.about}};

@@ -145,6 +145,8 @@ Summary summarise_all(formats::Window& file) {
       for (const auto& beam : xyz->beams) {
         if (beam.valid()) summary.depth_m.add(double{beam.z_m} + xyz->transducer_depth_m);
       }
+    } else if (const auto* column = std::get_if<WaterColumn>(&datagram->body); column && column->datagram == 1) {
+      summary.water_columns[head].add_modulo(datagram->header.counter, time_ns);
     }
   }
   for (const std::string& system : systems) summary.system += (summary.system.empty() ? "" : ", ") + system;

@@ -57,6 +57,8 @@ std::int64_t time_of(const Motion::Sample& sample) {
   return std::int64_t{sample.time_s} * 1'000'000'000 + sample.time_ns;
 }
 
+std::string head_of(const PingPart& ping) { return "head " + std::to_string(ping.fan + 1); }
+
 }  // namespace
 
 Summary summarise_kmall(formats::Window& file) {
@@ -92,10 +94,12 @@ Summary summarise_kmall(formats::Window& file) {
       for (const auto& sample : motion->samples) summary.attitudes.add(time_of(sample), motion->sensor);
     } else if (const auto* ping = std::get_if<Soundings>(&datagram->body)) {
       if (ping->partition.parts != 1) ++parted;
-      summary.pings["head " + std::to_string(ping->ping.fan + 1)].add_modulo(ping->ping.ping, time_ns);
+      summary.pings[head_of(ping->ping)].add_modulo(ping->ping.ping, time_ns);
       for (const auto& sounding : ping->soundings) {
         if (sounding.detection == 0) summary.depth_m.add(double{sounding.z_m} - ping->pose.water_line_m);
       }
+    } else if (const auto* column = std::get_if<WaterColumn>(&datagram->body); column && column->partition.part == 1) {
+      summary.water_columns[head_of(column->ping)].add_modulo(column->ping.ping, time_ns);
     }
   }
   for (const std::string& system : systems) summary.system += (summary.system.empty() ? "" : ", ") + system;

@@ -101,7 +101,8 @@ struct Summary {
   std::string depth_of;
   Stream positions;
   Stream attitudes;
-  std::map<std::string, Pings> pings;  // by head
+  std::map<std::string, Pings> pings;          // with soundings, by head
+  std::map<std::string, Pings> water_columns;  // pings with one, by head
   std::vector<Mounting> mountings;
   std::vector<std::string> notes;  // what other programs fail at
   formats::Faults faults;

@@ -110,6 +110,9 @@ TEST_CASE("what a .all file and a .kmall file of one seabed say agrees") {
     REQUIRE(summary->pings.size() == 1);
     CHECK(summary->pings.begin()->second.count() == 2);
     CHECK(summary->pings.begin()->second.gaps().empty());
+    REQUIRE(summary->water_columns.size() == 1);
+    CHECK(summary->water_columns.begin()->second.count() == (summary == &all ? 2 : 3));  // one more stands alone
+    CHECK_THAT(text_of("file", *summary), Contains("\nwater column "));
     CHECK(summary->mountings.back().name == "water line");
     CHECK(summary->mountings.back().values.at(0).second.substr(0, 5) == "-0.40");
     CHECK(summary->datagrams.first_ns == formats::sample::kBegin_ns);
