@@ -74,8 +74,10 @@ logger::Vessel vessel_of(const ConfigReader& from, const char* key, const std::s
   const auto mounting = world.mounting(head);
   if (!mounting) {
     const std::vector<std::string> heads = heads_of(world);
-    from.problem(key, fmt::format("\"{}\" is no head of the scenario; its vehicles carry: {}", head,
-                                  heads.empty() ? "none" : fmt::format("{}", fmt::join(heads, ", "))));
+    const std::string carried = heads.empty() ? "none" : fmt::format("{}", fmt::join(heads, ", "));
+    if (head.empty() && heads.size() > 1)
+      from.problem(key, fmt::format("is to be named where vehicles carry several; the scenario's carry: {}", carried));
+    else from.problem(key, fmt::format("\"{}\" is no head of the scenario; its vehicles carry: {}", head, carried));
     return vessel;
   }
   const Vehicle& vehicle = world.vehicle(mounting->first);

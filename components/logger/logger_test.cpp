@@ -277,6 +277,8 @@ TEST_CASE("after each rotation a file stands alone, and no ping is left out or w
 TEST_CASE("formats that a sidescan alone cannot have, and a sidescan that nobody writes, are refused") {
   World world = bay();
   world.vehicles[0].mountings["side"] = {};
+  CHECK_THROWS_WITH(config_of(world),
+                    Contains("head: is to be named where vehicles carry several; the scenario's carry: bow, side"));
   CHECK_THROWS_WITH(config_of(world, "{ sidescan: side }"), Contains("all: needs the soundings of a multibeam"));
   CHECK_THROWS_WITH(config_of(world, "{ head: bow, sidescan: side }"), Contains("is written in xtf alone"));
   CHECK_THROWS_WITH(config_of(world, "{ head: bow, formats: [dvd] }"),
