@@ -49,7 +49,8 @@ class Convert(support.SystemTest):
             done = self.convert(out, *words, self.folder / "made")
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertIn(missing, done.stderr)
-        done = self.convert(self.record(), "--to", "all,wcd", self.folder / "made")
+        another = WITH_LOGGER.replace("bow/seabed_image,", "bow/seabed_image, side/ping_main,") + "  side:  { run: sidescan, config: { quality: 0.1 } }\n"
+        done = self.convert(self.record(another), "--to", "all,wcd", self.folder / "made")
         self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
         self.assertIn("holds no ping/1 of bow, which a logger reads; record bow/ping for --to all,wcd", done.stderr)
 

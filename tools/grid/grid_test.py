@@ -82,7 +82,8 @@ class Points(unittest.TestCase):
         (two / "b.mcap").touch()
         subprocess.run([SAMPLES, self.root], check=True)
         point = np.array([0.0, 0, 10, 0.1]).tobytes()
-        cases = [((), "FILE: is missing", None), ((self.root / "sample.xtf",), "is an XTF file; allowed: records", None), ((text,), "is no record", None),
+        cases = [((), "FILE: is missing", None), ((self.root / "sample.xtf",), "is an XTF file; allowed: records", None),
+                 ((text,), "is no record", None),
                  ((self.root / "none.mcap",), "none.mcap", None), ((self.root,), "is no record", None),
                  ((two,), "holds 2 records", None), (("--points", "-", "--tide", "x.csv"), "x.csv: cannot be read", point),
                  (("--points", "-"), "no accepted sounding", b""), (("--points", "-"), "four doubles", point[:-4]),

@@ -24,6 +24,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.rename(files[0], renamed)
     code, out, _ = info("--json", renamed, *files[1:])
     all_, kmall, xtf = json.loads(out)
+    assert [[each["numbers"] for each in one["water_columns"].values()] for one in (all_, kmall, xtf)] == [[2], [3], []], out
     assert code == 0 and all_["format"] == "Kongsberg .all" and xtf["format"] == "Triton XTF", out
     assert all_["pings"]["serial 157"]["numbers"] == kmall["pings"]["head 1"]["numbers"] == 2, out
     assert abs(all_["depth_m"]["high"] - kmall["depth_m"]["high"]) < 1e-4, out
