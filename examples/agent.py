@@ -60,34 +60,40 @@ def heading_along_contour(depth_m: float, gradient: np.ndarray, wanted_m: float)
     return downhill_rad - np.pi / 2 - np.arctan2(distance_m, LOOK_AHEAD_M)
 
 
+def steer(me: ensonify.Participant, pings: ensonify.In, estimates: ensonify.In, command: ensonify.Out) -> None:
+    """One epoch: nothing is known of the seabed at its beginning."""
+    wanted_m = me.config.get("depth_m", 18.0)
+    speed_mps = me.config.get("speed_mps", 2.0)
+    head_down_m = me.config.get("head_down_m", 0.0)
+    blind = me.config.get("blind", False)
+    poses = collections.deque(maxlen=200)  # the last two seconds
+    seen = collections.deque(maxlen=PINGS)
+    heading_rad = None
+    for step in me.steps(rate=10):
+        poses.extend(estimates)
+        for ping in pings:
+            pose = min(poses, key=lambda estimate: abs(estimate.stamp_ns - ping.stamp_ns))
+            amplitude_upa = np.zeros_like(ping.amplitude_upa) if blind else ping.amplitude_upa
+            seen.append(seabed_points(ping, amplitude_upa, pose, head_down_m))
+        points = np.concatenate(seen) if seen else np.empty((0, 3))
+        if len(seen) == PINGS and len(points) > 100:
+            depth_m, gradient = plane_below(points, poses[-1].position_enu_m)
+            if np.hypot(*gradient) > FLATTEST:
+                heading_rad = heading_along_contour(depth_m, gradient, wanted_m)
+        if heading_rad is None and poses:  # nothing seen yet: straight on
+            forward = rotation(poses[-1].enu_from_body)[:, 0]
+            heading_rad = np.arctan2(forward[0], forward[1])
+        if heading_rad is not None:
+            command.send(ensonify.Guidance(stamp_ns=step.t_ns, heading_grid_rad=heading_rad, speed_mps=speed_mps))
+
+
 def main() -> None:
     with ensonify.Participant() as me:
-        wanted_m = me.config.get("depth_m", 18.0)
-        speed_mps = me.config.get("speed_mps", 2.0)
-        head_down_m = me.config.get("head_down_m", 0.0)
-        blind = me.config.get("blind", False)
         pings = me.subscribe("ping", ensonify.Ping)
         estimates = me.subscribe("estimate", ensonify.Estimate)
         command = me.publish("command", ensonify.Guidance, rate=10)
-        poses = collections.deque(maxlen=200)  # the last two seconds
-        seen = collections.deque(maxlen=PINGS)
-        heading_rad = None
-        for step in me.steps(rate=10):
-            poses.extend(estimates)
-            for ping in pings:
-                pose = min(poses, key=lambda estimate: abs(estimate.stamp_ns - ping.stamp_ns))
-                amplitude_upa = np.zeros_like(ping.amplitude_upa) if blind else ping.amplitude_upa
-                seen.append(seabed_points(ping, amplitude_upa, pose, head_down_m))
-            points = np.concatenate(seen) if seen else np.empty((0, 3))
-            if len(seen) == PINGS and len(points) > 100:
-                depth_m, gradient = plane_below(points, poses[-1].position_enu_m)
-                if np.hypot(*gradient) > FLATTEST:
-                    heading_rad = heading_along_contour(depth_m, gradient, wanted_m)
-            if heading_rad is None and poses:  # nothing seen yet: straight on
-                forward = rotation(poses[-1].enu_from_body)[:, 0]
-                heading_rad = np.arctan2(forward[0], forward[1])
-            if heading_rad is not None:
-                command.send(ensonify.Guidance(stamp_ns=step.t_ns, heading_grid_rad=heading_rad, speed_mps=speed_mps))
+        for _ in me.epochs():  # one, and another after each reset
+            steer(me, pings, estimates, command)
 
 
 if __name__ == "__main__":

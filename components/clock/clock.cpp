@@ -28,12 +28,14 @@ WallTime after(WallTime t, double s) {
 void request_stop() { stop_requested = true; }
 
 Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir)
-    : launch_(launch),
+    : first_(launch),
+      launch_(launch),
       router_(router),
-      out_dir_(std::move(out_dir)),
       registry_(launch),
       pacer_(launch.clock.rate, from_seconds(launch.clock.slip_after_s)),
-      phase_began_(steady_clock::now()) {}
+      phase_began_(steady_clock::now()) {
+  epoch_.out = std::move(out_dir);
+}
 
 int Clock::run() {
   while (phase_ != Phase::kOver) {
@@ -41,7 +43,8 @@ int Clock::run() {
     if (message) on_message(*message);
     on_time(steady_clock::now());
   }
-  write_report();
+  write_report(epoch_.out);
+  if (epoch_.out != first_.options.out) write_report(first_.options.out);  // where the launcher reads it
   return exit_code_;
 }
 
@@ -56,9 +59,9 @@ std::optional<WallTime> Clock::next_alarm() const {
   }
   if (phase_ == Phase::kEnding) return after(phase_began_, deadline_s);
   std::optional<WallTime> alarm;
-  if (conductor_->busy())
-    alarm = after(last_progress_, deadline_s * (stall_stage_ == 0 ? 1 : stall_stage_ == 1 ? 3 : 10));
-  const auto paced = pacer_.when(conductor_->next_capped());
+  if (epoch_.conductor->busy())
+    alarm = after(epoch_.last_progress, deadline_s * (epoch_.stall_stage == 0 ? 1 : epoch_.stall_stage == 1 ? 3 : 10));
+  const auto paced = pacer_.when(epoch_.conductor->next_capped());
   return paced && (!alarm || *paced < *alarm) ? paced : alarm;
 }
 
@@ -66,7 +69,7 @@ std::optional<WallTime> Clock::next_alarm() const {
 void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);
-  if (kind != "done" && kind != "proven" && kind != "failed" && kind != "bye") return on_request(message, kind);
+  if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "bye") return on_request(message, kind);
   const auto rank = registry_.participant(message.from);
   if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
   try {
@@ -84,6 +87,9 @@ void Clock::on_word(std::size_t rank, const std::string& kind, const std::string
     on_done(rank, *done);
   } else if (kind == "proven") {
     on_proven(name, text);
+  } else if (kind == "ready") {
+    registry_.is_ready(rank);
+    if (phase_ == Phase::kProving && registry_.ready()) start();
   } else if (kind == "failed") {
     on_failed(rank, protocol::read_failed(text));
   } else if (phase_ == Phase::kEnding) {
@@ -126,22 +132,22 @@ void Clock::gather() {
     fail(kExitUserError, "", all);
     return;
   }
-  conductor_ = make_conductor(registry_.graph(), registry_.declarations(), launch_);
-  referee_.emplace(registry_.graph(), registry_.declarations());
-  inputs_.resize(registry_.size());
-  left_.resize(registry_.size());
+  epoch_.conductor = make_conductor(registry_.graph(), registry_.declarations(), launch_);
+  epoch_.referee.emplace(epoch_.number, registry_.graph(), registry_.declarations());
+  epoch_.inputs.resize(registry_.size());
+  left_.assign(registry_.size(), false);
   for (const Graph::Edge& edge : registry_.graph().edges) {
-    std::vector<std::uint32_t>& topics = inputs_[edge.to];
+    std::vector<std::uint32_t>& topics = epoch_.inputs[edge.to];
     const auto topic = static_cast<std::uint32_t>(edge.topic);
     if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
   }
   for (const protocol::Hello& hello : registry_.hellos()) {
-    accounts_.push_back({hello.declaration.process, hello.pid, 0, 0, 0, SimTime{0}});
+    epoch_.accounts.push_back({hello.declaration.process, hello.pid, 0, 0, 0, SimTime{0}});
   }
   phase_ = Phase::kProving;
   phase_began_ = steady_clock::now();
   for (std::size_t rank = 0; rank < registry_.size(); ++rank) {
-    router_.send(accounts_[rank].name, protocol::encode(registry_.welcome(rank), registry_.declarations()[rank]));
+    router_.send(epoch_.accounts[rank].name, protocol::encode(registry_.welcome(rank), registry_.declarations()[rank]));
   }
   if (registry_.ready()) start();
 }
@@ -153,50 +159,54 @@ void Clock::on_proven(const std::string& from, const std::string& text) {
 
 void Clock::start() {
   phase_ = Phase::kRunning;
-  run_began_ = last_progress_ = health_reported_ = steady_clock::now();
+  epoch_.began = epoch_.last_progress = epoch_.health_reported = steady_clock::now();
   log::line("clock", SimTime{0}, "go",
-            fmt::format("processes={} edges={} connect_s={:.4f}", registry_.size(), registry_.graph().edges.size(),
-                        std::chrono::duration<double>(run_began_ - phase_began_).count()));
-  pacer_.start(run_began_);
+            fmt::format("epoch={} processes={} edges={} connect_s={:.4f}", epoch_.number, registry_.size(),
+                        registry_.graph().edges.size(),
+                        std::chrono::duration<double>(epoch_.began - phase_began_).count()));
+  pacer_.start(epoch_.began);
   hand_out();
 }
 
 void Clock::hand_out() {
-  conductor_->set_cap(pacer_.cap(steady_clock::now()));
-  for (const Conductor::Grant& grant : conductor_->grants()) {
+  epoch_.conductor->set_cap(epoch_.ending ? kNever : pacer_.cap(steady_clock::now()));
+  for (const Conductor::Grant& grant : epoch_.conductor->grants()) {
     protocol::Grant message;
+    message.epoch = epoch_.number;
     message.horizon = grant.horizon;
-    for (const std::uint32_t topic : inputs_[grant.participant])
-      message.inputs.emplace_back(topic, referee_->published(topic));
-    ++accounts_[grant.participant].grants;
-    router_.send(accounts_[grant.participant].name, protocol::encode(message));
+    for (const std::uint32_t topic : epoch_.inputs[grant.participant])
+      message.inputs.emplace_back(topic, epoch_.referee->published(topic));
+    ++epoch_.accounts[grant.participant].grants;
+    router_.send(epoch_.accounts[grant.participant].name, protocol::encode(message));
   }
-  if (conductor_->finished()) end(0);
+  if (!epoch_.conductor->finished()) return;
+  if (next_) begin_next();
+  else end(0);
 }
 
 void Clock::on_done(std::size_t rank, const protocol::Done& done) {
   if (phase_ == Phase::kEnding || phase_ == Phase::kOver) return;
-  if (phase_ != Phase::kRunning || !conductor_->running(rank)) throw std::runtime_error("answers no GRANT");
-  const std::string& name = accounts_[rank].name;
-  if (const auto breach = referee_->judge(rank, done, conductor_->next(rank), conductor_->granted(rank)))
+  if (phase_ != Phase::kRunning || !epoch_.conductor->running(rank)) throw std::runtime_error("answers no GRANT");
+  const std::string& name = epoch_.accounts[rank].name;
+  if (const auto breach = epoch_.referee->judge(rank, done, epoch_.conductor->next(rank), epoch_.conductor->granted(rank)))
     return fail(breach->code, name, name + " " + breach->text);
   const WallTime now = steady_clock::now();
-  last_progress_ = now;
-  stall_stage_ = 0;
-  Account& account = accounts_[rank];
+  epoch_.last_progress = now;
+  epoch_.stall_stage = 0;
+  Account& account = epoch_.accounts[rank];
   account.cost_ns += done.cost_ns;
-  const bool was_last = conductor_->next(rank) == conductor_->now();
-  const SimTime late = pacer_.lateness(conductor_->now(), now);
+  const bool was_last = epoch_.conductor->next(rank) == epoch_.conductor->now();
+  const SimTime late = pacer_.lateness(epoch_.conductor->now(), now);
   if (was_last && late > kLateAfter) {
     ++account.late_events;
     account.worst_lateness = std::max(account.worst_lateness, late);
   }
-  if (done.finish) conductor_->end_at(done.next - SimTime{1} + kFinishMargin);
-  conductor_->done(rank, done.next);
-  if (const SimTime slipped = pacer_.slip(conductor_->now(), now); slipped > SimTime{0}) {
-    ++slips_;
-    slipped_ += slipped;
-    log::line("clock", conductor_->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), name));
+  if (done.finish) epoch_.conductor->end_at(done.next - SimTime{1} + kFinishMargin);
+  epoch_.conductor->done(rank, done.next);
+  if (const SimTime slipped = pacer_.slip(epoch_.conductor->now(), now); slipped > SimTime{0}) {
+    ++epoch_.slips;
+    epoch_.slipped += slipped;
+    log::line("clock", epoch_.conductor->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), name));
     if (launch_.clock.slip_policy == ClockSettings::SlipPolicy::kFail) {
       return fail(kExitStall, name,
                   fmt::format("{} made the run {:.3f} s late; slip_policy is fail", name, seconds(slipped)));
@@ -215,7 +225,8 @@ void Clock::on_failed(std::size_t rank, const protocol::Failed& failed) {
 
 void Clock::on_time(WallTime now) {
   if (stop_requested.exchange(false)) {
-    if (phase_ == Phase::kRunning) conductor_->end_now();
+    next_.reset();
+    if (phase_ == Phase::kRunning) end_epoch();
     else if (phase_ != Phase::kEnding) fail(kExitInterrupted, "", "stopped before time started");
   }
   switch (phase_) {
@@ -232,7 +243,7 @@ void Clock::on_time(WallTime now) {
     case Phase::kRunning:
       hand_out();
       if (phase_ == Phase::kRunning) watch_progress(now);
-      if (phase_ == Phase::kRunning && now - health_reported_ >= kHealthEvery) report_health(now);
+      if (phase_ == Phase::kRunning && now - epoch_.health_reported >= kHealthEvery) report_health(now);
       return;
     case Phase::kEnding:
       if (std::all_of(left_.begin(), left_.end(), [](bool bye) { return bye; }) || now >= *next_alarm()) {
@@ -244,25 +255,25 @@ void Clock::on_time(WallTime now) {
 }
 
 void Clock::watch_progress(WallTime now) {
-  if (!conductor_->busy()) {
-    last_progress_ = now;
-    stall_stage_ = 0;
+  if (!epoch_.conductor->busy()) {
+    epoch_.last_progress = now;
+    epoch_.stall_stage = 0;
     return;
   }
   const double deadline_s = launch_.clock.progress_deadline_s;
-  const double silent_s = std::chrono::duration<double>(now - last_progress_).count();
-  if (stall_stage_ == 0 && silent_s >= deadline_s) {
-    stall_stage_ = 1;
-    log::line("clock", conductor_->now(), "no_progress",
+  const double silent_s = std::chrono::duration<double>(now - epoch_.last_progress).count();
+  if (epoch_.stall_stage == 0 && silent_s >= deadline_s) {
+    epoch_.stall_stage = 1;
+    log::line("clock", epoch_.conductor->now(), "no_progress",
               fmt::format("for_s={:.2f} waiting_for={}", silent_s, name_stalled()));
-  } else if (stall_stage_ == 1 && silent_s >= 3 * deadline_s) {
-    stall_stage_ = 2;
+  } else if (epoch_.stall_stage == 1 && silent_s >= 3 * deadline_s) {
+    epoch_.stall_stage = 2;
     dump_stall();
-  } else if (stall_stage_ == 2 && silent_s >= 10 * deadline_s) {
+  } else if (epoch_.stall_stage == 2 && silent_s >= 10 * deadline_s) {
     const std::string culprit = name_stalled();
     dump_stall();
     fail(kExitStall, culprit,
-         fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s, seconds(conductor_->now()),
+         fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s, seconds(epoch_.conductor->now()),
                      culprit));
   }
 }
@@ -272,7 +283,7 @@ void Clock::fail(int code, const std::string& culprit, const std::string& messag
     exit_code_ = code;
     culprit_ = culprit;
     message_ = message;
-    log::line("clock", conductor_ ? conductor_->now() : SimTime{0}, "failed",
+    log::line("clock", epoch_.conductor ? epoch_.conductor->now() : SimTime{0}, "failed",
               fmt::format("code={} culprit={} message={}", code, culprit, message));
   }
   end(exit_code_);
@@ -280,13 +291,13 @@ void Clock::fail(int code, const std::string& culprit, const std::string& messag
 
 void Clock::end(int code) {
   if (phase_ == Phase::kEnding || phase_ == Phase::kOver) return;
-  run_ended_ = phase_began_ = steady_clock::now();
+  epoch_.ended = phase_began_ = steady_clock::now();
   // Those who failed, stall or never joined cannot be waited for.
   phase_ = code == 0 ? Phase::kEnding : Phase::kOver;
   send_to_all(fmt::format(R"({{"kind":"end","code":{}}})", code));
   if (code == 0) {
-    log::line("clock", std::min(conductor_->now(), conductor_->end()), "end",
-              fmt::format("wall_s={:.3f}", std::chrono::duration<double>(run_ended_ - run_began_).count()));
+    log::line("clock", std::min(epoch_.conductor->now(), epoch_.conductor->end()), "end",
+              fmt::format("wall_s={:.3f}", std::chrono::duration<double>(epoch_.ended - epoch_.began).count()));
   }
 }
 

@@ -33,6 +33,7 @@ inline constexpr SimTime kLateAfter = std::chrono::milliseconds(100);
 /// The run as a whole.
 struct Summary {
   std::string state = "connecting";  // connecting, running, paused, done, failed
+  std::uint32_t epoch = 1;
   SimTime reached{0};
   std::optional<SimTime> end;
   double wall_s = 0.0;  // since time started
@@ -42,6 +43,32 @@ struct Summary {
   int exit_code = 0;
   std::string culprit;
   std::string message;
+};
+
+/// One pass of sim time from 0 on: all of a run that begins anew with a reset.
+struct Epoch {
+  std::uint32_t number = 1;
+  std::filesystem::path out;  // folder of its results
+  std::optional<Conductor> conductor;
+  std::optional<Referee> referee;                  // with the conductor
+  std::vector<std::vector<std::uint32_t>> inputs;  // topic ids that each participant reads
+  std::vector<Account> accounts;
+  bool ending = false;
+  WallTime began{};  // time started
+  WallTime ended{};
+  WallTime last_progress{};
+  int stall_stage = 0;
+  WallTime health_reported{};
+  SimTime health_reported_at{0};  // sim time reached then
+  std::uint64_t health_count = 0;
+  std::uint64_t slips = 0;
+  SimTime slipped{0};
+};
+
+/// An epoch that has been asked for.
+struct NextEpoch {
+  Launch launch;
+  protocol::Begin begin;
 };
 
 /// The conductor process: gathers everybody, checks the wiring, proves every edge, then hands out sim time until the
@@ -65,10 +92,13 @@ class Clock {
   void on_failed(std::size_t rank, const protocol::Failed& failed);
   void on_request(const bus::Router::Message& message, const std::string& kind);
   // Each returns what is wrong with the request, or "".
+  std::string ask_reset(const nlohmann::json& request, nlohmann::json& answer);
   std::string look_up(const nlohmann::json& request, nlohmann::json& answer) const;
   std::string steer(const std::string& kind, const nlohmann::json& request, nlohmann::json& answer);
   void on_time(WallTime now);
 
+  void end_epoch();
+  void begin_next();
   void gather();
   void start();
   void hand_out();
@@ -86,29 +116,18 @@ class Clock {
   std::string status_json() const;
   std::string registry_json() const;
   msg::ClockHealth health(WallTime now) const;
-  void write_report() const;
+  void write_report(const std::filesystem::path& folder) const;
 
-  const Launch& launch_;
+  const Launch first_;  // the launch as it was started
+  Launch launch_;       // as the present epoch has it
   bus::Router& router_;
-  std::filesystem::path out_dir_;
   Registry registry_;
   Pacer pacer_;
-  std::optional<Conductor> conductor_;
+  Epoch epoch_;
+  std::optional<NextEpoch> next_;  // begins when the present one has come to its end
   Phase phase_ = Phase::kJoining;
   WallTime phase_began_;
-  WallTime run_began_{};
-  WallTime run_ended_{};
-  WallTime last_progress_{};
-  WallTime health_reported_{};
-  SimTime health_reported_at_{0};  // sim time reached then
-  std::uint64_t health_count_ = 0;
-  int stall_stage_ = 0;
-  std::vector<Account> accounts_;
-  std::vector<std::vector<std::uint32_t>> inputs_;  // topic ids that each participant reads
-  std::optional<Referee> referee_;                  // with the conductor
   std::vector<bool> left_;
-  std::uint64_t slips_ = 0;
-  SimTime slipped_{0};
   int exit_code_ = 0;
   std::string culprit_;
   std::string message_;

@@ -39,6 +39,12 @@ void Pacer::set_rate(std::optional<double> rate, SimTime reached, WallTime now) 
   rate_ = rate;
 }
 
+void Pacer::begin_again(WallTime now) {
+  origin_sim_ = SimTime{0};
+  origin_wall_ = now;
+  pause_cap_ = SimTime{-1};
+}
+
 void Pacer::pause(SimTime reached, WallTime now) { step_to(SimTime{-1}, reached, now); }
 
 void Pacer::step_to(SimTime until, SimTime reached, WallTime now) {

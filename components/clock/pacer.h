@@ -16,6 +16,8 @@ class Pacer {
   Pacer(std::optional<double> rate, SimTime slip_after) : rate_(rate), slip_after_(slip_after) {}
 
   void start(WallTime now) { origin_wall_ = now; }
+  /// Sim time is 0 again. The rate stands; a paused run waits there.
+  void begin_again(WallTime now);
 
   /// The cap at a wall time: kNever when free running.
   SimTime cap(WallTime now) const;

@@ -49,6 +49,19 @@ TEST_CASE("a pause holds the cap, a step moves it, resuming goes on from there")
   CHECK(pacer.cap(kStart + 31s) == 3100_ms);
 }
 
+TEST_CASE("another epoch begins at 0 at the rate in force, or waits there if paused") {
+  Pacer pacer = started(2.0);
+  CHECK(pacer.slip(1_s, kStart + 5s) == 9_s);
+  pacer.begin_again(kStart + 6s);
+  CHECK(pacer.cap(kStart + 7s) == 2_s);
+  pacer.step_to(3_s, 2_s, kStart + 7s);
+  pacer.begin_again(kStart + 8s);
+  CHECK(pacer.paused());
+  CHECK(pacer.cap(kStart + 9s) < 0_s);
+  pacer.resume(kStart + 10s);
+  CHECK(pacer.cap(kStart + 11s) == 2_s);
+}
+
 TEST_CASE("a change of rate goes on from where the run is") {
   Pacer pacer = started(1.0);
   pacer.set_rate(10.0, 2_s, kStart + 2s);

@@ -14,7 +14,7 @@ Breach broken(const std::string& text) { return {kExitDied, "broke the protocol:
 
 }  // namespace
 
-Referee::Referee(const Graph& graph, const std::vector<Declaration>& processes) {
+Referee::Referee(std::uint32_t epoch, const Graph& graph, const std::vector<Declaration>& processes) : epoch_(epoch) {
   for (const Declaration& process : processes) runners_.push_back({process.may_finish, period_of({}), SimTime{0}, 0});
   const auto note = [](SimTime& finest, Rate rate) { finest = std::min(finest, period_of(rate)); };
   for (const Graph::Topic& topic : graph.topics) {
@@ -25,8 +25,7 @@ Referee::Referee(const Graph& graph, const std::vector<Declaration>& processes) 
 }
 
 std::optional<Breach> Referee::judge(std::size_t rank, const protocol::Done& done, SimTime promised, SimTime granted) {
-  if (done.epoch != protocol::Welcome{}.epoch)
-    return broken(fmt::format("epoch: is {}, the run's is {}", done.epoch, protocol::Welcome{}.epoch));
+  if (done.epoch != epoch_) return broken(fmt::format("epoch: is {}, the run's is {}", done.epoch, epoch_));
   if (done.next < promised)
     return broken(fmt::format("next: {} ns is before its promise of {} ns", done.next.count(), promised.count()));
   if (done.finish && !runners_[rank].may_finish)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct Breach {
 /// Judges each DONE before anything follows from it, so that the process that is wrong is named and nobody else.
 class Referee {
  public:
-  Referee(const Graph& graph, const std::vector<Declaration>& processes);
+  Referee(std::uint32_t epoch, const Graph& graph, const std::vector<Declaration>& processes);
 
   /// What is wrong with this answer of `rank`, which had promised `promised` and was granted time up to `granted`. What
   /// is not wrong is counted.
@@ -47,6 +48,7 @@ class Referee {
   std::optional<Breach> count(std::size_t rank, const protocol::Done& done, SimTime until);
   std::optional<Breach> watch_creep(std::size_t rank, SimTime next);
 
+  std::uint32_t epoch_;
   std::vector<Topic> topics_;
   std::vector<Runner> runners_;
 };

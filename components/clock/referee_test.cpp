@@ -16,7 +16,7 @@ const std::vector<Declaration> kProcesses{{"boat", "stub", {{"pose", "pose/1", 1
 constexpr std::size_t kBoat = 0, kAgent = 1;
 constexpr std::uint32_t kPose = 0, kCommand = 1, kMark = 2;
 
-Referee referee() { return {wire(kProcesses, {}), kProcesses}; }
+Referee referee(std::uint32_t epoch = 1) { return {epoch, wire(kProcesses, {}), kProcesses}; }
 
 protocol::Done done_at(SimTime next, protocol::TopicCounts outputs = {}, bool finish = false) {
   return {1, next, finish, 0, std::move(outputs)};
@@ -46,6 +46,9 @@ TEST_CASE("a DONE of another epoch is refused") {
   protocol::Done done = done_at(1_s);
   done.epoch = 2;
   CHECK_THAT(text_of(referee().judge(kBoat, done, 0_s, 1_s)), Catch::Contains("epoch: is 2, the run's is 1"));
+  CHECK(text_of(referee(2).judge(kBoat, done, 0_s, 1_s)).empty());
+  done.epoch = 1;
+  CHECK_THAT(text_of(referee(2).judge(kBoat, done, 0_s, 1_s)), Catch::Contains("epoch: is 1, the run's is 2"));
 }
 
 TEST_CASE("counts are of one's own topics and never fall") {

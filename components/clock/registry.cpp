@@ -1,7 +1,10 @@
 #include "components/clock/registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "components/clock/rewiring.h"
 #include "components/runtime/declared.h"
 #include "launch/process/launch_wiring.h"
 
@@ -11,14 +14,23 @@ namespace {
 constexpr double kPatienceInDeadlines = 5.0;  // below the ten after which whoever waits would be taken to stall
 }
 
-Registry::Registry(const Launch& launch) : rules_(wire_rules(launch)), places_(process_places(launch)) {
+Registry::Registry(const Launch& launch) {
   for (const ProcessSpec& process : launch.processes) {
     if (!process.observer) names_.push_back(process.name);  // observers are no part of the run
   }
   joined_.resize(names_.size());
-  has_joined_.resize(names_.size());
+  epochs_.resize(names_.size());
+  begin(launch, epoch_);
+}
+
+void Registry::begin(const Launch& launch, std::uint32_t epoch) {
+  epoch_ = epoch;
+  rules_ = wire_rules(launch);
+  places_ = process_places(launch);
   facts_ = facts_of(launch);
   patience_s_ = kPatienceInDeadlines * launch.clock.progress_deadline_s;
+  declarations_.clear();
+  graph_ = {};
 }
 
 std::optional<std::size_t> Registry::rank_of(const std::string& name) const {
@@ -29,7 +41,7 @@ std::optional<std::size_t> Registry::rank_of(const std::string& name) const {
 
 std::optional<std::size_t> Registry::participant(const std::string& name) const {
   const auto rank = rank_of(name);
-  return rank && has_joined_[*rank] ? rank : std::nullopt;
+  return rank && epochs_[*rank] > 0 ? rank : std::nullopt;
 }
 
 bool Registry::feeds(std::size_t publisher, std::size_t subscriber) const {
@@ -43,9 +55,12 @@ std::string Registry::join(const std::string& from, const protocol::Hello& hello
   if (name != from) return "hello of " + name + " came from " + from;
   const auto rank = rank_of(name);
   if (!rank) return name + ": the launch file names no such process";
-  if (has_joined_[*rank]) return name + ": has joined already";
+  if (joined(*rank)) return name + ": has joined already";
+  if (hello.epoch != epoch_) return fmt::format("{}: joins epoch {}, the run's is {}", name, hello.epoch, epoch_);
+  const bool again = epochs_[*rank] > 0;
+  if (again && hello.sync_endpoint != joined_[*rank].sync_endpoint) return name + ": its sync endpoint is another";
   joined_[*rank] = hello;
-  has_joined_[*rank] = true;
+  epochs_[*rank] = epoch_;
   declarations_.push_back(hello.declaration);
   facts_[kDeclarationsFact] = declarations_json(declarations_);
   for (const auto& [key, text] : hello.facts) facts_[name + "/" + key] = text;
@@ -55,7 +70,15 @@ std::string Registry::join(const std::string& from, const protocol::Hello& hello
 std::vector<std::string> Registry::missing() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (!has_joined_[i]) names.push_back(names_[i]);
+    if (!joined(i)) names.push_back(names_[i]);
+  }
+  return names;
+}
+
+std::vector<std::string> Registry::fixed() const {
+  std::vector<std::string> names;
+  for (const protocol::Hello& hello : joined_) {
+    if (!hello.resets) names.push_back(hello.declaration.process);
   }
   return names;
 }
@@ -65,10 +88,18 @@ const std::vector<std::string>& Registry::check() {
   for (const protocol::Hello& hello : joined_) declarations_.push_back(hello.declaration);
   facts_[kDeclarationsFact] = declarations_json(declarations_);
   graph_ = wire(declarations_, rules_, places_);
-  for (std::size_t e = 0; e < graph_.edges.size(); ++e)
-    unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
+  if (epoch_ == 1) {
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
+    first_ = graph_;
+  } else {
+    for (std::size_t rank = 0; rank < names_.size(); ++rank) unready_.insert(rank);
+    if (graph_.problems.empty()) graph_.problems = rewired(first_, graph_, declarations_);
+  }
   return graph_.problems;
 }
+
+void Registry::is_ready(std::size_t rank) { unready_.erase(rank); }
 
 void Registry::proven(const std::string& from, const std::string& token) {
   const auto edge = unproven_.find(token);
@@ -77,6 +108,7 @@ void Registry::proven(const std::string& from, const std::string& token) {
 
 protocol::Welcome Registry::welcome(std::size_t rank) const {
   protocol::Welcome w;
+  w.epoch = epoch_;
   w.rank = static_cast<std::uint32_t>(rank);
   w.facts = facts_;
   w.patience_s = patience_s_;
@@ -104,6 +136,7 @@ std::vector<std::string> Registry::unproven() const {
     if (!unproven_.contains(token_of(e))) continue;
     names.push_back(graph_.topics[graph_.edges[e].topic].name + " -> " + names_[graph_.edges[e].to]);
   }
+  for (const std::size_t rank : unready_) names.push_back(names_[rank]);
   return names;
 }
 

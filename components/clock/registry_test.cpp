@@ -20,7 +20,11 @@ Launch launch_of(std::vector<std::string> names) {
 }
 
 protocol::Hello hello_of(const std::string& name, std::vector<OutPort> outs, std::vector<InPort> ins) {
-  return {{name, "stub", std::move(outs), std::move(ins), false}, 1, SimTime{0}, "ipc://" + name, "ipc://" + name, {}};
+  protocol::Hello hello;
+  hello.declaration = {name, "stub", std::move(outs), std::move(ins), false};
+  hello.resets = true;
+  hello.sync_endpoint = hello.live_endpoint = "ipc://" + name;
+  return hello;
 }
 
 }  // namespace
@@ -65,4 +69,42 @@ TEST_CASE("everybody learns what each process declares") {
   const auto heads = declared<msg::HeadDeclaration>(registry.welcome(1).facts);
   REQUIRE(heads.size() == 1);
   CHECK(msg::to_value(heads.at("bow")) == msg::to_value(head));
+}
+
+TEST_CASE("in a later epoch the same processes join again; time starts when each has read its welcome") {
+  const Launch launch = launch_of({"a", "b"});
+  clock::Registry registry(launch);
+  auto a = hello_of("a", {{"x", "x/1", 100, {1, 1}}}, {});
+  auto b = hello_of("b", {}, {{"x", "x/1", SimTime{0}, false, {}, 0}});
+  CHECK(registry.join("a", a).empty());
+  CHECK(registry.join("b", b).empty());
+  REQUIRE(registry.check().empty());
+  registry.proven("a", registry.welcome(1).ins[0].token);
+  REQUIRE(registry.ready());
+  CHECK(registry.fixed().empty());
+
+  registry.begin(launch, 2);
+  CHECK(registry.missing() == std::vector<std::string>{"a", "b"});
+  CHECK(registry.participant("a") == 0);  // it may still say that it has failed
+  CHECK(registry.join("a", a) == "a: joins epoch 1, the run's is 2");
+  a.epoch = b.epoch = 2;
+  b.resets = false;
+  CHECK(registry.join("a", a).empty());
+  CHECK(registry.join("a", a) == "a: has joined already");
+  CHECK(registry.join("b", b).empty());
+  CHECK(registry.fixed() == std::vector<std::string>{"b"});
+  REQUIRE(registry.check().empty());
+  CHECK(registry.welcome(1).epoch == 2);
+  CHECK(registry.unproven() == std::vector<std::string>{"a", "b"});
+  registry.is_ready(0);
+  CHECK_FALSE(registry.ready());
+  registry.is_ready(1);
+  CHECK(registry.ready());
+
+  registry.begin(launch, 3);
+  a.epoch = b.epoch = 3;
+  a.declaration.outs.push_back({"y", "y/1", 100, {1, 1}});
+  CHECK(registry.join("a", a).empty());
+  CHECK(registry.join("b", b).empty());
+  CHECK(registry.check() == std::vector<std::string>{"a/y of type y/1: is new; only a new launch can have it"});
 }

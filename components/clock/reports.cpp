@@ -37,6 +37,7 @@ double elapsed_s(WallTime from, WallTime to) { return std::chrono::duration<doub
 
 json to_json(const Summary& s) {
   json j = {{"state", s.state},
+            {"epoch", s.epoch},
             {"sim_ns", s.reached == kNever ? json(nullptr) : json(s.reached.count())},
             {"end_ns", s.end ? json(s.end->count()) : json(nullptr)},
             {"wall_s", s.wall_s},
@@ -65,57 +66,58 @@ char Clock::state_of(std::size_t p) const {
   const std::string& endpoint = registry_.hellos()[p].sync_endpoint;
   const bool is_here = endpoint.starts_with("ipc://") || endpoint.starts_with("tcp://127.") ||
                        endpoint.starts_with("tcp://" + launch_.clock.address + ":");
-  return is_here ? process_state(accounts_[p].pid) : '?';
+  return is_here ? process_state(epoch_.accounts[p].pid) : '?';
 }
 
 /// A stopped process first, then a busy one, then whoever has a grant: a participant that blocks on a full queue of a
 /// stopped one has a grant too, but is not to blame.
 std::string Clock::name_stalled() const {
   for (const char state : {'T', 't', 'R'}) {
-    for (std::size_t p = 0; p < accounts_.size(); ++p) {
-      const bool suspect = state != 'R' || conductor_->running(p);
-      if (suspect && state_of(p) == state) return accounts_[p].name;
+    for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
+      const bool suspect = state != 'R' || epoch_.conductor->running(p);
+      if (suspect && state_of(p) == state) return epoch_.accounts[p].name;
     }
   }
   std::string names;
-  for (std::size_t p = 0; p < accounts_.size(); ++p) {
-    if (conductor_->running(p)) names += (names.empty() ? "" : ", ") + accounts_[p].name;
+  for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
+    if (epoch_.conductor->running(p)) names += (names.empty() ? "" : ", ") + epoch_.accounts[p].name;
   }
   return names;
 }
 
 void Clock::dump_stall() const {
-  for (std::size_t p = 0; p < accounts_.size(); ++p) {
+  for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
     std::string waits;
-    for (const std::size_t q : conductor_->waits_for(p)) waits += (waits.empty() ? "" : ",") + accounts_[q].name;
-    log::line("clock", conductor_->now(), "stall",
+    for (const std::size_t q : epoch_.conductor->waits_for(p)) waits += (waits.empty() ? "" : ",") + epoch_.accounts[q].name;
+    log::line("clock", epoch_.conductor->now(), "stall",
               fmt::format("process={} has_grant={} next_s={:.3f} granted_to_s={:.3f} waits_for=[{}] system_state={}",
-                          accounts_[p].name, conductor_->running(p), seconds(conductor_->next(p)),
-                          seconds(conductor_->granted(p)), waits, state_of(p)));
+                          epoch_.accounts[p].name, epoch_.conductor->running(p), seconds(epoch_.conductor->next(p)),
+                          seconds(epoch_.conductor->granted(p)), waits, state_of(p)));
   }
   for (const Graph::Topic& topic : registry_.graph().topics) {
-    if (!conductor_->running(topic.publisher)) continue;
+    if (!epoch_.conductor->running(topic.publisher)) continue;
     const auto id = static_cast<std::size_t>(&topic - registry_.graph().topics.data());
-    log::line("clock", conductor_->now(), "stall",
-              fmt::format("topic={} published={}", topic.name, referee_->published(id)));
+    log::line("clock", epoch_.conductor->now(), "stall",
+              fmt::format("topic={} published={}", topic.name, epoch_.referee->published(id)));
   }
 }
 
 Summary Clock::summary() const {
   Summary s;
+  s.epoch = epoch_.number;
   s.rate = pacer_.rate();
-  s.slips = slips_;
-  s.slipped = slipped_;
+  s.slips = epoch_.slips;
+  s.slipped = epoch_.slipped;
   s.exit_code = exit_code_;
   s.culprit = culprit_;
   s.message = message_;
-  const bool over = phase_ == Phase::kEnding || phase_ == Phase::kOver;
+  const bool over = epoch_.ended != WallTime{} || phase_ == Phase::kEnding || phase_ == Phase::kOver;
   if (over) s.state = exit_code_ == 0 ? "done" : "failed";
   else if (phase_ == Phase::kRunning) s.state = pacer_.paused() ? "paused" : "running";
-  if (conductor_) {
-    s.reached = std::min(conductor_->now(), conductor_->end());
-    if (conductor_->end() != kNever) s.end = conductor_->end();
-    if (run_began_ != WallTime{}) s.wall_s = elapsed_s(run_began_, over ? run_ended_ : steady_clock::now());
+  if (epoch_.conductor) {
+    s.reached = std::min(epoch_.conductor->now(), epoch_.conductor->end());
+    if (epoch_.conductor->end() != kNever) s.end = epoch_.conductor->end();
+    if (epoch_.began != WallTime{}) s.wall_s = elapsed_s(epoch_.began, over ? epoch_.ended : steady_clock::now());
   }
   return s;
 }
@@ -124,13 +126,13 @@ std::string Clock::status_json() const {
   json j = to_json(summary());
   j["kind"] = "status";
   j["participants"] = json::array();
-  for (std::size_t p = 0; p < accounts_.size(); ++p) {
-    json entry = to_json(accounts_[p]);
+  for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
+    json entry = to_json(epoch_.accounts[p]);
     std::vector<std::string> waits;
-    for (const std::size_t q : conductor_->waits_for(p)) waits.push_back(accounts_[q].name);
-    const SimTime next = conductor_->next(p);
+    for (const std::size_t q : epoch_.conductor->waits_for(p)) waits.push_back(epoch_.accounts[q].name);
+    const SimTime next = epoch_.conductor->next(p);
     entry["next_ns"] = next == kNever ? json(nullptr) : json(next.count());
-    entry["running"] = conductor_->running(p);
+    entry["running"] = epoch_.conductor->running(p);
     entry["waiting_on"] = waits;
     j["participants"].push_back(entry);
   }
@@ -161,7 +163,7 @@ std::string Clock::registry_json() const {
                       {"rate", {topic.rate.num, topic.rate.den}},
                       {"live", publisher.live_endpoint},
                       {"sync", publisher.sync_endpoint},
-                      {"published", referee_ ? referee_->published(t) : 0},
+                      {"published", epoch_.referee ? epoch_.referee->published(t) : 0},
                       {"subscribers", subscribers}});
   }
   if (!graph.topics.empty()) {  // the clock's own, behind everybody's
@@ -174,7 +176,7 @@ std::string Clock::registry_json() const {
                       {"rate", {1, 1}},
                       {"live", router_.live_endpoint()},
                       {"sync", ""},
-                      {"published", health_count_},
+                      {"published", epoch_.health_count},
                       {"subscribers", json::array()}});
   }
   json processes = json::array();
@@ -192,11 +194,11 @@ msg::ClockHealth Clock::health(WallTime now) const {
   health.state = s.state;
   health.wall_s = s.wall_s;
   health.rate = s.rate.value_or(0.0);
-  health.rate_factor = seconds(s.reached - health_reported_at_) / elapsed_s(health_reported_, now);
+  health.rate_factor = seconds(s.reached - epoch_.health_reported_at) / elapsed_s(epoch_.health_reported, now);
   health.lateness_s = seconds(pacer_.lateness(s.reached, now));
   health.slips = static_cast<std::int64_t>(s.slips);
   health.slip_s = seconds(s.slipped);
-  for (const Account& account : accounts_) {
+  for (const Account& account : epoch_.accounts) {
     health.participants.push_back({account.name, static_cast<std::int64_t>(account.grants),
                                    static_cast<double>(account.cost_ns) * 1e-9,
                                    static_cast<std::int64_t>(account.late_events), seconds(account.worst_lateness)});
@@ -210,16 +212,16 @@ void Clock::report_health(WallTime now) {
   msg::Packet packet;
   packet.topic = kHealthTopic;
   packet.body = msg::encode(report);
-  packet.envelope.epoch = protocol::Welcome{}.epoch;
+  packet.envelope.epoch = epoch_.number;
   packet.envelope.publisher = static_cast<std::uint32_t>(registry_.size());
   packet.envelope.topic_id = static_cast<std::uint32_t>(registry_.graph().topics.size());
   packet.envelope.frame_count = static_cast<std::uint32_t>(msg::kFirstArrayFrame);
   packet.envelope.type_hash = msg::type_hash(msg::ClockHealth::kType);
-  packet.envelope.seq = health_count_++;
+  packet.envelope.seq = epoch_.health_count++;
   packet.envelope.t_sim_ns = report.stamp_ns;
   router_.publish_live(packet);
-  health_reported_ = now;
-  health_reported_at_ = SimTime{report.stamp_ns};
+  epoch_.health_reported = now;
+  epoch_.health_reported_at = SimTime{report.stamp_ns};
 }
 
 void Clock::on_request(const bus::Router::Message& message, const std::string& kind) {
@@ -232,7 +234,7 @@ void Clock::on_request(const bus::Router::Message& message, const std::string& k
   const std::string problem = steers ? steer(kind, request, answer) : look_up(request, answer);
   if (steers && problem.empty()) {
     const std::string tool = message.address.empty() ? "a tool" : "a tool at " + message.address;
-    log::line("clock", conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0}, kind,
+    log::line("clock", epoch_.conductor ? std::min(epoch_.conductor->now(), epoch_.conductor->end()) : SimTime{0}, kind,
               fmt::format("asked_by=\"{}\"", registry_.rank_of(from) ? from : tool));
   }
   if (problem.empty()) router_.send(from, answer.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -256,7 +258,7 @@ std::string Clock::look_up(const json& request, json& answer) const {
 
 std::string Clock::steer(const std::string& kind, const json& request, json& answer) {
   const WallTime now = steady_clock::now();
-  const SimTime reached = conductor_ ? std::min(conductor_->now(), conductor_->end()) : SimTime{0};
+  const SimTime reached = epoch_.conductor ? std::min(epoch_.conductor->now(), epoch_.conductor->end()) : SimTime{0};
   if (kind == "pause") {
     pacer_.pause(reached, now);
   } else if (kind == "resume") {
@@ -277,25 +279,28 @@ std::string Clock::steer(const std::string& kind, const json& request, json& ans
     if (!paced && !(rate.is_number() && rate == 0))
       return fmt::format("rate: is neither 0 (free) nor a number in [{:g}, {:g}]", kSlowest, kFastest);
     pacer_.set_rate(paced ? std::optional(rate.get<double>()) : std::nullopt, reached, now);
+  } else if (kind == "reset") {
+    return ask_reset(request, answer);
   } else if (kind == "stop") {
     request_stop();
   } else {
-    return "unknown request; known: status, registry, get, pause, resume, step (ns), rate (0: free), stop";
+    return "unknown request; known: status, registry, get, pause, resume, step (ns), rate (0: free), reset (set, out), "
+           "stop";
   }
   return "";
 }
 
-void Clock::write_report() const {
+void Clock::write_report(const std::filesystem::path& folder) const {
   json j = to_json(summary());
-  j["sim_s"] = conductor_ ? seconds(summary().reached) : 0.0;
+  j["sim_s"] = epoch_.conductor ? seconds(summary().reached) : 0.0;
   std::uint64_t late = 0;
   j["participants"] = json::array();
-  for (const Account& account : accounts_) {
+  for (const Account& account : epoch_.accounts) {
     late += account.late_events;
     j["participants"].push_back(to_json(account));
   }
   j["late_events"] = late;
-  std::ofstream file(out_dir_ / "clock.json");
+  std::ofstream file(folder / "clock.json");
   file << j.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
 }
 

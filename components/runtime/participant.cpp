@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include "components/errors/exit_error.h"
@@ -18,16 +19,14 @@ namespace {
 /// The loop between HELLO and END.
 class Participant {
  public:
-  Participant(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting)
-      : ports_(ports),
-        node_(node),
-        declaration_(declaration_of(component, ports)),
-        stepper_(ports, [&node](SimTime now) { return node.step(now); }),
-        link_(ports.process(), meeting.clock_endpoint, meeting.address, queue_length(declaration_, kLongestWindow)) {}
+  Participant(const OpenSession& open, const Meeting& meeting)
+      : open_(open),
+        session_(open({})),
+        link_(session_->ports().process(), meeting.clock_endpoint, meeting.address,
+              queue_length(session_->declaration(), kLongestWindow)) {}
 
   int run() {
-    link_.send_control(protocol::encode(
-        protocol::Hello{declaration_, getpid(), SimTime{0}, link_.sync_endpoint(), link_.live_endpoint(), {}}));
+    say_hello();
     while (true) {
       const bus::Link::Event event = next_event();
       if (event.kind == bus::Link::Event::kClockLost) throw ExitError(kExitDied, "the clock is gone");
@@ -38,11 +37,14 @@ class Participant {
       } else {
         const std::string kind = protocol::kind_of(event.control);
         if (kind == "welcome") welcome(event.control);
+        if (kind == "epoch") begin(protocol::read_epoch(event.control));
         if (kind == "refused") return refused(event.control);
         if (kind == "end") return end(protocol::read_code(event.control));
       }
     }
   }
+
+  bool completes_files() const { return session_->node().completes_files(); }
 
   /// From another thread: run() throws.
   void interrupt() { link_.interrupt(); }
@@ -50,6 +52,17 @@ class Participant {
   void report_failed(const protocol::Failed& failed) { link_.send_control(protocol::encode_failed(failed)); }
 
  private:
+  void say_hello() {
+    protocol::Hello hello;
+    hello.declaration = session_->declaration();
+    hello.pid = getpid();
+    hello.epoch = epoch_;
+    hello.resets = true;
+    hello.sync_endpoint = link_.sync_endpoint();
+    hello.live_endpoint = link_.live_endpoint();
+    link_.send_control(protocol::encode(hello));
+  }
+
   /// Once time has started the clock alone has something to say, unless it is gone.
   bus::Link::Event next_event() {
     if (granted_) {
@@ -59,7 +72,7 @@ class Participant {
   }
 
   void welcome(const std::string& text) {
-    protocol::Welcome w = protocol::read_welcome(text, ports_.outs(), ports_.ins());
+    protocol::Welcome w = protocol::read_welcome(text, session_->ports().outs(), session_->ports().ins());
     epoch_ = w.epoch;
     patience_ = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * w.patience_s));
     std::vector<Feed> feeds;
@@ -70,9 +83,21 @@ class Participant {
       subscriptions.push_back(
           {c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes, c.publisher, c.rank, c.rate});
     }
-    stepper_.wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
-                  [this](msg::Packet&& packet) { link_.publish(packet); });
+    session_->stepper().wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
+                             [this](msg::Packet&& packet) { link_.publish(packet); });
     link_.subscribe(subscriptions, w.epoch);
+    if (wired_) link_.send_control(R"({"kind":"ready"})");
+    wired_ = true;
+  }
+
+  /// The epoch before has been run to its end. What is left of it goes before its successor comes: files and sockets
+  /// may be the same.
+  void begin(const protocol::Begin& next) {
+    finish();
+    session_.reset();
+    epoch_ = next.epoch;
+    session_ = open_({next.sets, next.out});
+    say_hello();
   }
 
   void report_proven(const std::vector<std::string>& tokens) { link_.send_control(protocol::encode_proven(tokens)); }
@@ -80,21 +105,22 @@ class Participant {
   void run_grant(const protocol::Grant& grant) {
     if (grant.epoch != epoch_) return;
     granted_ = true;
+    Stepper& stepper = session_->stepper();
     link_.wait_arrived(grant.inputs, patience_);
     for (const msg::Packet& packet : link_.take()) {
-      if (stepper_.too_late(packet)) throw broken_promise(packet);
-      stepper_.insert(packet);
+      if (stepper.too_late(packet)) throw broken_promise(packet);
+      stepper.insert(packet);
     }
     const auto begin = std::chrono::steady_clock::now();
     protocol::Done done;
-    done.finish = stepper_.run_to(grant.horizon);
+    done.finish = stepper.run_to(grant.horizon);
     link_.flush();
     done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
-    link_.expect_until(saturating_add(stepper_.next(), kLongestWindow));
+    link_.expect_until(saturating_add(stepper.next(), kLongestWindow));
     done.epoch = epoch_;
-    done.next = done.finish ? stepper_.last() + SimTime{1} : stepper_.next();
-    for (std::size_t i = 0; i < stepper_.outs().size(); ++i) {
-      done.outputs.emplace_back(stepper_.outs()[i].topic_id, stepper_.published()[i]);
+    done.next = done.finish ? stepper.last() + SimTime{1} : stepper.next();
+    for (std::size_t i = 0; i < stepper.outs().size(); ++i) {
+      done.outputs.emplace_back(stepper.outs()[i].topic_id, stepper.published()[i]);
     }
     link_.send_control(protocol::encode(done));
   }
@@ -108,32 +134,42 @@ class Participant {
 
   int refused(const std::string& text) {
     for (const std::string& problem : protocol::read_problems(text))
-      log::line(ports_.process(), SimTime{0}, "refused", problem);
+      log::line(session_->ports().process(), SimTime{0}, "refused", problem);
     return kExitUserError;
   }
 
   int end(int code) {
-    if (code == 0) node_.finish_run();
+    if (code == 0) finish();
+    else note_exit_code();
     link_.send_control(R"({"kind":"bye"})");
-    return node_.exit_code();
+    return exit_code_;
   }
 
-  Ports& ports_;
-  AnyNode& node_;
-  Declaration declaration_;
-  Stepper stepper_;
+  void finish() {
+    session_->node().finish_run();
+    note_exit_code();
+  }
+
+  void note_exit_code() {
+    if (exit_code_ == kExitOk) exit_code_ = session_->node().exit_code();
+  }
+
+  OpenSession open_;
+  std::unique_ptr<Session> session_;
   bus::Link link_;
-  std::uint32_t epoch_ = 0;
+  std::uint32_t epoch_ = 1;
+  int exit_code_ = kExitOk;  // of the first epoch that has one
   std::chrono::milliseconds patience_{0};
+  bool wired_ = false;  // edges are proven once
   bool granted_ = false;
 };
 
 }  // namespace
 
-int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting) {
-  Participant participant(component, ports, node, meeting);
+int participate(const OpenSession& open, const Meeting& meeting) {
+  Participant participant(open, meeting);
   std::optional<Termination> termination;
-  if (node.completes_files()) termination.emplace([&] { participant.interrupt(); });
+  if (participant.completes_files()) termination.emplace([&] { participant.interrupt(); });
   try {
     return participant.run();
   } catch (const std::exception& e) {

@@ -3,8 +3,7 @@
 #include <string>
 
 #include "components/runtime/bus/link.h"
-#include "components/runtime/stepper.h"
-#include "components/runtime/wiring.h"
+#include "components/runtime/session.h"
 
 namespace ensonify {
 
@@ -14,8 +13,9 @@ struct Meeting {
   bus::Address address;
 };
 
-/// Takes part in a run: HELLO, the proof of every edge, grants until the end. Returns the process's exit code; throws
-/// what the node or the bus throws, after reporting to the clock.
-int participate(const std::string& component, Ports& ports, AnyNode& node, const Meeting& meeting);
+/// Takes part in a run: HELLO, the proof of every edge, grants until the end, and after a reset the same without proofs
+/// with a session of its own. Returns the process's exit code, that of the first epoch whose node has one; throws what
+/// the node or the bus throws, after reporting to the clock.
+int participate(const OpenSession& open, const Meeting& meeting);
 
 }  // namespace ensonify

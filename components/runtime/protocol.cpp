@@ -197,6 +197,8 @@ std::string encode(const Hello& hello) {
   json j = to_json(hello.declaration);
   j["kind"] = "hello";
   j["pid"] = hello.pid;
+  j["epoch"] = hello.epoch;
+  j["resets"] = hello.resets;
   j["first_ns"] = hello.first.count();
   j["sync"] = hello.sync_endpoint;
   j["live"] = hello.live_endpoint;
@@ -209,6 +211,8 @@ Hello read_hello(std::string_view text) {
   Hello hello;
   hello.declaration = from_json(j);
   hello.pid = field<std::int64_t>(j, "pid", 0);
+  hello.epoch = field<std::uint32_t>(j, "epoch", hello.epoch);
+  hello.resets = field<bool>(j, "resets", false);
   hello.first = SimTime{field<std::int64_t>(j, "first_ns", 0)};
   hello.sync_endpoint = endpoint(j, "sync");
   hello.live_endpoint = endpoint(j, "live");
@@ -274,6 +278,16 @@ Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, co
     w.ins.push_back(std::move(in));
   }
   return w;
+}
+
+std::string encode(const Begin& begin) {
+  return json{{"kind", "epoch"}, {"epoch", begin.epoch}, {"set", begin.sets}, {"out", begin.out}}.dump(
+      -1, ' ', false, json::error_handler_t::replace);
+}
+
+Begin read_epoch(std::string_view text) {
+  const json j = parse(text);
+  return {field<std::uint32_t>(j, "epoch"), field<std::vector<std::string>>(j, "set"), field<std::string>(j, "out")};
 }
 
 std::string kind_of(std::string_view text) {

@@ -17,6 +17,8 @@ namespace ensonify::protocol {
 struct Hello {
   Declaration declaration;
   std::int64_t pid = 0;
+  std::uint32_t epoch = 1;  // that it joins
+  bool resets = false;      // can begin another epoch
   SimTime first{0};
   std::string sync_endpoint;
   std::string live_endpoint;
@@ -36,6 +38,13 @@ struct Welcome {
   std::vector<std::vector<std::string>> out_tokens;  // per out: one for each subscriber to come
   std::vector<WelcomeIn> ins;
   std::map<std::string, std::string> facts;  // "launch", "scenario", "version"
+};
+
+/// An epoch begins: whoever takes part ends the one before, and says HELLO again.
+struct Begin {
+  std::uint32_t epoch = 2;
+  std::vector<std::string> sets;  // as --set takes them, behind those of the launch
+  std::string out;                // folder of its results
 };
 
 using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;  // topic id, messages so far
@@ -79,6 +88,9 @@ Welcome read_welcome(std::string_view json, const std::vector<OutPort>& outs, co
 std::optional<Grant> read_grant(std::string_view bytes);
 std::optional<Done> read_done(std::string_view bytes);
 
+/// {"kind":"epoch","epoch":2,"set":[..],"out":".."}
+std::string encode(const Begin& begin);
+Begin read_epoch(std::string_view json);
 /// {"kind":"failed","code":..,"message":..,"culprit":..}
 std::string encode_failed(const Failed& failed);
 Failed read_failed(std::string_view json);

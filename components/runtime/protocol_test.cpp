@@ -18,6 +18,15 @@ TEST_CASE("grant and done survive their bytes") {
   CHECK(done_back->outputs == protocol::TopicCounts{{1, 5}});
 }
 
+TEST_CASE("the beginning of an epoch survives its JSON, and a wrong field of it is named") {
+  const auto back = protocol::read_epoch(protocol::encode(protocol::Begin{7, {"seed=3", "a.b=\"x\""}, "/tmp/out"}));
+  CHECK(back.epoch == 7);
+  CHECK(back.sets == std::vector<std::string>{"seed=3", "a.b=\"x\""});
+  CHECK(back.out == "/tmp/out");
+  CHECK_THROWS_WITH(protocol::read_epoch(R"({"epoch":-1,"set":[],"out":""})"), Catch::Contains("epoch"));
+  CHECK_THROWS_WITH(protocol::read_epoch(R"({"epoch":2,"set":"seed=1","out":""})"), Catch::Contains("set"));
+}
+
 TEST_CASE("every truncation and every excess byte of a grant is refused") {
   const std::string whole = protocol::encode(protocol::Grant{1, 5_s, {{7, 42}}});
   for (std::size_t n = 0; n < whole.size(); ++n) CHECK_FALSE(protocol::read_grant(whole.substr(0, n)));

@@ -1,16 +1,27 @@
 #include "launch/process/launch_wiring.h"
 
+#include <filesystem>
+
 #include "components/runtime/lockstep/local_bus.h"
 #include "components/runtime/version.h"
 
 namespace ensonify {
 
 namespace {
+namespace fs = std::filesystem;
+
 std::string text_of(const ConfigPlace& place) {
   return place.line == 0 ? place.file
                          : place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 }  // namespace
+
+LaunchOptions options_of(const EpochOptions& epoch, LaunchOptions launch) {
+  launch.sets.insert(launch.sets.end(), epoch.sets.begin(), epoch.sets.end());
+  launch.out = epoch.out;
+  if (!launch.record.empty()) launch.record = epoch.out + "/" + fs::path(launch.record).filename().string();
+  return launch;
+}
 
 std::vector<WireRule> wire_rules(const Launch& launch) {
   std::vector<WireRule> rules;

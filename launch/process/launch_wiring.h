@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "components/runtime/lockstep/conductor.h"
+#include "components/runtime/session.h"
 #include "components/runtime/wiring.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {
+
+/// The launch's options as a later epoch has them. A record by --record keeps its name, in the epoch's folder.
+LaunchOptions options_of(const EpochOptions& epoch, LaunchOptions launch);
 
 /// A launch file's `wiring:` as rules with places.
 std::vector<WireRule> wire_rules(const Launch& launch);

@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+bool started = false;  // once in a process, whatever nodes it has
+
 double seconds_of(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 double microseconds_of(std::int64_t ns) { return 1e-3 * static_cast<double>(ns); }
 
@@ -36,14 +38,14 @@ Json trace_events(const profile::Report& report, const std::string& process) {
 }  // namespace
 
 SimTime ProfiledNode::step(SimTime now) {
-  if (!started_) profile::start();
-  started_ = true;
+  if (!started) profile::start();
+  started = true;
   const profile::Span span(profile::Stage::kStep);
   return node_->step(now);
 }
 
-void ProfiledNode::write(const std::string& file, const std::string& process) const {
-  const profile::Report report = started_ ? profile::report() : profile::Report{};
+void write_profile(const std::string& file, const std::string& process) {
+  const profile::Report report = started ? profile::report() : profile::Report{};
   Json stages = Json::object();
   for (std::size_t i = 0; i < profile::kStages; ++i) {
     const profile::Sum& sum = report.sums[i];

@@ -22,13 +22,13 @@ class ProfiledNode : public AnyNode {
   int exit_code() const override { return node_->exit_code(); }
   bool completes_files() const override { return node_->completes_files(); }
 
-  /// Writes what was measured, as JSON: `process`, `wall_s` and `processor_s` from the first event to now, `stages` by
-  /// name (`count`, `wall_s`, `processor_s`), and `traceEvents` as Perfetto and Chrome read them. Throws ExitError (5).
-  void write(const std::string& file, const std::string& process) const;
-
  private:
   std::unique_ptr<AnyNode> node_;
-  bool started_ = false;
 };
+
+/// Writes what was measured of this process, over all epochs, as JSON: `process`, `wall_s` and `processor_s` from the
+/// first event to now, `stages` by name (`count`, `wall_s`, `processor_s`), and `traceEvents` as Perfetto and Chrome read
+/// them. Throws ExitError (5).
+void write_profile(const std::string& file, const std::string& process);
 
 }  // namespace ensonify

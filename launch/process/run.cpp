@@ -90,34 +90,44 @@ std::string clock_of(const Options& options) {
   return endpoint;
 }
 
-int run_process(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
-                const Options& options) {
-  const Launch launch = read_launch(options.launch);
-  const ProcessSpec& process = launch.process(options.name);
-  if (options.print) {
-    print_configuration(list(&process), process);
-    return kExitOk;
-  }
-  Ports ports(options.name, options.launch.out);
-  std::unique_ptr<AnyNode> node = factory(launch, process, ports);
-  ports.seal();
-  if (options.check) {
-    std::puts(protocol::declaration_json(declaration_of(component, ports)).c_str());
-    return kExitOk;
-  }
+/// Where the run's clock is, and how this process is reached.
+Meeting meeting_of(const Options& options, const ClockSettings& settings) {
   const std::string clock = clock_of(options);
   bus::Address address;
-  address.tcp = launch.clock.transport == ClockSettings::Transport::kTcp;
+  address.tcp = settings.transport == ClockSettings::Transport::kTcp;
   address.run_dir = options.run_dir;
   address.keys = bus::keys_for(clock, options.keys, options.run_dir);
   if (address.tcp) address.host = bus::host_towards(clock);
-  if (address.tcp && launch.clock.keys && !address.keys) {
+  if (address.tcp && settings.keys && !address.keys) {
     throw UserError("--keys: the run at " + clock + " has keys; give a copy of keys.json in its run directory");
   }
-  if (std::getenv(kProfileVariable) == nullptr) return participate(component, ports, *node, {clock, address});
-  ProfiledNode profiled(std::move(node));
-  const int code = participate(component, ports, profiled, {clock, address});
-  profiled.write(profile_folder(launch.options.out) + "/" + options.name + ".json", options.name);
+  return {clock, address};
+}
+
+int run_process(const char* component, const NodeFactory& factory, ParameterList (*list)(const ProcessSpec*),
+                const Options& options) {
+  Launch launch = read_launch(options.launch);
+  if (options.print) {
+    const ProcessSpec& process = launch.process(options.name);
+    print_configuration(list(&process), process);
+    return kExitOk;
+  }
+  const bool profiled = std::getenv(kProfileVariable) != nullptr;
+  const OpenSession open = [&](const EpochOptions& epoch) {
+    if (!epoch.out.empty()) launch = read_launch(options_of(epoch, options.launch));
+    const MakeNode make = [&](Ports& ports) -> std::unique_ptr<AnyNode> {
+      std::unique_ptr<AnyNode> node = factory(launch, launch.process(options.name), ports);
+      if (profiled) return std::make_unique<ProfiledNode>(std::move(node));
+      return node;
+    };
+    return std::make_unique<Session>(component, options.name, launch.options.out, make);
+  };
+  if (options.check) {
+    std::puts(protocol::declaration_json(open({})->declaration()).c_str());
+    return kExitOk;
+  }
+  const int code = participate(open, meeting_of(options, launch.clock));
+  if (profiled) write_profile(profile_folder(options.launch.out) + "/" + options.name + ".json", options.name);
   return code;
 }
 

@@ -4,7 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/clock_client.h"
@@ -25,6 +27,9 @@ struct Options {
   double patience_s = 60.0;
   double rate = 1.0;
   std::string what;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> sets;
+  std::string out;
 };
 
 void print_answer(const json& answer, bool as_json, const std::string& text) {
@@ -70,6 +75,17 @@ int step(ClockClient& clock, const Options& options) {
   }
   print_answer({{"kind", "step"}, {"ok", true}, {"until_ns", until_ns}}, options.json,
                fmt::format("paused at t={:.9g} s", 1e-9 * static_cast<double>(until_ns)));
+  return kExitOk;
+}
+
+int reset(ClockClient& clock, const Options& options) {
+  json sets = options.sets;
+  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
+  const std::string out = options.out.empty() ? "" : std::filesystem::absolute(options.out).string();
+  const json answer = clock.ask({{"kind", "reset"}, {"set", sets}, {"out", out}});
+  print_answer(answer, options.json,
+               fmt::format("epoch {} begins; results in {}", answer.at("epoch").get<int>(),
+                           answer.at("out").get<std::string>()));
   return kExitOk;
 }
 
@@ -135,6 +151,7 @@ int run(const CLI::App& app, const Options& options) {
   if (name == "rate") return rate(options.rate, fmt::format("paced at {:g}x", options.rate));
   if (name == "free") return rate(0.0, "free running");
   if (name == "get") return get(clock, options);
+  if (name == "reset") return reset(clock, options);
   return request(clock, options, {{"kind", "stop"}}, "ending the run in order");
 }
 
@@ -143,7 +160,7 @@ int run(const CLI::App& app, const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Asks the clock of a live run, and steers it.\n"
-      "Exit code: 0 done, 2 no such run or fact, 4 a step was not reached in time.",
+      "Exit code: 0 done, 2 no such run or fact, or a reset that cannot be, 4 a step was not reached in time.",
       "ensonify clock");
   Options options;
   app.require_subcommand(1);
@@ -161,6 +178,11 @@ int main(int argc, char** argv) {
   CLI::App* rate = verb(app, options, "rate", "paces the run");
   rate->add_option("RATE", options.rate, "sim seconds per wall second")->required()->check(CLI::Range(1e-3, 1e6));
   verb(app, options, "free", "runs as fast as possible");
+  CLI::App* reset = verb(app, options, "reset",
+                         "ends the epoch in order and begins another in the same processes, at sim time 0");
+  reset->add_option("--seed", options.seed, "seed of the epoch's scenario");
+  reset->add_option("--set", options.sets, "parameter of the scenario or of a process, KEY=VALUE, behind those of the run");
+  reset->add_option("--out", options.out, "folder of the epoch's results (default: epochs/N in that of the run)");
   verb(app, options, "stop", "ends the run in order, with exit code 0");
   CLI::App* get = verb(app, options, "get", "a fact fixed for the run, as text; without WHAT, the names of all facts");
   get->add_option("WHAT", options.what, "launch, scenario, seed, start_utc, external, version, or a process's own");

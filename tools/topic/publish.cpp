@@ -175,9 +175,10 @@ std::string socket_folder(const LiveRun& run) {
 int publish(const Publication& wanted) {
   const auto [process, port] = process_and_port(wanted.topic);
   const msg::TypeInfo& type = known_type(wanted.type);
-  Ports ports(process);
-  Publisher node(ports, wanted, port, type);
-  ports.seal();
+  const OpenSession open = [&, process = process, port = port](const EpochOptions&) {
+    return std::make_unique<Session>("topic pub", process, ".",
+                                     [&](Ports& ports) { return std::make_unique<Publisher>(ports, wanted, port, type); });
+  };
   const LiveRun run = find_run(wanted.run);
   ClockClient clock(run);
   refuse_unless_awaited(clock, process);
@@ -186,7 +187,7 @@ int publish(const Publication& wanted) {
   address.run_dir = socket_folder(run);
   address.keys = clock.keys();
   if (address.tcp) address.host = bus::host_towards(run.endpoint);
-  return participate("topic pub", ports, node, {run.endpoint, address});
+  return participate(open, {run.endpoint, address});
 }
 
 }  // namespace ensonify::topic_tool

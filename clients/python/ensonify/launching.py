@@ -31,12 +31,9 @@ def program() -> str:
     return found
 
 
-def changes(settings: Mapping[str, Any]) -> list:
-    """Parameters and their values as words of `ensonify run`."""
-    words = []
-    for key, value in settings.items():
-        words += ["--set", f"{key}={value if isinstance(value, str) else json.dumps(value, default=plain)}"]
-    return words
+def assignments(settings: Mapping[str, Any]) -> list:
+    """Parameters and their values as --set takes them."""
+    return [f"{key}={value if isinstance(value, str) else json.dumps(value, default=plain)}" for key, value in settings.items()]
 
 
 def plain(value: Any) -> Any:
@@ -50,7 +47,9 @@ class Launch:
     def __init__(self, file: str | os.PathLike, out: pathlib.Path, settings: Mapping[str, Any]):
         self._out = out
         out.mkdir(parents=True, exist_ok=True)
-        words = [program(), "run", os.fspath(file), "--free", "--out", os.fspath(out), *changes(settings)]
+        words = [program(), "run", os.fspath(file), "--free", "--out", os.fspath(out)]
+        for assignment in assignments(settings):
+            words += ["--set", assignment]
         with open(out / LOG, "wb") as log:
             self._child = subprocess.Popen(["/bin/sh", "-c", GUARDED, "ensonify", *words], stdin=subprocess.PIPE,
                                            stdout=subprocess.DEVNULL, stderr=log)

@@ -8,12 +8,13 @@ import fnmatch
 import json
 import os
 import time
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 import zmq
 
 from ensonify import messages, wire
 from ensonify.keys import keys_for, set_connected
+from ensonify.launching import assignments
 from ensonify.participant import Received
 from ensonify.runs import find_run
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError
@@ -45,6 +46,14 @@ class Observer:
                 if answer.get("kind") == kind:
                     return answer
         raise RunError(f"the clock at {self.clock} did not answer {kind!r} within {self._answer_s:g} s", EXIT_DIED)
+
+    def reset(self, settings: Mapping[str, Any] | None = None, *, out: str | os.PathLike | None = None) -> int:
+        """Ends the epoch in order and begins another in the same processes, as Participant.reset does. Its number; a RunError
+        where it is refused."""
+        answer = self.ask("reset", set=assignments(settings or {}), out=os.path.abspath(out) if out is not None else "")
+        if not answer["ok"]:
+            raise RunError(answer["error"], EXIT_BAD_INPUT)
+        return answer["epoch"]
 
     def topics(self) -> list:
         """The registry: name, type, publisher, live endpoint, maximum bytes and subscribers of every topic."""

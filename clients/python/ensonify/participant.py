@@ -14,9 +14,10 @@ import json
 import math
 import os
 import sys
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 from ensonify import wire
+from ensonify.launching import assignments
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
 from ensonify.typed import Message, declared_in
 
@@ -122,6 +123,8 @@ class Participant:
         self._may_finish = may_finish
         self._patience_s = patience_s  # wall seconds that the others may take between two steps
         self._finish = False
+        self._resets = False  # can begin another epoch
+        self._resetting = False  # has asked for one
         self._ins: list = []
         self._outs: list = []
         self._declares: dict = {}  # by type
@@ -163,9 +166,35 @@ class Participant:
 
     # --- running
 
+    def epochs(self) -> Iterator[int]:
+        """Each epoch of the run, by its number: the first, and another after each reset. Go through steps() in it.
+
+            for epoch in me.epochs():
+                for step in me.steps(rate=10):
+                    ...
+        """
+        self._resets = True
+        yield 1
+        while (session := self._session) is not None:
+            if not self._left and session.next_epoch is None:
+                self._idle()
+            if session.next_epoch is None:
+                return
+            yield session.next_epoch
+
+    def reset(self, settings: Mapping[str, Any] | None = None, *, out: str | os.PathLike | None = None) -> None:
+        """Ends the epoch for everyone at this step, and begins another in the same processes: sim time 0, with parameters
+        `settings` (as --set has them: {"seed": 7, "nav.altimeter.dropout": 0.3}) behind those of the launch. Its results go
+        to the folder `out`, else to epochs/N within the launch's. Within epochs() only; the steps end then. A RunError says
+        why it cannot be, and the epoch goes on."""
+        if not self._resets or self._now_ns is None:
+            raise RuntimeError("reset() is called within a step within epochs()")
+        self._session.reset(assignments(settings or {}), os.path.abspath(out) if out is not None else "")
+        self._resetting = True
+
     def steps(self, rate=None, *, first_ns: int = 0) -> Iterator[Step]:
         """Joins the run and yields every event: with `rate` (Hz, a number or (num, den)) at first_ns + n / rate, else at
-        first_ns and then at each step.next_ns that you set. Ends with the run."""
+        first_ns and then at each step.next_ns that you set. Ends with the run, within epochs() with the epoch."""
         if "--check" in sys.argv[1:]:
             print(json.dumps(self.declaration()))
             raise SystemExit(0)
@@ -183,16 +212,22 @@ class Participant:
                 self._deliver(t_ns)
                 yield step
                 self._now_ns = None
+                if self._resetting:
+                    break
                 if step.next_ns <= t_ns:
                     raise ValueError(f"next_ns must be later than this step ({t_ns} ns), not {step.next_ns}")
                 if self._finish:
                     break
-            if self._finish:  # the clock takes the end from this promise; events until then come with later grants
+            if self._resetting:
+                self._resetting = False
+                session.done(wire.NEVER, False, wall_ns() - began, for_ever=False)
+            elif self._finish:  # the clock takes the end from this promise; events until then come with later grants
                 self._finish = False
                 session.done(t_ns + 1, True, wall_ns() - began)
             else:
-                session.done(step.next_ns, False, wall_ns() - began)
-        self._leave()
+                session.done(step.next_ns, False, wall_ns() - began, for_ever=not self._resets)
+        if session.next_epoch is None:
+            self._leave()
 
     def finish(self) -> None:
         """Ends the run for everyone, one second after this step. Needs may_finish=True."""
@@ -248,13 +283,19 @@ class Participant:
         return False
 
     def _join(self, first_ns: int) -> None:
-        if self._session is not None:
-            raise RuntimeError("steps() can be used once")
-        if not self._clock:
-            raise RunError(f"{self.name}: no clock to join: ENSONIFY_CLOCK is not set", EXIT_BAD_INPUT)
-        self._session = Session(self.name, self._clock, self._patience_s)
-        hello = {**self.declaration(), "pid": os.getpid(), "first_ns": first_ns, "facts": {}}
-        welcome = self._session.join(hello)
+        hello = {**self.declaration(), "pid": os.getpid(), "resets": self._resets, "first_ns": first_ns, "facts": {}}
+        if self._session is None:
+            if not self._clock:
+                raise RunError(f"{self.name}: no clock to join: ENSONIFY_CLOCK is not set", EXIT_BAD_INPUT)
+            self._session = Session(self.name, self._clock, self._patience_s)
+            welcome = self._session.join(hello)
+        elif self._session.next_epoch is not None:
+            welcome = self._session.join_again(hello)
+        else:
+            raise RuntimeError("steps() can be used once in an epoch")
+        self._queues, self._by_topic = [], {}
+        for port in self._ins:
+            port.received, port.latest = [], None
         self.facts = welcome.get("facts", {})
         outs = {port.port: port for port in self._outs}
         ins = {port.port: port for port in self._ins}
@@ -302,15 +343,18 @@ class Participant:
         self._session.publish(topic, topic_id, type_hash, self._now_ns, body)
 
     def _idle(self) -> None:
-        """The user left the loop: promise to publish nothing more, and stay until the run ends."""
+        """The user left the loop: promise to publish nothing more, and stay until the epoch ends."""
         session = self._session
         finish, self._finish = self._finish and self._now_ns is not None, False
-        session.done(self._now_ns + 1 if finish else wire.NEVER, finish, 0)
+        self._resetting = False
+        session.done(self._now_ns + 1 if finish else wire.NEVER, finish, 0, for_ever=not self._resets)
         while (grant := session.wait_grant()) is not None:
             if not session.collect(grant, lambda topic_id, packet: None):
                 break
-            session.done(wire.NEVER, False, 0)
-        self._leave()
+            session.done(wire.NEVER, False, 0, for_ever=not self._resets)
+        self._now_ns = None
+        if session.next_epoch is None:
+            self._leave()
 
     def _leave(self) -> None:
         if not self._left:

@@ -73,6 +73,8 @@ class Session:
         self.rank = 0
         self._patience_s = PATIENCE_S
         self.end_code = None  # set once the run has ended
+        self.next_epoch: int | None = None  # set once the present one has ended and another is to begin
+        self._idle = False  # nothing that comes is of use any more
         self._arrived: dict = {}  # topic id -> messages so far
         self._topics: dict = {}  # first frame of a topic's messages -> its entry in WELCOME
         self._published: dict = {}  # topic id -> messages so far
@@ -109,22 +111,33 @@ class Session:
         """Says HELLO and returns the WELCOME once every edge into this process is subscribed and every edge out of it
         is proven."""
         self._sync.setsockopt(zmq.SNDHWM, sum(queue_length(*out["rate"]) for out in hello["out"]))
+        welcome = self._introduce(hello)
+        self._subscribe(welcome["in"])
+        self._prove({token for out in welcome["out"] for token in out["tokens"]})
+        self._note_viewers()
+        return welcome
+
+    def join_again(self, hello: dict) -> dict:
+        """The same for the epoch that has been announced, over the edges that are there. Returns its WELCOME."""
+        welcome = self._introduce({**hello, "epoch": self.next_epoch})
+        self.next_epoch, self._idle = None, False
+        self._send_control({"kind": "ready"})
+        return welcome
+
+    def _introduce(self, hello: dict) -> dict:
         self._send_control({**hello, "kind": "hello", "name": self.name, **self.endpoints})
         welcome = self._await_json("welcome")
         self.epoch, self.rank = welcome["epoch"], welcome["rank"]
         self._patience_s = welcome.get("patience_s", PATIENCE_S)
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
-        self._subscribe(welcome["in"])
-        self._prove({token for out in welcome["out"] for token in out["tokens"]})
-        self._note_viewers()
+        self._topics = {entry["topic"].encode() + b"\0": {**entry, "hash": wire.type_hash(entry["type"])} for entry in welcome["in"]}
+        self._arrived = {entry["topic_id"]: 0 for entry in welcome["in"]}
         return welcome
 
     def _subscribe(self, inputs: list) -> None:
         for endpoint in {entry["endpoint"] for entry in inputs}:
             self._sub.connect(endpoint)
         for entry in inputs:
-            self._topics[entry["topic"].encode() + b"\0"] = {**entry, "hash": wire.type_hash(entry["type"])}
-            self._arrived[entry["topic_id"]] = 0
             self._sub.subscribe(entry["topic"].encode() + b"\0")
         for entry in inputs:  # last, so that a token vouches for the topics before it
             self._sub.subscribe(b"~" + entry["token"].encode())
@@ -154,8 +167,8 @@ class Session:
     # --- running
 
     def wait_grant(self) -> wire.Grant | None:
-        """The next grant of this epoch, or None once the run has ended."""
-        while self.end_code is None:
+        """The next grant of this epoch, or None once it has ended."""
+        while self.end_code is None and self.next_epoch is None:
             grant = self._control_message(self._receive_control())
             if grant is not None and grant.epoch == self.epoch:
                 return grant
@@ -181,7 +194,8 @@ class Session:
                     continue
                 waited_ms = 0
                 packet = self._packet(topic)
-                deliver(packet.envelope.topic_id, packet)
+                if packet is not None:
+                    deliver(packet.envelope.topic_id, packet)
         return True
 
     def _missing(self, topic_id: int, count: int) -> RunError:
@@ -189,14 +203,22 @@ class Session:
         return RunError(f"{entry['publisher']} lost messages: {entry['topic']}: its DONE counted {count}, {self._arrived[topic_id]} "
                         "have come", EXIT_DATA_LOST, entry["publisher"])
 
-    def done(self, next_ns: int, finish: bool, cost_ns: int) -> None:
+    def done(self, next_ns: int, finish: bool, cost_ns: int, for_ever: bool = True) -> None:
         """Answers the grant. Whatever was published until now has been handed to ZeroMQ before. Who will do nothing more is sent
-        nothing more, or it would pile up here."""
-        if next_ns == wire.NEVER:
+        nothing more, or it would pile up here; unless that is for this epoch only."""
+        if next_ns == wire.NEVER and for_ever:
             self._sub.close()
+        self._idle = next_ns == wire.NEVER
         self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, self._published.items()))
         if self._published:
             self._note_viewers()  # while the others work
+
+    def reset(self, sets: list, out: str) -> None:
+        """Asks for another epoch; a RunError where it is refused, and this one goes on. To be followed by done(NEVER)."""
+        self._send_control({"kind": "reset", "set": sets, "out": out})
+        answer = self._await_json("reset")
+        if not answer["ok"]:
+            raise RunError(answer["error"], EXIT_BAD_INPUT)
 
     def publish(self, topic: bytes, topic_id: int, type_hash: int, t_sim_ns: int, body: list) -> None:
         """Sends on both planes; waits while a participant does not keep up. `topic` ends in NUL."""
@@ -248,8 +270,14 @@ class Session:
                 return self._control.recv()
             except zmq.Again:
                 self._check_clock()
+                if self._idle:
+                    self._drop()
                 waited_ms += WAKE_MS
         raise RunError(f"{self.name}: the others have made no progress for {self._longest_wait_s:g} s", EXIT_STALL)
+
+    def _drop(self) -> None:
+        while not self._sub.closed and self._sub.getsockopt(_EVENTS) & _POLLIN:
+            self._sub.recv(copy=False)
 
     def _await_json(self, kind: str) -> dict:
         while True:
@@ -271,15 +299,17 @@ class Session:
             raise RunError("\n".join(message["problems"]), EXIT_BAD_INPUT)
         if message.get("kind") == "end":
             self.end_code = message.get("code", EXIT_OK)
+        if message.get("kind") == "epoch":
+            self.next_epoch = message["epoch"]
 
     def _check_clock(self) -> None:
         if self._monitor.getsockopt(zmq.EVENTS) & zmq.POLLIN:
             self._control.setsockopt(zmq.LINGER, 0)  # nobody will read what is left
             raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
 
-    def _packet(self, topic: bytes) -> Packet:
-        """The rest of the message that begins with `topic`, if it is the one that its topic expects. Small frames are
-        copied, arrays are not."""
+    def _packet(self, topic: bytes) -> Packet | None:
+        """The rest of the message that begins with `topic`, if it is the one that its topic expects; None if it is of an
+        epoch before. Small frames are copied, arrays are not."""
         entry = self._topics.get(topic)
         if entry is None:
             raise RunError(f"{self.name}: {topic!r} is no topic of ours", EXIT_DIED)
@@ -299,6 +329,8 @@ class Session:
             envelope = wire.decode_envelope(frames[0].bytes)
         except wire.DecodeError as error:
             raise broken(str(error)) from None
+        if 1 <= envelope.epoch < self.epoch:
+            return None
         for what, has, wanted in (("epoch", envelope.epoch, self.epoch), ("publisher", envelope.publisher, entry["rank"]),
                                   ("topic id", envelope.topic_id, entry["topic_id"]), ("type hash", envelope.type_hash, entry["hash"]),
                                   ("frame count", envelope.frame_count, 1 + len(frames))):

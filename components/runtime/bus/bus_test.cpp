@@ -151,6 +151,28 @@ TEST_CASE("a publisher is held to its rate in sim time, whatever the wall clock 
                     Catch::Contains("seq 1502") && Catch::Contains("1000 Hz"));
 }
 
+TEST_CASE("a later epoch comes over the same lines, and what is left of the one before is dropped") {
+  Pair pair(false);
+  pair.publisher.publish(packet_of(tile_of(3), 0));
+  pair.publisher.publish(packet_of(tile_of(5), 1));
+  pair.publisher.flush();
+  pair.subscriber.wait_arrived({{3, 2}});
+  pair.subscriber.expect_until(kNever);
+  pair.subscriber.subscribe(
+      {{"pager/tile", 3, "tile/1", pair.publisher.sync_endpoint(), "e0", 1 << 24, "pager", 0, {1000, 1}}}, 2);
+  CHECK(pair.subscriber.take().empty());
+  pair.publisher.publish(packet_of(tile_of(3), 2));  // late, of the first
+  pair.publisher.publish(packet_of(tile_of(9), 0, 2));
+  pair.publisher.flush();
+  pair.subscriber.wait_arrived({{3, 1}});
+  const auto packets = pair.subscriber.take();
+  REQUIRE(packets.size() == 1);
+  CHECK(packets[0].envelope.epoch == 2);
+  pair.publisher.publish(packet_of(tile_of(3), 1, 3));
+  pair.publisher.flush();
+  CHECK_THROWS_WITH(pair.subscriber.wait_arrived({{3, 2}}), Catch::Contains("epoch: is 3"));
+}
+
 TEST_CASE("whoever will read nothing more keeps nothing, and still knows what has come") {
   Pair pair(false);
   pair.subscriber.expect_until(kNever);

@@ -19,6 +19,7 @@
 
 namespace ensonify::bus {
 namespace {
+constexpr std::uint32_t kFirstEpoch = 1;
 constexpr int kPollMs = 500;  // how soon a lost clock is noticed
 constexpr std::size_t kLeastLargestFrame = 1 << 24;
 constexpr std::size_t kHoldAtMostBytes = 1 << 14;  // a larger message is better under way while its publisher works on
@@ -57,9 +58,9 @@ struct Link::Sockets {
 
 /// The thread that drains the SUB socket whether or not a grant has come, and what it has received.
 struct Link::Receiver {
-  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t run_epoch,
+  Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t first_epoch,
            const std::optional<Keys>& keys)
-      : socket(context, zmq::socket_type::sub), epoch(run_epoch) {
+      : socket(context, zmq::socket_type::sub) {
     if (keys) set_connected(socket, *keys);
     socket.set(zmq::sockopt::rcvhwm, 0);  // the clock's window bounds what can arrive
     socket.set(zmq::sockopt::rcvbuf, kKernelBuffer);
@@ -69,13 +70,23 @@ struct Link::Receiver {
     std::size_t largest = kLeastLargestFrame;
     for (const Subscription& s : subscriptions) largest = std::max(largest, 2 * s.max_bytes);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(largest));  // a frame beyond all sense cuts the line
+    begin(subscriptions, first_epoch);
     for (const Subscription& s : subscriptions) {
-      inputs.try_emplace(s.topic_id, s);
       if (connected.insert(s.endpoint).second) connect(s);
     }
     for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, s.topic + '\0');
     for (const Subscription& s : subscriptions) socket.set(zmq::sockopt::subscribe, "~" + s.token);
     thread = std::thread([this] { drain(); });
+  }
+
+  /// Expects an epoch's messages from its first on.
+  void begin(const std::vector<Subscription>& subscriptions, std::uint32_t its_number) {
+    const std::lock_guard lock(mutex);
+    epoch = its_number;
+    inputs.clear();
+    for (const Subscription& s : subscriptions) inputs.try_emplace(s.topic_id, s);
+    packets.clear();
+    latest = kLongestWindow.count();
   }
 
   void connect(const Subscription& s) {
@@ -102,6 +113,7 @@ struct Link::Receiver {
   /// Whose topic the message came on says whose mistake it is.
   void take(std::vector<zmq::message_t>&& frames) {
     const std::string came_on = frames[0].to_string();
+    const std::lock_guard lock(mutex);
     try {
       msg::Packet packet = to_packet(std::move(frames));
       const auto known = inputs.find(packet.envelope.topic_id);
@@ -130,6 +142,7 @@ struct Link::Receiver {
     const Subscription& s = input.subscription;
     const msg::Envelope& e = packet.envelope;
     const auto broken = [&](const std::string& what) { throw broken_message(s.publisher, s.topic, e.seq, what); };
+    if (e.epoch >= kFirstEpoch && e.epoch < epoch) return;
     if (e.epoch != epoch) broken("epoch: is " + std::to_string(e.epoch));
     if (e.publisher != s.rank) broken("publisher: is " + std::to_string(e.publisher));
     if (e.type_hash != msg::type_hash(s.type)) broken("type hash: is not that of " + s.type);
@@ -142,7 +155,6 @@ struct Link::Receiver {
     if (e.seq != input.arrived) throw lost_messages(s.publisher, s.topic, input.arrived, e.seq);
     if (!input.limit.take(1, t)) broken("t_sim: " + input.limit.text());
     input.last = t;
-    const std::lock_guard lock(mutex);
     ++input.arrived;
     if (latest.load() != kNever.count()) packets.push_back(std::move(packet));
     if (awaited && all_arrived(*awaited)) news.notify_one();
@@ -180,11 +192,11 @@ struct Link::Receiver {
   }
 
   zmq::socket_t socket;
-  std::uint32_t epoch;
-  std::map<std::uint32_t, Input> inputs;                     // by topic id
   std::atomic<std::int64_t> latest{kLongestWindow.count()};  // sim time beyond which nothing can be sent
   std::thread thread;
-  std::mutex mutex;
+  std::mutex mutex;  // of all that follows
+  std::uint32_t epoch = kFirstEpoch;
+  std::map<std::uint32_t, Input> inputs;  // by topic id
   std::condition_variable news;
   const TopicCounts* awaited = nullptr;  // what the other thread sleeps for: it is not woken for less
   std::vector<msg::Packet> packets;
@@ -240,7 +252,8 @@ Link::Event Link::wait() {
 }
 
 void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch) {
-  receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch, sockets_->keys);
+  if (receiver_) receiver_->begin(subscriptions, epoch);
+  else receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch, sockets_->keys);
 }
 
 void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience) {

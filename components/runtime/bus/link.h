@@ -66,7 +66,8 @@ class Link {
   /// The clock's next message; nothing after a while without one. Half the price of wait(), which then states why.
   std::optional<std::string> wait_control();
 
-  /// Starts receiving. The token of each topic is subscribed after the topic itself.
+  /// Starts receiving. The token of each topic is subscribed after the topic itself. Again, for a later epoch: the same
+  /// topics of the same publishers; what has come of the epoch before is dropped, and so is what still comes of it.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
   /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw, and
   /// PeerError when nothing more has come for `patience`; time in which this process was stopped does not count.

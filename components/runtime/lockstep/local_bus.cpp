@@ -16,12 +16,8 @@ Conductor conductor_of(const Graph& graph, const std::vector<Declaration>& proce
 
 void LocalBus::add(const std::string& process, const std::string& component, const std::filesystem::path& out_dir,
                    const MakeNode& make) {
-  members_.push_back(std::make_unique<Member>(process, out_dir));
-  Member& member = *members_.back();
-  member.node = make(member.ports);
-  member.ports.seal();
-  member.stepper.emplace(member.ports, [&member](SimTime now) { return member.node->step(now); });
-  declarations_.push_back(declaration_of(component, member.ports));
+  members_.push_back(std::make_unique<Session>(component, process, out_dir, make));
+  declarations_.push_back(members_.back()->declaration());
 }
 
 void LocalBus::connect(const std::vector<WireRule>& rules, const std::map<std::string, std::string>& places,
@@ -35,7 +31,7 @@ void LocalBus::connect(const std::vector<WireRule>& rules, const std::map<std::s
   std::vector<std::vector<Stepper*>> subscribers(graph_.topics.size());
   for (const Graph::Edge& edge : graph_.edges) {
     std::vector<Stepper*>& of_topic = subscribers[edge.topic];
-    Stepper* subscriber = &*members_[edge.to]->stepper;
+    Stepper* subscriber = &members_[edge.to]->stepper();
     if (std::find(of_topic.begin(), of_topic.end(), subscriber) == of_topic.end()) of_topic.push_back(subscriber);
   }
   for (std::size_t rank = 0; rank < members_.size(); ++rank) {
@@ -43,7 +39,7 @@ void LocalBus::connect(const std::vector<WireRule>& rules, const std::map<std::s
     for (std::size_t t = 0; t < graph_.topics.size(); ++t) {
       if (graph_.topics[t].publisher == rank) outs.push_back({graph_.topics[t].name, static_cast<std::uint32_t>(t)});
     }
-    members_[rank]->stepper->wire(feeds_of(graph_, declarations_, rank), std::move(outs), facts, 1,
+    members_[rank]->stepper().wire(feeds_of(graph_, declarations_, rank), std::move(outs), facts, 1,
                                   static_cast<std::uint32_t>(rank), [subscribers](msg::Packet&& packet) {
                                     for (Stepper* s : subscribers[packet.envelope.topic_id]) s->insert(packet);
                                   });
@@ -53,7 +49,7 @@ void LocalBus::connect(const std::vector<WireRule>& rules, const std::map<std::s
 bool LocalBus::advance(Conductor& conductor) {
   const auto grants = conductor.grants();
   for (const Conductor::Grant& grant : grants) {
-    Stepper& stepper = *members_[grant.participant]->stepper;
+    Stepper& stepper = members_[grant.participant]->stepper();
     const bool finish = stepper.run_to(grant.horizon);
     if (finish && !finished_at_) finished_at_ = stepper.last();
     if (finish) conductor.end_at(stepper.last() + kFinishMargin);
@@ -65,8 +61,8 @@ bool LocalBus::advance(Conductor& conductor) {
 int LocalBus::finish() {
   int code = 0;
   for (const auto& member : members_) {
-    member->node->finish_run();
-    if (code == 0) code = member->node->exit_code();
+    member->node().finish_run();
+    if (code == 0) code = member->node().exit_code();
   }
   return code;
 }

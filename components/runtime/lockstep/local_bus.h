@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "components/runtime/lockstep/conductor.h"
-#include "components/runtime/stepper.h"
+#include "components/runtime/session.h"
 #include "components/runtime/wiring.h"
 
 namespace ensonify {
@@ -20,8 +19,6 @@ Conductor conductor_of(const Graph& graph, const std::vector<Declaration>& proce
 /// Nodes in one thread and the bus between them: a published packet goes straight into its subscribers' queues.
 class LocalBus {
  public:
-  using MakeNode = std::function<std::unique_ptr<AnyNode>(Ports&)>;
-
   /// A process more, of the next rank; `make` constructs its node, which declares its ports.
   void add(const std::string& process, const std::string& component, const std::filesystem::path& out_dir,
            const MakeNode& make);
@@ -42,14 +39,7 @@ class LocalBus {
   const std::optional<SimTime>& finished_at() const { return finished_at_; }
 
  private:
-  struct Member {
-    Member(const std::string& name, const std::filesystem::path& out_dir) : ports(name, out_dir) {}
-    Ports ports;
-    std::unique_ptr<AnyNode> node;
-    std::optional<Stepper> stepper;
-  };
-
-  std::vector<std::unique_ptr<Member>> members_;
+  std::vector<std::unique_ptr<Session>> members_;
   std::vector<Declaration> declarations_;
   Graph graph_;
   std::optional<SimTime> finished_at_;
