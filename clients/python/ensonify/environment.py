@@ -79,7 +79,8 @@ class Env(gymnasium.Env):
         self._began_s = 0.0
 
     def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple:
-        """A new launch, until all topics have come. `seed` is the scenario's; without it one is drawn."""
+        """Another episode, until all topics have come: in the processes of the one before, or in a new launch. `seed` is the
+        scenario's; without it one is drawn."""
         super().reset(seed=seed)
         options = dict(options or {})
         settings = {**self._set, **options.pop("set", {})}
@@ -87,11 +88,11 @@ class Env(gymnasium.Env):
             raise ValueError(f"options has {', '.join(map(repr, options))}; allowed: 'set'")
         if "seed" in settings:
             raise ValueError("set: seed is given by reset(seed=...)")
-        self.close()
+        self._ended = "there is no episode yet"
         settings["seed"] = int(self.np_random.integers(LARGEST_SEED)) if seed is None else seed
-        seen = self._running.start(lambda out: Episode(
+        seen = self._running.begin(lambda out: Episode(
             self._launch, self._agent, out, settings, self._topics, self._act.port, self._act.message_type, self._rate,
-            self._patience_s), self._folder())
+            self._patience_s), settings, self._folder())
         while missing := [topic for topic in self._topics if seen[topic] is None]:
             if seen.t_s >= self._settle_s:
                 self.close()
@@ -145,21 +146,26 @@ class Env(gymnasium.Env):
 
 
 class Running:
-    """The episode that goes on, if any, and its folder. Holds nothing of the Env, which it may outlive."""
+    """The launch that goes on, if any, and its folder. Holds nothing of the Env, which it may outlive."""
 
     def __init__(self):
         self._owner = os.getpid()
         self.episode: Episode | None = None
         self._scratch: tempfile.TemporaryDirectory | None = None
 
-    def start(self, episode: Callable[[pathlib.Path], Episode], out: pathlib.Path | None) -> Seen:
-        """Starts one in a folder that is to stay, else in one that goes with it. What it has seen first."""
+    def begin(self, start: Callable[[pathlib.Path], Episode], settings: Mapping[str, Any], out: pathlib.Path | None) -> Seen:
+        """Another episode in the launch that goes on, where that can be, else by `start`: in a folder that is to stay, else in
+        one that goes with the launch. What it has seen first."""
+        again = out or (pathlib.Path(self._scratch.name) / "again" if self._scratch else None)  # one folder for all: none is kept
+        if self._owner == os.getpid() and self.episode is not None and again and self.episode.reset(settings, again):
+            return self.episode.seen
+        self.end()
         self._owner = os.getpid()
         if out is None:
             self._scratch = tempfile.TemporaryDirectory(prefix="ensonify-env-")
             out = pathlib.Path(self._scratch.name)
         try:
-            self.episode = episode(out)
+            self.episode = start(out)
         except BaseException:
             self.end()
             raise

@@ -1,6 +1,4 @@
-"""One episode: a launch with us as one of its processes, stepped event by event.
-
-A launch is started for each. Whatever replaces that keeps start, step and end."""
+"""Episodes: a launch with us as one of its processes, stepped event by event, and reset for another episode."""
 import pathlib
 from typing import Any, Mapping
 
@@ -44,17 +42,42 @@ class Episode:
 
     def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
                  port: str, message_type: type, rate: Any, patience_s: float):
+        self._settings = dict(settings)  # of the launch, which every epoch has
         self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
         self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
         self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
         self._command = self._me.publish(port, message_type, rate=rate, max_bytes=1 << 16)
-        self._steps = self._me.steps(rate=rate)
+        self._rate = rate
+        self._epochs = self._me.epochs()
         self._over = False
         try:
-            self.seen = self.step()
+            self._begin()
         except BaseException:
             self.end()
             raise
+
+    def _begin(self) -> None:
+        next(self._epochs)
+        self._steps = self._me.steps(rate=self._rate)
+        self.step()
+
+    def reset(self, settings: Mapping[str, Any], out: pathlib.Path) -> bool:
+        """Another episode in the same processes, with its results in `out`. False where that cannot be: then this launch has
+        ended."""
+        if self._over:
+            return False
+        added = {key: value for key, value in settings.items() if key not in self._settings or self._settings[key] != value}
+        try:
+            if not self._settings.keys() <= settings.keys():
+                raise RunError("a setting of the launch is to be gone", EXIT_BAD_INPUT)
+            self._me.reset(added, out=out)
+            for _ in self._steps:  # the rest of the epoch: none are left
+                pass
+            self._begin()
+        except RunError:  # a new launch says why, if the settings are wrong
+            self.end()
+            return False
+        return True
 
     def step(self, message: Message | None = None) -> Seen:
         """Publishes, and goes on to the next event."""
