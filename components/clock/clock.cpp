@@ -27,10 +27,11 @@ WallTime after(WallTime t, double s) {
 
 void request_stop() { stop_requested = true; }
 
-Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir)
+Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir, ReadLaunch read)
     : first_(launch),
       launch_(launch),
       router_(router),
+      read_(std::move(read)),
       registry_(launch),
       pacer_(launch.clock.rate, from_seconds(launch.clock.slip_after_s)),
       phase_began_(steady_clock::now()) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -75,7 +76,10 @@ struct NextEpoch {
 /// end. One thread, one socket.
 class Clock {
  public:
-  Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir);
+  /// Reads a launch whole, with its scenario; throws ConfigError. For resets: the clock itself sees no world.
+  using ReadLaunch = std::function<Launch(const LaunchOptions&)>;
+
+  Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir, ReadLaunch read);
 
   /// Runs to the end; returns the run's exit code.
   int run();
@@ -121,6 +125,7 @@ class Clock {
   const Launch first_;  // the launch as it was started
   Launch launch_;       // as the present epoch has it
   bus::Router& router_;
+  ReadLaunch read_;
   Registry registry_;
   Pacer pacer_;
   Epoch epoch_;

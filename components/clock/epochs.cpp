@@ -60,7 +60,7 @@ std::string Clock::ask_reset(const json& request, json& answer) {
     if (!out.is_string()) return "out: is not text";
     const fs::path own = fs::path(first_.options.out) / "epochs" / std::to_string(next.begin.epoch);
     next.begin.out = fs::absolute(out == "" ? own : fs::path(out.get<std::string>())).lexically_normal().string();
-    next.launch = read_launch(options_of({next.begin.sets, next.begin.out}, first_.options));
+    next.launch = read_(options_of({next.begin.sets, next.begin.out}, first_.options));
     if (names_of(next.launch) != names_of(launch_))
       return "set: the processes would be others; only a new launch can do that";
     fs::create_directories(next.begin.out);

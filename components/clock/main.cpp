@@ -11,6 +11,7 @@
 #include "components/runtime/log.h"
 #include "components/runtime/tool.h"
 #include "launch/process/run.h"
+#include "scenarios/world/world.h"
 
 namespace {
 
@@ -29,6 +30,10 @@ void write_endpoint(const std::filesystem::path& run_dir, const std::string& end
   std::filesystem::rename(unfinished, run_dir / "clock.endpoint");
 }
 
+Launch read_whole(const LaunchOptions& options) {
+  return read_launch(options, [](ConfigReader& from, const std::string& file) { read_world(from, file); });
+}
+
 int run_clock(const LaunchOptions& options, const std::string& run_dir) {
   const Launch launch = read_launch(options);
   bus::Address address;
@@ -41,7 +46,7 @@ int run_clock(const LaunchOptions& options, const std::string& run_dir) {
   {
     bus::Router router(address);
     write_endpoint(run_dir, router.endpoint());
-    code = clock::Clock(launch, router, options.out).run();
+    code = clock::Clock(launch, router, options.out, read_whole).run();
   }
   std::error_code ignored;  // somebody may have removed it already
   std::filesystem::remove_all(run_dir, ignored);

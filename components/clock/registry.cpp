@@ -92,9 +92,10 @@ const std::vector<std::string>& Registry::check() {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e)
       unproven_[token_of(e)] = names_[graph_.topics[graph_.edges[e].topic].publisher];
     first_ = graph_;
+    first_declarations_ = declarations_;
   } else {
     for (std::size_t rank = 0; rank < names_.size(); ++rank) unready_.insert(rank);
-    if (graph_.problems.empty()) graph_.problems = rewired(first_, graph_, declarations_);
+    if (graph_.problems.empty()) graph_.problems = rewired(first_, first_declarations_, graph_, declarations_);
   }
   return graph_.problems;
 }

@@ -22,8 +22,7 @@ Names edges_of(const Graph& graph, const std::vector<Declaration>& processes) {
   Names names;
   for (const Graph::Edge& edge : graph.edges) {
     const Declaration& reader = processes[edge.to];
-    const std::string port = edge.in_port < reader.ins.size() ? reader.ins[edge.in_port].port : "";
-    names.insert(graph.topics[edge.topic].name + " read by " + reader.process + "." + port);
+    names.insert(graph.topics[edge.topic].name + " read by " + reader.process + "." + reader.ins[edge.in_port].port);
   }
   return names;
 }
@@ -39,10 +38,11 @@ void compare(const Names& before, const Names& now, std::vector<std::string>& li
 
 }  // namespace
 
-std::vector<std::string> rewired(const Graph& first, const Graph& now, const std::vector<Declaration>& processes) {
+std::vector<std::string> rewired(const Graph& first, const std::vector<Declaration>& first_processes, const Graph& now,
+                                 const std::vector<Declaration>& processes) {
   std::vector<std::string> lines;
   compare(topics_of(first), topics_of(now), lines);
-  compare(edges_of(first, processes), edges_of(now, processes), lines);
+  compare(edges_of(first, first_processes), edges_of(now, processes), lines);
   if (!lines.empty()) return lines;
   for (std::size_t i = 0; i < now.topics.size(); ++i) {
     const std::size_t most = std::max(first.topics[i].max_bytes, kAlwaysCarried);

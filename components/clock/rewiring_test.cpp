@@ -12,7 +12,7 @@ std::vector<Declaration> processes(std::size_t max_bytes = 100, Rate rate = {10,
 }
 
 std::vector<std::string> change_to(const std::vector<Declaration>& now) {
-  return clock::rewired(wire(processes(), {}), wire(now, {}), now);
+  return clock::rewired(wire(processes(), {}), processes(), wire(now, {}), now);
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ TEST_CASE("another rate or size fits the same lines, up to what they carry") {
         std::vector<std::string>{
             "bow/ping: up to 16777217 bytes, where this launch carries 16777216; only a new launch can have it"});
   const auto large = processes(1 << 25);
-  CHECK(clock::rewired(wire(large, {}), wire(large, {}), large).empty());
+  CHECK(clock::rewired(wire(large, {}), large, wire(large, {}), large).empty());
 }
 
 TEST_CASE("what is published and who reads it must be as in the first epoch, and each change is named") {

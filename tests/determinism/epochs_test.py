@@ -69,11 +69,11 @@ class SameBytes(Epochs):
 
     def check(self, launch, name):
         """First another scene, then one with another seed, then the one that is compared."""
-        fresh = self.start(launch, "--set", "seed=7", "--record", self.folder / f"{name}_fresh.mcap", out=f"{name}_fresh")
+        fresh = self.start(launch, "--set", "seed=7", "--record", self.folder / f"fresh_of_{name}.mcap", out=f"{name}_fresh")
         with self.observer() as observer:
             self.wait_until(fresh, observer, UNTIL_S)
         self.end(fresh)
-        run = self.start(launch, "--record", self.folder / f"{name}.mcap", out=name)
+        run = self.start(launch, "--record", self.folder / f"epochs_of_{name}.mcap", out=name)
         with self.observer() as observer:
             self.wait_until(run, observer, 1.0)
             self.assertEqual(observer.reset({"seed": 3, "water.sound_speed_mps": 1520} if name == "bay" else {"seed": 3}), 2)
@@ -81,13 +81,13 @@ class SameBytes(Epochs):
             self.assertEqual(observer.reset({"seed": 7}, out=self.folder / name / "third"), 3)
             self.wait_until(run, observer, UNTIL_S, epoch=3)
         self.end(run)
-        wanted, count = self.messages(self.folder / f"{name}_fresh.mcap", UNTIL_S)
+        wanted, count = self.messages(self.folder / f"fresh_of_{name}.mcap", UNTIL_S)
         self.assertGreater(count, 100)
-        has, _ = self.messages(self.folder / name / "third" / f"{name}.mcap", UNTIL_S)
+        has, _ = self.messages(self.folder / name / "third" / f"epochs_of_{name}.mcap", UNTIL_S)
         self.assertEqual(has, wanted, name)
-        other, _ = self.messages(self.folder / name / "epochs" / "2" / f"{name}.mcap", 2.0)
-        self.assertNotEqual(other, self.messages(self.folder / f"{name}_fresh.mcap", 2.0)[0], "another seed must differ")
-        first, _ = self.messages(self.folder / f"{name}.mcap", 1.0)  # nothing of it is lost
+        other, _ = self.messages(self.folder / name / "epochs" / "2" / f"epochs_of_{name}.mcap", 2.0)
+        self.assertNotEqual(other, self.messages(self.folder / f"fresh_of_{name}.mcap", 2.0)[0], "another seed must differ")
+        first, _ = self.messages(self.folder / f"epochs_of_{name}.mcap", 1.0)  # nothing of it is lost
         self.assertTrue(first)
 
     def test_a_survey_with_a_multibeam(self):
@@ -214,10 +214,11 @@ with ensonify.Participant("agent") as me:
 
     def test_an_agent_resets_at_a_step_and_goes_on_in_the_next_epoch(self):
         agent = self.write("agent.py", self.AGENT)
-        result = self.run_launch(survey(seconds=2, more=f"  agent: {{ run: [python3, {agent}, {self.folder / 'said.json'}] }}"))
+        result = self.run_launch(survey(seconds=2, more=f"  agent: {{ run: [python3, {agent}, {self.folder / 'said.json'}] }}\n"
+                                         f"scenario: {SOURCE}/scenarios/bay/scenario.yaml"))
         self.assertEqual(result.code, 0, result.stderr)
         said = json.loads((self.folder / "said.json").read_text())
-        self.assertEqual(said, [[1, 0, False, "1", 2], [2, 0, False, "11", 2], [3, 0, False, "12", 2], [4, 0, False, "13"]])
+        self.assertEqual(said, [[1, 0, False, "20250601", 2], [2, 0, False, "11", 2], [3, 0, False, "12", 2], [4, 0, False, "13"]])
 
 
 if __name__ == "__main__":
