@@ -70,7 +70,8 @@ std::optional<WallTime> Clock::next_alarm() const {
 void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);
-  if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "bye") return on_request(message, kind);
+  if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "bye")
+    return on_request(message, kind);
   const auto rank = registry_.participant(message.from);
   if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
   try {
@@ -116,11 +117,6 @@ void Clock::on_hello(const std::string& from, const std::string& text) {
   }
 }
 
-/// A tool's mistake is answered, and costs nobody anything.
-void Clock::refuse(const std::string& to, const std::string& kind, const std::string& why) {
-  router_.send(to, nlohmann::json{{"kind", kind}, {"ok", false}, {"error", why}}.dump());
-}
-
 void Clock::gather() {
   const std::vector<std::string>& problems = registry_.check();
   if (!problems.empty()) {
@@ -161,10 +157,10 @@ void Clock::on_proven(const std::string& from, const std::string& text) {
 void Clock::start() {
   phase_ = Phase::kRunning;
   epoch_.began = epoch_.last_progress = epoch_.health_reported = steady_clock::now();
-  log::line("clock", SimTime{0}, "go",
-            fmt::format("epoch={} processes={} edges={} connect_s={:.4f}", epoch_.number, registry_.size(),
-                        registry_.graph().edges.size(),
-                        std::chrono::duration<double>(epoch_.began - phase_began_).count()));
+  log::line(
+      "clock", SimTime{0}, "go",
+      fmt::format("epoch={} processes={} edges={} connect_s={:.4f}", epoch_.number, registry_.size(),
+                  registry_.graph().edges.size(), std::chrono::duration<double>(epoch_.began - phase_began_).count()));
   pacer_.start(epoch_.began);
   hand_out();
 }
@@ -189,7 +185,8 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
   if (phase_ == Phase::kEnding || phase_ == Phase::kOver) return;
   if (phase_ != Phase::kRunning || !epoch_.conductor->running(rank)) throw std::runtime_error("answers no GRANT");
   const std::string& name = epoch_.accounts[rank].name;
-  if (const auto breach = epoch_.referee->judge(rank, done, epoch_.conductor->next(rank), epoch_.conductor->granted(rank)))
+  if (const auto breach =
+          epoch_.referee->judge(rank, done, epoch_.conductor->next(rank), epoch_.conductor->granted(rank)))
     return fail(breach->code, name, name + " " + breach->text);
   const WallTime now = steady_clock::now();
   epoch_.last_progress = now;
@@ -207,7 +204,8 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
   if (const SimTime slipped = pacer_.slip(epoch_.conductor->now(), now); slipped > SimTime{0}) {
     ++epoch_.slips;
     epoch_.slipped += slipped;
-    log::line("clock", epoch_.conductor->now(), "slip", fmt::format("by_s={:.3f} because_of={}", seconds(slipped), name));
+    log::line("clock", epoch_.conductor->now(), "slip",
+              fmt::format("by_s={:.3f} because_of={}", seconds(slipped), name));
     if (launch_.clock.slip_policy == ClockSettings::SlipPolicy::kFail) {
       return fail(kExitStall, name,
                   fmt::format("{} made the run {:.3f} s late; slip_policy is fail", name, seconds(slipped)));

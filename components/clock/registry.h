@@ -64,7 +64,7 @@ class Registry {
   std::uint32_t epoch_ = 1;
   std::vector<Declaration> declarations_;
   Graph graph_;
-  Graph first_;                                  // that of the first epoch, which sockets were made for
+  Graph first_;  // that of the first epoch, which sockets were made for
   std::vector<Declaration> first_declarations_;
   std::map<std::string, std::string> unproven_;  // token, publisher
   std::set<std::size_t> unready_;                // ranks

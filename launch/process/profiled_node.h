@@ -27,8 +27,8 @@ class ProfiledNode : public AnyNode {
 };
 
 /// Writes what was measured of this process, over all epochs, as JSON: `process`, `wall_s` and `processor_s` from the
-/// first event to now, `stages` by name (`count`, `wall_s`, `processor_s`), and `traceEvents` as Perfetto and Chrome read
-/// them. Throws ExitError (5).
+/// first event to now, `stages` by name (`count`, `wall_s`, `processor_s`), and `traceEvents` as Perfetto and Chrome
+/// read them. Throws ExitError (5).
 void write_profile(const std::string& file, const std::string& process);
 
 }  // namespace ensonify

@@ -178,10 +178,11 @@ int main(int argc, char** argv) {
   CLI::App* rate = verb(app, options, "rate", "paces the run");
   rate->add_option("RATE", options.rate, "sim seconds per wall second")->required()->check(CLI::Range(1e-3, 1e6));
   verb(app, options, "free", "runs as fast as possible");
-  CLI::App* reset = verb(app, options, "reset",
-                         "ends the epoch in order and begins another in the same processes, at sim time 0");
+  CLI::App* reset =
+      verb(app, options, "reset", "ends the epoch in order and begins another in the same processes, at sim time 0");
   reset->add_option("--seed", options.seed, "seed of the epoch's scenario");
-  reset->add_option("--set", options.sets, "parameter of the scenario or of a process, KEY=VALUE, behind those of the run");
+  reset->add_option("--set", options.sets,
+                    "parameter of the scenario or of a process, KEY=VALUE, behind those of the run");
   reset->add_option("--out", options.out, "folder of the epoch's results (default: epochs/N in that of the run)");
   verb(app, options, "stop", "ends the run in order, with exit code 0");
   CLI::App* get = verb(app, options, "get", "a fact fixed for the run, as text; without WHAT, the names of all facts");

@@ -176,8 +176,9 @@ int publish(const Publication& wanted) {
   const auto [process, port] = process_and_port(wanted.topic);
   const msg::TypeInfo& type = known_type(wanted.type);
   const OpenSession open = [&, process = process, port = port](const EpochOptions&) {
-    return std::make_unique<Session>("topic pub", process, ".",
-                                     [&](Ports& ports) { return std::make_unique<Publisher>(ports, wanted, port, type); });
+    return std::make_unique<Session>("topic pub", process, ".", [&](Ports& ports) {
+      return std::make_unique<Publisher>(ports, wanted, port, type);
+    });
   };
   const LiveRun run = find_run(wanted.run);
   ClockClient clock(run);

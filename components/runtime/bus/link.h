@@ -40,6 +40,8 @@ struct Subscription {
   Rate rate;               // highest that it declared
 };
 
+class Receiver;
+
 /// One process's sockets: a DEALER to the clock, two XPUBs (sync: nothing lost; live: lossy, for viewers) and a SUB
 /// that a thread of its own drains at all times. ZeroMQ is seen in this folder only.
 class Link {
@@ -87,7 +89,6 @@ class Link {
 
  private:
   struct Sockets;
-  struct Receiver;
   std::unique_ptr<Sockets> sockets_;
   std::unique_ptr<Receiver> receiver_;
 };

@@ -40,9 +40,9 @@ void LocalBus::connect(const std::vector<WireRule>& rules, const std::map<std::s
       if (graph_.topics[t].publisher == rank) outs.push_back({graph_.topics[t].name, static_cast<std::uint32_t>(t)});
     }
     members_[rank]->stepper().wire(feeds_of(graph_, declarations_, rank), std::move(outs), facts, 1,
-                                  static_cast<std::uint32_t>(rank), [subscribers](msg::Packet&& packet) {
-                                    for (Stepper* s : subscribers[packet.envelope.topic_id]) s->insert(packet);
-                                  });
+                                   static_cast<std::uint32_t>(rank), [subscribers](msg::Packet&& packet) {
+                                     for (Stepper* s : subscribers[packet.envelope.topic_id]) s->insert(packet);
+                                   });
   }
 }
 

@@ -1,0 +1,164 @@
+#include "components/runtime/bus/receiver.h"
+
+#include <algorithm>
+#include <set>
+
+#include "components/errors/exit_error.h"
+#include "components/runtime/bus/gate.h"
+#include "components/runtime/bus/sockets.h"
+
+namespace ensonify::bus {
+namespace {
+constexpr std::uint32_t kFirstEpoch = 1;
+constexpr int kPollMs = 500;  // how soon an error of the thread is noticed
+constexpr std::size_t kLeastLargestFrame = 1 << 24;
+}  // namespace
+
+Receiver::Receiver(zmq::context_t& context, const std::vector<Subscription>& subscriptions, std::uint32_t epoch,
+                   const std::optional<Keys>& keys)
+    : socket_(context, zmq::socket_type::sub) {
+  if (keys) set_connected(socket_, *keys);
+  socket_.set(zmq::sockopt::rcvhwm, 0);  // the clock's window bounds what can arrive
+  socket_.set(zmq::sockopt::rcvbuf, kKernelBuffer);
+  socket_.set(zmq::sockopt::linger, 0);
+  socket_.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
+  std::set<std::string> connected;
+  std::size_t largest = kLeastLargestFrame;
+  for (const Subscription& s : subscriptions) largest = std::max(largest, 2 * s.max_bytes);
+  socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(largest));  // a frame beyond all sense cuts the line
+  begin(subscriptions, epoch);
+  for (const Subscription& s : subscriptions) {
+    if (connected.insert(s.endpoint).second) connect(s);
+  }
+  for (const Subscription& s : subscriptions) socket_.set(zmq::sockopt::subscribe, s.topic + '\0');
+  for (const Subscription& s : subscriptions) socket_.set(zmq::sockopt::subscribe, "~" + s.token);
+  thread_ = std::thread([this] { drain(); });
+}
+
+void Receiver::begin(const std::vector<Subscription>& subscriptions, std::uint32_t epoch) {
+  const std::lock_guard lock(mutex_);
+  epoch_ = epoch;
+  inputs_.clear();
+  for (const Subscription& s : subscriptions) inputs_.try_emplace(s.topic_id, s);
+  packets_.clear();
+  latest_ = kLongestWindow.count();
+}
+
+void Receiver::connect(const Subscription& s) {
+  try {
+    socket_.connect(s.endpoint);
+  } catch (const zmq::error_t& e) {
+    throw PeerError(kExitDied, s.publisher,
+                    s.publisher + " cannot be reached: sync: " + s.endpoint + ": " + e.what());
+  }
+}
+
+void Receiver::drain() {
+  try {
+    std::vector<zmq::message_t> frames;
+    while (receive_frames(socket_, frames)) judge(std::move(frames));
+  } catch (const zmq::error_t& e) {  // also ETERM, after interrupt()
+    fail(std::make_exception_ptr(DataLost(std::string("receiving: ") + e.what())));
+  } catch (...) {
+    fail(std::current_exception());
+  }
+  socket_.close();
+}
+
+/// Whose topic the message came on says whose mistake it is.
+void Receiver::judge(std::vector<zmq::message_t>&& frames) {
+  const std::string came_on = frames[0].to_string();
+  const std::lock_guard lock(mutex_);
+  try {
+    msg::Packet packet = to_packet(std::move(frames));
+    const auto known = inputs_.find(packet.envelope.topic_id);
+    if (known == inputs_.end() || packet.topic != known->second.subscription.topic)
+      throw msg::DecodeError("envelope: topic id is " + std::to_string(packet.envelope.topic_id));
+    accept(known->second, std::move(packet));
+  } catch (const msg::DecodeError& e) {
+    for (const auto& [id, input] : inputs_) {
+      const Subscription& s = input.subscription;
+      if (came_on.starts_with(s.topic + '\0') || came_on.starts_with("~" + s.token))
+        throw broken_message(s.publisher, s.topic, input.arrived, e.what());
+    }
+    throw;
+  }
+}
+
+void Receiver::accept(Input& input, msg::Packet&& packet) {
+  const Subscription& s = input.subscription;
+  const msg::Envelope& e = packet.envelope;
+  const auto broken = [&](const std::string& what) { throw broken_message(s.publisher, s.topic, e.seq, what); };
+  if (e.epoch >= kFirstEpoch && e.epoch < epoch_) return;
+  if (e.epoch != epoch_) broken("epoch: is " + std::to_string(e.epoch));
+  if (e.publisher != s.rank) broken("publisher: is " + std::to_string(e.publisher));
+  if (e.type_hash != msg::type_hash(s.type)) broken("type hash: is not that of " + s.type);
+  if (packet.body.size() > s.max_bytes)
+    broken(std::to_string(packet.body.size()) + " bytes, declared at most " + std::to_string(s.max_bytes));
+  const SimTime t{e.t_sim_ns};
+  if (t < input.last || t > SimTime{latest_.load()})
+    broken("t_sim: " + std::to_string(e.t_sim_ns) +
+           " ns is before the message before it, or beyond what was granted");
+  if (e.seq != input.arrived) throw lost_messages(s.publisher, s.topic, input.arrived, e.seq);
+  if (!input.limit.take(1, t)) broken("t_sim: " + input.limit.text());
+  input.last = t;
+  ++input.arrived;
+  if (latest_.load() != kNever.count()) packets_.push_back(std::move(packet));
+  if (awaited_ && all_arrived(*awaited_)) news_.notify_one();
+}
+
+/// The topics of which something is still to come, for messages.
+PeerError Receiver::missing(const Link::TopicCounts& counts) const {
+  for (const auto& [id, count] : counts) {
+    const auto found = inputs_.find(id);
+    if (found == inputs_.end() || found->second.arrived >= count) continue;
+    const Subscription& s = found->second.subscription;
+    return {kExitDataLost, s.publisher,
+            s.publisher + " lost messages: " + s.topic + ": its DONE counted " + std::to_string(count) + ", " +
+                std::to_string(found->second.arrived) + " have come"};
+  }
+  return {kExitDataLost, "", "a message is missing"};
+}
+
+bool Receiver::all_arrived(const Link::TopicCounts& counts) const {
+  return std::all_of(counts.begin(), counts.end(), [this](const auto& count) {
+    const auto found = inputs_.find(count.first);
+    return count.second == 0 || (found != inputs_.end() && found->second.arrived >= count.second);
+  });
+}
+
+void Receiver::rethrow() {
+  const std::lock_guard lock(mutex_);
+  if (error_) std::rethrow_exception(error_);
+}
+
+void Receiver::fail(std::exception_ptr why) {
+  const std::lock_guard lock(mutex_);
+  error_ = std::move(why);
+  news_.notify_one();
+}
+
+void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  awaited_ = &counts;
+  std::size_t before = packets_.size();
+  for (std::chrono::milliseconds waited{0}; !news_.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] {
+         return error_ || all_arrived(counts);
+       });) {
+    waited = packets_.size() == before ? waited + std::chrono::milliseconds(kPollMs)
+                                                 : std::chrono::milliseconds(0);
+    before = packets_.size();
+    if (waited < patience) continue;
+    awaited_ = nullptr;
+    throw missing(counts);
+  }
+  awaited_ = nullptr;
+  if (error_) std::rethrow_exception(error_);
+}
+
+std::vector<msg::Packet> Receiver::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(packets_, {});
+}
+
+}  // namespace ensonify::bus
