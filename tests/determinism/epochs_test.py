@@ -126,9 +126,8 @@ class Files(Epochs):
         with self.observer() as observer:
             observer.ask("pause")
             self.assertEqual(observer.reset(), 2)
-            while observer.ask("status")["state"] == "connecting":
+            while (status := observer.ask("status"))["epoch"] == 1 or status["state"] == "connecting":
                 pass
-            status = observer.ask("status")
             self.assertEqual((status["state"], status["sim_ns"], status["epoch"]), ("paused", 0, 2))
             observer.ask("resume")
         self.assertEqual(run.wait(60), 0)
