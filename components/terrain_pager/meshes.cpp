@@ -15,7 +15,8 @@
 namespace ensonify::pager {
 namespace {
 
-constexpr std::size_t kEnvelope = 4096;  // of a message besides its arrays
+constexpr std::size_t kMostKept = 100'000;  // vertices; some 10 MB beside the message
+constexpr std::size_t kEnvelope = 4096;     // of a message besides its arrays
 
 std::size_t bytes_of(const msg::Mesh& mesh) {
   return kEnvelope + sizeof(float) * (mesh.vertex_m.size() + mesh.triangle.size() + mesh.split.size() +
@@ -53,12 +54,16 @@ void check_legs(const MissionTrack& track, const std::string& name, const progre
 
 }  // namespace
 
-Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain) {
+Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain, Made& made) {
   const source::Extent known = terrain.extent();
   const MissionTrack track = track_of(config);
   std::size_t bytes = 0;
   for (const SeabedMesh& mesh : config.terrain.seabed.meshes) {
-    const auto placed = source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain);
+    std::shared_ptr<const source::PlacedMesh>& kept = made[mesh.name];
+    if (!kept)
+      kept =
+          std::make_shared<source::PlacedMesh>(source::placed_mesh(mesh, config.terrain.seabed.layered.seed, terrain));
+    const source::PlacedMesh& placed = *kept;
     if (placed.worth_preparing) unprepared_.push_back(mesh.name);
     if (placed.hierarchy.mesh.triangle.empty()) refuse(config, mesh.name, "has no triangles");
     const paging::Box box = box_of(placed.hierarchy.mesh);
@@ -82,6 +87,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
                          "triangles, or raise the pager's head_budget_mb",
                          1e-6 * static_cast<double>(bytes), config.head_budget_mb));
     meshes_.push_back(std::move(one));
+    if (placed.hierarchy.mesh.vertex_m.size() > kMostKept) kept.reset();
   }
 }
 

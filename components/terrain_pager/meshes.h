@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "components/terrain/prepared_mesh.h"
 #include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
 #include "kernels/mesh/paging/rules.h"
@@ -18,7 +21,9 @@ class Meshes {
   /// Throws ConfigError for a mesh that cannot be read, that has nothing within the terrain or stands in the way of a
   /// mission's lines, their run-ins and run-outs, or orbits, and for more than head_budget_mb of them. What follows the
   /// bottom is judged as if at the surface.
-  Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain);
+  /// What of them has been made before is in `made`, by name, and what is made now is added, unless it is large.
+  using Made = std::map<std::string, std::shared_ptr<const source::PlacedMesh>>;
+  Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain, Made& made);
 
   struct Decision {
     std::vector<const msg::Mesh*> publish;  // in the scenario's order

@@ -26,7 +26,10 @@ TerrainPagerConfig quay() {
   return config;
 }
 
-Meshes meshes_of(const TerrainPagerConfig& config) { return {config, *source::source_of(config.terrain)}; }
+Meshes meshes_of(const TerrainPagerConfig& config) {
+  Meshes::Made made;
+  return {config, *source::source_of(config.terrain), made};
+}
 const paging::Margins kMargins{60.0, 80.0};
 
 }  // namespace

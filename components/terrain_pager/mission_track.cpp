@@ -227,7 +227,8 @@ double check_mission(const source::TerrainSource& terrain, const TerrainPagerCon
 
 void check_mission_alone(const TerrainPagerConfig& config) {
   const auto terrain = source::source_of(config.terrain);
-  const Meshes meshes(config, *terrain);
+  Meshes::Made made;
+  const Meshes meshes(config, *terrain, made);
   check_mission(*terrain, config, Beyond::kAllowed);
 }
 

@@ -79,11 +79,12 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
     : config_(config),
       ports_(ports),
       events_(Rate{config.rate_hz, 1}),
-      terrain_(source::source_of(config.terrain)),
+      resident_(pager::take_resident(pager::resident_identity(config))),
+      terrain_(resident_.terrain ? resident_.terrain : source::source_of(config.terrain)),
       grid_{Vec2::Zero(), source::post_spacing_m(config.terrain, *terrain_), 1024,
             source::lsb_m(config.terrain, *terrain_)},
       box_(box_of(terrain_->extent())),
-      meshes_(config, *terrain_),
+      meshes_(config, *terrain_, resident_.meshes),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes, .rate = all_at_once(most_tiles())})),
       releases_(ports.out<msg::TileRelease>("release", {.rate = all_at_once(most_tiles())})),
       meshes_out_(
@@ -97,21 +98,27 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   // Tiles and chart come while the mission is checked and other processes start.
   open_cache();
   store_.emplace([this](const TileKey& key) { return made(key); },
-                 pager::TileStore::Limits{config.threads, most_tiles()});
+                 pager::TileStore::Limits{config.threads, most_tiles()}, std::exchange(resident_.tiles, {}));
   if (!config.mission.runlines.empty()) {
     const runlines::Runline& line = config.mission.runlines.front();
     const pager::Paging probably(grid_, box_, rules(feed_m));
     store_->hold(probably.before_start(line.start_enu_m));
   }
-  made_chart_ = std::async(std::launch::async, [this] { return chart(); });
+  if (!resident_.glance) made_glance_ = std::async(std::launch::async, [this] { return glance(); });
   const double shallowest_m = pager::check_mission(*terrain_, config, pager::Beyond::kRefused);
   ports.declare(msg::PagerDeclaration{grid_.spacing_m, shallowest_m});
   ports.in<msg::Pose>("pose", [this](const msg::Pose& pose) { pose_ = pose; });
 }
 
+TerrainPagerNode::~TerrainPagerNode() {
+  resident_.terrain = terrain_;
+  if (store_) resident_.tiles = store_->ready();
+  pager::leave_resident(std::move(resident_));
+}
+
 SimTime TerrainPagerNode::step(SimTime now) {
   if (!events_.due(now)) return events_.next();
-  if (made_chart_.valid()) start();
+  if (!started_) start();
   if (pose_) page(*pose_);
   report_cache();
   return events_.next();
@@ -139,24 +146,30 @@ pager::TileStore::TilePtr TerrainPagerNode::made(const TileKey& key) {
   return tile;
 }
 
-msg::Chart TerrainPagerNode::chart() {
+pager::Glance TerrainPagerNode::glance() {
   auto relief = terrain_->meshed_relief();
-  uneven_ = std::move(relief.uneven);
-  facet_mean_square_slope_ = msg::Array<double>::of(std::move(relief.mean_square_slope));
+  pager::Glance glance;
+  glance.uneven = std::move(relief.uneven);
+  glance.facet_mean_square_slope = msg::Array<double>::of(std::move(relief.mean_square_slope));
   if (cache_) {
-    if (const auto kept = cache_->read_chart()) return *kept;
+    if (const auto kept = cache_->read_chart()) {
+      glance.chart = *kept;
+      return glance;
+    }
   }
   const source::Overview overview = terrain_->overview();
-  overview_fault_ = overview.fault;
-  msg::Chart chart = pager::make_chart(*terrain_, overview);
-  if (cache_) cache_->write(chart);
-  return chart;
+  glance.fault = overview.fault;
+  glance.chart = pager::make_chart(*terrain_, overview);
+  if (cache_) cache_->write(glance.chart);
+  return glance;
 }
 
 void TerrainPagerNode::start() {
-  chart_.send(made_chart_.get());
-  if (!overview_fault_.empty()) log::event(ports_, "overview_unusable", "why=\"{}\"", overview_fault_);
-  for (const auto& uneven : uneven_)
+  started_ = true;
+  if (made_glance_.valid()) resident_.glance = made_glance_.get();
+  chart_.send(resident_.glance->chart);
+  if (!resident_.glance->fault.empty()) log::event(ports_, "overview_unusable", "why=\"{}\"", resident_.glance->fault);
+  for (const auto& uneven : resident_.glance->uneven)
     log::event(ports_, "uneven_class", "class={} layer={} off_db={:.1f} why=\"{}\"", uneven.seabed_class, uneven.layer,
                uneven.off_db, text_of(uneven));
   for (const std::string& name : meshes_.unprepared())
@@ -217,7 +230,7 @@ void TerrainPagerNode::publish(const TileKey& key) {
     log::event(ports_, "late_tile", "col={} row={} late_tiles={}", key.east, key.north, store_->statistics().late);
   }
   msg::Tile tile = *taken.tile;  // shares its posts
-  tile.facet_mean_square_slope = facet_mean_square_slope_;
+  tile.facet_mean_square_slope = resident_.glance->facet_mean_square_slope;
   tiles_.send(tile);
   ports_.count("tiles_published");
 }

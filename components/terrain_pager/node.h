@@ -8,6 +8,7 @@
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/meshes.h"
 #include "components/terrain_pager/paging.h"
+#include "components/terrain_pager/resident.h"
 #include "components/terrain_pager/tile_cache.h"
 #include "components/terrain_pager/tile_store.h"
 #include "messages/motion.h"
@@ -32,6 +33,10 @@ class TerrainPagerNode {
   static constexpr const char* kComponent = "terrain_pager";
 
   TerrainPagerNode(const Config& config, Ports& ports);
+  /// What it has made of the seabed stays for the next of this process.
+  ~TerrainPagerNode();
+  TerrainPagerNode(const TerrainPagerNode&) = delete;
+  TerrainPagerNode& operator=(const TerrainPagerNode&) = delete;
 
   SimTime step(SimTime now);
 
@@ -45,7 +50,7 @@ class TerrainPagerNode {
   pager::Paging::Rules rules(double feed_margin_m) const;
   void open_cache();
   pager::TileStore::TilePtr made(const pager::TileKey& key);
-  msg::Chart chart();
+  pager::Glance glance();
   void start();
   void start_paging();
   paging::Motion motion_of(const msg::Pose& pose);
@@ -58,7 +63,8 @@ class TerrainPagerNode {
   Config config_;
   Ports& ports_;
   Periodic events_;
-  std::unique_ptr<source::TerrainSource> terrain_;
+  pager::Resident resident_;
+  std::shared_ptr<const source::TerrainSource> terrain_;
   pager::TileGrid grid_;
   pager::Box box_;
   pager::Meshes meshes_;
@@ -75,10 +81,8 @@ class TerrainPagerNode {
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;
-  std::string overview_fault_;                  // of what the chart is made of; set before made_chart_ is
-  std::vector<source::UnevenClass> uneven_;     // likewise
-  msg::Array<double> facet_mean_square_slope_;  // likewise: goes with every tile
-  std::future<msg::Chart> made_chart_;          // while other processes start; until it is sent
+  bool started_ = false;
+  std::future<pager::Glance> made_glance_;  // while other processes start; until it is sent
 };
 
 }  // namespace ensonify

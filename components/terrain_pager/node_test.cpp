@@ -115,6 +115,7 @@ TEST_CASE("a second run takes its tiles from the cache, bit-equal to those made"
     std::int64_t made = 0;  // or fetched from the cache
   };
   const auto run = [&] {
+    pager::take_resident("");  // as in another process
     NodeUnderTest<TerrainPagerNode> pager(config);
     pager.give("pose", pose_at(0_s, 50, 50), pose_at(1_s, 54, 50));
     Outcome outcome;
@@ -238,4 +239,70 @@ TEST_CASE("a runline outside the terrain is refused") {
       NodeUnderTest<TerrainPagerNode>(config),
       "bay.yaml: mission runline 2: its end (500.0, 0.0) m is outside the terrain; allowed is east -400.0 "
       "to 400.0 m and north -400.0 to 400.0 m");
+}
+
+namespace {
+
+/// A seabed of hills, as a launch has it.
+TerrainPagerConfig hills(std::uint64_t seed) {
+  TerrainPagerConfig config = small_slope();
+  config.terrain.seabed.layered.seed = seed;
+  config.terrain.seabed.layered.layers = {
+      {.name = "hills",
+       .form =
+           layers::Spectral{.spectrum = {.rms_m = 1.0, .outer_scale_m = 50.0, .inner_scale_m = 5.0}, .mean_m = -15.0}}};
+  const progressive::Bar bar{.from_m = {20.0, 20.0, -10.0}, .to_m = {30.0, 20.0, -10.0}, .diameter_m = 0.5};
+  SeabedMesh mesh;
+  mesh.name = "bar";
+  mesh.bars = {bar};
+  config.terrain.seabed.meshes = {mesh};
+  config.scenario_text = "seed: " + std::to_string(seed) + "\n";
+  return config;
+}
+
+struct Sent {
+  std::vector<msg::Chart> charts;
+  std::vector<msg::Tile> tiles;
+  std::vector<msg::Mesh> meshes;
+  std::int64_t made = 0;
+};
+
+/// What a pager sends in its first event, and how many tiles it has made by then.
+Sent first_event(const TerrainPagerConfig& config) {
+  NodeUnderTest<TerrainPagerNode> pager(config);
+  pager.give("pose", pose_at(0_s, 50, 50));
+  Sent sent;
+  sent.charts = pager.step_until<msg::Chart>("chart", 0_s);
+  sent.tiles = pager.step_until<msg::Tile>("tile", 0_s);
+  sent.meshes = pager.step_until<msg::Mesh>("mesh", 0_s);
+  sent.made = pager.node().statistics().made;
+  return sent;
+}
+
+void check_equal(const Sent& a, const Sent& b) {
+  REQUIRE(a.tiles.size() == b.tiles.size());
+  REQUIRE((a.charts.size() == 1 && b.charts.size() == 1 && a.meshes.size() == 1 && b.meshes.size() == 1));
+  CHECK(msg::to_value(a.charts[0]) == msg::to_value(b.charts[0]));
+  CHECK(a.charts[0].height_m == b.charts[0].height_m);
+  CHECK(a.meshes[0].vertex_m == b.meshes[0].vertex_m);
+  for (std::size_t i = 0; i < a.tiles.size(); ++i) {
+    CHECK(a.tiles[i].height_m == b.tiles[i].height_m);
+    CHECK(a.tiles[i].facet_mean_square_slope == b.tiles[i].facet_mean_square_slope);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a later epoch of the same seabed makes nothing again and sends the same; another seed makes all") {
+  const Sent first = first_event(hills(3));
+  CHECK(first.made > 0);
+  const Sent again = first_event(hills(3));
+  CHECK(again.made == 0);
+  check_equal(first, again);
+  const Sent other = first_event(hills(4));
+  CHECK(other.made > 0);
+  CHECK_FALSE(other.tiles[0].height_m == first.tiles[0].height_m);
+  const Sent back = first_event(hills(3));
+  CHECK(back.made > 0);
+  check_equal(first, back);
 }

@@ -15,16 +15,18 @@
 #include "components/config/config_node.h"
 #include "components/config/config_text.h"
 #include "components/config/parse_yaml.h"
+#include "components/terrain/prepared_mesh.h"
 #include "components/terrain/raster_file.h"
 #include "components/terrain/tiles/tile_set.h"
 
 namespace ensonify::pager {
 namespace {
 
-std::string scenario_part(const TerrainPagerConfig& config) {
+std::string scenario_part(const TerrainPagerConfig& config, bool with_seed) {
   const ConfigNode world = parse_config(config.scenario_text, config.scenario_file).root;
   ConfigNode part = ConfigNode::map();
   for (const char* section : {"site", "seed", "seabed"}) {
+    if (!with_seed && section == std::string_view("seed")) continue;
     if (const ConfigNode* found = world.find(section)) part.set(section, *found);
   }
   return to_canonical_yaml(part);
@@ -39,6 +41,20 @@ std::string guides_of(const LayeredSeabed& seabed) {
     if (!guide->raster.empty()) {
       for (const std::string& file : source::files_of_raster(guide->raster)) text += file_identity(file);
     }
+  }
+  return text;
+}
+
+/// Files of the seabed besides guides.
+std::string files_of(const TerrainPagerConfig& config) {
+  const Seabed& seabed = config.terrain.seabed;
+  std::string text;
+  if (seabed.kind == Seabed::Kind::kTiles) text += file_identity(seabed.tiles_folder + "/" + tiles::kManifest);
+  if (seabed.kind == Seabed::Kind::kRaster) {
+    for (const std::string& file : source::files_of_raster(seabed.raster.path)) text += file_identity(file);
+  }
+  for (const SeabedMesh& mesh : seabed.meshes) {
+    if (!mesh.file.empty()) text += file_identity(mesh.file) + file_identity(source::lod_path_of(mesh.file));
   }
   return text;
 }
@@ -80,7 +96,17 @@ int add_object(dl_phdr_info* object, std::size_t, void* text) {
 }  // namespace
 
 std::string seabed_identity(const TerrainPagerConfig& config) {
-  return scenario_part(config) + guides_of(config.terrain.seabed.layered) + program_identity();
+  return scenario_part(config, true) + guides_of(config.terrain.seabed.layered) + program_identity();
+}
+
+std::string resident_identity(const TerrainPagerConfig& config) {
+  if (config.scenario_text.empty()) return "";
+  const source::TerrainOptions& terrain = config.terrain;
+  const bool draws = terrain.seabed.kind == Seabed::Kind::kLayers || !terrain.seabed.meshes.empty();
+  return config.scenario_file + "\n" + scenario_part(config, draws) + guides_of(terrain.seabed.layered) +
+         files_of(config) +
+         fmt::format("{} {} {}\n", terrain.raster_crs, terrain.raster_band,
+                     terrain.raster_nodata ? std::to_string(*terrain.raster_nodata) : "-");
 }
 
 std::string file_identity(const std::string& path) {

@@ -13,6 +13,11 @@ namespace ensonify::pager {
 /// scenario, such as its mission, changes nothing.
 std::string seabed_identity(const TerrainPagerConfig& config);
 
+/// All that decides what a pager makes of its seabed, for later epochs of the same process: the above with the files of
+/// rasters, tile sets and meshes, and how rasters are read. Without the seed where nothing is drawn. "" without a
+/// launch.
+std::string resident_identity(const TerrainPagerConfig& config);
+
 /// Path, size in bytes and time of the last change in ns, on a line; of a file that cannot be examined, its path
 /// alone.
 std::string file_identity(const std::string& path);

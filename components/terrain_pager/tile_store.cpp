@@ -9,9 +9,14 @@ namespace ensonify::pager {
 
 using terrain::TileKey;
 
-TileStore::TileStore(Make make, const Limits& limits) : make_(std::move(make)), limits_(limits) {
+TileStore::TileStore(Make make, const Limits& limits, const Tiles& at_hand) : make_(std::move(make)), limits_(limits) {
   ENSONIFY_ASSERT(limits.threads >= 1 && limits.most > static_cast<std::size_t>(limits.threads),
                   std::to_string(limits.threads) + " threads, at most " + std::to_string(limits.most) + " tiles");
+  for (const auto& [key, tile] : at_hand) {
+    if (slots_.size() == limits.most) break;
+    slots_[key] = std::make_shared<Slot>(Slot{.state = State::kReady, .tile = tile, .ready = Clock::now()});
+  }
+  statistics_.resident = statistics_.most_resident = slots_.size();
   for (int i = 0; i < limits.threads; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -45,6 +50,15 @@ void TileStore::hold(const std::vector<TileKey>& keys) {
     });
   }
   changed_.notify_all();
+}
+
+TileStore::Tiles TileStore::ready() const {
+  const std::scoped_lock lock(mutex_);
+  Tiles tiles;
+  for (const auto& [key, slot] : slots_) {
+    if (slot->state == State::kReady && !slot->error) tiles[key] = slot->tile;
+  }
+  return tiles;
 }
 
 TileStore::Taken TileStore::take(const TileKey& key) {

@@ -24,13 +24,15 @@ namespace ensonify::pager {
 class TileStore {
  public:
   using TilePtr = std::shared_ptr<const msg::Tile>;
+  using Tiles = std::map<terrain::TileKey, TilePtr>;
   using Make = std::function<TilePtr(const terrain::TileKey&)>;
   struct Limits {
     int threads = 2;
     std::size_t most = 100;  // tiles, those being made among them; more than threads
   };
 
-  TileStore(Make make, const Limits& limits);
+  /// `at_hand` have been made before; what hold() does not ask for is forgotten.
+  TileStore(Make make, const Limits& limits, const Tiles& at_hand = {});
   ~TileStore();
   TileStore(const TileStore&) = delete;
   TileStore& operator=(const TileStore&) = delete;
@@ -38,6 +40,9 @@ class TileStore {
   /// Makes these in the background and forgets all others. In order of importance, at most `most`: the first are made
   /// first, the last make room for a tile that is taken and not among them.
   void hold(const std::vector<terrain::TileKey>& keys);
+
+  /// Those that are in memory and made.
+  Tiles ready() const;
 
   struct Taken {
     TilePtr tile;
