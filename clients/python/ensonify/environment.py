@@ -91,7 +91,7 @@ class Env(gymnasium.Env):
         self._ended = "there is no episode yet"
         settings["seed"] = int(self.np_random.integers(LARGEST_SEED)) if seed is None else seed
         seen = self._running.begin(lambda out: Episode(
-            self._launch, self._agent, out, settings, self._topics, self._act.port, self._act.message_type, self._rate,
+            self._launch, self._agent, out, settings, self._topics, {self._act.port: self._act.message_type}, self._rate,
             self._patience_s), settings, self._folder())
         while missing := [topic for topic in self._topics if seen[topic] is None]:
             if seen.t_s >= self._settle_s:
@@ -110,7 +110,7 @@ class Env(gymnasium.Env):
         action = checked(action, self.action_space)
         message = self._act.function(action, episode.seen)
         try:
-            seen = episode.step(message)
+            seen = episode.step({self._act.port: message})
         except BaseException:
             self._ended = "the episode broke off"
             raise
