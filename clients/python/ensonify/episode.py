@@ -1,4 +1,5 @@
 """Episodes: a launch with us as one of its processes, stepped event by event, and reset for another episode."""
+import copy
 import pathlib
 from typing import Any, Mapping
 
@@ -30,6 +31,12 @@ class Seen:
         if topic not in self._latest:
             raise KeyError(f"{topic} is in neither observe nor truth; there are {', '.join(self._latest)}")
         return self._latest[topic]
+
+    def after(self, action: Any) -> "Seen":
+        """The same for an agent that took this action."""
+        mine = copy.copy(self)
+        mine.action = action
+        return mine
 
     def new(self, topic: str) -> list:
         """Messages that have come since the last step, in order."""
