@@ -96,11 +96,21 @@ class Episodes(unittest.TestCase):
         first, second = self.make(), self.make()
         with mock.patch.object(episodes, "Episode", wraps=episodes.Episode) as launches:
             steps = episode(first, 3)
+            self.assertEqual(launches.call_args.args[3]["seed"], 3)  # the scenario's
             self.assertNotEqual(steps, episode(first, 4))
             self.assertEqual(steps, episode(first, 3))
             self.assertEqual(launches.call_count, 1)  # all in the same processes
             self.assertEqual(steps, episode(second, 3))
             self.assertEqual(launches.call_count, 2)
+
+    def test_seeds_follow_from_the_last_one_given(self):
+        def seeds(env):
+            return [env.reset(seed)[1]["red"]["seed"] for seed in (3, None, None)]
+
+        env = self.make()
+        once = seeds(env)
+        self.assertEqual(len(set(once)), 3)
+        self.assertEqual(once, seeds(env))
 
     def test_each_agent_steers_its_own_vehicle(self):
         env = self.make(seconds=5)
