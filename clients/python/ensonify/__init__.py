@@ -13,9 +13,10 @@ from ensonify.wire import NEVER, DecodeError, Envelope
 
 __version__ = "0.1.0"
 
-# What needs Gymnasium, and where it is.
-_GYM = {"Env": "environment", "TruthError": "environment", "Seen": "episode", "Fields": "spaces", "Array": "spaces", "Act": "spaces",
-        "steer": "spaces"}
+# What needs Gymnasium or PettingZoo, and where it is.
+_GYM = {"Env": "environment", "ParallelEnv": "parallel", "Agent": "agent", "TruthError": "agent", "Seen": "episode",
+        "Fields": "spaces", "Array": "spaces", "Act": "spaces", "steer": "spaces"}
+_EXTRAS = {"gymnasium": "Gymnasium: pip install 'ensonify[gym]'", "pettingzoo": "PettingZoo: pip install 'ensonify[pettingzoo]'"}
 
 
 def __getattr__(name: str):
@@ -24,9 +25,9 @@ def __getattr__(name: str):
     try:
         return getattr(importlib.import_module(f"ensonify.{_GYM[name]}"), name)
     except ModuleNotFoundError as error:
-        if error.name != "gymnasium":
+        if error.name not in _EXTRAS:
             raise
-        raise ImportError(f"ensonify.{name} needs Gymnasium: pip install 'ensonify[gym]'") from None
+        raise ImportError(f"ensonify.{name} needs {_EXTRAS[error.name]}") from None
 
 
 if importlib.util.find_spec("gymnasium") is not None:

@@ -1,4 +1,5 @@
 """Episodes: a launch with us as one of its processes, stepped event by event, and reset for another episode."""
+import copy
 import pathlib
 from typing import Any, Mapping
 
@@ -31,6 +32,12 @@ class Seen:
             raise KeyError(f"{topic} is in neither observe nor truth; there are {', '.join(self._latest)}")
         return self._latest[topic]
 
+    def after(self, action: Any) -> "Seen":
+        """The same for an agent that took this action."""
+        mine = copy.copy(self)
+        mine.action = action
+        return mine
+
     def new(self, topic: str) -> list:
         """Messages that have come since the last step, in order."""
         self[topic]
@@ -38,15 +45,16 @@ class Seen:
 
 
 class Episode:
-    """Starts `file` with us as its process `agent`, which reads `topics` (name to message type) and publishes on `port`."""
+    """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type."""
 
     def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
-                 port: str, message_type: type, rate: Any, patience_s: float):
+                 ports: Mapping[str, type], rate: Any, patience_s: float):
         self._settings = dict(settings)  # of the launch, which every epoch has
         self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
         self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
         self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
-        self._command = self._me.publish(port, message_type, rate=rate, max_bytes=1 << 16)
+        self._outputs = {port: self._me.publish(port, message_type, rate=rate, max_bytes=1 << 16)
+                         for port, message_type in ports.items()}
         self._rate = rate
         self._epochs = self._me.epochs()
         self._over = False
@@ -79,10 +87,10 @@ class Episode:
             return False
         return True
 
-    def step(self, message: Message | None = None) -> Seen:
-        """Publishes, and goes on to the next event."""
-        if message is not None:
-            self._command.send(message)
+    def step(self, messages: Mapping[str, Message] | None = None) -> Seen:
+        """Publishes a message on each port that is named, and goes on to the next event."""
+        for port, message in (messages or {}).items():
+            self._outputs[port].send(message)
         try:
             event = next(self._steps, None)
         except RunError as error:

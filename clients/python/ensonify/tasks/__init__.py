@@ -1,7 +1,9 @@
-"""Registered environments: `gymnasium.make("Ensonify/AltitudeHold-v0")`. Each has a file of its own and a launch file."""
+"""Registered environments: `gymnasium.make("Ensonify/AltitudeHold-v0")`, and those of several vehicles, which PettingZoo keeps no
+register of: `ensonify.tasks.keep_formation.KeepFormation()`. Each has a file of its own and a launch file."""
 import gymnasium
 
 TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow", "WallFollow": "wall_follow"}
+TEAM_TASKS = {"KeepFormation": "keep_formation"}
 
 
 def register() -> None:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ensonify.environment import LARGEST_SEED, Env
+from ensonify.environment import Env
 from ensonify.episode import Seen
+from ensonify.episodes import drawn_seed
 from ensonify.messages import Estimate, Guidance, Ping, Pose
 from ensonify.spaces import Act, Array, Box
 
@@ -88,7 +89,7 @@ class WallFollow(Env):
     def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple:
         """As Env's, 8 to 13 m from the wall."""
         if seed is None:
-            seed = int(self.np_random.integers(LARGEST_SEED))
+            seed = drawn_seed(self.np_random)
         options = dict(options or {})
         north_m = WALL_NORTH_M + float(np.random.default_rng(seed).uniform(8, 13))
         options["set"] = {"vehicles.boat.start.position_m": [-60, north_m, 0], **options.get("set", {})}

@@ -1,0 +1,61 @@
+"""An agent: what it observes, does and earns. ensonify.Env has one, ensonify.ParallelEnv one for each vehicle."""
+import math
+from typing import Any, Callable, Mapping
+
+import gymnasium
+
+from ensonify.episode import Seen
+from ensonify.messages import Mesh, Pose, Tile
+from ensonify.spaces import Act, Array, Fields
+
+ALWAYS_TRUTH = (Pose, Tile, Mesh)  # message types that no instrument gives
+
+
+class TruthError(ValueError):
+    """An observation of what only the simulator knows."""
+
+
+class Agent:
+    """What is an agent's own. It keeps nothing of an episode, so that one may stand for several vehicles.
+
+    observe: topics and what of them is observed, ensonify.Fields or ensonify.Array
+    act: what an action publishes, ensonify.steer(...) or ensonify.Act
+    reward, done: functions of what is Seen after a step; with done the agent's episode ends
+    """
+
+    def __init__(self, *, observe: Mapping[str, Fields | Array], act: Act, reward: Callable[[Seen], float],
+                 done: Callable[[Seen], bool] = lambda seen: False):
+        self.observe, self.act = dict(observe), act
+        self._reward, self._done = reward, done
+        self.observation_space = gymnasium.spaces.Dict(
+            {key: space for topic, part in observe.items() for key, space in part.spaces(topic).items()})
+        self.action_space = act.space
+
+    def observation(self, seen: Seen) -> dict:
+        """What it observes of what was seen."""
+        return {key: value for topic, part in self.observe.items() for key, value in part.values(topic, seen[topic]).items()}
+
+    def judged(self, seen: Seen) -> tuple:
+        """Its reward, and whether it is done."""
+        reward = float(self._reward(seen))
+        if not math.isfinite(reward):
+            raise ValueError(f"the reward at t = {seen.t_s:.3f} s is {reward}")
+        return reward, bool(self._done(seen))
+
+    def refuse_truth(self, truth: Mapping[str, type]) -> None:
+        """A TruthError names an observed topic that is truth."""
+        for topic, part in self.observe.items():
+            if topic in truth:
+                raise TruthError(f"{topic} is marked as truth: reward and done may read it, an observation may not")
+            if issubclass(part.message_type, ALWAYS_TRUTH):
+                raise TruthError(f"{topic} is {part.message_type.TYPE}, which is truth: put it into truth=, for reward and done to read")
+
+
+def topics_of(agents: Mapping[Any, Agent]) -> dict:
+    """The message type of each topic that they observe. A ValueError where two differ."""
+    topics: dict = {}
+    for agent in agents.values():
+        for topic, part in agent.observe.items():
+            if topics.setdefault(topic, part.message_type) is not part.message_type:
+                raise ValueError(f"{topic} is observed as {topics[topic].TYPE} and as {part.message_type.TYPE}")
+    return topics

@@ -1,0 +1,163 @@
+"""Episodes of one launch, one after another: what ensonify.Env and ensonify.ParallelEnv have in common."""
+import math
+import os
+import pathlib
+import tempfile
+import weakref
+from typing import Any, Callable, Mapping
+
+import gymnasium
+import numpy as np
+
+from ensonify.agent import Agent, topics_of
+from ensonify.episode import Episode, Seen
+from ensonify.images import picture
+from ensonify.messages import Ping
+from ensonify.typed import Message
+
+
+class Episodes:
+    """`agents` take the place of one process of the launch, each with an output of its own: a port and its agent.
+
+    truth: topics and message types that reward and done read besides: what must not be observed
+    rate: steps per second of sim time
+    seconds: sim time after which an episode is truncated
+    image: topic of a head's pings, for render() with render_mode="rgb_array"
+    set: parameters in every episode, as `--set`; reset(options={"set": {...}}) adds to them
+    agent: the process, which the launch file marks `external: true`
+    out: folder in which episodes leave their results (0000, 0001, ...); without it they leave none
+    settle_s: sim time within which all topics must have come for the first time
+    patience_s: wall time that the launch may take for one step
+    """
+
+    def __init__(self, launch: str | os.PathLike, agents: Mapping[str, Agent], *, truth: Mapping[str, type] | None = None,
+                 rate: Any = 10, seconds: float = math.inf, image: str | None = None, set: Mapping[str, Any] | None = None,
+                 agent: str = "agent", out: str | os.PathLike | None = None, settle_s: float = 10.0, patience_s: float = 300.0,
+                 render_mode: str | None = None):
+        truth = dict(truth or {})
+        for each in agents.values():
+            each.refuse_truth(truth)
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {render_mode!r}; allowed: None, 'rgb_array'")
+        if render_mode and not image:
+            raise ValueError("render_mode='rgb_array' needs image=TOPIC, the pings of a head")
+        self.render_mode = render_mode
+        self._topics = topics_of(agents) | truth
+        self._image = image if render_mode else None
+        if self._image:
+            self._topics.setdefault(self._image, Ping)
+        self._ports = {port: each.act.message_type for port, each in agents.items()}
+        self._launch, self._process, self._rate, self._seconds = launch, agent, rate, seconds
+        self._set, self._out = dict(set or {}), out
+        self._settle_s, self._patience_s = settle_s, patience_s
+        self._count = 0  # so far
+        self._running = Running()
+        self._end_at_exit = weakref.finalize(self, self._running.end)
+        self._ended = "there is no episode yet"  # why no step can be made; "" while one can
+        self._began_s = 0.0
+
+    def begin(self, seed: int, options: Mapping[str, Any] | None) -> Seen:
+        """Another episode, until all topics have come: in the processes of the one before, or in a new launch. `seed` is the
+        scenario's."""
+        options = dict(options or {})
+        settings = {**self._set, **options.pop("set", {})}
+        if options:
+            raise ValueError(f"options has {', '.join(map(repr, options))}; allowed: 'set'")
+        if "seed" in settings:
+            raise ValueError("set: seed is given by reset(seed=...)")
+        self._ended = "there is no episode yet"
+        settings["seed"] = seed
+        seen = self._running.begin(lambda out: Episode(
+            self._launch, self._process, out, settings, self._topics, self._ports, self._rate, self._patience_s),
+            settings, self._folder())
+        while missing := [topic for topic in self._topics if seen[topic] is None]:
+            if seen.t_s >= self._settle_s:
+                self.close()
+                raise TimeoutError(f"{', '.join(missing)}: nothing came within {self._settle_s:g} s of sim time")
+            seen = self._running.episode.step()
+        self._began_s = seen.t_s
+        self._ended = ""
+        return seen
+
+    def need_reset(self) -> None:
+        """Raises ResetNeeded where no step can be made."""
+        if self._ended:
+            raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
+
+    def step(self, messages: Mapping[str, Message]) -> Seen:
+        """Publishes a message on each port that is named, and goes on to the next step."""
+        try:
+            return self._running.episode.step(messages)
+        except BaseException:
+            self._ended = "the episode broke off"
+            raise
+
+    def late(self, seen: Seen) -> bool:
+        """Whether the episode is as long as it may be."""
+        return seen.t_s - self._began_s > self._seconds - 1e-6
+
+    def finish(self) -> None:
+        """No step follows before the next episode. The launch goes on for that."""
+        self._ended = "the episode has ended"
+
+    def render(self) -> np.ndarray | None:
+        """The newest ping of `image`, as ensonify.images.picture draws it."""
+        if not self._image:
+            return None
+        if self._running.episode is None:
+            raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
+        return picture(self._running.episode.seen[self._image])
+
+    def close(self) -> None:
+        """Ends the launch and waits for its end."""
+        self._ended = self._ended or "the environment was closed"
+        self._running.end()
+
+    def _folder(self) -> pathlib.Path | None:
+        self._count += 1
+        return pathlib.Path(self._out) / f"{self._count - 1:04d}" if self._out is not None else None
+
+
+def drawn_seed(generator: np.random.Generator) -> int:
+    """A scenario's seed."""
+    return int(generator.integers(2**31))
+
+
+class Running:
+    """The launch that goes on, if any, and its folder. Holds nothing of Episodes, which it may outlive."""
+
+    def __init__(self):
+        self._owner = os.getpid()
+        self.episode: Episode | None = None
+        self._scratch: tempfile.TemporaryDirectory | None = None
+
+    def begin(self, start: Callable[[pathlib.Path], Episode], settings: Mapping[str, Any], out: pathlib.Path | None) -> Seen:
+        """Another episode in the launch that goes on, where that can be, else by `start`: in a folder that is to stay, else in
+        one that goes with the launch. What it has seen first."""
+        again = out or (pathlib.Path(self._scratch.name) / "again" if self._scratch else None)  # one folder for all: none is kept
+        if self._owner == os.getpid() and self.episode is not None and again and self.episode.reset(settings, again):
+            return self.episode.seen
+        self.end()
+        self._owner = os.getpid()
+        if out is None:
+            self._scratch = tempfile.TemporaryDirectory(prefix="ensonify-env-")
+            out = pathlib.Path(self._scratch.name)
+        try:
+            self.episode = start(out)
+        except BaseException:
+            self.end()
+            raise
+        return self.episode.seen
+
+    def end(self) -> None:
+        """Ends it and waits for its end; a fork of the process that started it leaves it alone."""
+        if os.getpid() != self._owner:
+            return
+        episode, self.episode = self.episode, None
+        scratch, self._scratch = self._scratch, None
+        try:
+            if episode is not None:
+                episode.end()
+        finally:
+            if scratch is not None:
+                scratch.cleanup()
