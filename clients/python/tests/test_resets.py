@@ -98,7 +98,7 @@ class Resets(unittest.TestCase):
         env = self.make()
         for seed in range(10):
             env.reset(seed=seed)
-        scratch = pathlib.Path(env._running._scratch.name)
+        scratch = pathlib.Path(env._episodes._running._scratch.name)
         launch = processes(scratch)
         files = sorted(path for path in scratch.rglob("*"))
         before, own = {name: held(folder) for name, folder in launch.items()}, len(os.listdir("/proc/self/fd"))
