@@ -15,27 +15,57 @@ import json, sys, time
 import gymnasium, numpy as np
 steps = int(sys.argv[1])
 with gymnasium.make("ensonify:Ensonify/AltitudeHold-v0", seconds=steps, disable_env_checker=True) as env:
-    began = time.perf_counter()
     env.reset(seed=1)
     started = time.perf_counter()
     for _ in range(steps):
         assert not env.step(np.zeros(1, np.float32))[2]
-    print(json.dumps([started - began, time.perf_counter() - started]))
+    print(json.dumps(time.perf_counter() - started))
 """
+
+
+RESETTER = """
+import json, sys, time
+import gymnasium, numpy as np
+def bytes_of(seen): return {key: value.tobytes() for key, value in seen.items()}
+with gymnasium.make(f"ensonify:Ensonify/{sys.argv[1]}-v0", disable_env_checker=True) as env:
+    took = {"launch": [], "another seed": [], "the same seed": []}
+    first = {}
+    for what, seed in [("launch", 1), ("the same seed", 1)] + [(what, seed) for seed in range(2, 12) for what in ("another seed", "the same seed")]:
+        began = time.perf_counter()
+        seen = bytes_of(env.reset(seed=seed)[0])
+        took[what].append(time.perf_counter() - began)
+        assert first.setdefault(seed, seen) == seen, "the same seed gave another observation"
+        env.step(np.zeros(env.action_space.shape, np.float32))
+    assert len(set(map(str, first.values()))) > 1, "seeds change nothing"
+    print(json.dumps(took))
+"""
+
+
+def environment_of(b):
+    return {**os.environ, "ENSONIFY_BIN": str(b.build / "bin"), "PYTHONPATH": str(ROOT / "clients/python")}
+
+
+def resets(b, task):
+    """Wall time from a reset to its first observation, beside that of the launch that they follow."""
+    took = {}
+    for _ in range(b.repeat):
+        done = subprocess.run([sys.executable, "-c", RESETTER, task], env=environment_of(b), capture_output=True, text=True)
+        if done.returncode != 0:
+            raise RuntimeError(f"{task}: {done.stderr}")
+        for what, times_s in json.loads(done.stdout).items():
+            took.setdefault(what, []).extend(times_s)
+    ms = {what: statistics.median(times_s) * 1e3 for what, times_s in took.items()}
+    return [row(f"reset of {task}: {what}", ms[what], "ms", ms["launch"], ms[what] / ms["launch"], "<= 1", ms[what] <= ms["launch"])
+            for what in ("another seed", "the same seed")]
 
 
 def bench_environment(b):
     """Wall time of a step at 10 Hz, all processes on their own; the pilot of the floor sees no message of the Env's."""
-    resets = []
-
     def step_ms():
-        environment = {**os.environ, "ENSONIFY_BIN": str(b.build / "bin"), "PYTHONPATH": str(ROOT / "clients/python")}
-        done = subprocess.run([sys.executable, "-c", STEPPER, str(STEPS)], env=environment, capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-c", STEPPER, str(STEPS)], env=environment_of(b), capture_output=True, text=True)
         if done.returncode != 0:
             raise RuntimeError(f"AltitudeHold: {done.stderr}")
-        reset_s, wall_s = json.loads(done.stdout)
-        resets.append(reset_s)
-        return wall_s / STEPS * 1e3
+        return json.loads(done.stdout) / STEPS * 1e3
 
     def floor_ms():
         text = (ROOT / "launch" / "altitude_hold.yaml").read_text()
@@ -53,6 +83,5 @@ def bench_environment(b):
             return report["wall_s"] / STEPS * 1e3
 
     mine, floor, ratios = interleaved(b.repeat, step_ms, floor_ms)
-    reset_ms = statistics.median(resets) * 1e3
     return [row("step of Ensonify/AltitudeHold-v0, 10 Hz, no ping", mine, "ms", floor, statistics.median(ratios), "<= 2", mine <= 2),
-            row("reset of it, which starts a launch", reset_ms, "ms")]
+            *resets(b, "AltitudeHold"), *resets(b, "WallFollow")]
