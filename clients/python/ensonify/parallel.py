@@ -57,7 +57,6 @@ class ParallelEnv(pettingzoo.ParallelEnv):
         known = {key: value for key, value in (options or {}).items() if key == "set"}
         if unknown := [repr(key) for key in options or {} if key not in known]:
             warnings.warn(f"options: {', '.join(unknown)} is not known and ignored; allowed: 'set'", stacklevel=2)
-        self.agents = []
         seen = self._episodes.begin(seed, known)
         self.agents = list(self.possible_agents)
         self._seen = dict.fromkeys(self.agents, seen)

@@ -4,6 +4,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 import warnings
 from unittest import mock
@@ -120,6 +121,28 @@ class Episodes(unittest.TestCase):
         sunk = {name: seen[name][f"{name}_nav/depth/depth_m"][0] - before[name][f"{name}_nav/depth/depth_m"][0] for name in seen}
         self.assertGreater(sunk["blue"], 1.5)
         self.assertLess(abs(sunk["red"]), 0.3)
+
+    def test_the_launch_file_may_wire_agents_to_other_vehicles(self):
+        text = (ROOT / "launch/keep_formation.yaml").read_text()
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            crossed = pathlib.Path(folder) / "crossed.yaml"
+            crossed.write_text(text.replace("wiring:\n", "wiring:\n  red.command: agent/command_b\n  blue.command: agent/command_a\n"))
+            act = ensonify.steer(speed_mps=1.5, depth_m=(10, 30))
+            env = self.make(launch=crossed, agents={"a": auv_with("red", act=act), "b": auv_with("blue", act=act)}, seconds=5)
+            before, _ = env.reset(seed=1)
+            while env.agents:
+                seen, *_ = env.step({"a": np.float32([20]), "b": np.float32([30])})
+        at = {"a": "red_nav/depth/depth_m", "b": "blue_nav/depth/depth_m"}  # what each observes
+        sunk = {name: seen[name][key][0] - before[name][key][0] for name, key in at.items()}
+        self.assertGreater(sunk["a"], 1.5)
+        self.assertLess(abs(sunk["b"]), 0.3)
+
+    def test_a_reset_that_is_refused_leaves_the_episode_as_it_is(self):
+        env = self.make()
+        env.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, r"^set: seed is given by reset\(seed=...\)$"):
+            env.reset(options={"set": {"seed": 2}})
+        env.step({"red": LEVEL, "blue": LEVEL})
 
     def test_one_agent_leaves_and_its_last_order_stands(self):
         depths = []  # of red
