@@ -116,6 +116,23 @@ class Outside(unittest.TestCase):
             kept = {metadata.name: metadata.metadata for metadata in reader.iter_metadata()}
         self.assertEqual(kept["ensonify_live"]["boat/pose/missed"], str(missed))
 
+    def test_a_live_record_ends_with_the_epoch(self):
+        with LiveRun(rate=2) as run:
+            environment = {**self.environment, "XDG_RUNTIME_DIR": str(run.runtime)}
+            words = [BIN / "ensonify-record", "live", self.folder / "live.mcap", "auv/*", "--json"]
+            with subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, text=True) as live:
+                while not (self.folder / "live.mcap").exists():
+                    self.assertIsNone(live.poll())
+                run.tool("clock", "reset")
+                while live.poll() is None and run.json("clock", "status")["epoch"] < 3:  # should the first have been over already
+                    run.tool("clock", "reset")
+                text, _ = live.communicate(timeout=20)
+            self.assertIn(live.returncode, (0, 5))  # 5: a busy machine, and it says so
+            self.assertEqual((json.loads(text)["reset"], json.loads(text)["run_ended"]), (True, False))
+            with ensonify.Record(self.folder / "live.mcap") as record:
+                times = [message.t_sim_ns for message in record.messages("auv/pose")]
+            self.assertEqual(times, sorted(set(times)))  # of one epoch
+
     def test_a_live_record_that_is_interrupted_is_whole(self):
         with LiveRun() as run:
             environment = {**self.environment, "XDG_RUNTIME_DIR": str(run.runtime)}

@@ -103,12 +103,17 @@ LiveRecord record_live(const LiveOptions& options) {
   };
   LiveOrder order(keep, kLongestWindow, kHoldBytes);
   LiveRecord result;
-  while (!interrupted() && !result.run_ended && (!until || steady_clock::now() < *until)) {
+  std::optional<std::uint32_t> epoch;
+  while (!interrupted() && !result.run_ended && !result.reset && (!until || steady_clock::now() < *until)) {
     const auto soon = steady_clock::now() + kLookAfter;
     auto packet = observer.next(until ? std::min(soon, *until) : soon);
-    if (packet && topics.contains(static_cast<std::uint16_t>(packet->envelope.topic_id)))
-      order.take(std::move(*packet));
-    else result.run_ended = observer.ended();
+    if (packet && topics.contains(static_cast<std::uint16_t>(packet->envelope.topic_id))) {
+      if (!epoch) epoch = packet->envelope.epoch;
+      if (packet->envelope.epoch == *epoch) order.take(std::move(*packet));
+      result.reset = packet->envelope.epoch > *epoch;
+    } else {
+      result.run_ended = observer.ended();
+    }
   }
   order.finish();
 

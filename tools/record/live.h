@@ -60,11 +60,13 @@ struct LiveOptions {
 struct LiveRecord {
   std::map<std::string, Kept> topics;  // every topic that was asked for
   bool run_ended = false;
+  bool reset = false;  // another epoch has begun, which is not in the record
 };
 
-/// Records a live run as an observer, from when it runs until it ends, the time is over or Ctrl-C comes. The run is not
-/// slowed; what is missed is counted in the result and in the record, but for what follows the last message that came:
-/// of a topic of which nothing came it is not known whether there was any. Throws UserError and DataLost.
+/// Records a live run as an observer, from when it runs until it ends or is reset, the time is over or Ctrl-C comes.
+/// The run is not slowed; what is missed is counted in the result and in the record, but for what follows the last
+/// message that came: of a topic of which nothing came it is not known whether there was any. Throws UserError and
+/// DataLost.
 LiveRecord record_live(const LiveOptions& options);
 
 }  // namespace ensonify::record_tool

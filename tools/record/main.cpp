@@ -48,6 +48,7 @@ int print_live(const record_tool::LiveOptions& options, const record_tool::LiveR
   if (json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"file", options.file},
                                               {"run_ended", live.run_ended},
+                                              {"reset", live.reset},
                                               {"received", received},
                                               {"missed", missed},
                                               {"topics", topics}}
@@ -56,7 +57,9 @@ int print_live(const record_tool::LiveOptions& options, const record_tool::LiveR
     fmt::print(
         "{}: {} messages on {} topics, {}; {}\n", options.file, received, live.topics.size(),
         missed == 0 ? std::string("none missed between a topic's first and last") : fmt::format("{} missed", missed),
-        live.run_ended ? "the run has ended" : "the run goes on");
+        live.run_ended ? "the run has ended"
+        : live.reset   ? "the run was reset, and goes on in another epoch"
+                       : "the run goes on");
   }
   return missed == 0 ? kExitOk : kExitDataLost;
 }

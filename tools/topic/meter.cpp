@@ -27,7 +27,8 @@ double per(double amount, double span_s) { return span_s > 0.0 ? amount / span_s
 }  // namespace
 
 void Meter::add(WallTime arrived, SimTime t_sim, std::uint64_t seq, std::size_t bytes) {
-  if (!last_.empty() && seq > last_.back().seq) dropped_ += seq - last_.back().seq - 1;
+  if (!last_.empty() && seq <= last_.back().seq) last_.clear();  // another epoch
+  if (!last_.empty()) dropped_ += seq - last_.back().seq - 1;
   ++received_;
   last_.push_back({arrived, t_sim, seq, bytes});
   if (last_.size() > window_) last_.pop_front();

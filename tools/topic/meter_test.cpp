@@ -49,6 +49,18 @@ TEST_CASE("dropped messages are counted and do not lower the rate, nor enter the
   CHECK(t.wall.mean_s == Approx(0.1));
 }
 
+TEST_CASE("with another epoch, whose messages count from 0 again, rates begin anew") {
+  Meter meter(100);
+  for (int n = 0; n < 5; ++n) meter.add(WallTime{} + n * milliseconds(100), 20_s + n * 100_ms, 200 + n, 10);
+  meter.add(WallTime{} + milliseconds(700), 0_s, 0, 10);
+  CHECK(meter.traffic().sim_hz == 0.0);
+  meter.add(WallTime{} + milliseconds(750), 100_ms, 1, 10);
+  CHECK(meter.traffic().sim_hz == Approx(10.0));
+  CHECK(meter.traffic().wall_hz == Approx(20.0));
+  CHECK(meter.traffic().dropped == 0);
+  CHECK(meter.traffic().received == 7);
+}
+
 TEST_CASE("the window forgets what is older, and one message gives no rate") {
   Meter meter(2);
   CHECK(meter.traffic().received == 0);
