@@ -6,7 +6,8 @@ import gymnasium
 
 from ensonify.episode import Seen
 from ensonify.messages import Mesh, Pose, Tile
-from ensonify.spaces import Act, Array, Fields
+from ensonify.acts import Act
+from ensonify.spaces import Array, Fields
 
 ALWAYS_TRUTH = (Pose, Tile, Mesh)  # message types that no instrument gives
 
@@ -52,10 +53,11 @@ class Agent:
 
 
 def topics_of(agents: Mapping[Any, Agent]) -> dict:
-    """The message type of each topic that they observe. A ValueError where two differ."""
+    """The message type of each topic that they observe, or read for their actions. A ValueError where two differ."""
     topics: dict = {}
     for agent in agents.values():
-        for topic, part in agent.observe.items():
-            if topics.setdefault(topic, part.message_type) is not part.message_type:
-                raise ValueError(f"{topic} is observed as {topics[topic].TYPE} and as {part.message_type.TYPE}")
+        read = [(topic, part.message_type) for topic, part in agent.observe.items()] + list(agent.act.reads.items())
+        for topic, message_type in read:
+            if topics.setdefault(topic, message_type) is not message_type:
+                raise ValueError(f"{topic} is read as {topics[topic].TYPE} and as {message_type.TYPE}")
     return topics

@@ -17,7 +17,8 @@ import numpy as np
 from ensonify.agent import Agent
 from ensonify.episode import Seen
 from ensonify.episodes import Episodes, drawn_seed
-from ensonify.spaces import Act, Array, Fields, checked
+from ensonify.acts import Act
+from ensonify.spaces import Array, Fields, checked
 
 
 class Env(gymnasium.Env):

@@ -5,7 +5,6 @@ from typing import Any, Callable
 import gymnasium
 import numpy as np
 
-from ensonify.messages import Guidance
 from ensonify.typed import Message
 
 Box = gymnasium.spaces.Box
@@ -69,29 +68,6 @@ def box_of(field: dataclasses.Field) -> Box | None:
         limits = np.iinfo(np.int64)
         return Box(limits.min, limits.max, shape, np.int64)
     return Box(-np.inf, np.inf, shape, np.float64) if isinstance(first, float) else None
-
-
-class Act:
-    """What an agent publishes: a function makes a message of the action, which is in `space`, and of what was seen last."""
-
-    def __init__(self, message_type: type, function: Callable[[np.ndarray, Any], Message], space: Box, *, port: str = "command"):
-        self.message_type = message_type
-        self.function = function
-        self.space = space
-        self.port = port
-
-
-def steer(*, heading_rad: Any = 0.0, speed_mps: Any = 1.0, depth_m: Any = float("nan")) -> Act:
-    """Guidance: grid heading, speed through the water, depth below the water level. Each is (least, most), and then one
-    number of the action, in this order, or fixed."""
-    given = {"heading_grid_rad": heading_rad, "speed_mps": speed_mps, "depth_m": depth_m}
-    chosen = {name: value for name, value in given.items() if isinstance(value, tuple)}
-    fixed = {name: value for name, value in given.items() if name not in chosen}
-    if not chosen:
-        raise ValueError("an action has at least one of heading_rad, speed_mps and depth_m as (least, most)")
-    least, most = np.array(list(chosen.values()), np.float32).T
-    return Act(Guidance, lambda action, seen: Guidance(stamp_ns=seen.t_ns, **fixed, **dict(zip(chosen, map(float, action)))),
-               Box(least, most, dtype=np.float32))
 
 
 def checked(action: Any, space: Box) -> np.ndarray:

@@ -87,8 +87,29 @@ class Spaces(unittest.TestCase):
         seen = mock.Mock(t_ns=7)
         command = act.function(np.float32([0.5, 12]), seen)
         self.assertEqual((command.stamp_ns, command.heading_grid_rad, command.speed_mps, command.depth_m), (7, 0.5, 1.5, 12.0))
-        with self.assertRaisesRegex(ValueError, "at least one of heading_rad, speed_mps and depth_m"):
+        with self.assertRaisesRegex(ValueError, "at least one of heading_rad, speed_mps, depth_m and altitude_m"):
             ensonify.steer(speed_mps=1.5)
+
+    def test_an_altitude_is_a_depth_by_what_was_measured(self):
+        act = ensonify.steer(altitude_m=(2, 10), altimeter="low/altitude", depth_sensor="low/depth")
+        self.assertEqual(act.reads, {"low/altitude": ensonify.Altitude, "low/depth": ensonify.Depth})
+        seen = mock.MagicMock(t_ns=7)
+        told = {"low/altitude": ensonify.Altitude(valid=True, range_m=9.0), "low/depth": ensonify.Depth(depth_m=20.0)}
+        seen.__getitem__.side_effect = told.get
+        self.assertEqual(act.function(np.float32([4]), seen).depth_m, 25.0)
+        told["low/altitude"] = ensonify.Altitude()
+        self.assertTrue(np.isnan(act.function(np.float32([4]), seen).depth_m))  # as before
+        with self.assertRaisesRegex(ValueError, "^an order has depth_m or altitude_m, not both$"):
+            ensonify.steer(depth_m=(0, 5), altitude_m=3)
+
+    def test_a_waypoint_is_a_heading_from_where_the_vehicle_is(self):
+        act = ensonify.goto(east_m=(-100, 100), north_m=0.0, speed_mps=(0, 2), depth_m=5)
+        seen = mock.MagicMock(t_ns=7)
+        seen.__getitem__.side_effect = {"nav/estimate": ensonify.Estimate(position_enu_m=(10.0, 10.0, -5.0))}.get
+        command = act.function(np.float32([20, 1.5]), seen)
+        self.assertAlmostEqual(command.heading_grid_rad, 0.75 * np.pi)
+        self.assertEqual((command.stamp_ns, command.speed_mps, command.depth_m), (7, 1.5, 5))
+        self.assertEqual(act.reads, {"nav/estimate": ensonify.Estimate})
 
     def test_truth_is_not_observed(self):
         seen = {"judge/altitude": ensonify.Fields(ensonify.Altitude)}
@@ -200,6 +221,21 @@ class Episodes(unittest.TestCase):
             env.reset(options={"set": {"seed": 1}})
         with self.assertRaisesRegex(ValueError, "^options has 'sets'; allowed: 'set'$"):
             env.reset(options={"sets": {}})
+
+    def test_an_ordered_altitude_is_held_and_a_waypoint_reached(self):
+        env = self.make(act=ensonify.steer(speed_mps=1.5, altitude_m=(3, 12)), seconds=1000)
+        env.reset(seed=2)
+        for _ in range(250):
+            _, reward, *_ = env.step(np.float32([6]))
+        altitude_m = [6 + env.step(np.float32([6]))[1] for _ in range(50)]  # the reward is minus the error
+        self.assertLess(max(abs(each - 6) for each in altitude_m), 1.5)
+        env.close()
+        env = self.make(act=ensonify.goto(east_m=(-200, 200), north_m=(-300, 300), speed_mps=2.0), seconds=1000, truth={"auv/pose": ensonify.Pose},
+                        reward=lambda seen: np.hypot(seen["auv/pose"].position_enu_m[0] - 60, seen["auv/pose"].position_enu_m[1] + 160))
+        env.reset(seed=2)
+        away_m = [env.step(np.float32([60, -160]))[1] for _ in range(450)]
+        self.assertGreater(away_m[0], 60)
+        self.assertLess(min(away_m), 3)
 
     def test_a_process_that_dies_is_named(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:

@@ -58,7 +58,7 @@ class Agents(unittest.TestCase):
             self.environment(red=agent(observe={"blue/pose": ensonify.Fields(ensonify.Pose)}))
 
     def test_a_topic_has_one_type(self):
-        with self.assertRaisesRegex(ValueError, "^red_nav/depth is observed as depth/1 and as altitude/1$"):
+        with self.assertRaisesRegex(ValueError, "^red_nav/depth is read as depth/1 and as altitude/1$"):
             self.environment(red=agent(), blue=agent(observe={"red_nav/depth": ensonify.Fields(ensonify.Altitude)}))
 
     def test_an_agent_is_named_so_that_its_port_can_be(self):

@@ -9,7 +9,8 @@ import numpy as np
 from ensonify.environment import Env
 from ensonify.episode import Seen
 from ensonify.messages import Altitude, Depth, Estimate, Guidance
-from ensonify.spaces import Act, Array, Box, Fields
+from ensonify.acts import Act
+from ensonify.spaces import Array, Box, Fields
 
 ALTITUDE_M = 6.0  # to keep
 TOLERATED_M = 3.0  # error of the altitude that still earns something

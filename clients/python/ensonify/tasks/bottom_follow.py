@@ -10,7 +10,8 @@ import numpy as np
 from ensonify.environment import Env
 from ensonify.episode import Seen
 from ensonify.messages import Altitude, Depth, Estimate, Guidance, Pose
-from ensonify.spaces import Act, Array, Box, Fields
+from ensonify.acts import Act
+from ensonify.spaces import Array, Box, Fields
 
 ALTITUDE_M = 4.0  # to keep
 TOLERATED_M = 3.0  # error of the altitude that still earns something

@@ -13,7 +13,8 @@ from ensonify.episode import Seen
 from ensonify.episodes import drawn_seed
 from ensonify.messages import Altitude, Depth, Guidance, Pose, UsblFix
 from ensonify.parallel import ParallelEnv
-from ensonify.spaces import Act, Box, Fields
+from ensonify.acts import Act
+from ensonify.spaces import Box, Fields
 
 ALTITUDE_M, DISTANCE_M = 6.0, 20.0  # to keep
 ALTITUDE_TOLERATED_M, DISTANCE_TOLERATED_M = 3.0, 5.0  # errors that still earn something

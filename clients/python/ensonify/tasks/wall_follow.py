@@ -11,7 +11,8 @@ from ensonify.environment import Env
 from ensonify.episode import Seen
 from ensonify.episodes import drawn_seed
 from ensonify.messages import Estimate, Guidance, Ping, Pose
-from ensonify.spaces import Act, Array, Box
+from ensonify.acts import Act
+from ensonify.spaces import Array, Box
 
 DISTANCE_M = 10.0  # to keep
 TOLERATED_M = 4.0  # error of the distance that still earns something
