@@ -28,6 +28,7 @@ std::string run_line(const json& status) {
   text += rate.is_number() ? fmt::format(", paced at {:g}x", rate.get<double>()) : ", free running";
   text += ", t=" + time_text(status.at("sim_ns")) + " s";
   if (status.at("end_ns").is_number()) text += " of " + time_text(status["end_ns"]) + " s";
+  if (const int epoch = status.value("epoch", 1); epoch > 1) text += fmt::format(", epoch {}", epoch);
   text += fmt::format(", {:.1f} s wall", status.at("wall_s").get<double>());
   if (const auto slips = status.at("slips").get<std::uint64_t>(); slips > 0) {
     text += fmt::format(", slipped {} times by {:.3f} s in all", slips, status.at("slip_s").get<double>());

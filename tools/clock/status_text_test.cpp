@@ -22,11 +22,12 @@ TEST_CASE("the status of a paused run names who waits for whom") {
 }
 
 TEST_CASE("before time starts the status names who is missing") {
-  const json status = json::parse(R"({"kind":"status","state":"connecting","sim_ns":0,"end_ns":60000000000,"wall_s":0,
+  const json status =
+      json::parse(R"({"kind":"status","state":"connecting","epoch":3,"sim_ns":0,"end_ns":60000000000,"wall_s":0,
     "rate":"free","slips":0,"slip_s":0,"exit_code":0,"culprit":"","message":"","participants":[],
     "missing":["auv","bow"]})");
   CHECK(status_text(status) ==
-        "connecting, free running, t=0.000 s of 60.000 s, 0.0 s wall\nwaiting for the hello of auv, bow\n");
+        "connecting, free running, t=0.000 s of 60.000 s, epoch 3, 0.0 s wall\nwaiting for the hello of auv, bow\n");
 }
 
 }  // namespace ensonify::clock_tool
