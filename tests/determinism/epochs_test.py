@@ -221,6 +221,13 @@ with ensonify.Participant("agent") as me:
         said = json.loads((self.folder / "said.json").read_text())
         self.assertEqual(said, [[1, 0, False, "20250601", 2], [2, 0, False, "11", 2], [3, 0, False, "12", 2], [4, 0, False, "13"]])
 
+    def test_an_agent_that_lets_an_epoch_pass_is_named(self):
+        agent = self.write("agent.py", "import ensonify\nwith ensonify.Participant('agent') as me:\n    for epoch in me.epochs():\n"
+                                       "        for step in me.steps(rate=10) if epoch == 1 else ():\n            me.reset()\n")
+        result = self.run_launch(survey(seconds=2, more=f"  agent: {{ run: [python3, {agent}] }}"))
+        self.assertEqual(result.code, 3, result.stderr)
+        self.assertIn("RuntimeError: each epoch is to be gone through by steps()", result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

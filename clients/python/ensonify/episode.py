@@ -6,7 +6,7 @@ from typing import Any, Mapping
 from ensonify.launching import Launch
 from ensonify.observer import Observer
 from ensonify.participant import Participant, Received
-from ensonify.session import EXIT_BAD_INPUT, EXIT_STALL, RunError
+from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, EXIT_STALL, RunError
 from ensonify.typed import Message
 
 # An agent may learn for long between two steps: what hangs is noticed here, not by the clock.
@@ -65,7 +65,8 @@ class Episode:
             raise
 
     def _begin(self) -> None:
-        next(self._epochs)
+        if next(self._epochs, None) is None:
+            raise RunError("the run has ended", EXIT_DIED)
         self._steps = self._me.steps(rate=self._rate)
         self.step()
 

@@ -174,13 +174,15 @@ class Participant:
                     ...
         """
         self._resets = True
-        yield 1
-        while (session := self._session) is not None:
+        epoch: int | None = 1
+        while epoch is not None:
+            yield epoch
+            session = self._session
+            if session is None or session.next_epoch == epoch:
+                raise RuntimeError("each epoch is to be gone through by steps()")
             if not self._left and session.next_epoch is None:
                 self._idle()
-            if session.next_epoch is None:
-                return
-            yield session.next_epoch
+            epoch = session.next_epoch
 
     def reset(self, settings: Mapping[str, Any] | None = None, *, out: str | os.PathLike | None = None) -> None:
         """Ends the epoch for everyone at this step, and begins another in the same processes: sim time 0, with parameters
