@@ -118,6 +118,7 @@ class Episodes(unittest.TestCase):
         before, _ = env.reset(seed=1)
         while env.agents:
             seen, *_ = env.step({"blue": DOWN, "red": LEVEL})  # in any order
+            self.assertEqual(list(seen), ["red", "blue"])
         sunk = {name: seen[name][f"{name}_nav/depth/depth_m"][0] - before[name][f"{name}_nav/depth/depth_m"][0] for name in seen}
         self.assertGreater(sunk["blue"], 1.5)
         self.assertLess(abs(sunk["red"]), 0.3)
@@ -169,6 +170,12 @@ class Episodes(unittest.TestCase):
         self.assertGreater(depths[-1] - depths[gone - 1], 1)  # red dives on
         env.reset(seed=1)
         self.assertEqual(env.agents, ["red", "blue"])
+
+    def test_who_is_done_at_the_last_step_is_not_truncated(self):
+        env = self.make(agents={"red": auv_with("red", done=lambda seen: True), "blue": auv_with("blue")}, seconds=0.1)
+        env.reset(seed=1)
+        _, _, terminated, truncated, _ = env.step({"red": LEVEL, "blue": LEVEL})
+        self.assertEqual((terminated, truncated), ({"red": True, "blue": False}, {"red": False, "blue": True}))
 
     def test_wrong_actions_name_the_agent_and_the_episode_goes_on(self):
         env = self.make()
