@@ -48,8 +48,7 @@ void Receiver::connect(const Subscription& s) {
   try {
     socket_.connect(s.endpoint);
   } catch (const zmq::error_t& e) {
-    throw PeerError(kExitDied, s.publisher,
-                    s.publisher + " cannot be reached: sync: " + s.endpoint + ": " + e.what());
+    throw PeerError(kExitDied, s.publisher, s.publisher + " cannot be reached: sync: " + s.endpoint + ": " + e.what());
   }
 }
 
@@ -97,8 +96,7 @@ void Receiver::accept(Input& input, msg::Packet&& packet) {
     broken(std::to_string(packet.body.size()) + " bytes, declared at most " + std::to_string(s.max_bytes));
   const SimTime t{e.t_sim_ns};
   if (t < input.last || t > SimTime{latest_.load()})
-    broken("t_sim: " + std::to_string(e.t_sim_ns) +
-           " ns is before the message before it, or beyond what was granted");
+    broken("t_sim: " + std::to_string(e.t_sim_ns) + " ns is before the message before it, or beyond what was granted");
   if (e.seq != input.arrived) throw lost_messages(s.publisher, s.topic, input.arrived, e.seq);
   if (!input.limit.take(1, t)) broken("t_sim: " + input.limit.text());
   input.last = t;
@@ -142,11 +140,9 @@ void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::millis
   std::unique_lock lock(mutex_);
   awaited_ = &counts;
   std::size_t before = packets_.size();
-  for (std::chrono::milliseconds waited{0}; !news_.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] {
-         return error_ || all_arrived(counts);
-       });) {
-    waited = packets_.size() == before ? waited + std::chrono::milliseconds(kPollMs)
-                                                 : std::chrono::milliseconds(0);
+  for (std::chrono::milliseconds waited{0};
+       !news_.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] { return error_ || all_arrived(counts); });) {
+    waited = packets_.size() == before ? waited + std::chrono::milliseconds(kPollMs) : std::chrono::milliseconds(0);
     before = packets_.size();
     if (waited < patience) continue;
     awaited_ = nullptr;
