@@ -17,7 +17,7 @@ namespace ensonify::pager {
 struct Glance {
   msg::Chart chart;
   std::string fault;                           // of what the chart is made of
-  std::vector<source::UnevenClass> uneven;     // classes whose relief the posts do not carry
+  std::vector<source::UnevenClass> uneven;     // classes whose echoes are off where a layer holds
   msg::Array<double> facet_mean_square_slope;  // goes with every tile
 };
 

@@ -4,9 +4,9 @@ from typing import Any, Callable, Mapping
 
 import gymnasium
 
+from ensonify.acts import Act
 from ensonify.episode import Seen
 from ensonify.messages import Mesh, Pose, Tile
-from ensonify.acts import Act
 from ensonify.spaces import Array, Fields
 
 ALWAYS_TRUTH = (Pose, Tile, Mesh)  # message types that no instrument gives
@@ -44,20 +44,23 @@ class Agent:
         return reward, bool(self._done(seen))
 
     def refuse_truth(self, truth: Mapping[str, type]) -> None:
-        """A TruthError names an observed topic that is truth."""
-        for topic, part in self.observe.items():
+        """A TruthError names a topic that is truth, and observed or read for actions."""
+        for topic, message_type in self.topics():
             if topic in truth:
-                raise TruthError(f"{topic} is marked as truth: reward and done may read it, an observation may not")
-            if issubclass(part.message_type, ALWAYS_TRUTH):
-                raise TruthError(f"{topic} is {part.message_type.TYPE}, which is truth: put it into truth=, for reward and done to read")
+                raise TruthError(f"{topic} is marked as truth: reward and done may read it, an observation or an action may not")
+            if issubclass(message_type, ALWAYS_TRUTH):
+                raise TruthError(f"{topic} is {message_type.TYPE}, which is truth: put it into truth=, for reward and done to read")
+
+    def topics(self) -> list:
+        """Topics that it observes, or reads for its actions, with their message types."""
+        return [(topic, part.message_type) for topic, part in self.observe.items()] + list(self.act.reads.items())
 
 
 def topics_of(agents: Mapping[Any, Agent]) -> dict:
     """The message type of each topic that they observe, or read for their actions. A ValueError where two differ."""
     topics: dict = {}
     for agent in agents.values():
-        read = [(topic, part.message_type) for topic, part in agent.observe.items()] + list(agent.act.reads.items())
-        for topic, message_type in read:
+        for topic, message_type in agent.topics():
             if topics.setdefault(topic, message_type) is not message_type:
                 raise ValueError(f"{topic} is read as {topics[topic].TYPE} and as {message_type.TYPE}")
     return topics

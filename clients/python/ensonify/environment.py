@@ -14,10 +14,10 @@ from typing import Any, Callable, Mapping
 import gymnasium
 import numpy as np
 
+from ensonify.acts import Act
 from ensonify.agent import Agent
 from ensonify.episode import Seen
 from ensonify.episodes import Episodes, drawn_seed
-from ensonify.acts import Act
 from ensonify.spaces import Array, Fields, checked
 
 

@@ -3,7 +3,7 @@ import copy
 import pathlib
 from typing import Any, Mapping
 
-from ensonify.launching import Launch
+from ensonify.launching import Launch, assignments
 from ensonify.observer import Observer
 from ensonify.participant import Participant, Received
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, EXIT_STALL, RunError
@@ -44,12 +44,17 @@ class Seen:
         return self._new[topic]
 
 
+def texts_of(settings: Mapping[str, Any]) -> dict:
+    """Parameters as --set takes them, by key."""
+    return dict(assignment.split("=", 1) for assignment in assignments(settings))
+
+
 class Episode:
     """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type."""
 
     def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
                  ports: Mapping[str, type], rate: Any, patience_s: float):
-        self._settings = dict(settings)  # of the launch, which every epoch has
+        self._settings = texts_of(settings)  # of the launch, which every epoch has
         self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
         self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
         self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
@@ -75,7 +80,7 @@ class Episode:
         ended."""
         if self._over:
             return False
-        added = {key: value for key, value in settings.items() if key not in self._settings or self._settings[key] != value}
+        added = {key: value for key, value in texts_of(settings).items() if self._settings.get(key) != value}
         try:
             if not self._settings.keys() <= settings.keys():
                 raise RunError("a setting of the launch is to be gone", EXIT_BAD_INPUT)

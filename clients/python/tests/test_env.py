@@ -113,8 +113,10 @@ class Spaces(unittest.TestCase):
 
     def test_truth_is_not_observed(self):
         seen = {"judge/altitude": ensonify.Fields(ensonify.Altitude)}
-        with self.assertRaisesRegex(ValueError, "^judge/altitude is marked as truth: reward and done may read it, an observation may not$"):
+        with self.assertRaisesRegex(ValueError, "^judge/altitude is marked as truth: reward and done may read it, an observation or an action may not$"):
             environment(observe=seen)
+        with self.assertRaisesRegex(ValueError, "^judge/altitude is marked as truth"):
+            environment(act=ensonify.steer(altitude_m=(3, 12), altimeter="judge/altitude"))
         with self.assertRaisesRegex(ValueError, "^auv/pose is pose/1, which is truth"):
             environment(observe={"auv/pose": ensonify.Fields(ensonify.Pose)})
 

@@ -66,6 +66,14 @@ class Resets(unittest.TestCase):
         self.assertNotEqual(fresh[0], self.episode(self.make(), 9))
         self.assertEqual(sorted(folder.name for folder in (self.out / "a").iterdir()), ["0000", "0001", "0002", "0003"])
 
+    def test_a_list_of_numbers_may_be_set_again_and_again(self):
+        env = self.make(out=self.out / "a", set={"nav.altimeter.rotation_deg": np.zeros(3)})
+        env.reset(seed=1)
+        first = processes(self.out / "a" / "0000")
+        env.reset(seed=2)
+        env.reset(seed=3, options={"set": {"nav.altimeter.rotation_deg": np.float32([0, 1, 0])}})
+        self.assertEqual(processes(self.out / "a" / "0000"), first)
+
     def test_what_cannot_be_in_the_same_processes_begins_a_new_launch(self):
         env = self.make(out=self.out / "a")
         env.reset(seed=1, options={"set": {"nav.altimeter.dropout": 0.5}})
