@@ -56,6 +56,7 @@ const echo::Image& ApertureEchoes::beamform(const Shot& shot, const Echoed& echo
   echo::form_apertures(sets, rows, effects_.speckle ? design.sampled : design.squared, sampling, memory.index,
                        memory.image);
   if (!effects_.speckle) {
+    add_coherent(shot, echoed, design, sampling, memory);
     for (auto& value : memory.image.envelope_upa) value = std::sqrt(std::max(0.0F, value.real()));
   }
   if (sea_.water_scatters()) {
@@ -64,6 +65,24 @@ const echo::Image& ApertureEchoes::beamform(const Shot& shot, const Echoed& echo
   }
   if (effects_.noise) memory.background.add_noise(noise_db(design.pulse), design.sampled, ping, noise_, memory.image);
   return memory.image;
+}
+
+/// To the image of mean squares, those of what has phase without speckle too.
+void ApertureEchoes::add_coherent(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                  const echo::Sampling& sampling, Memory& memory) const {
+  const echo::Arrivals& arrivals = echoed.coherent;
+  if (arrivals.empty()) return;
+  const auto& patterns = apertures_.patterns.receive;
+  memory.gain.resize(patterns.size() * arrivals.size());
+  for (std::size_t row = 0; row < patterns.size(); ++row) {
+    sea_.amplitude_gains(patterns[row], shot.pose(), arrivals,
+                         std::span(memory.gain).subspan(row * arrivals.size(), arrivals.size()));
+  }
+  const std::array sets{echo::EchoSet{arrivals, memory.gain}};
+  echo::form_apertures(sets, static_cast<int>(patterns.size()), design.sampled, sampling, memory.index,
+                       memory.coherent);
+  for (std::size_t i = 0; i < memory.image.envelope_upa.size(); ++i)
+    memory.image.envelope_upa[i] += std::norm(memory.coherent.envelope_upa[i]);
 }
 
 echo::EchoSet ApertureEchoes::weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,

@@ -58,6 +58,7 @@ class ApertureEchoes {
   struct Memory {
     echo::Image image;
     // Scratch.
+    echo::Image coherent;
     std::vector<float> gain, foreign_gain, volume_upa2;
     echo::TimeIndex index;
     echo::RowBackground background;
@@ -70,6 +71,8 @@ class ApertureEchoes {
  private:
   echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
                         const frames::HeadPose& pose, std::vector<float>& gain) const;
+  void add_coherent(const Shot& shot, const Echoed& echoed, const ShotDesign& design, const echo::Sampling& sampling,
+                    Memory& memory) const;
   double noise_db(const echo::Pulse& pulse) const;
 
   Apertures apertures_;

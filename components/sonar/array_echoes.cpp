@@ -47,9 +47,18 @@ std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoe
   };
   const std::array sets{gains(echoed.arrivals, echoed.paired, memory.gain),
                         gains(reception.foreign, {}, memory.foreign_gain)};
+  memory.coherent_gain.resize(echoed.coherent.size());
+  sea_.amplitude_gains(array_.element, shot.pose(), echoed.coherent, memory.coherent_gain);
+  const std::array coherent{echo::EchoSet{echoed.coherent, memory.coherent_gain}};
   const echo::Background noise = background(shot, echoed, design.pulse, reception, memory.volume_upa2);
   memory.images.resize(wanted_.size());
-  receiver_.form({sets, design.sampled, reception.sampling, noise, &design.squared, reception.amplitude_upa},
+  receiver_.form({.echoes = sets,
+                  .pulse = design.sampled,
+                  .sampling = reception.sampling,
+                  .background = noise,
+                  .squared = &design.squared,
+                  .amplitude_upa = reception.amplitude_upa,
+                  .coherent = std::span(coherent).first(echoed.coherent.empty() ? 0 : 1)},
                  reception.sin_beams, wanted_, memory.images, memory.receiver);
   return memory.images;
 }

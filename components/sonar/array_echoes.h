@@ -68,7 +68,7 @@ class ArrayEchoes {
   struct Memory {
     std::vector<echo::Image> images;
     // Scratch.
-    std::vector<float> gain, foreign_gain, volume_upa2;
+    std::vector<float> gain, coherent_gain, foreign_gain, volume_upa2;
     echo::LineReceiver::Memory receiver;
   };
 

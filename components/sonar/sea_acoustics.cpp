@@ -7,11 +7,13 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "components/sonar/head_motion.h"
 #include "kernels/acoustics/echo/eigenray_echoes.h"
+#include "kernels/acoustics/echo/smooth_bodies.h"
 
 namespace ensonify {
 namespace {
@@ -64,21 +66,27 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
     paths_.trace(seabed, pose, rays, range_m, refracted, hits);
   };
-  distribution.aim(pose, shot.steer, seabed.objects(), static_cast<float>(range_m), refracted, trace, memory.plan);
+  const double wavelength_m = sound_speed_mps(pose) / frequency_hz_;
+  distribution.aim(pose, shot.steer, {seabed, wavelength_m}, static_cast<float>(range_m), refracted, trace,
+                   memory.plan);
 
   const seabed::ClassTables& backscatter =
       environment_->backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);
   HitSums sums;
   memory.insonified.clear();
+  memory.smooth.clear();
   for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
     distribution.trace(memory.plan, first, shot.rays_per_batch, trace, memory.batch);
-    sums = sums + weigh(shot, backscatter, memory);
+    sums = sums + weigh(shot, backscatter, seabed.contributors(), memory);
     const profile::Span span(profile::Stage::kMerge);
-    cells.add({pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2, memory.backscatter},
-              memory.insonified);
+    const echo::Insonification batch{pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2,
+                                     memory.backscatter};
+    echo::take_smooth_facets(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, memory.batch.hits,
+                             memory.smooth);
+    cells.add(batch, memory.insonified);
   }
   const profile::Span span(profile::Stage::kMerge);
-  return {echo::SpeckleCells::gather(memory.insonified), sums};
+  return {echo::SpeckleCells::gather(memory.insonified), memory.smooth, sums};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
@@ -88,11 +96,11 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
   const profile::Span span(profile::Stage::kEchoes);
-  const auto& [found, sums] = insonified;
+  const auto& [found, smooth, sums] = insonified;
   const frames::HeadPose& pose = shot.pose();
   const double head_depth_m = -pose.position_enu_m.z();
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
-  Echoed echoed{.arrivals = memory.arrivals, .contributors = contributors_, .receivers = memory.receivers};
+  Echoed echoed{.arrivals = memory.arrivals, .coherent = memory.coherent, .receivers = memory.receivers};
   echoed.rays_that_hit = sums.hits;
   echoed.rays_in_lobe = sums.in_lobe;
   echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
@@ -114,11 +122,27 @@ Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, Shot
     echo::take_eigenrays(carrier, environment_->profile(), pose.position_enu_m, found, memory.receivers, 0,
                          memory.arrivals);
   }
+  memory.coherent.clear();
+  add_echoes_of_smooth_bodies(shot, smooth, echoed.absorption_dbpm, memory.receivers,
+                              effects_.speckle ? memory.arrivals : memory.coherent);
   return echoed;
 }
 
+/// What their facets send has phase, whether the seabed's is drawn or not.
+void SeaAcoustics::add_echoes_of_smooth_bodies(const Shot& shot, const echo::Scatterers& facets, double absorption_dbpm,
+                                               const echo::Receivers& receivers, echo::Arrivals& arrivals) const {
+  const echo::Carrier carrier{frequency_hz_, absorption_dbpm, echo::Sum::kPressure};
+  const frames::Vec3& from = shot.pose().position_enu_m;
+  if (exact_ && paths_.refracted()) {
+    echo::add_eigenray_echoes(carrier, environment_->profile(), from, facets, receivers, arrivals);
+  } else {
+    echo::add_direct_echoes(carrier, from, facets, receivers, arrivals);
+  }
+}
+
 /// What the rays of a batch carry to what they hit, and how strongly that scatters.
-HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const {
+HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter,
+                            const trace::Contributors& contributors, ShotMemory& memory) const {
   const profile::Span span(profile::Stage::kWeigh);
   const trace::Rays& rays = memory.batch.rays;
   const trace::Hits& hits = memory.batch.hits;
@@ -139,7 +163,7 @@ HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backsca
           so_far.in_lobe += power > kInLobe ? 1 : 0;
           so_far.height_m += hits.position_enu_m.z[i];
           memory.source_upa2m2[i] = static_cast<float>(source * power);
-          memory.backscatter[i] = backscatter(contributors_[hits.contributor[i]].sediment, hits.sin_grazing[i]);
+          memory.backscatter[i] = backscatter(contributors[hits.contributor[i]].sediment, hits.sin_grazing[i]);
         }
         return so_far;
       },
@@ -149,6 +173,13 @@ HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backsca
 void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
                          const echo::PairedArrivals& paired, const echo::SharedByBeams* shared,
                          std::span<float> gains) const {
+  amplitude_gains(pattern, pose, arrivals, gains);
+  const profile::Span span(profile::Stage::kPatterns);
+  if (!effects_.speckle) echo::power_gains(arrivals, paired, shared, gains);
+}
+
+void SeaAcoustics::amplitude_gains(const array::Pattern& pattern, const frames::HeadPose& pose,
+                                   const echo::Arrivals& arrivals, std::span<float> gains) const {
   const profile::Span span(profile::Stage::kPatterns);
   const double half_speed_mps = 0.5 * sound_speed_mps(pose);
   tbb::parallel_for(
@@ -161,7 +192,6 @@ void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& 
                            std::span(range_m).first(range.size()), gains.subspan(range.begin(), range.size()));
       },
       tbb::simple_partitioner());
-  if (!effects_.speckle) echo::power_gains(arrivals, paired, shared, gains);
 }
 
 void SeaAcoustics::add_echoes_of(const Shot& shot, const Echoed& echoed, const echo::InterferingTransmission& other,

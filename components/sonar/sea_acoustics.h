@@ -137,9 +137,10 @@ struct HitSums {
   }
 };
 
-/// Seabed that a shot insonified.
+/// Seabed and bodies that a shot insonified.
 struct Insonified {
   const echo::Scatterers& scatterers;
+  const echo::Scatterers& smooth;  // facets of smooth bodies
   HitSums sums;
 };
 
@@ -147,9 +148,9 @@ struct Insonified {
 /// squares.
 struct Echoed {
   const echo::Arrivals& arrivals;
-  const trace::Contributors& contributors;  // whose indices hits and arrivals carry
-  const echo::Receivers& receivers;         // where the head receives
-  echo::PairedArrivals paired;              // which of the arrivals add as pressures even without speckle
+  const echo::Arrivals& coherent;    // without speckle: those that are pressures all the same, of smooth bodies
+  const echo::Receivers& receivers;  // where the head receives
+  echo::PairedArrivals paired;       // which of the arrivals add as pressures even without speckle
   double absorption_dbpm = 0.0;
   double seabed_depth_m = 0.0;  // mean over the hits
   int rays_that_hit = 0, rays_in_lobe = 0;
@@ -170,9 +171,10 @@ struct ShotMemory {
   std::vector<float> source_upa2m2, backscatter;
   // Of all.
   echo::SpeckleCells::Accumulator insonified;
+  echo::Scatterers smooth;
   echo::Receivers receivers;
   echo::EchoMemory echoes;
-  echo::Arrivals arrivals;
+  echo::Arrivals arrivals, coherent;
   echo::Arrivals foreign;  // of other transmissions
 };
 
@@ -194,12 +196,13 @@ class SeaAcoustics {
     return paths_.mesh(seabed, shot.pose(), distribution.volume(shot.steer), range_m);
   }
 
-  /// First stage: rays as the seabed asks for them (trace::RayDistribution), planned once; then batch by batch what
-  /// they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one point.
+  /// First stage: rays as the seabed and bodies ask for them (trace::RayDistribution), planned once; then batch by
+  /// batch what they hit within a slant range, and its energy in `cells`, the patches of seabed that answer as one
+  /// point, or in the facets of smooth bodies.
   Insonified insonify(const Shot& shot, const trace::Mesh& seabed, const trace::RayDistribution& distribution,
                       const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const;
 
-  /// Second stage: echoes of the seabed and those by way of the surface.
+  /// Second stage: echoes of seabed and bodies, and those by way of the surface; smooth bodies have direct ones only.
   Echoed echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const;
 
   /// Appends what this receiver's filter lets through of another transmission's echoes ...
@@ -230,13 +233,19 @@ class SeaAcoustics {
   /// (echo::power_gains, which see for `shared`).
   void gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
              const echo::PairedArrivals& paired, const echo::SharedByBeams* shared, std::span<float> gains) const;
+  /// The pattern's amplitude for each arrival.
+  void amplitude_gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
+                       std::span<float> gains) const;
 
  private:
   echo::ReceiverBand band(const Shot& shot, const Echoed& echoed) const {
     return {frequency_hz_, sound_speed_mps(shot.pose()), echoed.absorption_dbpm, sum()};
   }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
-  HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, ShotMemory& memory) const;
+  HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, const trace::Contributors& contributors,
+                ShotMemory& memory) const;
+  void add_echoes_of_smooth_bodies(const Shot& shot, const echo::Scatterers& facets, double absorption_dbpm,
+                                   const echo::Receivers& receivers, echo::Arrivals& arrivals) const;
   double sent_db(double source_level_db) const;
 
   std::shared_ptr<const Environment> environment_;
@@ -244,7 +253,6 @@ class SeaAcoustics {
   Effects effects_;
   bool exact_;
   WaterPaths paths_;
-  trace::Contributors contributors_;
 };
 
 }  // namespace ensonify

@@ -106,13 +106,22 @@ bool LineReceiver::form_alike(const Input& input, std::span<const float> sin_bea
     throw std::invalid_argument("images of mean squares need a receiver and a pulse for them");
   pressure_.form({{}, kAll, input.pulse, input.sampling, background}, sin_beams, memory.weights, images, {},
                  memory.grid);
+  memory.coherent.resize(input.coherent.empty() ? 0 : wanted.size());
+  if (!memory.coherent.empty()) {
+    pressure_.form({input.coherent, whose, input.pulse, input.sampling, {}}, sin_beams, memory.weights, memory.coherent,
+                   {}, memory.grid);
+  }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::span<const float> weights = wanted[i].power_weights;
     power_->form({input.echoes, whose, *input.squared, input.sampling, {}}, sin_beams, {&weights, 1},
                  memory.mean_square, {}, memory.grid);
     const auto& mean_square = memory.mean_square.front().envelope_upa;
     auto& envelope = images[i].envelope_upa;
-    for (std::size_t k = 0; k < envelope.size(); ++k) envelope[k] += std::sqrt(std::max(0.0F, mean_square[k].real()));
+    const auto coherent_upa2 = [&](std::size_t k) {
+      return memory.coherent.empty() ? 0.0F : std::norm(memory.coherent[i].envelope_upa[k]);
+    };
+    for (std::size_t k = 0; k < envelope.size(); ++k)
+      envelope[k] += std::sqrt(std::max(0.0F, mean_square[k].real()) + coherent_upa2(k));
   }
   return false;
 }

@@ -59,6 +59,9 @@ class LineReceiver {
     const SampledPulse* squared = nullptr;  // for mean squares: the pulse's
     /// Beam by sample: where there is room, the first image's magnitudes. Whether its envelope is kept then is open.
     std::span<float> amplitude_upa = {};
+    /// For mean squares: echoes that are pressures all the same, as those of smooth bodies. The mean square of their
+    /// sum is added.
+    std::span<const EchoSet> coherent = {};
   };
 
   /// Memory of forming: its contents do not matter.
@@ -66,7 +69,7 @@ class LineReceiver {
     friend LineReceiver;
     LineGrid::Memory grid;
     std::vector<std::span<const float>> weights;
-    std::vector<Image> mean_square = std::vector<Image>(1);
+    std::vector<Image> mean_square = std::vector<Image>(1), coherent;
   };
 
   /// Images are resized and overwritten. sin_beams: sines of the beams' axes along the line's axis, true, any order.

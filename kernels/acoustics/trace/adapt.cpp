@@ -55,14 +55,24 @@ void Scene::Impl::show() {
     const auto pieces = one.show(device, origin_enu_m);
     shown.insert(shown.end(), pieces.begin(), pieces.end());
   }
+  std::vector<ShownBody> shown_bodies;
+  Contributors contributors;
+  for (auto& [number, one] : bodies) {
+    const auto pieces = one.triangles.show(device, origin_enu_m);
+    shown.insert(shown.end(), pieces.begin(), pieces.end());
+    shown_bodies.push_back(one.shown);
+    const Body& body = *one.shown.body;
+    contributors.set_body(number, body.instance, body.label_class, body.sediment);
+  }
   std::shared_ptr<const Mesh::Content> content;
   const auto make = [&] {
     std::vector<std::shared_ptr<const Ground>> grounds;
     for (const auto& [key, entry] : tiles) {
       if (!entry.objects.empty()) grounds.push_back(entry.ground);
     }
-    content = std::shared_ptr<const Mesh::Content>(
-        new Mesh::Content{origin_enu_m, PartTree(device, std::move(shown)), extents(), objects, std::move(grounds)});
+    content = std::shared_ptr<const Mesh::Content>(new Mesh::Content{origin_enu_m, PartTree(device, std::move(shown)),
+                                                                     extents(), objects, std::move(grounds),
+                                                                     std::move(shown_bodies), std::move(contributors)});
   };
   tbb::parallel_invoke(make, [&] { tbb::parallel_for_each(in_view, [](const Part* part) { part->scene(); }); });
   mesh.content_ = std::move(content);

@@ -77,7 +77,7 @@ TrianglePart::TrianglePart(const Device& device, std::vector<Triangle> triangles
     : Part(device.get(), bounds_of(triangles, *places_m), common.number, common.facet_m),
       triangles_(std::move(triangles)),
       places_m_(std::move(places_m)),
-      sediment_(common.sediment) {}
+      contributor_(common.contributor) {}
 
 Part::Content TrianglePart::content() const {
   Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
@@ -90,8 +90,8 @@ Part::Content TrianglePart::content() const {
   return {std::move(geometry), triangles_.size()};
 }
 
-Irregular::Irregular(IrregularMesh mesh, std::uint32_t number)
-    : hierarchy_(std::move(mesh.hierarchy)), common_{number, 0.0F, mesh.sediment}, cut_(hierarchy_) {
+Irregular::Irregular(progressive::Hierarchy hierarchy, std::uint32_t number, std::uint32_t contributor)
+    : hierarchy_(std::move(hierarchy)), common_{number, 0.0F, contributor}, cut_(hierarchy_) {
   const TriangleMesh& whole = hierarchy_.mesh;
   double area_m2 = 0.0;
   for (const auto& [a, b, c] : whole.triangle) {

@@ -56,7 +56,7 @@ void aim(const Source& source, const Rays& rays, std::size_t first, std::size_t 
 
 /// What a lane hit at this place.
 std::uint32_t contributor_at(const Part& part, double x_enu_m, double y_enu_m) {
-  return sediment_contributor(part.sediment_at({x_enu_m, y_enu_m}));
+  return part.contributor_at({x_enu_m, y_enu_m});
 }
 
 /// What the lanes hit, into rows first..first + count - 1.
@@ -122,6 +122,15 @@ void note(const Source& source, const Packet& packet, std::size_t first, std::si
 
 std::span<const Object> Mesh::objects() const {
   return content_ ? std::span<const Object>(*content_->objects) : std::span<const Object>{};
+}
+
+std::span<const ShownBody> Mesh::bodies() const {
+  return content_ ? std::span<const ShownBody>(content_->bodies) : std::span<const ShownBody>{};
+}
+
+const Contributors& Mesh::contributors() const {
+  static const Contributors kNone;
+  return content_ ? content_->contributors : kNone;
 }
 
 std::span<const double> Mesh::facet_mean_square_slope() const {

@@ -27,7 +27,7 @@ constexpr double kFar_m = 150.0;
 constexpr int kCells = 24;  // of an object's tile, to a side
 
 /// A body of facets about the middle of its own small tile: the upper half of a sphere, or a box as high as it is wide.
-struct Body {
+struct Boulder {
   double size_m, top_m;  // sphere: radius
   Vec2 middle;
   bool sphere;
@@ -94,7 +94,7 @@ Hits view_from(const Scene& scene, const View& view, std::uint64_t draw, Rays& r
 }
 
 /// Somewhere in the middle of the main lobe, 2 m away to the farthest.
-Body body_in(const View& view, double farthest_m, std::uint64_t k) {
+Boulder body_in(const View& view, double farthest_m, std::uint64_t k) {
   const Stream place{k, "place"};
   const Span &u = view.volume.sine, &phi = view.volume.angle_rad;
   const double sine = 0.8 * (u.main_low + (u.main_high - u.main_low) * place.uniform(0));
@@ -110,7 +110,7 @@ Body body_in(const View& view, double farthest_m, std::uint64_t k) {
 struct Seen {
   std::vector<int> hits = std::vector<int>(2 * kCells * kCells);
 
-  void count(const Scene& scene, const View& view, const Body& body, std::uint64_t draw, bool in_main_lobe) {
+  void count(const Scene& scene, const View& view, const Boulder& body, std::uint64_t draw, bool in_main_lobe) {
     Rays rays;
     const auto found = view_from(scene, view, draw, rays);
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -139,7 +139,7 @@ TEST_CASE("small spheres and boxes are hit wherever they are, and so are all the
     for (const bool over_seabed : {false, true}) {
       Scene scene = over_seabed ? seabed() : Scene({0, 0});
       for (std::uint64_t k = 0; k < (over_seabed ? 3 : 6); ++k) {
-        const Body body = body_in(view, over_seabed ? 50.0 : 100.0, k);
+        const Boulder body = body_in(view, over_seabed ? 50.0 : 100.0, k);
         body.insert(scene);
         Seen once, sixteen;
         once.count(scene, view, body, 0, false);
@@ -159,7 +159,7 @@ TEST_CASE("small spheres and boxes are hit wherever they are, and so are all the
 
 TEST_CASE("an object takes the rays its facets need; others keep the volume's solid angle") {
   const View view = multibeam();
-  const Body body{0.15, -30.0, {25.0, 0.25}, true};
+  const Boulder body{0.15, -30.0, {25.0, 0.25}, true};
   Scene scene({0, 0});
   Rays rays;
   const std::size_t none = (view_from(scene, view, 1, rays), rays.size());
@@ -186,7 +186,7 @@ struct Answer {
 };
 
 /// Of the hits on it, mean over draws.
-Answer answer(const Scene& scene, const View& view, const Body& body, double quality, bool by_facets, int draws,
+Answer answer(const Scene& scene, const View& view, const Boulder& body, double quality, bool by_facets, int draws,
               const ensonify::refraction::PathTable* water = nullptr) {
   Answer sum;
   for (int draw = 0; draw < draws; ++draw) {
@@ -218,7 +218,7 @@ TEST_CASE("a body answers with the level that evenly spread rays give, and cover
   const View view = forward_looking();
   for (const bool sphere : {true, false}) {
     Scene scene = seabed();
-    const Body body{0.8, -4.0, {0.5, 7.0}, sphere};
+    const Boulder body{0.8, -4.0, {0.5, 7.0}, sphere};
     body.insert(scene);
     const Answer facets = answer(scene, view, body, 1.0, true, 1), even = answer(scene, view, body, 4.0, false, 4);
     INFO((sphere ? "sphere " : "box ") << db(facets.energy / even.energy) << " dB");
@@ -232,7 +232,7 @@ TEST_CASE("half a sphere straight below covers the solid angle of its disc") {
   const View view{{{0.0, 0.0, 0.0}, ensonify::frames::enu_from_ned()},
                   mills_cross_volume(5, 5, 67.5 * kDegree),
                   [](const Ray&) { return true; }};
-  const Body body{0.3, -20.0, {0.0, 0.0}, true};
+  const Boulder body{0.3, -20.0, {0.0, 0.0}, true};
   Scene scene({0, 0});
   body.insert(scene);
   // Its outline is the rim of the cells that are whole: count them. It lies 0.2 m below the top at 20 m.
@@ -253,7 +253,7 @@ TEST_CASE("refracted rays find a small body in place, and all facets straight on
   View view = forward_looking();
   view.head = head;
   const Vec3 ahead = head.enu_from_head * Vec3(1, 0, 0);
-  const Body body{0.3, -2.0 + 70.0 * ahead.z(), 70.0 * ahead.head<2>(), true};
+  const Boulder body{0.3, -2.0 + 70.0 * ahead.z(), 70.0 * ahead.head<2>(), true};
   Scene scene({0, 0});
   body.insert(scene);
   const auto water = summer(scene, head);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/acoustics/trace/contributors.h"
 #include "kernels/mesh/lod/cover.h"
 
 namespace ensonify::trace {
@@ -109,8 +110,8 @@ BlockPart::BlockPart(const Device& device, const Shown& shown, const terrain::Ve
       shown_(shown),
       origin_enu_m_(origin_enu_m) {}
 
-std::uint8_t BlockPart::sediment_at(const terrain::Vec2& place_enu_m) const {
-  return terrain::sediment_at(shown_.ground->tile, place_enu_m);
+std::uint32_t BlockPart::contributor_at(const terrain::Vec2& place_enu_m) const {
+  return sediment_contributor(terrain::sediment_at(shown_.ground->tile, place_enu_m));
 }
 
 Part::Content BlockPart::content() const {

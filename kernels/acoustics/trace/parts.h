@@ -53,7 +53,7 @@ class Part {
   /// As Hit has them.
   std::uint32_t number() const { return number_; }
   float facet_m() const { return facet_m_; }
-  virtual std::uint8_t sediment_at(const terrain::Vec2& place_enu_m) const = 0;
+  virtual std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const = 0;
 
  protected:
   struct Content {
@@ -101,7 +101,7 @@ class BlockPart final : public Part {
  public:
   BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m);
 
-  std::uint8_t sediment_at(const terrain::Vec2& place_enu_m) const override;
+  std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const override;
 
  private:
   Content content() const override;

@@ -248,7 +248,7 @@ std::size_t RayDistribution::cut(double share, std::span<Part> parts) {
   return rays;
 }
 
-void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float max_range_m,
+void RayDistribution::aim_beyond_probes(const Targets& targets, float max_range_m,
                                         const refraction::PathTable* refracted, Plan& plan) const {
   const frames::HeadPose& head = plan.head_;
   const Probes& probes = plan.probes_;
@@ -263,7 +263,8 @@ void RayDistribution::aim_beyond_probes(std::span<const Object> objects, float m
     const std::size_t i = k / columns(), j = k % columns();
     parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
   });
-  aim_at_facets(probes, objects, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
+  aim_at_facets(probes, targets.objects, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
+  aim_at_bodies(probes, targets, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
 
   const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });
   const auto most = static_cast<double>(settings_.most_rays - plan.facets_.rays.size());

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/trace/body.h"
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/pose.h"
@@ -22,6 +23,27 @@ struct FacetView {
   const refraction::PathTable* refracted;
 };
 
+/// What rays go to besides directions.
+struct Targets {
+  std::span<const Object> objects;
+  std::span<const ShownBody> bodies = {};
+  double wavelength_m = 0.0;  // of the carrier: facets of smooth bodies are as small as it asks for
+
+  Targets() = default;
+  Targets(std::span<const Object> of) : objects(of) {}  // NOLINT(google-explicit-constructor): these alone
+  Targets(const Mesh& of, double wave_m) : objects(of.objects()), bodies(of.bodies()), wavelength_m(wave_m) {}
+};
+
+/// A ray's place on a body.
+struct BodyTarget {
+  std::uint32_t tile = 0;      // the body's number, as Hit has it
+  const Body* body = nullptr;  // while its mesh lives
+  solids::Facet facet;         // a part of the surface: of a smooth body all that this ray stands for
+  float area_m2 = 0.0F;        // of the surface that it stands for
+  float within_m = 0.0F;       // a hit counts that is no farther from the place
+  frames::Vec3 place_enu_m = frames::Vec3::Zero();
+};
+
 /// Targets of rays to facets, and the cells whose facets have such rays.
 struct FacetTargets {
   struct Facet {
@@ -37,6 +59,9 @@ struct FacetTargets {
   std::vector<Facet> facets;  // by ray
   std::vector<Tile> tiles;    // by number
   std::vector<bool> cells;    // whether taken, tile by tile, row by row
+  // Of bodies: their rays come after those of the facets above.
+  std::vector<BodyTarget> body_facets;  // by ray
+  std::vector<std::uint32_t> bodies;    // numbers of those that other rays pass over, rising
 };
 
 /// Rays to facets, yet without solid angles, and scratch of their choice.
@@ -49,6 +74,14 @@ struct FacetMemory {
   };
   Rays rays;
   std::vector<Facet> facets;
+  // Of bodies that scatter with random phase.
+  struct BodyFacet {
+    std::uint32_t body;      // of those that are shown
+    std::uint32_t triangle;  // of its surface
+    solids::Facet facet;
+    double wanted;
+  };
+  std::vector<BodyFacet> body_facets;
 };
 
 /// One of the two coordinates of a direction, and what the head does along it.
@@ -107,7 +140,8 @@ struct RaySettings {
 ///
 /// Small things that probes may miss come as objects (Mesh::objects()). Each of their facets in the volume has rays of
 /// its own (FacetRays): 16 at normal quality, at least one in the main lobe, and more where it is larger than
-/// what is resolved.
+/// what is resolved. So has each facet of a body that faces the head (Mesh::bodies()), a body at least 64 at any
+/// quality. A smooth body has one ray to each part of its surface across which the wave is plane, and no other counts.
 ///
 /// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
 /// in the main lobe, and a third more beyond it; not with the number of beams. A corner that hits nothing counts as
@@ -157,11 +191,11 @@ class RayDistribution {
     Probes probes_;
     Hits probe_hits_;
   };
-  /// Plans the rays for what probes hit within max_range_m, and for the objects' facets. trace(rays, hits) finds what
+  /// Plans the rays for what probes hit within max_range_m, and for the targets' facets. trace(rays, hits) finds what
   /// rays hit. Through bent water `refracted` is what Mesh::tabulate made for this head. Throws std::invalid_argument
   /// unless there is one hit per probe.
   template <class Trace>
-  void aim(const frames::HeadPose& head, const Steer& steer, std::span<const Object> objects, float max_range_m,
+  void aim(const frames::HeadPose& head, const Steer& steer, const Targets& targets, float max_range_m,
            const refraction::PathTable* refracted, const Trace& trace, Plan& plan) const {
     plan.head_ = head;
     {
@@ -170,7 +204,7 @@ class RayDistribution {
       trace(plan.probes_.rays, plan.probe_hits_);
     }
     const profile::Span span(profile::Stage::kRays);
-    aim_beyond_probes(objects, max_range_m, refracted, plan);
+    aim_beyond_probes(targets, max_range_m, refracted, plan);
   }
 
   /// Some of a plan's rays, and what they hit. Memory of the caller's.
@@ -178,6 +212,8 @@ class RayDistribution {
    public:
     Rays rays;
     Hits hits;
+    /// Of the last so many rays: what they were to hit. Those of smooth bodies that did not are misses.
+    std::span<const BodyTarget> to_bodies;
 
    private:
     friend RayDistribution;
@@ -262,7 +298,11 @@ class RayDistribution {
   void aim_at_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view, FacetMemory& memory,
                      FacetTargets& targets) const;
   static std::size_t cut(double share, std::span<Part> parts);
-  void aim_beyond_probes(std::span<const Object> objects, float max_range_m, const refraction::PathTable* refracted,
+  /// The same of bodies; their rays are appended.
+  void aim_at_bodies(const Probes& probes, const Targets& of, const FacetView& view, FacetMemory& memory,
+                     FacetTargets& targets) const;
+  static void settle_body_rays(const FacetTargets& targets, std::size_t spread, Batch& batch);
+  void aim_beyond_probes(const Targets& targets, float max_range_m, const refraction::PathTable* refracted,
                          Plan& plan) const;
   /// Counts the rays of a part, and what they carry to places; keeps those unless `kept` is null.
   void count_part(const Place& head, Part& part, std::vector<Ray>* kept) const;

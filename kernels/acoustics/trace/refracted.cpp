@@ -111,7 +111,7 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   hit.sin_grazing = static_cast<float>(std::min(1.0, std::abs(normal.dot(arrival))));
   hit.facet_m = packet.part_hit[lane_index]->facet_m();
   hit.tile = packet.part_hit[lane_index]->number();
-  hit.contributor = sediment_contributor(packet.part_hit[lane_index]->sediment_at(hit.position_enu_m.head<2>()));
+  hit.contributor = packet.part_hit[lane_index]->contributor_at(hit.position_enu_m.head<2>());
   return hit;
 }
 

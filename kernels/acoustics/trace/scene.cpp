@@ -69,13 +69,37 @@ void Scene::insert(std::int64_t number, IrregularMesh mesh) {
   if (const std::string fault = progressive::fault_of(mesh.hierarchy); !fault.empty())
     throw std::invalid_argument("irregular mesh: " + fault);
   impl_->change();
-  impl_->irregular.insert_or_assign(number, Irregular(std::move(mesh), ++impl_->inserted));
+  impl_->irregular.insert_or_assign(
+      number, Irregular(std::move(mesh.hierarchy), ++impl_->inserted, sediment_contributor(mesh.sediment)));
   impl_->show_all();
 }
 
 bool Scene::remove(std::int64_t number) {
   impl_->change();
   const bool removed = impl_->irregular.erase(number) > 0;
+  impl_->show_all();
+  return removed;
+}
+
+void Scene::insert_body(std::uint32_t number, Body body) {
+  const solids::Surface& surface = body.surface;
+  if (const std::string fault = progressive::fault_of(surface.mesh); !fault.empty())
+    throw std::invalid_argument("body: " + fault);
+  if (!surface.bulge_m.empty() && surface.bulge_m.size() != surface.mesh.triangle.size())
+    throw std::invalid_argument("body: there must be bulges of each triangle, or none");
+  impl_->change();
+  progressive::Hierarchy whole = progressive::hierarchy_of(surface.mesh, {});
+  ShownBody shown{std::make_shared<const Body>(std::move(body)), ++impl_->inserted, body_contributor(number), {}};
+  Irregular triangles(std::move(whole), shown.tile, shown.contributor);
+  triangles.choose_all();
+  shown.box_enu_m = triangles.box_enu_m();
+  impl_->bodies.insert_or_assign(number, BodyEntry{std::move(shown), std::move(triangles)});
+  impl_->show_all();
+}
+
+bool Scene::remove_body(std::uint32_t number) {
+  impl_->change();
+  const bool removed = impl_->bodies.erase(number) > 0;
   impl_->show_all();
   return removed;
 }
@@ -88,6 +112,7 @@ void Scene::Impl::centre_near(const Vec2& place_enu_m) {
   origin_enu_m = nearest_enu_m;
   for (const auto& [key, entry] : tiles) change(key);
   for (auto& [number, one] : irregular) one.forget();
+  for (auto& [number, one] : bodies) one.triangles.forget();
   show_all();
 }
 
@@ -116,6 +141,7 @@ std::size_t Scene::triangles() const {
   std::size_t sum = 0;
   for (const CachedPart& cached : impl_->parts) sum += cached.part->triangles();
   for (const auto& [number, one] : impl_->irregular) sum += one.triangles();
+  for (const auto& [number, one] : impl_->bodies) sum += one.triangles.triangles();
   return sum;
 }
 
@@ -137,10 +163,11 @@ std::vector<Extent> Scene::Impl::extents() const {
     all.push_back(
         {tile.origin_enu_m, tile.origin_enu_m + tile.spacing_m * Vec2(tile.columns - 1, tile.rows - 1), entry.heights});
   }
-  for (const auto& [number, one] : irregular) {
-    const auto& box = one.box_enu_m();
+  const auto add = [&](const Eigen::AlignedBox3d& box) {
     if (!box.isEmpty()) all.push_back({box.min().head<2>(), box.max().head<2>(), {box.min().z(), box.max().z()}});
-  }
+  };
+  for (const auto& [number, one] : irregular) add(one.box_enu_m());
+  for (const auto& [number, one] : bodies) add(one.shown.box_enu_m);
   return all;
 }
 

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/trace/body.h"
+#include "kernels/acoustics/trace/contributors.h"
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/mesh/lod/cover.h"
@@ -17,59 +19,6 @@
 #include "kernels/water/refraction/path_table.h"
 
 namespace ensonify::trace {
-
-/// Way of an echo between the head and what sends it.
-enum class EchoPath : std::uint8_t {
-  kDirect,
-  kViaSurface,  // out or back by way of the surface
-  kViaBottom    // by way of the surface and the seabed
-};
-inline constexpr std::uint32_t kPaths = 3;
-
-/// Source of sound in a ping.
-struct Contributor {
-  enum class Kind : std::uint8_t { kNoise, kSediment };
-
-  Kind kind = Kind::kNoise;
-  std::uint32_t instance = 0;     // among its kind
-  std::uint32_t label_class = 0;  // of a label
-  std::uint8_t sediment = 0;      // class
-  EchoPath path = EchoPath::kDirect;
-
-  bool operator==(const Contributor&) const = default;
-};
-
-/// Index of noise, and of what nothing in the table sends: other heads, the surface overhead.
-inline constexpr std::uint32_t kNoise = 0;
-
-/// Index of the direct echo of a sediment.
-constexpr std::uint32_t sediment_contributor(std::uint8_t sediment) { return 1 + kPaths * sediment; }
-
-/// Index of the same source by a path; noise stays noise.
-constexpr std::uint32_t by_path(std::uint32_t contributor, EchoPath path) {
-  return contributor == kNoise ? kNoise : contributor - (contributor - 1) % kPaths + static_cast<std::uint32_t>(path);
-}
-
-/// Contributors of a ping: hits and echoes carry an index. Entry 0 is noise; then each source has as many entries as
-/// there are paths.
-class Contributors {
- public:
-  /// All sediment classes.
-  Contributors() : all_(1) {
-    for (unsigned sediment = 0; sediment < 256; ++sediment) {
-      for (std::uint32_t path = 0; path < kPaths; ++path) {
-        all_.push_back({Contributor::Kind::kSediment, sediment, 0, static_cast<std::uint8_t>(sediment),
-                        static_cast<EchoPath>(path)});
-      }
-    }
-  }
-
-  std::size_t size() const { return all_.size(); }
-  const Contributor& operator[](std::uint32_t index) const { return all_[index]; }
-
- private:
-  std::vector<Contributor> all_;
-};
 
 /// Hit of a ray on the seabed, and the history of its bundle of sound. Times and lengths are one
 /// way.
@@ -84,7 +33,7 @@ struct Hit {
   float sin_grazing = 0.0F;       // sine of the angle between arrival_enu and the facet's plane, 0..1
   float facet_m = 0.0F;           // spacing of the posts of the mesh there: a facet is half a square of it. Of an
                                   // irregular mesh, what its mean triangle is half a square of
-  std::uint32_t tile = 0;         // of the scene, as Object has it; 0: none
+  std::uint32_t tile = 0;         // of the scene, as Object and ShownBody have it; 0: none
   std::uint32_t contributor = 0;  // that sends back, by the direct path
 
   bool hit() const { return range_m > 0.0F; }
@@ -184,6 +133,8 @@ class Mesh {
 
   /// Of the scene, as they were.
   std::span<const Object> objects() const;
+  std::span<const ShownBody> bodies() const;  // by number
+  const Contributors& contributors() const;   // whose indices hits carry
   std::span<const double> facet_mean_square_slope() const;
 
  private:
@@ -193,7 +144,7 @@ class Mesh {
   std::shared_ptr<const std::vector<double>> facet_mean_square_slope_;
 };
 
-/// Seabed tiles, and irregular meshes that stand among them, of which meshes to trace rays against are made.
+/// Seabed tiles, and irregular meshes and bodies that stand among them, of which meshes to trace rays against are made.
 ///
 /// A tile is cut into blocks; a block is one Embree scene of grid primitives (two triangles per cell), built when it is
 /// first needed, and the parts of a mesh stand under one tree. Blocks and tiles share the bits of their edges and the
@@ -222,6 +173,14 @@ class Scene {
 
   /// Takes an irregular mesh away; false when there was none.
   bool remove(std::int64_t number);
+
+  /// Adds or replaces a body, by a number of the caller's that also says its contributor. Bodies are always at full
+  /// detail. Throws std::invalid_argument for a mesh with a fault (progressive::fault_of), or bulges that are not one
+  /// for each triangle.
+  void insert_body(std::uint32_t number, Body body);
+
+  /// Takes a body away; false when there was none.
+  bool remove_body(std::uint32_t number);
 
   /// Mean square of facets' slopes that a sediment's law counts too, by class (seabed::MeshedSediment): kept for
   /// those who ask how strongly hits scatter, the scene itself makes nothing of it. Empty: none is known.

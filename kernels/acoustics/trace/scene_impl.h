@@ -24,14 +24,14 @@ class TrianglePart final : public Part {
   struct Common {
     std::uint32_t number = 0;  // as Hit has them
     float facet_m = 0.0F;
-    std::uint8_t sediment = 0;
+    std::uint32_t contributor = 0;
   };
   /// Of all the mesh's vertices in Embree's frame, and room for one more, which Embree may read.
   using Places = std::shared_ptr<const std::vector<Eigen::Vector3f>>;
   TrianglePart(const Device& device, std::vector<progressive::Triangle> triangles, Places places_m,
                const Common& common);
 
-  std::uint8_t sediment_at(const terrain::Vec2&) const override { return sediment_; }
+  std::uint32_t contributor_at(const terrain::Vec2&) const override { return contributor_; }
   const std::vector<progressive::Triangle>& shown() const { return triangles_; }
 
  private:
@@ -39,7 +39,7 @@ class TrianglePart final : public Part {
 
   std::vector<progressive::Triangle> triangles_;
   Places places_m_;
-  std::uint8_t sediment_;
+  std::uint32_t contributor_;
 };
 
 /// An irregular mesh as a scene has it. Its triangles are in clusters of neighbours, each a part, so that what stays
@@ -47,7 +47,7 @@ class TrianglePart final : public Part {
 /// threads.
 class Irregular {
  public:
-  Irregular(IrregularMesh mesh, std::uint32_t number);
+  Irregular(progressive::Hierarchy hierarchy, std::uint32_t number, std::uint32_t contributor);
 
   /// As finely as these views ask for: of level 0 all of it, of level n to a tenth of 2^n mean edges.
   void choose(std::span<const lod::View> views);
@@ -76,6 +76,12 @@ class Irregular {
   TrianglePart::Places places_m_;          // null while Embree's frame is not known
   std::vector<Cluster> clusters_;
   progressive::Cut cut_;
+};
+
+/// A body and its triangles, which are always all there.
+struct BodyEntry {
+  ShownBody shown;
+  Irregular triangles;
 };
 
 struct Entry {
@@ -117,9 +123,11 @@ std::optional<Heights> heights_near(std::span<const Extent> extents, const frame
 struct Mesh::Content {
   frames::Vec2 origin_enu_m;
   PartTree tree;
-  std::vector<Extent> extents;  // of tiles and irregular meshes
+  std::vector<Extent> extents;  // of tiles, irregular meshes and bodies
   std::shared_ptr<const std::vector<Object>> objects;
   std::vector<std::shared_ptr<const Ground>> grounds;  // of the objects
+  std::vector<ShownBody> bodies;
+  Contributors contributors;
 };
 
 struct Scene::Impl {
@@ -128,7 +136,8 @@ struct Scene::Impl {
   LevelOfDetail detail;
   std::map<terrain::TileKey, Entry> tiles;
   std::map<std::int64_t, Irregular> irregular;
-  std::uint32_t inserted = 0;  // tiles and irregular meshes, ever
+  std::map<std::uint32_t, BodyEntry> bodies;
+  std::uint32_t inserted = 0;  // tiles, irregular meshes and bodies, ever
   std::shared_ptr<const std::vector<Object>> objects = std::make_shared<std::vector<Object>>();  // of all tiles
   std::shared_ptr<const std::vector<double>> facet_mean_square_slope;  // by class; null: none is known
 

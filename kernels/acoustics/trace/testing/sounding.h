@@ -31,14 +31,14 @@ struct Sounding {
 
 /// Through water where paths are straight, or that of a table.
 inline Sounding trace_rays(const Scene& scene, const RayDistribution& distribution, const frames::HeadPose& head,
-                           std::span<const Object> objects, const refraction::PathTable* water = nullptr) {
+                           const Targets& targets, const refraction::PathTable* water = nullptr) {
   const auto trace = [&](const Rays& rays, Hits& hits) {
     water != nullptr ? scene.adapted().trace(head, rays, kFar_m, hits, *water)
                      : scene.adapted().trace(head, rays, kFar_m, hits);
   };
   RayDistribution::Plan plan;
   RayDistribution::Batch all;
-  distribution.aim(head, {}, objects, kFar_m, water, trace, plan);
+  distribution.aim(head, {}, targets, kFar_m, water, trace, plan);
   distribution.trace(plan, 0, plan.rays(), trace, all);
   return {std::move(all.rays), std::move(all.hits), plan.share()};
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+
+#include "kernels/mesh/solids/facet.h"
+
+namespace ensonify::trace {
+
+/// A thing that stands on the seabed or hangs in the water, known one by one. It does not move, and is rigid.
+struct Body {
+  solids::Surface surface;  // where it stands; corners counterclockwise as seen from outside
+  bool two_sided = false;   // a surface without a volume: both sides scatter
+  /// Its echo follows from its shape alone (echo/smooth_facet.h), and is heard where rays to its own facets arrive.
+  /// Else it scatters as its sediment does, with random phase.
+  bool smooth = false;
+  std::uint8_t sediment = 0;      // class
+  std::uint32_t instance = 0;     // of a label
+  std::uint32_t label_class = 0;  // of a label
+};
+
+/// A body as a mesh has it.
+struct ShownBody {
+  std::shared_ptr<const Body> body;
+  std::uint32_t tile = 0;         // its number, as Hit has those of tiles
+  std::uint32_t contributor = 0;  // by the direct path
+  Eigen::AlignedBox3d box_enu_m;
+};
+
+}  // namespace ensonify::trace

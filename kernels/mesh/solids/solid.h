@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+#include "kernels/mesh/progressive/hierarchy.h"
+
+/// Bodies of simple shape. Each stands about its middle: x east, y north, z up before it is turned.
+namespace ensonify::solids {
+
+struct Sphere {
+  double diameter_m = 0.0;
+};
+
+/// A cuboid of these sides along x, y and z.
+struct Box {
+  frames::Vec3 size_m = frames::Vec3::Zero();
+};
+
+/// Straight, its axis along y, closed at both ends.
+struct Cylinder {
+  double diameter_m = 0.0;
+  double length_m = 0.0;
+};
+
+/// A rectangle without thickness that lies level: sides along x and y. Both of its faces scatter.
+struct Plate {
+  frames::Vec2 size_m = frames::Vec2::Zero();
+};
+
+using Solid = std::variant<Sphere, Box, Cylinder, Plate>;
+
+/// Whether only one side of its surface can be seen: a plate has two.
+bool is_closed(const Solid& solid);
+
+/// Half its greatest extent: of the smallest ball about its middle that holds it.
+double radius_m(const Solid& solid);
+
+/// A surface as triangles, and how those that stand for a curved one bulge: heights over the middles of their edges,
+/// the first from the first corner to the second, outwards. No bulges: all of it is flat.
+struct Surface {
+  progressive::TriangleMesh mesh;
+  std::vector<std::array<float, 3>> bulge_m;  // by triangle
+};
+
+/// Its surface, corners counterclockwise as seen from outside (of a plate: from above), with its middle for origin.
+/// Flat faces are as few triangles as they can be; curved ones have their corners on the surface, and no triangle lies
+/// farther from it than `sagitta_m`. Throws std::invalid_argument for a size or sagitta that is not above 0, and where
+/// it would take more than a million triangles.
+Surface surface_of(const Solid& solid, double sagitta_m);
+
+/// Volume of a closed mesh below a height (z of its own frame), m^3, by the divergence theorem: exact but for rounding.
+double volume_below_m3(const progressive::TriangleMesh& mesh, double height_m);
+
+/// The height below which this share of a closed mesh's volume lies, 0..1; of a mesh without volume, as a plate that
+/// lies level, the share of its heights. Within a millionth of the mesh's own height.
+double height_of_share_m(const progressive::TriangleMesh& mesh, double share);
+
+}  // namespace ensonify::solids
