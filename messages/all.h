@@ -19,7 +19,7 @@ using AllMessages =
     std::tuple<Pose, Guidance, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
-               MeshRelease, Chart, HeadDeclaration, PagerDeclaration, Health, ClockHealth>;
+               MeshRelease, Object, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health, ClockHealth>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

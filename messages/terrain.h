@@ -99,6 +99,51 @@ struct MeshRelease {
   }
 };
 
+struct Object {
+  static constexpr const char* kType = "object/1";
+  static constexpr const char* kAbout = "A thing on the seabed or in the water that labels know. Truth.";
+  std::int64_t number = 0;
+  std::string name;
+  std::int64_t instance = 0;
+  std::string class_name;
+  std::int64_t class_id = 0;
+  std::string shape;
+  std::array<double, 3> size_m{};
+  std::array<double, 3> position_enu_m{};
+  std::array<double, 4> enu_from_object{1.0, 0.0, 0.0, 0.0};
+  bool smooth = false;
+  std::int64_t sediment = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", "1", "number by which the object is released", self.number);
+    visit("name", "", "name in the scenario", self.name);
+    visit("instance", "1", "number in labels, from 1", self.instance);
+    visit("class_name", "", "class in labels", self.class_name);
+    visit("class_id", "1", "number of the class in labels, from 1", self.class_id);
+    visit("shape", "", "sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)", self.shape);
+    visit("size_m", "m",
+          "of a sphere its diameter, a box its sides x, y, z, a cylinder diameter and length, a plate x, y; then 0",
+          self.size_m);
+    visit("position_enu_m", "m", "world position of its middle", self.position_enu_m);
+    visit("enu_from_object", "1", "rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)",
+          self.enu_from_object);
+    visit("smooth", "", "its echo follows from its shape; else it scatters as its sediment, with speckle", self.smooth);
+    visit("sediment", "1", "sediment class of all of it", self.sediment);
+  }
+};
+
+struct ObjectRelease {
+  static constexpr const char* kType = "object_release/1";
+  static constexpr const char* kAbout = "The pager will not refer to this object again until it sends it anew.";
+  std::int64_t number = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", "1", "the object's", self.number);
+  }
+};
+
 struct Chart {
   static constexpr const char* kType = "chart/1";
   static constexpr const char* kAbout =

@@ -16,8 +16,8 @@ namespace ensonify {
 /// The true seabed, as instruments with narrow beams sample it.
 class SeabedBelow {
  public:
-  /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed. `mesh` and
-  /// `mesh_release` always may.
+  /// `optional`: the ports `tile` and `release` may stay unconnected, and then there is no seabed. The ports of meshes
+  /// and objects always may.
   void connect(Ports& ports, bool optional);
 
   /// From `from` along a direction of its frame; empty where nothing is as near as `longest_m`. A function of these and

@@ -23,6 +23,16 @@ std::optional<uncertainty::Navigation> errors_of(const msg::Estimate& estimate) 
   return errors;
 }
 
+/// Of all channels' carriers.
+double shortest_wave_m(const HeadInputs::Start& start) {
+  double highest_hz = 1.0;
+  for (const HeadInputs::Channel& channel : start.channels) {
+    for (const msg::SectorDeclaration& sector : channel.sectors)
+      highest_hz = std::max(highest_hz, sector.frequency_hz);
+  }
+  return start.sound_speed_mps / highest_hz;
+}
+
 }  // namespace
 
 HeadInputs::HeadInputs(Ports& ports, const Start& start)
@@ -30,7 +40,7 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
       mounting_(start.mounting),
       truth_((2 * start.longest_ping + 1_s).count()),
       estimate_((2 * start.longest_ping + 1_s).count()),
-      tiles_(start.lod),
+      tiles_(start.lod, shortest_wave_m(start)),
       tide_(start.tide),
       start_mps_(start.sound_speed_mps) {
   for (const Channel& channel : start.channels) {
@@ -49,6 +59,9 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
   ports.in<msg::Mesh>("mesh", [this](const msg::Mesh& mesh) { tiles_.insert(mesh); }, {.optional = true});
   ports.in<msg::MeshRelease>("mesh_release", [this](const msg::MeshRelease& release) { tiles_.release(release); },
                              {.optional = true});
+  ports.in<msg::Object>("object", [this](const msg::Object& object) { tiles_.insert(object); }, {.optional = true});
+  ports.in<msg::ObjectRelease>("object_release", [this](const msg::ObjectRelease& release) { tiles_.release(release); },
+                               {.optional = true});
   if (start.probe) {
     ports.in<msg::SoundSpeed>("sound_speed",
                               [this](const msg::SoundSpeed& probe) { probe_mps_ = probe.sound_speed_mps; },

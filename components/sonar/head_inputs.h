@@ -17,8 +17,8 @@
 namespace ensonify {
 
 /// Inputs of a head, and its ports: `pose` (the truth), `tile`, `release`, and, if they are connected, `mesh`,
-/// `mesh_release`, `estimate`, `settings` and, of a head that has a probe at its face, `sound_speed`. A command is
-/// received 100 ms later: it may well come from somebody who examines the head's own pings.
+/// `mesh_release`, `object`, `object_release`, `estimate`, `settings` and, of a head that has a probe at its face,
+/// `sound_speed`. A command is received 100 ms later: it may well come from somebody who examines the head's own pings.
 class HeadInputs {
  public:
   /// Channel of a head with settings of its own.

@@ -3,10 +3,14 @@
 #include <utility>
 
 #include "components/terrain/mesh_message.h"
+#include "components/terrain/object_message.h"
+#include "kernels/acoustics/echo/smooth_facet.h"
 #include "kernels/acoustics/trace/batch.h"
 
 namespace ensonify {
 namespace {
+
+constexpr double kDiffuseSagitta = 0.01;  // of an object's size: its echo has no phase of its own
 
 terrain::TileKey key_of(std::int64_t col, std::int64_t row) {
   return {static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)};
@@ -43,6 +47,24 @@ void TileSet::insert(const msg::Mesh& message) {
 }
 
 void TileSet::release(const msg::MeshRelease& release) { scene_.remove(release.number); }
+
+void TileSet::insert(const msg::Object& object) {
+  const solids::Solid solid = solid_of(object);
+  const double sagitta_m =
+      object.smooth ? echo::kSagittaInWaves * shortest_wave_m_ : kDiffuseSagitta * solids::radius_m(solid);
+  trace::Body body;
+  body.surface = surface_of(object, sagitta_m);
+  body.two_sided = !solids::is_closed(solid);
+  body.smooth = object.smooth;
+  body.sediment = static_cast<std::uint8_t>(object.sediment);
+  body.instance = static_cast<std::uint32_t>(object.instance);
+  body.label_class = static_cast<std::uint32_t>(object.class_id);
+  scene_.insert_body(static_cast<std::uint32_t>(object.number), std::move(body));
+}
+
+void TileSet::release(const msg::ObjectRelease& release) {
+  scene_.remove_body(static_cast<std::uint32_t>(release.number));
+}
 
 bool TileSet::covers(const frames::Vec2& place_enu_m) const {
   return !scene_.empty() && scene_.contains(grid_.key_at(place_enu_m));

@@ -6,15 +6,19 @@
 
 namespace ensonify {
 
-/// The tiles and meshes that a head holds, ready for rays.
+/// The tiles, meshes and objects that a head holds, ready for rays.
 class TileSet {
  public:
-  explicit TileSet(const trace::LevelOfDetail& detail = {}) : scene_(frames::Vec2::Zero(), detail) {}
+  /// shortest_wave_m: of the head's carriers. Smooth objects are as fine as it asks for.
+  explicit TileSet(const trace::LevelOfDetail& detail = {}, double shortest_wave_m = 0.01)
+      : scene_(frames::Vec2::Zero(), detail), shortest_wave_m_(shortest_wave_m) {}
 
   void insert(const msg::Tile& tile);
   void release(const msg::TileRelease& release);
   void insert(const msg::Mesh& mesh);
   void release(const msg::MeshRelease& release);
+  void insert(const msg::Object& object);
+  void release(const msg::ObjectRelease& release);
 
   /// Whether a tile lies under the place.
   bool covers(const frames::Vec2& place_enu_m) const;
@@ -24,6 +28,7 @@ class TileSet {
  private:
   trace::Scene scene_;
   terrain::TileGrid grid_;  // of the tiles held
+  double shortest_wave_m_;
 };
 
 }  // namespace ensonify

@@ -15,6 +15,7 @@ TerrainPagerConfig TerrainPagerConfig::read(ConfigReader& from, const World& wor
   if (world.end_ns) config.duration = SimTime(*world.end_ns);
   config.terrain.site = world.site;
   config.terrain.seabed = world.seabed;
+  config.objects = world.objects;
   config.mission = world.mission;
   config.vehicles = world.vehicles;
   config.tide = world.vertical.tide;

@@ -71,6 +71,7 @@ struct TerrainPagerConfig : TerrainPagerParameters {
   std::string scenario_file;
   std::string scenario_text;        // canonical, as it is recorded; empty without a launch
   std::optional<SimTime> duration;  // of the run, where it has an end of its own
+  std::vector<SceneObject> objects;
   Mission mission;
   std::vector<Vehicle> vehicles;
   vertical::Tide tide;

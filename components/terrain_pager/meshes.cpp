@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "components/terrain/mesh_message.h"
 #include "components/terrain/prepared_mesh.h"
 #include "components/terrain_pager/mission_track.h"
 #include "kernels/mesh/progressive/hierarchy.h"
-#include "kernels/vehicle/runlines/runline.h"
 
 namespace ensonify::pager {
 namespace {
@@ -37,21 +35,6 @@ void refuse(const TerrainPagerConfig& config, const std::string& name, const std
   throw ConfigError({ConfigProblem{{config.scenario_file, 0, 0}, "seabed.meshes." + name, why}});
 }
 
-/// A leg may lie beside a mesh, or above it where the vehicle dives; not through it, nor below. One problem a mesh.
-void check_legs(const MissionTrack& track, const std::string& name, const progressive::TriangleMesh& mesh) {
-  for (const Leg& leg : track.legs) {
-    const double lowest_z_m = track.lowest_water_m - leg.reach_m;
-    const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, lowest_z_m});
-    if (!along_m) continue;
-    const frames::Vec2 place = runlines::point_on(leg.line, *along_m);
-    throw ConfigError(
-        {ConfigProblem{leg.place, leg.key,
-                       fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into the mesh {}; allowed is a way "
-                                   "beside it, or above",
-                                   place.x(), place.y(), leg.reach_m, name)}});
-  }
-}
-
 }  // namespace
 
 Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& terrain, Made& made) {
@@ -75,7 +58,7 @@ Meshes::Meshes(const TerrainPagerConfig& config, const source::TerrainSource& te
                       "{:.0f} to {:.0f}, north {:.0f} to {:.0f} m (position_m moves it)",
                       box.low.x(), box.high.x(), box.low.y(), box.high.y(), known.west_m, known.east_m, known.south_m,
                       known.north_m));
-    check_legs(track, mesh.name, placed.hierarchy.mesh);
+    check_legs(track, "the mesh " + mesh.name, placed.hierarchy.mesh);
     One one{mesh_message(placed.hierarchy), box};
     one.message.number = static_cast<std::int64_t>(meshes_.size());
     one.message.name = mesh.name;

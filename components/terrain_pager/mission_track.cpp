@@ -19,6 +19,7 @@
 #include "components/config/parse_yaml.h"
 #include "components/terrain/source_of.h"
 #include "components/terrain_pager/meshes.h"
+#include "components/terrain_pager/objects.h"
 
 namespace ensonify::pager {
 namespace {
@@ -225,10 +226,25 @@ double check_mission(const source::TerrainSource& terrain, const TerrainPagerCon
   return shallowest_m;
 }
 
+void check_legs(const MissionTrack& track, const std::string& what, const progressive::TriangleMesh& mesh) {
+  for (const Leg& leg : track.legs) {
+    const double lowest_z_m = track.lowest_water_m - leg.reach_m;
+    const auto along_m = progressive::first_crossing_m(mesh, {leg.line.start_enu_m, leg.line.end_enu_m, lowest_z_m});
+    if (!along_m) continue;
+    const frames::Vec2 place = runlines::point_on(leg.line, *along_m);
+    throw ConfigError(
+        {ConfigProblem{leg.place, leg.key,
+                       fmt::format("at ({:.1f}, {:.1f}) m, {:.1f} m deep, it runs into {}; allowed is a way "
+                                   "beside it, or above",
+                                   place.x(), place.y(), leg.reach_m, what)}});
+  }
+}
+
 void check_mission_alone(const TerrainPagerConfig& config) {
   const auto terrain = source::source_of(config.terrain);
   Meshes::Made made;
   const Meshes meshes(config, *terrain, made);
+  const Objects objects(config, *terrain);
   check_mission(*terrain, config, Beyond::kAllowed);
 }
 

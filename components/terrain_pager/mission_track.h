@@ -10,6 +10,7 @@
 #include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/corridors.h"
+#include "kernels/mesh/progressive/hierarchy.h"
 #include "kernels/vehicle/runlines/runline.h"
 #include "kernels/vehicle/vertical/tide.h"
 
@@ -55,8 +56,12 @@ enum class Beyond { kRefused, kAllowed };
 /// the least depth along the runlines. Throws ConfigError with the place of what cannot be run.
 double check_mission(const source::TerrainSource& terrain, const TerrainPagerConfig& config, Beyond beyond);
 
-/// The same, and against meshes, for a launch in which no pager runs: opens the seabed that the scenario names. What
-/// such a launch runs may be beyond it.
+/// A leg may lie beside a thing, or above it where the vehicle dives; not through it, nor below. Throws ConfigError
+/// with the place of the first that does not; `what` is the thing in messages.
+void check_legs(const MissionTrack& track, const std::string& what, const progressive::TriangleMesh& mesh);
+
+/// The same, and against meshes and objects, for a launch in which no pager runs: opens the seabed that the scenario
+/// names. What such a launch runs may be beyond it.
 void check_mission_alone(const TerrainPagerConfig& config);
 
 }  // namespace ensonify::pager

@@ -85,11 +85,14 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
             source::lsb_m(config.terrain, *terrain_)},
       box_(box_of(terrain_->extent())),
       meshes_(config, *terrain_, resident_.meshes),
+      objects_(config, *terrain_),
       tiles_(ports.out<msg::Tile>("tile", {.max_bytes = kTileBytes, .rate = all_at_once(most_tiles())})),
       releases_(ports.out<msg::TileRelease>("release", {.rate = all_at_once(most_tiles())})),
       meshes_out_(
           ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes(), .rate = all_at_once(meshes_.count())})),
       mesh_releases_(ports.out<msg::MeshRelease>("mesh_release", {.rate = all_at_once(meshes_.count())})),
+      objects_out_(ports.out<msg::Object>("object", {.rate = all_at_once(objects_.count())})),
+      object_releases_(ports.out<msg::ObjectRelease>("object_release", {.rate = all_at_once(objects_.count())})),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const double feed_m =
@@ -219,6 +222,7 @@ void TerrainPagerNode::page(const msg::Pose& pose) {
     ports_.count("tiles_released");
   }
   exchange_meshes(motion.position_enu_m);
+  exchange_objects(motion.position_enu_m);
   report_paging(decision);
   const bool inside = terrain_->extent().contains(motion.position_enu_m);
   ports_.health(inside ? "ok" : "degraded", inside ? "" : "the vehicle is outside the terrain");
@@ -249,6 +253,18 @@ void TerrainPagerNode::exchange_meshes(const Vec2& place_enu_m) {
   for (const std::int64_t number : decision.release) {
     mesh_releases_.send({number});
     ports_.count("meshes_released");
+  }
+}
+
+void TerrainPagerNode::exchange_objects(const Vec2& place_enu_m) {
+  const auto decision = objects_.update(place_enu_m, margins_);
+  for (const msg::Object* object : decision.publish) {
+    objects_out_.send(*object);
+    ports_.count("objects_published");
+  }
+  for (const std::int64_t number : decision.release) {
+    object_releases_.send({number});
+    ports_.count("objects_released");
   }
 }
 

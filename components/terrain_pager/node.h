@@ -7,6 +7,7 @@
 #include "components/runtime/ports.h"
 #include "components/terrain_pager/config.h"
 #include "components/terrain_pager/meshes.h"
+#include "components/terrain_pager/objects.h"
 #include "components/terrain_pager/paging.h"
 #include "components/terrain_pager/resident.h"
 #include "components/terrain_pager/tile_cache.h"
@@ -58,6 +59,7 @@ class TerrainPagerNode {
   void publish(const pager::TileKey& key);
   void report_cache();
   void exchange_meshes(const source::Vec2& place_enu_m);
+  void exchange_objects(const source::Vec2& place_enu_m);
   void report_paging(const pager::Paging::Decision& decision);
 
   Config config_;
@@ -68,6 +70,7 @@ class TerrainPagerNode {
   pager::TileGrid grid_;
   pager::Box box_;
   pager::Meshes meshes_;
+  pager::Objects objects_;
   std::optional<pager::Paging> paging_;  // from the first update on, when it is known how far heads receive
   paging::Margins margins_;              // the same
   std::optional<pager::TileCache> cache_;
@@ -78,6 +81,8 @@ class TerrainPagerNode {
   Ports::Out<msg::TileRelease> releases_;
   Ports::Out<msg::Mesh> meshes_out_;
   Ports::Out<msg::MeshRelease> mesh_releases_;
+  Ports::Out<msg::Object> objects_out_;
+  Ports::Out<msg::ObjectRelease> object_releases_;
   Ports::Out<msg::Chart> chart_;
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;

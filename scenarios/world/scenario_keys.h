@@ -7,6 +7,7 @@
 
 #include "components/config/read_parameters.h"
 #include "scenarios/world/mission_keys.h"
+#include "scenarios/world/object_keys.h"
 #include "scenarios/world/seabed_keys.h"
 #include "scenarios/world/vehicle_keys.h"
 #include "scenarios/world/vertical_keys.h"
@@ -56,6 +57,7 @@ struct ScenarioKeys {
   VerticalKeys vertical;
   CurrentKeys current;
   SeabedKeys seabed;
+  std::vector<ObjectKeys> objects;
   std::vector<VehicleKeys> vehicles;
   MissionKeys mission;
 
@@ -67,6 +69,7 @@ struct ScenarioKeys {
     visit("vertical", "water level, chart datum, geoid and ellipsoid", self.vertical);
     visit("current", "the current", self.current);
     visit("seabed", "", must(any()), "the seabed", self.seabed);
+    visit("objects", "things on the seabed or in the water that labels know, by names of your own", self.objects);
     visit("vehicles", "vehicles by names of your own", self.vehicles);
     visit("mission", "", must(any()), "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
           self.mission);

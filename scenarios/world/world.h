@@ -21,6 +21,7 @@
 #include "messages/terrain.h"
 #include "scenarios/scenario_file.h"
 #include "scenarios/world/mission.h"
+#include "scenarios/world/objects.h"
 #include "scenarios/world/seabed.h"
 #include "scenarios/world/water.h"
 
@@ -83,6 +84,7 @@ struct World : ScenarioHeader {
   Vertical vertical;
   motion::Current current;
   Seabed seabed;
+  std::vector<SceneObject> objects;    // in the order of the file
   std::vector<Vehicle> vehicles;  // in the order of the file
   Mission mission;
 
