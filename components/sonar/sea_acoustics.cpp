@@ -13,7 +13,6 @@
 
 #include "components/sonar/head_motion.h"
 #include "kernels/acoustics/echo/eigenray_echoes.h"
-#include "kernels/acoustics/echo/smooth_bodies.h"
 
 namespace ensonify {
 namespace {
@@ -67,26 +66,26 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
     paths_.trace(seabed, pose, rays, range_m, refracted, hits);
   };
   const double wavelength_m = sound_speed_mps(pose) / frequency_hz_;
-  distribution.aim(pose, shot.steer, {seabed, wavelength_m}, static_cast<float>(range_m), refracted, trace,
-                   memory.plan);
+  distribution.aim(pose, shot.steer, {seabed, wavelength_m, cells.cell_m()}, static_cast<float>(range_m), refracted,
+                   trace, memory.plan);
 
   const seabed::ClassTables& backscatter =
       environment_->backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);
   HitSums sums;
   memory.insonified.clear();
-  memory.smooth.clear();
+  memory.bodies.clear();
   for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
     distribution.trace(memory.plan, first, shot.rays_per_batch, trace, memory.batch);
     sums = sums + weigh(shot, backscatter, seabed.contributors(), memory);
     const profile::Span span(profile::Stage::kMerge);
     const echo::Insonification batch{pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2,
                                      memory.backscatter};
-    echo::take_smooth_facets(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, memory.batch.hits,
-                             memory.smooth);
+    echo::take_bodies(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, cells.stream(),
+                      memory.batch.hits, memory.bodies);
     cells.add(batch, memory.insonified);
   }
   const profile::Span span(profile::Stage::kMerge);
-  return {echo::SpeckleCells::gather(memory.insonified), memory.smooth, sums};
+  return {echo::SpeckleCells::gather(memory.insonified, memory.bodies.rough), memory.bodies.smooth, sums};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.

@@ -15,6 +15,7 @@
 #include "components/sonar/quality.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/arrival.h"
+#include "kernels/acoustics/echo/body_echoes.h"
 #include "kernels/acoustics/echo/interference.h"
 #include "kernels/acoustics/echo/multipath.h"
 #include "kernels/acoustics/echo/pulse.h"
@@ -171,7 +172,7 @@ struct ShotMemory {
   std::vector<float> source_upa2m2, backscatter;
   // Of all.
   echo::SpeckleCells::Accumulator insonified;
-  echo::Scatterers smooth;
+  echo::BodyScatterers bodies;
   echo::Receivers receivers;
   echo::EchoMemory echoes;
   echo::Arrivals arrivals, coherent;

@@ -69,8 +69,10 @@ TEST_CASE("objects are read, numbered, and their classes too") {
 TEST_CASE("objects with a mistake are refused with their place") {
   CHECK(problems_of("on_seabed: {at_m: [0, 0]}") == "s.yaml:6:6: objects.a: needs one of sphere, box, cylinder, plate");
   CHECK(problems_of("sphere: {diameter_m: 1}") == "s.yaml:6:6: objects.a: needs one of on_seabed, position_m");
-  CHECK(problems_of("sphere: {diameter_m: 1}, box: {size_m: [1, 1, 1]}, position_m: [0, 0, -5]") == "");
-  CHECK(problems_of("sphere: {diameter_m: 1}, position_m: [0, 0, -5], on_seabed: {at_m: [0, 0]}") == "");
+  CHECK(problems_of("sphere: {diameter_m: 1}, box: {size_m: [1, 1, 1]}, position_m: [0, 0, -5]") ==
+        "s.yaml:6:37: objects.a.box: stands beside sphere; give one shape");
+  CHECK(problems_of("sphere: {diameter_m: 1}, position_m: [0, 0, -5], on_seabed: {at_m: [0, 0]}") ==
+        "s.yaml:6:44: objects.a.position_m: stands beside on_seabed; give one or the other");
   CHECK(problems_of("sphere: {diameter_m: 0}, position_m: [0, 0, -5]") ==
         "s.yaml:6:28: objects.a.sphere.diameter_m: 0 is outside [0.001, 1000]");
   CHECK(problems_of("sphere: {diameter_m: 1}, position_m: [0, 0, -5], sediment: 3") ==

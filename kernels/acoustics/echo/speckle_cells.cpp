@@ -176,9 +176,12 @@ void SpeckleCells::take_energies(const Bucket& bucket, Scatterers& found) {
   }
 }
 
-const Scatterers& SpeckleCells::gather(Accumulator& sum) {
+const Scatterers& SpeckleCells::gather(Accumulator& sum, const Scatterers& more) {
   tbb::parallel_for(std::size_t{0}, kBuckets,
                     [&](std::size_t bucket) { take_energies(sum.buckets_[bucket], sum.found_); });
+  const std::size_t own = sum.found_.size();
+  sum.found_.resize(own + more.size());
+  for (std::size_t i = 0; i < more.size(); ++i) sum.found_.set(own + i, more[i]);
   return sum.found_;
 }
 

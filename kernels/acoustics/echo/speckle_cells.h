@@ -74,7 +74,11 @@ class SpeckleCells {
 
   /// The scatterers of all batches since the accumulator was cleared, in the order in which rays find them, whatever
   /// the batches. They lie in the accumulator until it is cleared.
-  static const Scatterers& gather(Accumulator& sum);
+  /// After them come `more`, which other stages have found.
+  static const Scatterers& gather(Accumulator& sum, const Scatterers& more = {});
+
+  double cell_m() const { return cell_m_; }
+  const random::Stream& stream() const { return stream_; }
 
  private:
   static void merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes);

@@ -1,7 +1,6 @@
 // Rays to bodies: RayDistribution's, as those to facets of tiles are.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "kernels/acoustics/trace/towards.h"
@@ -12,16 +11,12 @@ namespace {
 using frames::Vec3;
 using solids::Facet;
 
-constexpr double kFewestRays = 64.0;      // of a body, at any quality
-constexpr std::size_t kMostToBodies = 4;  // of all rays one in so many
-constexpr double kWithin_m = 0.01;        // a hit counts so far beyond its facet, for what bending misplaces
+constexpr double kFewestRays = 64.0;       // of a body, at any quality
+constexpr double kOfFacetOfTile = 0.25;    // rays to a piece over those to a facet of a tile
+constexpr double kPieceOverRadius = 0.25;  // no piece of a body is larger
+constexpr std::size_t kMostToBodies = 4;   // of all rays one in so many
+constexpr double kWithin_m = 0.01;         // a hit counts so far beyond its piece, for what bending misplaces
 constexpr std::uint64_t kBodies = 0x626f64696573ULL;  // of the stream
-
-Vec3 middle_of(const Facet& facet) { return (facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3.0; }
-
-Vec3 across(const Facet& facet) {
-  return (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
-}
 
 double longest_side_m(const Facet& facet) {
   double longest_m = 0.0;
@@ -34,28 +29,20 @@ bool faces(const Facet& facet, const Vec3& head_enu_m, bool two_sided) {
   return two_sided || across(facet).dot(head_enu_m - middle_of(facet)) > 0.0;
 }
 
-/// Sides of facets of smooth bodies at a distance: a quarter of the Fresnel zone, so that the wave is plane across
-/// them, and half of what is resolved along the way.
-double plane_side_m(double wavelength_m, double away_m, double range_resolution_m) {
-  return std::min(0.25 * std::sqrt(wavelength_m * away_m), 0.5 * range_resolution_m);
+bool is_wide(const FacetView& view, const Eigen::AlignedBox3d& box_enu_m) {
+  return 0.5 * box_enu_m.diagonal().norm() > kWidest * (box_enu_m.center() - view.head.position_enu_m).norm();
 }
 
-/// Directions to the places of a body; to each of its facets anew where one fit does not hold for all of it.
+/// Directions to the places of a body; to each anew where one fit does not hold for all of it.
 class TowardsBody {
  public:
-  TowardsBody(const FacetView& view, const ShownBody& body)
-      : view_(view), wide_(view.refracted != nullptr && is_wide(view, body.box_enu_m)) {
-    if (!wide_) whole_ = Towards::make(view, body.box_enu_m);
-    each_ = view.refracted != nullptr && !whole_;
-  }
-
-  static bool is_wide(const FacetView& view, const Eigen::AlignedBox3d& box_enu_m) {
-    return 0.5 * box_enu_m.diagonal().norm() > kWidest * (box_enu_m.center() - view.head.position_enu_m).norm();
+  TowardsBody(const FacetView& view, const ShownBody& body) : view_(view) {
+    if (view.refracted == nullptr || !is_wide(view, body.box_enu_m)) whole_ = Towards::make(view, body.box_enu_m);
   }
 
   /// Nothing where no path goes there.
   std::optional<Vec3> operator()(const Vec3& place_enu_m) const {
-    if (!each_) return (*whole_)(place_enu_m);
+    if (whole_) return (*whole_)(place_enu_m);
     const Vec3 around = Vec3::Constant(1e-3);
     const auto towards = Towards::make(view_, {place_enu_m - around, place_enu_m + around});
     if (!towards) return std::nullopt;
@@ -64,106 +51,126 @@ class TowardsBody {
 
  private:
   const FacetView& view_;
-  bool wide_, each_ = false;
   std::optional<Towards> whole_;
 };
+
+/// How large the pieces of bodies are that rays go to.
+struct PieceSize {
+  const Targets& of;
+  double range_resolution_m;
+  double coarser = 1.0;  // of smooth ones, where there would be too many
+
+  /// Of a smooth body: a quarter of the Fresnel zone, so that the wave is plane across it, and half of what is resolved
+  /// along the way. Of others: as patches of seabed are.
+  double side_m(const ShownBody& shown, double away_m) const {
+    if (shown.body->smooth)
+      return coarser * std::min(0.25 * std::sqrt(of.wavelength_m * away_m), 0.5 * range_resolution_m);
+    return std::min(of.patch_m, kPieceOverRadius * 0.5 * shown.box_enu_m.diagonal().norm());
+  }
+};
+
+/// About how many pieces the smooth ones among these bodies have.
+double count_smooth(std::span<const std::uint32_t> bodies, const Targets& of, const Vec3& head, const PieceSize& size) {
+  double count = 0.0;
+  for (const std::uint32_t b : bodies) {
+    const ShownBody& shown = of.bodies[b];
+    if (!shown.body->smooth) continue;
+    for (std::size_t t = 0; t < shown.body->surface.mesh.triangle.size(); ++t) {
+      const Facet facet = facet_of(shown.body->surface, t);
+      const double side_m = size.side_m(shown, (middle_of(facet) - head).norm());
+      count += 1.0 + across(facet).norm() / (side_m * side_m);
+    }
+  }
+  return count;
+}
 
 }  // namespace
 
 void RayDistribution::aim_at_bodies(const Probes& probes, const Targets& of, const FacetView& view, FacetMemory& memory,
                                     FacetTargets& targets) const {
-  targets.body_facets.clear();
+  targets.body_pieces.clear();
   targets.bodies.clear();
-  memory.body_facets.clear();
+  memory.pieces.clear();
   const Vec3& head = view.head.position_enu_m;
-  const auto add_ray = [&](const Vec3& direction, const BodyTarget& target) {
-    if (!holds(probes, direction)) return;
-    memory.rays.push_back({direction.normalized().cast<float>(), 0.0F});
-    targets.body_facets.push_back(target);
-  };
-
-  std::vector<std::uint32_t> in_volume;
-  double smooth_parts = 0.0;  // about how many
+  std::vector<std::uint32_t> bodies;  // in the volume
   for (std::uint32_t b = 0; b < of.bodies.size(); ++b) {
     const ShownBody& shown = of.bodies[b];
-    if (shown.body->smooth) targets.bodies.push_back(shown.tile);
+    const bool as_seabed = !shown.body->smooth && is_wide(view, shown.box_enu_m);
+    if (!as_seabed) targets.bodies.push_back(shown.tile);
     const double half_m = 0.5 * shown.box_enu_m.diagonal().norm();
     const Vec3 off = view.head.enu_from_head.conjugate() * (shown.box_enu_m.center() - head);
     const double away_m = off.norm();
     const double radius_m = half_m + (view.refracted != nullptr ? kMostRefraction_rad * away_m : 0.0);
-    if (away_m - half_m > view.max_range_m || !touches(probes, off, radius_m)) continue;
-    if (!shown.body->smooth && TowardsBody::is_wide(view, shown.box_enu_m)) continue;  // as the seabed is
-    in_volume.push_back(b);
-    if (!shown.body->smooth) continue;
-    for (std::size_t t = 0; t < shown.body->surface.mesh.triangle.size(); ++t) {
-      const Facet facet = facet_of(shown.body->surface, t);
-      const double side_m =
-          plane_side_m(of.wavelength_m, (middle_of(facet) - head).norm(), settings_.range_resolution_m);
-      smooth_parts += 1.0 + across(facet).norm() / (side_m * side_m);
-    }
-  }
-  const auto most = static_cast<double>(settings_.most_rays / kMostToBodies);
-  const double coarser = std::sqrt(std::max(1.0, smooth_parts / most));
-
-  for (const std::uint32_t b : in_volume) {
-    const ShownBody& shown = of.bodies[b];
-    const Body& body = *shown.body;
-    const TowardsBody towards(view, shown);
-    const std::size_t first_facet = memory.body_facets.size();
-    double wanted = 0.0;
-    for (std::size_t t = 0; t < body.surface.mesh.triangle.size(); ++t) {
-      const Facet whole = facet_of(body.surface, t);
-      if (!faces(whole, head, body.two_sided)) continue;
-      if (body.smooth) {
-        const double side_m =
-            coarser * plane_side_m(of.wavelength_m, (middle_of(whole) - head).norm(), settings_.range_resolution_m);
-        solids::split_facet(whole, side_m, [&](const Facet& part) {
-          const auto direction = towards(middle_of(part));
-          const auto within_m = static_cast<float>(longest_side_m(part) + kWithin_m);
-          if (direction)
-            add_ray(*direction, {shown.tile, &body, part, static_cast<float>(0.5 * across(part).norm()), within_m,
-                                 middle_of(part)});
-        });
-        continue;
-      }
-      std::array<Vec3, 3> corners;
-      bool reached = true;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto direction = towards(whole.corners[c]);
-        reached = reached && direction;
-        if (direction) corners[c] = *direction;
-      }
-      if (!reached) continue;
-      const double rays = rays_to_facet(probes, corners);
-      if (rays > 0.0) memory.body_facets.push_back({b, static_cast<std::uint32_t>(t), whole, rays}), wanted += rays;
-    }
-    if (body.smooth) continue;
-    targets.bodies.push_back(shown.tile);
-    const double more = std::max(1.0, kFewestRays / std::max(wanted, 1e-9));
-    for (std::size_t f = first_facet; f < memory.body_facets.size(); ++f) memory.body_facets[f].wanted *= more;
+    if (away_m - half_m > view.max_range_m || as_seabed || !touches(probes, off, radius_m)) continue;
+    bodies.push_back(b);
   }
   std::ranges::sort(targets.bodies);
+  if (bodies.empty()) return;
 
-  const double all = std::accumulate(memory.body_facets.begin(), memory.body_facets.end(), 0.0,
-                                     [](double sum, const auto& facet) { return sum + std::max(1.0, facet.wanted); });
-  const double share = std::min(1.0, most / std::max(1.0, all));
+  const auto most = static_cast<double>(settings_.most_rays / kMostToBodies);
+  PieceSize size{of, settings_.range_resolution_m};
+  size.coarser = std::sqrt(std::max(1.0, count_smooth(bodies, of, head, size) / most));
+  for (const std::uint32_t b : bodies) gather_pieces(probes, of, b, view, size.coarser, memory);
+
+  double rough = 0.0;
+  for (const FacetMemory::Piece& piece : memory.pieces)
+    rough += of.bodies[piece.body].body->smooth ? 0.0 : std::max(1.0, piece.wanted);
+  const double share = std::min(1.0, most / std::max(1.0, rough));
   std::optional<TowardsBody> towards;
   std::uint32_t towards_body = 0;
-  for (const FacetMemory::BodyFacet& facet : memory.body_facets) {
-    if (!towards || towards_body != facet.body) towards.emplace(view, of.bodies[facet.body]), towards_body = facet.body;
-    const ShownBody& shown = of.bodies[facet.body];
-    const auto random = stream_.bits(kBodies, shown.contributor, facet.triangle);
-    const double wanted = share * facet.wanted;
+  for (const FacetMemory::Piece& piece : memory.pieces) {
+    if (!towards || towards_body != piece.body) towards.emplace(view, of.bodies[piece.body]), towards_body = piece.body;
+    const ShownBody& shown = of.bodies[piece.body];
+    const bool smooth = shown.body->smooth;
+    const auto random = stream_.bits(kBodies, shown.contributor, piece.number);
+    const double wanted = smooth ? 1.0 : share * piece.wanted;
     if (wanted < 1.0 && 0x1p-32 * random[0] >= wanted) continue;
     const auto count = static_cast<std::uint32_t>(std::ceil(wanted));
-    const double area_m2 = 0.5 * across(facet.facet).norm() / (wanted < 1.0 ? wanted : static_cast<double>(count));
-    const auto within_m = static_cast<float>(longest_side_m(facet.facet) + kWithin_m);
+    const double area_m2 = 0.5 * across(piece.facet).norm() / (wanted < 1.0 ? wanted : static_cast<double>(count));
+    const auto within_m = static_cast<float>(longest_side_m(piece.facet) + kWithin_m);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const Vec3 place = place_on(facet.facet.corners, random[1], k);
-      if (const auto direction = (*towards)(place))
-        add_ray(*direction, {shown.tile, shown.body.get(), facet.facet, static_cast<float>(area_m2), within_m, place});
+      const Vec3 place = smooth ? middle_of(piece.facet) : place_on(piece.facet.corners, random[1], k);
+      const auto direction = (*towards)(place);
+      if (!direction || !holds(probes, *direction)) continue;
+      memory.rays.push_back({direction->normalized().cast<float>(), 0.0F});
+      targets.body_pieces.push_back(
+          {shown.tile, shown.body.get(), piece.facet, piece.number, static_cast<float>(area_m2), within_m, place});
     }
   }
+}
+
+/// The pieces of a body that face the head, and how many rays they want.
+void RayDistribution::gather_pieces(const Probes& probes, const Targets& of, std::uint32_t body, const FacetView& view,
+                                    double coarser, FacetMemory& memory) const {
+  const ShownBody& shown = of.bodies[body];
+  const Vec3& head = view.head.position_enu_m;
+  const PieceSize size{of, settings_.range_resolution_m, coarser};
+  const TowardsBody towards(view, shown);
+  const std::size_t first = memory.pieces.size();
+  double wanted = 0.0;
+  for (std::size_t t = 0; t < shown.body->surface.mesh.triangle.size(); ++t) {
+    const Facet whole = facet_of(shown.body->surface, t);
+    if (!faces(whole, head, shown.body->two_sided)) continue;
+    std::uint64_t number = std::uint64_t{t} << 32;
+    split_facet(whole, size.side_m(shown, (middle_of(whole) - head).norm()), [&](const Facet& facet) {
+      const FacetMemory::Piece piece{body, number++, facet, 1.0};
+      if (shown.body->smooth) return memory.pieces.push_back(piece);
+      std::array<Vec3, 3> corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto direction = towards(facet.corners[c]);
+        if (!direction) return;
+        corners[c] = *direction;
+      }
+      const double rays = rays_to_facet(probes, corners);
+      if (!(rays > 0.0)) return;
+      memory.pieces.push_back(piece);
+      memory.pieces.back().wanted = std::max(std::min(rays, 1.0), kOfFacetOfTile * rays);
+      wanted += memory.pieces.back().wanted;
+    });
+  }
+  if (shown.body->smooth) return;
+  const double more = std::max(1.0, kFewestRays / std::max(wanted, 1e-9));
+  for (std::size_t f = first; f < memory.pieces.size(); ++f) memory.pieces[f].wanted *= more;
 }
 
 /// Rays to bodies count where they hit near their place; others that hit such a body do not.

@@ -35,7 +35,8 @@ Body ball(bool smooth) { return body_of(solids::Sphere{2 * kRadius_m}, kMiddle, 
 
 Sounding ping_at(const Scene& scene, double quality = 1.0) {
   const RaySettings settings{quality, 0.075};
-  return trace_rays(scene, {mills_cross(), settings, random::Stream{1, "rays"}}, kHead, Targets(scene.adapted(), 5e-3));
+  return trace_rays(scene, {mills_cross(), settings, random::Stream{1, "rays"}}, kHead,
+                    Targets(scene.adapted(), 5e-3, 0.05));
 }
 
 std::size_t hits_of(const Sounding& ping, std::uint32_t contributor) {
@@ -135,7 +136,7 @@ TEST_CASE("through bent water a body is hit as often") {
   mesh.tabulate(water, kHead, 1.0, kFar_m, table);
   const RaySettings settings{1.0, 0.075};
   const Sounding bent =
-      trace_rays(scene, {mills_cross(), settings, random::Stream{1, "rays"}}, kHead, Targets(mesh, 5e-3), &table);
+      trace_rays(scene, {mills_cross(), settings, random::Stream{1, "rays"}}, kHead, Targets(mesh, 5e-3, 0.05), &table);
   const auto straight = hits_of(ping_at(scene), body_contributor(kBall));
   CHECK(hits_of(bent, body_contributor(kBall)) > 0.98 * static_cast<double>(straight));
 }

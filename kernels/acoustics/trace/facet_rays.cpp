@@ -127,7 +127,7 @@ void RayDistribution::settle(const Plan& plan, Batch& batch) {
   const std::size_t before_bodies = plan.spread_ + targets.facets.size();
   const std::size_t to_bodies = std::min(rays.size(), before_bodies - std::min(before_bodies, batch.first_));
   const std::size_t first_body = batch.first_ + to_bodies - std::min(batch.first_ + to_bodies, before_bodies);
-  batch.to_bodies = std::span(targets.body_facets).subspan(first_body, rays.size() - to_bodies);
+  batch.to_bodies = std::span(targets.body_pieces).subspan(first_body, rays.size() - to_bodies);
   settle_body_rays(targets, spread, batch);
   if (targets.tiles.empty()) return;
   const auto facet_hit = [&](std::size_t i, const terrain::Tile& tile) {

@@ -27,18 +27,21 @@ struct FacetView {
 struct Targets {
   std::span<const Object> objects;
   std::span<const ShownBody> bodies = {};
-  double wavelength_m = 0.0;  // of the carrier: facets of smooth bodies are as small as it asks for
+  double wavelength_m = 0.0;  // of the carrier: pieces of smooth bodies are as small as it asks for,
+  double patch_m = 1.0;       // those of others as patches of the seabed that answer as one point
 
   Targets() = default;
   Targets(std::span<const Object> of) : objects(of) {}  // NOLINT(google-explicit-constructor): these alone
-  Targets(const Mesh& of, double wave_m) : objects(of.objects()), bodies(of.bodies()), wavelength_m(wave_m) {}
+  Targets(const Mesh& of, double wave_m, double of_patch_m)
+      : objects(of.objects()), bodies(of.bodies()), wavelength_m(wave_m), patch_m(of_patch_m) {}
 };
 
 /// A ray's place on a body.
 struct BodyTarget {
   std::uint32_t tile = 0;      // the body's number, as Hit has it
   const Body* body = nullptr;  // while its mesh lives
-  solids::Facet facet;         // a part of the surface: of a smooth body all that this ray stands for
+  solids::Facet facet;         // a piece of the surface
+  std::uint64_t piece = 0;     // its number: it does not depend on the head's place, but for smooth bodies
   float area_m2 = 0.0F;        // of the surface that it stands for
   float within_m = 0.0F;       // a hit counts that is no farther from the place
   frames::Vec3 place_enu_m = frames::Vec3::Zero();
@@ -60,7 +63,7 @@ struct FacetTargets {
   std::vector<Tile> tiles;    // by number
   std::vector<bool> cells;    // whether taken, tile by tile, row by row
   // Of bodies: their rays come after those of the facets above.
-  std::vector<BodyTarget> body_facets;  // by ray
+  std::vector<BodyTarget> body_pieces;  // by ray
   std::vector<std::uint32_t> bodies;    // numbers of those that other rays pass over, rising
 };
 
@@ -74,14 +77,13 @@ struct FacetMemory {
   };
   Rays rays;
   std::vector<Facet> facets;
-  // Of bodies that scatter with random phase.
-  struct BodyFacet {
-    std::uint32_t body;      // of those that are shown
-    std::uint32_t triangle;  // of its surface
+  struct Piece {
+    std::uint32_t body;    // of those that are shown
+    std::uint64_t number;  // among the body's
     solids::Facet facet;
     double wanted;
   };
-  std::vector<BodyFacet> body_facets;
+  std::vector<Piece> pieces;  // of bodies
 };
 
 /// One of the two coordinates of a direction, and what the head does along it.
@@ -140,8 +142,8 @@ struct RaySettings {
 ///
 /// Small things that probes may miss come as objects (Mesh::objects()). Each of their facets in the volume has rays of
 /// its own (FacetRays): 16 at normal quality, at least one in the main lobe, and more where it is larger than
-/// what is resolved. So has each facet of a body that faces the head (Mesh::bodies()), a body at least 64 at any
-/// quality. A smooth body has one ray to each part of its surface across which the wave is plane, and no other counts.
+/// what is resolved. So has each piece of a body that faces the head (Mesh::bodies()), a body at least 64 at any
+/// quality. A smooth body has one ray to each piece across which the wave is plane, and no other counts.
 ///
 /// The number of rays grows with what is seen, about rays per cell x (resolution cells or facets, whichever are more)
 /// in the main lobe, and a third more beyond it; not with the number of beams. A corner that hits nothing counts as
@@ -301,6 +303,8 @@ class RayDistribution {
   /// The same of bodies; their rays are appended.
   void aim_at_bodies(const Probes& probes, const Targets& of, const FacetView& view, FacetMemory& memory,
                      FacetTargets& targets) const;
+  void gather_pieces(const Probes& probes, const Targets& of, std::uint32_t body, const FacetView& view, double coarser,
+                     FacetMemory& memory) const;
   static void settle_body_rays(const FacetTargets& targets, std::size_t spread, Batch& batch);
   void aim_beyond_probes(const Targets& targets, float max_range_m, const refraction::PathTable* refracted,
                          Plan& plan) const;

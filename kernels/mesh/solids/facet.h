@@ -16,6 +16,14 @@ struct Facet {
   std::array<double, 3> bulge_m{};  // height of the surface over the middle of each edge, along the normal
 };
 
+inline frames::Vec3 middle_of(const Facet& facet) {
+  return (facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3.0;
+}
+/// Along its normal, as long as twice its area.
+inline frames::Vec3 across(const Facet& facet) {
+  return (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
+}
+
 /// A triangle of a surface, in its frame.
 Facet facet_of(const Surface& surface, std::size_t triangle);
 
