@@ -13,40 +13,12 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/vehicle/runlines/runline.h"
+#include "launch/junit.h"
 #include "launch/process/profiled_node.h"
 
 namespace ensonify::launcher {
 
 namespace {
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\n': out += "&#10;"; break;
-      default: out += byte < 0x20 && c != '\t' ? '?' : c;  // XML has no other control characters
-    }
-  }
-  return out;
-}
-
-std::string test_case(const std::string& suite, const std::string& name, double time_s, const std::string& failure) {
-  const std::string head =
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", suite, xml_text(name), time_s);
-  return failure.empty()
-             ? head + "/>\n"
-             : head + fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", xml_text(failure));
-}
-
-std::string test_suite(const std::string& name, std::size_t tests, std::size_t failures, const std::string& cases) {
-  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n", name, tests,
-                     failures, cases);
-}
 
 constexpr double kLineEvery_s = 10.0;
 
@@ -98,22 +70,22 @@ std::string junit_xml(const RunReport& report) {
   std::size_t failed = 0, died = 0;
   for (const auto& item : report.expectations) {
     failed += item.ok ? 0 : 1;
-    expectations += test_case("expect", item.name, item.t_s,
-                              item.ok                ? ""
-                              : item.message.empty() ? "not fulfilled"
-                                                     : item.message);
+    expectations += junit::test_case("expect", item.name, item.t_s,
+                                     item.ok                ? ""
+                                     : item.message.empty() ? "not fulfilled"
+                                                            : item.message);
   }
   for (const auto& process : report.processes) {
     died += process.fault ? 1 : 0;
-    processes += test_case("process", process.name, process.cpu_s, process.fault ? process.fault->message : "");
+    processes += junit::test_case("process", process.name, process.cpu_s, process.fault ? process.fault->message : "");
   }
   if (report.cause) {  // also what no single process did, such as Ctrl-C
     ++died;
-    processes += test_case("run", "run", report.wall_s, report.cause->culprit + " " + report.cause->message);
+    processes += junit::test_case("run", "run", report.wall_s, report.cause->culprit + " " + report.cause->message);
   }
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" +
-         test_suite("expect", report.expectations.size(), failed, expectations) +
-         test_suite("processes", report.processes.size() + (report.cause ? 1 : 0), died, processes) + "</testsuites>\n";
+  return junit::document(
+      junit::test_suite("expect", report.expectations.size(), failed, expectations) +
+      junit::test_suite("processes", report.processes.size() + (report.cause ? 1 : 0), died, processes));
 }
 
 std::string json_text(const RunReport& report) {

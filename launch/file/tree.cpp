@@ -206,7 +206,7 @@ class Loader {
 };
 
 const std::vector<std::string> kScenarioSections = {"site",    "time",   "seed",     "water",  "vertical",
-                                                    "current", "seabed", "vehicles", "mission"};
+                                                    "current", "seabed", "objects", "vehicles", "mission"};
 
 }  // namespace
 

@@ -24,6 +24,7 @@ Opened open_seabed(const std::string& scenario_or_folder) {
   opened.spacing_m = source::post_spacing_m(options, *opened.terrain);
   opened.lsb_m = source::lsb_m(options, *opened.terrain);
   opened.meshes = world.seabed.meshes;
+  opened.objects = world.objects;
   opened.seed = world.seed;
   if (world.seabed.kind == Seabed::Kind::kLayers) opened.layered = world.seabed.layered;
   return opened;
@@ -42,7 +43,7 @@ int main(int argc, char** argv) {
       terrain_tool::add_build(app),  terrain_tool::add_import(app), terrain_tool::add_info(app),
       terrain_tool::add_verify(app), terrain_tool::add_sample(app), terrain_tool::add_plot(app),
       terrain_tool::add_truth(app),  terrain_tool::add_grid(app),   terrain_tool::add_mesh(app),
-      terrain_tool::add_lod(app),    terrain_tool::add_marks(app),  terrain_tool::add_facets(app)};
+      terrain_tool::add_lod(app),    terrain_tool::add_marks(app),  terrain_tool::add_facets(app), terrain_tool::add_objects(app)};
   return tool_main(app, argc, argv, [&] {
     for (const auto& verb : verbs) {
       if (verb.app->parsed()) return verb.run();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/terrain/source_of.h"
+#include "scenarios/world/objects.h"
 
 namespace CLI {
 class App;
@@ -29,6 +30,7 @@ Verb add_info(CLI::App& parent);
 Verb add_lod(CLI::App& parent);
 Verb add_marks(CLI::App& parent);
 Verb add_mesh(CLI::App& parent);
+Verb add_objects(CLI::App& parent);
 Verb add_plot(CLI::App& parent);
 Verb add_sample(CLI::App& parent);
 Verb add_truth(CLI::App& parent);
@@ -39,6 +41,7 @@ struct Opened {
   std::unique_ptr<source::TerrainSource> terrain;
   double spacing_m = 1.0, lsb_m = 2e-4;
   std::vector<SeabedMesh> meshes;  // that the scenario names
+  std::vector<SceneObject> objects;
   std::uint64_t seed = 0;
   std::optional<LayeredSeabed> layered;  // of a generated one
 };

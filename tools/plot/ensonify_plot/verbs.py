@@ -13,6 +13,7 @@ from ensonify_plot.navigation import navigation_picture
 from ensonify_plot.ping import Show, fan_picture, ping_picture
 from ensonify_plot.plan import add_plan, read_plan
 from ensonify_plot.results import open_record, save_picture
+from ensonify_plot.scene import add_scene
 from ensonify_plot.seabed import add_seabed
 from ensonify_plot.errors import UserError
 from ensonify_plot.survey import origin_of, read_survey
@@ -52,6 +53,7 @@ def add_verbs(verbs) -> None:
     _add_coverage(verbs)
     add_seabed(verbs)
     add_lod(verbs)
+    add_scene(verbs)
 
 
 def _add_waterfall(verbs) -> None:

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "components/terrain/terrain_source.h"
+#include "kernels/mesh/solids/solid.h"
+#include "messages/terrain.h"
+#include "scenarios/world/objects.h"
+
+namespace ensonify::source {
+
+/// A scenario's object where it stands.
+struct PlacedObject {
+  msg::Object message;
+  solids::Surface surface;  // coarse: a hundredth of its size
+  Eigen::AlignedBox3d box_enu_m;
+};
+
+/// On the seabed an object is so deep that the wanted share of its volume lies below the height of `ground` at its
+/// middle. Throws ConfigError, with its place in the scenario, for one that stands beside `ground` or over a hole in
+/// it, or that is wholly below it.
+PlacedObject placed_object(const SceneObject& object, const TerrainSource& ground);
+
+/// Throws ConfigError of that object.
+[[noreturn]] void refuse(const SceneObject& object, const std::string& why);
+
+}  // namespace ensonify::source
