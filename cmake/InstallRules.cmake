@@ -34,5 +34,5 @@ configure_package_config_file(cmake/ensonifyConfig.cmake.in ${CMAKE_BINARY_DIR}/
                               INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/ensonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/ensonifyConfig.cmake ${CMAKE_BINARY_DIR}/ensonifyConfigVersion.cmake
-              cmake/LibraryDependencies.cmake
+              cmake/LaunchTests.cmake cmake/LibraryDependencies.cmake
         DESTINATION ${package} COMPONENT development)

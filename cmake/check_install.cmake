@@ -21,3 +21,8 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/cmake/consumer -B ${work}/build -D CM
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_EXPORT_NO_PACKAGE_REGISTRY=ON)
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/consumer)
+
+# And one whose tests are launch files.
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/launch_tests -B ${work}/launch_tests -D CMAKE_PREFIX_PATH=${work}/prefix
+    -D ENSONIFY_PROGRAM=${BUILD}/bin/ensonify -D CMAKE_EXPORT_NO_PACKAGE_REGISTRY=ON)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${work}/launch_tests --no-tests=error --output-on-failure)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the pictures of README.md, docs/manual/plots.md and docs/manual/first-survey.md from runs, by the commands that the pages give.
 
-    docs/draw_plots.py demo.mcap first.mcap forward_looking.mcap scanning.mcap sidescan.mcap
+    docs/draw_plots.py demo.mcap first.mcap forward_looking.mcap scanning.mcap sidescan.mcap targets.mcap
 
 The records are those of launch/demo.yaml, of docs/manual/first-survey.md with `amplitude_every: 1`, and of the launches named like them.
 """
@@ -33,7 +33,7 @@ def draw(name, *command, of=None):
         small.save(DOCS / "pictures" / f"{name}.png", optimize=True)
 
 
-def draw_all(demo, survey, ahead, around, aside):
+def draw_all(demo, survey, ahead, around, aside, targets):
     draw("survey_and_truth", "survey", demo, of="survey_and_truth.png")
     draw("plot_coverage", "coverage", demo)
     draw("plot_fls", "fls", ahead)
@@ -45,9 +45,11 @@ def draw_all(demo, survey, ahead, around, aside):
     draw("plot_waterfall", "waterfall", aside)
     draw("plot_waterfall_ground", "waterfall", aside, "--ground")
     draw("plot_angular_response", "angular-response", demo)
+    draw("targets_fls", "fls", targets)
+    draw("targets_scene", "scene", DOCS.parent / "scenarios/targets/scenario.yaml", "--record", targets)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 6:
+    if len(sys.argv) != 7:
         sys.exit(__doc__)
     draw_all(*sys.argv[1:])

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -144,14 +145,19 @@ std::string junit_of(const std::vector<Found>& found, const std::vector<Job>& jo
   return launcher::junit::document(suites);
 }
 
+/// Without a folder: what would be run, and the arguments that each has.
 ordered_json json_of(const std::vector<Found>& found, const std::vector<Job>& jobs, const Folder* folder) {
   ordered_json launches = ordered_json::array();
+  std::map<std::string, std::vector<std::string>> args;
   for (const Found& one : found) {
-    if (!one.skipped.empty()) launches.push_back({{"launch", one.file}, {"verdict", "skipped"}, {"why", one.skipped}});
-    if (!one.fault.empty()) launches.push_back({{"launch", one.file}, {"verdict", "unreadable"}, {"why", one.fault}});
+    args[one.file] = one.args;
+    if (!one.skipped.empty())
+      launches.push_back({{"launch", one.file}, {"args", one.args}, {"verdict", "skipped"}, {"why", one.skipped}});
+    if (!one.fault.empty())
+      launches.push_back({{"launch", one.file}, {"args", one.args}, {"verdict", "unreadable"}, {"why", one.fault}});
   }
   for (const Job& job : jobs) {
-    ordered_json entry = {{"launch", job.label}, {"id", job.id}};
+    ordered_json entry = {{"launch", job.label}, {"args", args[job.label]}, {"id", job.id}};
     const auto result = folder != nullptr ? folder->result_of(job) : std::nullopt;
     if (folder == nullptr || !result) {
       entry["verdict"] = folder == nullptr ? "listed" : "not run";

@@ -123,12 +123,14 @@ struct Object {
     visit("class_id", "1", "number of the class in labels, from 1", self.class_id);
     visit("shape", "", "sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)", self.shape);
     visit("size_m", "m",
-          "of a sphere its diameter, a box its sides x, y, z, a cylinder diameter and length, a plate x, y; then 0",
+          "diameter of a sphere; sides x, y, z of a box; diameter and length of a cylinder; sides x, y of a plate; "
+          "then 0",
           self.size_m);
     visit("position_enu_m", "m", "world position of its middle", self.position_enu_m);
     visit("enu_from_object", "1", "rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)",
           self.enu_from_object);
-    visit("smooth", "", "its echo follows from its shape; else it scatters as its sediment, with speckle", self.smooth);
+    visit("smooth", "", "whether its echo follows from its shape; else it scatters as its sediment, with speckle",
+          self.smooth);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
   }
 };

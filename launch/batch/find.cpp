@@ -85,6 +85,9 @@ std::optional<Found> read(const std::string& file, const FindOptions& options, b
     const ConfigNode root = parse_config_file(file).root;
     may_expect = direct || root.find("expect") != nullptr || root.find("include") != nullptr;
     found.job.options.args = args_of(root, options.args, used);
+    if (const ConfigNode* args = root.find("args")) {
+      for (const auto& entry : args->entries) found.args.push_back(entry.key);
+    }
     const Launch launch = read_launch(
         found.job.options, [](ConfigReader& from, const std::string& scenario) { read_world(from, scenario); });
     if (!has_expectations(launch)) {

@@ -10,9 +10,10 @@ namespace ensonify::batch {
 /// A launch file that was asked for, directly or by its folder.
 struct Found {
   std::string file;
-  Job job;              // where it can be run
-  std::string skipped;  // why it is not: an argument is missing, or it waits for somebody; "": it is run
-  std::string fault;    // why it cannot be read; "": it can
+  Job job;                        // where it can be run
+  std::vector<std::string> args;  // names of the arguments that it has
+  std::string skipped;            // why it is not: an argument is missing, or it waits for somebody; "": it is run
+  std::string fault;              // why it cannot be read; "": it can
 };
 
 /// What launch files are read with.

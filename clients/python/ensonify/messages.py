@@ -51,6 +51,8 @@ __all__ = [
     "TileRelease",
     "Mesh",
     "MeshRelease",
+    "Object",
+    "ObjectRelease",
     "Chart",
 ]
 
@@ -1144,6 +1146,48 @@ class MeshRelease(Message):
 
 
 @dataclass(eq=False)
+class Object(Message):
+    """A thing on the seabed or in the water that labels know. Truth.
+
+    number [1]: number by which the object is released
+    name: name in the scenario
+    instance [1]: number in labels, from 1
+    class_name: class in labels
+    class_id [1]: number of the class in labels, from 1
+    shape: sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)
+    size_m [m]: of a sphere its diameter, a box its sides x, y, z, a cylinder diameter and length, a plate x, y; then 0
+    position_enu_m [m]: world position of its middle
+    enu_from_object [1]: rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)
+    smooth: its echo follows from its shape; else it scatters as its sediment, with speckle
+    sediment [1]: sediment class of all of it
+    """
+
+    TYPE = "object/1"
+    number: int = 0
+    name: str = ""
+    instance: int = 0
+    class_name: str = ""
+    class_id: int = 0
+    shape: str = ""
+    size_m: tuple = fixed(0.0, 0.0, 0.0)
+    position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    enu_from_object: tuple = fixed(1.0, 0.0, 0.0, 0.0)
+    smooth: bool = False
+    sediment: int = 0
+
+
+@dataclass(eq=False)
+class ObjectRelease(Message):
+    """The pager will not refer to this object again until it sends it anew.
+
+    number [1]: the object's
+    """
+
+    TYPE = "object_release/1"
+    number: int = 0
+
+
+@dataclass(eq=False)
 class Chart(Message):
     """What is known of the terrain as a whole, as on a chart: mission planning may use it.
 
@@ -1207,5 +1251,7 @@ TYPES = {cls.TYPE: cls for cls in (
     TileRelease,
     Mesh,
     MeshRelease,
+    Object,
+    ObjectRelease,
     Chart,
 )}
