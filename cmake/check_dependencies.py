@@ -58,7 +58,7 @@ SEES = {
     "components/record": TALK,
     "components/truth": TALK + KERNELS,
     "components/terrain": WORLD,
-    "components/sonar": TALK + WORLD + ["components/terrain/mesh_message.h"],
+    "components/sonar": TALK + WORLD + ["components/terrain/mesh_message.h", "components/terrain/object_message.h"],
     "components": SHARED + ["launch/file", "launch/process"],
     "scenarios": WORLD,
     "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "components/errors/assert.h"
+#include "components/runtime/injections.h"
 #include "components/runtime/log.h"
 
 namespace ensonify {
@@ -31,6 +32,15 @@ void Ports::connect(std::vector<Feed> feeds, std::map<std::string, std::string> 
   feeds_ = std::move(feeds);
   facts_ = std::move(facts);
   publish_ = std::move(publish);
+  injector_.reset();
+  if (const auto fact = facts_.find(kInjectFact); fact != facts_.end() && !fact->second.empty()) {
+    std::vector<std::string> names;
+    for (const OutPort& port : outs_) names.push_back(port.port);
+    const auto seed = facts_.find("seed");
+    injector_ = std::make_shared<Injector>(
+        injections_of(fact->second), process_, std::move(names), seed == facts_.end() ? 0 : std::stoull(seed->second),
+        [this](const std::string& what) { log::event(*this, "inject", "{}", what); });
+  }
 }
 
 void Ports::publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts) {
@@ -38,6 +48,7 @@ void Ports::publish(std::size_t out_index, msg::Body body, msg::Buffer wall_fact
   ENSONIFY_ASSERT(publish_, process_ + "/" + port.port + ": published outside of an event");
   ENSONIFY_ASSERT(body.size() <= port.max_bytes, process_ + "/" + port.port + ": " + std::to_string(body.size()) +
                                                      " bytes, declared at most " + std::to_string(port.max_bytes));
+  if (injector_) return injector_->pass(now_, out_index, std::move(body), std::move(wall_facts), publish_);
   publish_(out_index, std::move(body), std::move(wall_facts));
 }
 
@@ -70,6 +81,7 @@ void Ports::refuse(const msg::Packet& packet, const std::string& field) {
 void Ports::begin_event(SimTime now) {
   now_ = now;
   finish_requested_ = false;
+  if (injector_) injector_->begin_event(now, publish_);
 }
 
 void Ports::end_event() {

@@ -17,6 +17,8 @@
 
 namespace ensonify {
 
+class Injector;
+
 inline constexpr SimTime kFinishMargin = std::chrono::seconds(1);
 /// The largest `window_s` of a launch file: how far a publisher may run ahead of its readers. Queues and what a reader
 /// accepts must not depend on the file, which a program may not have read.
@@ -135,8 +137,8 @@ class Ports {
   SimTime now() const { return now_; }
   /// Feeds of the inputs, in the order of their ids. Empty in the constructor; complete before the first step.
   const std::vector<Feed>& feeds() const { return feeds_; }
-  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version", "declarations" (declared.h). Complete
-  /// before the first step.
+  /// Facts fixed for the run: "launch" and "scenario" (resolved text), "version", "declarations" (declared.h), and
+  /// where the launch injects faults "inject" (injections.h). Complete before the first step.
   const std::map<std::string, std::string>& facts() const { return facts_; }
 
   /// Publishes an undecoded message on a port (replay).
@@ -200,6 +202,7 @@ class Ports {
   std::vector<InPort> ins_;
   std::vector<PacketHandler> handlers_;
   Publish publish_;
+  std::shared_ptr<Injector> injector_;  // null: nothing is injected
   SimTime now_{0};
   std::map<std::string, msg::Value> declares_;
   bool may_finish_ = false;

@@ -97,6 +97,11 @@ class Wirer {
     }
     std::set<std::string> wired;
     for (const WireRule& rule : rules_) {
+      if (rule.input.empty()) {
+        if (std::find(topic_names_.begin(), topic_names_.end(), rule.topic) == topic_names_.end())
+          problem(rule.place + ": no process publishes " + rule.topic + did_you_mean(rule.topic, topic_names_));
+        continue;
+      }
       if (std::find(inputs.begin(), inputs.end(), rule.input) == inputs.end()) {
         problem(rule.place + ": wiring." + rule.input + ": no process has this input" +
                 did_you_mean(rule.input, inputs));

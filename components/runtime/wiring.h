@@ -24,7 +24,7 @@ Declaration declaration_of(const std::string& component, const Ports& ports);
 
 /// One line of the launch file's `wiring:`.
 struct WireRule {
-  std::string input;  // "auv.command"
+  std::string input;  // "auv.command"; "": none, but the topic must be there
   std::string topic;  // "agent/command"
   SimTime delay{-1};  // negative: as the port declares
   std::string place;  // "demo.yaml:12:3", for messages

@@ -69,6 +69,12 @@ TEST_CASE("a job's id follows from what decides its results, and nothing else") 
   CHECK(id(file, {}, "elsewhere") == first);
   CHECK(id(file, {"clock.rate=3"}) == first);
   CHECK(id(scratch.file("b.yaml", launch_text())) == first);
+  const std::string to_out = kExpect + "after: [[cp, x, $(out)/y]]\n",
+                    exits = "expect: [{exit: {process: agent, code: 3}}]\n";
+  const std::string with_out = scratch.file("c.yaml", launch_text(to_out));
+  CHECK(id(with_out, {}, "elsewhere") == id(with_out));
+  CHECK(id(with_out) != first);
+  CHECK(id(scratch.file("d.yaml", launch_text(exits))) != first);
   CHECK(id(file, {"seabed.post_spacing_m=1"}) != first);
   CHECK(id(file, {"auv.pose_rate_hz=20"}) != first);
   scratch.file("x.py", "two");

@@ -62,13 +62,27 @@ std::set<std::string> files_of(const Launch& launch) {
   return files;
 }
 
+/// A word of `after:` as it was before the output folder was put in.
+std::string without_folder(std::string word, const std::string& out) {
+  if (const std::size_t at = out.empty() ? std::string::npos : word.find(out); at != std::string::npos)
+    word.replace(at, out.size(), "$(out)");
+  return word;
+}
+
 }  // namespace
 
 std::string id_of(const Launch& launch, const std::string& program_folder) {
   Sum sum;
   sum.add(kVersion);
   sum.add(vector_units());
-  sum.add(canonical_text(launch));
+  sum.add(launch.launch_text);
+  for (const ExitExpectation& exit : launch.exits) {
+    sum.add(exit.process);
+    sum.add(std::to_string(exit.code) + "/" + std::to_string(exit.signal));
+  }
+  for (const AfterStep& step : launch.after) {
+    for (const std::string& word : step.words) sum.add(without_folder(word, launch.options.out));
+  }
   sum.add(launch.scenario.text);
   for (const std::string& file : files_of(launch)) sum.add(tiles::sha256_of_file(file));
   std::set<std::string> programs{"conductor"};

@@ -12,6 +12,7 @@
 #include "components/errors/nearest_name.h"
 #include "components/runtime/address_list.h"
 #include "launch/file/exits.h"
+#include "launch/file/injections.h"
 #include "launch/file/launch_keys.h"
 #include "launch/file/tree.h"
 
@@ -353,6 +354,7 @@ Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenar
   if (!options.record.empty()) {
     append_recorder(launch);
   }
+  launch.injections = read_injections(from, keys.inject, launch.processes);
   read_expect(from, keys.expect.list, launch);
   launch.launch_text = canonical_text(launch);
   put_out_folder(launch);

@@ -10,6 +10,7 @@
 #include "components/config/config_reader.h"
 #include "components/config/parameters.h"
 #include "components/config/parse_yaml.h"
+#include "components/runtime/injections.h"
 #include "components/runtime/sim_time.h"
 #include "scenarios/scenario_file.h"
 
@@ -168,6 +169,7 @@ struct Launch {
   std::vector<ProcessSpec> processes;  // publishers rank in this order
   std::vector<Connection> wiring;
   ClockSettings clock;
+  std::vector<Injection> injections;
   std::vector<ExitExpectation> exits;
   std::vector<AfterStep> after;     // commands to run when all went well
   std::optional<SimTime> duration;  // hard end, sim time

@@ -209,6 +209,46 @@ TEST_CASE("the text of a run does not know where, how fast and into which file i
   CHECK(folder.read({.sets = {"seed=4"}}).scenario.text != a.scenario.text);
 }
 
+TEST_CASE("faults to inject are read, each with its own keys") {
+  const Folder folder;
+  folder.add("x.yaml", std::string(kLaunch) + R"(inject:
+  - { mute: bow/ping, from_s: 20, to_s: 40 }
+  - { drop: auv, share: 0.3 }
+  - { delay: auv/pose, by_ms: 500, from_s: 10 }
+  - { corrupt: agent/command, field: heading_grid_rad, value: nan, from_s: 5 }
+  - { kill: agent, at_s: 12, signal: TERM }
+  - { pause: bow, at_s: 3, for_wall_s: 2 }
+)");
+  const Launch launch = folder.read();
+  REQUIRE(launch.injections.size() == 6);
+  CHECK((launch.injections[0].kind == Injection::Kind::kMute));
+  CHECK(launch.injections[0].target == "bow/ping");
+  CHECK(launch.injections[0].to == 40_s);
+  CHECK(launch.injections[1].share == 0.3);
+  CHECK(launch.injections[1].to > 1'000'000_s);
+  CHECK(launch.injections[2].by == 500_ms);
+  CHECK(launch.injections[3].value == "nan");
+  CHECK(launch.injections[4].signal == 15);
+  CHECK(launch.injections[4].from == 12_s);
+  CHECK(launch.injections[5].wall_s == 2.0);
+  CHECK(launch.launch_text.find("inject") != std::string::npos);
+  CHECK_THAT(launch.injections[0].place, Catch::EndsWith("x.yaml:14:5: inject[0]"));
+}
+
+TEST_CASE("faults that cannot be injected are refused with their place") {
+  const Folder folder;
+  const auto of = [&](const std::string& entry) {
+    folder.add("x.yaml", std::string(kLaunch) + "inject: [" + entry + "]\n");
+    return folder.problems();
+  };
+  CHECK(of("{mute: bow/ping, from_s: 3, to_s: 3}") == "x.yaml:13:10: inject[0]: to_s is not after from_s");
+  CHECK(of("{kill: bo, at_s: 3}") == "x.yaml:13:10: inject[0]: no process is named bo; did you mean bow?");
+  CHECK(of("{kill: bow/ping, at_s: 3}") == "x.yaml:13:10: inject[0]: bow/ping is an output; allowed: a process");
+  CHECK(of("{drop: bow/ping, share: 2}") == "x.yaml:13:26: inject[0].share: 2 is outside [0, 1]");
+  CHECK(of("{pause: bow, at_s: 3, signal: KILL}") != "");
+  CHECK(of("{shout: bow}") != "");
+}
+
 TEST_CASE("includes are merged before the file itself, with arguments of their own") {
   const Folder folder;
   folder.add("parts/sensors.yaml",

@@ -2,9 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "components/config/read_parameters.h"
+#include "components/runtime/injections.h"
 #include "launch/file/launch_file.h"
 
 /// A launch file as it is written: one list of all that may stand in it.
@@ -53,6 +55,91 @@ struct ConnectionKeys {
   void complete(ConfigReader& from) { place = from.node().place; }
 };
 
+// One entry of `inject:`: a fault, by the word that names it.
+struct MuteKeys {
+  static constexpr auto kKind = Injection::Kind::kMute;
+  std::string target;
+  double from_s = 0.0;
+  std::optional<double> to_s;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("mute", "", must(any()), "output (PROCESS/PORT), or process, that publishes nothing", self.target);
+    visit("from_s", "s", in(0, 1e7), "sim time from which on", self.from_s);
+    visit("to_s", "s", in(0, 1e7), "sim time until which; left out: to the end", self.to_s);
+  }
+};
+struct DropKeys {
+  static constexpr auto kKind = Injection::Kind::kDrop;
+  std::string target;
+  double share = 1.0, from_s = 0.0;
+  std::optional<double> to_s;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("drop", "", must(any()), "output, or process, whose messages are lost at random", self.target);
+    visit("share", "", must(in(0, 1)), "probability with which each is lost", self.share);
+    visit("from_s", "s", in(0, 1e7), "sim time from which on", self.from_s);
+    visit("to_s", "s", in(0, 1e7), "sim time until which; left out: to the end", self.to_s);
+  }
+};
+struct DelayKeys {
+  static constexpr auto kKind = Injection::Kind::kDelay;
+  std::string target;
+  double by_s = 0.0, from_s = 0.0;
+  std::optional<double> to_s;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("delay", "", must(any()), "output, or process, whose messages come later", self.target);
+    visit("by_ms", "ms", must(in(1, 60e3)), "delay, to the publisher's next event after it", self.by_s);
+    visit("from_s", "s", in(0, 1e7), "sim time from which on", self.from_s);
+    visit("to_s", "s", in(0, 1e7), "sim time until which; left out: to the end", self.to_s);
+  }
+};
+struct CorruptKeys {
+  static constexpr auto kKind = Injection::Kind::kCorrupt;
+  std::string target, field, value;
+  double from_s = 0.0;
+  std::optional<double> to_s;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("corrupt", "", must(any()), "output, or process, with a wrong value in each message", self.target);
+    visit("field", "", must(any()), "path of a value that is no array: position_enu_m.2", self.field);
+    visit("value", "", must(any()), "the value in its place: a number, nan, a text", self.value);
+    visit("from_s", "s", in(0, 1e7), "sim time from which on", self.from_s);
+    visit("to_s", "s", in(0, 1e7), "sim time until which; left out: to the end", self.to_s);
+  }
+};
+struct KillKeys {
+  static constexpr auto kKind = Injection::Kind::kKill;
+  std::string target;
+  double at_s = 0.0;
+  int signal = 9;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("kill", "", must(any()), "process that is killed", self.target);
+    visit("at_s", "s", must(in(0, 1e7)), "sim time before which its last event is", self.at_s);
+    visit("signal", "", one_of({{"KILL", 9}, {"TERM", 15}, {"SEGV", 11}, {"ABRT", 6}}), "signal that ends it",
+          self.signal);
+  }
+};
+struct PauseKeys {
+  static constexpr auto kKind = Injection::Kind::kPause;
+  std::string target;
+  double at_s = 0.0, for_wall_s = 1.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("pause", "", must(any()), "process that is stopped, and goes on", self.target);
+    visit("at_s", "s", must(in(0, 1e7)), "sim time before which its last event is", self.at_s);
+    visit("for_wall_s", "s", must(in(1e-3, 3600)), "wall time for which it stands still", self.for_wall_s);
+  }
+};
+struct InjectKeys {
+  std::variant<MuteKeys, DropKeys, DelayKeys, CorruptKeys, KillKeys, PauseKeys> fault;
+  ConfigPlace place;
+
+  static void parameters(auto& self, auto&& visit) { visit(one_form("needs one of {}"), self.fault); }
+  void complete(ConfigReader& from) { place = from.node().place; }
+};
+
 /// The component `expect` reads the list, but for how processes end.
 struct ExpectKey {
   ConfigNode list;  // null: there is none
@@ -81,6 +168,7 @@ struct LaunchKeys {
   std::vector<ConnectionKeys> wiring;
   ClockSettings clock;
   std::optional<double> duration_s;
+  std::vector<InjectKeys> inject;
   ExpectKey expect;
   AfterKey after;
 
@@ -94,6 +182,7 @@ struct LaunchKeys {
     visit("wiring", "PROCESS.PORT of an input to the topic that it takes", self.wiring);
     visit("clock", "pacing and supervision", self.clock);
     visit("duration_s", "s", in(1e-3, 1e7), "the run's end, sim time", self.duration_s);
+    visit("inject", "faults at a sim time", self.inject);
     visit("expect", "", computed(any()), "list of what must hold for the run to succeed", self.expect);
     visit("after", "", computed(any()), "commands to run when all went well", self.after);
   }

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "components/config/config_text.h"
+#include "launch/file/injections.h"
 #include "launch/file/launch_file.h"
 
 namespace ensonify {
@@ -39,6 +40,7 @@ std::string canonical_text(const Launch& launch) {
     wiring.entries.push_back({connection.process + "." + connection.port, {}, std::move(edge)});
   }
   root.set("wiring", std::move(wiring));
+  if (!launch.injections.empty()) root.set("inject", node_of(launch.injections));
   if (launch.duration) {
     root.set("duration_ns", ConfigNode::text(std::to_string(launch.duration->count())));
   }

@@ -205,7 +205,7 @@ class Loader {
   std::vector<std::string> open_;  // files being read, outermost first
 };
 
-const std::vector<std::string> kScenarioSections = {"site",    "time",   "seed",     "water",  "vertical",
+const std::vector<std::string> kScenarioSections = {"site",    "time",   "seed",    "water",    "vertical",
                                                     "current", "seabed", "objects", "vehicles", "mission"};
 
 }  // namespace

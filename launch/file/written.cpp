@@ -4,6 +4,7 @@
 #include "components/config/data_paths.h"
 #include "components/config/parameter_info.h"
 #include "components/config/parse_yaml.h"
+#include "launch/file/injections.h"
 #include "launch/file/launch_keys.h"
 
 namespace ensonify {
@@ -75,6 +76,7 @@ std::string written_launch(const Launch& launch, const std::string& scenario, co
   LaunchKeys keys;
   keys.clock = launch.clock;
   keys.after.steps = launch.after;
+  keys.inject = keys_of(launch.injections);
   if (launch.duration) keys.duration_s = seconds(*launch.duration);
   for (const Connection& connection : launch.wiring) {
     ConnectionKeys& key = keys.wiring.emplace_back();

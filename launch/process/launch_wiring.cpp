@@ -28,6 +28,9 @@ std::vector<WireRule> wire_rules(const Launch& launch) {
   for (const Connection& c : launch.wiring) {
     rules.push_back({c.process + "." + c.port, c.topic, c.delay.value_or(SimTime{-1}), text_of(c.place)});
   }
+  for (const Injection& one : launch.injections) {
+    if (one.target.find('/') != std::string::npos) rules.push_back({"", one.target, SimTime{-1}, one.place});
+  }
   return rules;
 }
 
@@ -42,12 +45,14 @@ std::map<std::string, std::string> facts_of(const Launch& launch) {
   for (const ProcessSpec& process : launch.processes) {
     if (process.external) externals += (externals.empty() ? "" : " ") + process.name;
   }
-  return {{"external", externals},
-          {"launch", launch.launch_text},
-          {"scenario", launch.scenario.text},
-          {"start_utc", launch.scenario.header.start_utc},
-          {"version", kVersion},
-          {"seed", std::to_string(launch.scenario.header.seed)}};
+  std::map<std::string, std::string> facts{{"external", externals},
+                                           {"launch", launch.launch_text},
+                                           {"scenario", launch.scenario.text},
+                                           {"start_utc", launch.scenario.header.start_utc},
+                                           {"version", kVersion},
+                                           {"seed", std::to_string(launch.scenario.header.seed)}};
+  if (!launch.injections.empty()) facts[kInjectFact] = fact_of(launch.injections);
+  return facts;
 }
 
 Conductor make_conductor(const Graph& graph, const std::vector<Declaration>& processes, const Launch& launch) {

@@ -17,6 +17,7 @@ import sys
 from typing import Any, Iterator, Mapping
 
 from ensonify import wire
+from ensonify.injections import Injector
 from ensonify.launching import assignments
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
 from ensonify.typed import Message, declared_in
@@ -85,7 +86,10 @@ class Out:
         """Publishes at the current step's time. Arrays travel without a copy: do not write to them afterwards."""
         if not isinstance(message, self.message_type):
             raise TypeError(f"{self.port} carries {self.message_type.TYPE}, not {type(message).__name__}")
-        body = wire.encode_body(message.to_map())
+        self._participant._send(self.port, message.to_map(), self._publish)
+
+    def _publish(self, content: dict) -> None:
+        body = wire.encode_body(content)
         size = sum(memoryview(part).nbytes for part in body)
         if size > self.max_bytes:
             raise ValueError(f"{self.port}: {size} bytes, at most {self.max_bytes} were declared")
@@ -131,6 +135,7 @@ class Participant:
         self._session: Session | None = None
         self._left = False
         self._now_ns: int | None = None
+        self._injector: Injector | None = None  # of the epoch
         self._queues: list = []  # (delay ns, deque of (topic, Packet), In), one per edge
         self._by_topic: dict = {}  # topic id -> queues that want it
 
@@ -211,6 +216,8 @@ class Participant:
                 n += 1
                 step = Step(t_ns, first_ns + n * 1_000_000_000 * den // num if num else wire.NEVER)
                 self._now_ns = t_ns
+                if self._injector is not None:
+                    self._injector.begin_step(t_ns)
                 self._deliver(t_ns)
                 yield step
                 self._now_ns = None
@@ -299,6 +306,7 @@ class Participant:
         for port in self._ins:
             port.received, port.latest = [], None
         self.facts = welcome.get("facts", {})
+        self._injector = Injector(self.facts, self.name) if self.facts.get("inject") else None
         outs = {port.port: port for port in self._outs}
         ins = {port.port: port for port in self._ins}
         for entry in welcome["out"]:
@@ -338,6 +346,13 @@ class Participant:
             sender = topic.split("/")[0]
             raise RunError(f"{sender} sent a message that cannot be used: {topic}: seq {packet.envelope.seq}: {error}", EXIT_DIED,
                            sender) from None
+
+    def _send(self, port: str, content: dict, publish) -> None:
+        if self._now_ns is None:
+            raise RuntimeError("messages are published within a step")
+        if self._injector is None:
+            return publish(content)
+        return self._injector.send(port, self._now_ns, content, publish)
 
     def _publish(self, topic: bytes, topic_id: int, type_hash: int, body: list) -> None:
         if self._now_ns is None:
