@@ -14,7 +14,7 @@ using solids::Facet;
 constexpr double kFewestRays = 64.0;       // of a body, at any quality
 constexpr double kOfFacetOfTile = 0.25;    // rays to a piece over those to a facet of a tile
 constexpr double kPieceOverRadius = 0.25;  // no piece of a body is larger
-constexpr std::size_t kMostToBodies = 4;   // of all rays one in so many
+constexpr std::size_t kMostToBodies = 8;   // of all rays one in so many
 constexpr double kWithin_m = 0.01;         // a hit counts so far beyond its piece, for what bending misplaces
 constexpr std::uint64_t kBodies = 0x626f64696573ULL;  // of the stream
 

@@ -267,7 +267,9 @@ void RayDistribution::aim_beyond_probes(const Targets& targets, float max_range_
   aim_at_bodies(probes, targets, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
 
   const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });
-  const auto most = static_cast<double>(settings_.most_rays - plan.facets_.rays.size());
+  // Those to bodies come whole: half of all is left to the others, however many they are.
+  const std::size_t most_rays = std::max(settings_.most_rays, 2 * plan.facets_.rays.size());
+  const auto most = static_cast<double>(most_rays - plan.facets_.rays.size());
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
   double share = 1.0;
   const auto draw = [&] {  // what falls within the cells varies by a per cent
