@@ -96,6 +96,11 @@ std::string command_of(const Job& job, const Options& options) {
   return command;
 }
 
+std::string reason_of(const Result& result) {
+  const bool timed_out = result.exit_code == Result::kTimedOut;
+  return timed_out || result.message.empty() ? meaning_of(result.exit_code) : result.message;
+}
+
 /// What a reader needs of one run.
 std::string lines_of(const Result& result, const Job& job, const Folder& folder, const Options& options) {
   const std::size_t all = result.expectations.size();
@@ -108,8 +113,9 @@ std::string lines_of(const Result& result, const Job& job, const Folder& folder,
   }
   const bool said = result.exit_code == kExitAssertionFailed && result.failed() > 0;
   if (!said) {
-    std::string why = result.message.empty() ? meaning_of(result.exit_code) : result.message;
-    if (!result.culprit.empty() && !why.starts_with(result.culprit)) why = result.culprit + " " + why;
+    std::string why = reason_of(result);
+    if (!result.culprit.empty() && result.exit_code != Result::kTimedOut && !why.starts_with(result.culprit))
+      why = result.culprit + " " + why;
     lines += fmt::format("        exit code {}: {}\n",
                          result.exit_code == Result::kTimedOut ? int{kExitDied} : result.exit_code, why);
   }
@@ -136,8 +142,7 @@ std::string junit_of(const std::vector<Found>& found, const std::vector<Job>& jo
       cases += launcher::junit::test_case(job.label, one.name, one.t_s, one.ok ? "" : message);
     }
     const bool run_failed = !result->passed() && !(result->exit_code == kExitAssertionFailed && result->failed() > 0);
-    const std::string why =
-        result->message.empty() ? meaning_of(result->exit_code) : result->culprit + " " + result->message;
+    const std::string why = reason_of(*result);
     cases += launcher::junit::test_case(job.label, "run", result->wall_s, run_failed ? why : "");
     suites += launcher::junit::test_suite(job.label, result->expectations.size() + 1,
                                           result->failed() + (run_failed ? 1 : 0), cases);

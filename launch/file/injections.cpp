@@ -11,7 +11,7 @@ void put(const MuteKeys& keys, Injection&) { static_cast<void>(keys); }
 void put(const DropKeys& keys, Injection& to) { to.share = keys.share; }
 void put(const DelayKeys& keys, Injection& to) { to.by = from_seconds(keys.by_s); }
 void put(const CorruptKeys& keys, Injection& to) { to.field = keys.field, to.value = keys.value; }
-void put(const KillKeys& keys, Injection& to) { to.signal = keys.signal; }
+void put(const KillKeys& keys, Injection& to) { to.signal = static_cast<int>(keys.signal); }
 void put(const PauseKeys& keys, Injection& to) { to.wall_s = keys.for_wall_s; }
 
 template <class Keys>
@@ -83,7 +83,9 @@ std::vector<InjectKeys> keys_of(const std::vector<Injection>& injections) {
       case Injection::Kind::kDrop: keys.fault = DropKeys{one.target, one.share, from_s, to_s}; break;
       case Injection::Kind::kDelay: keys.fault = DelayKeys{one.target, seconds(one.by), from_s, to_s}; break;
       case Injection::Kind::kCorrupt: keys.fault = CorruptKeys{one.target, one.field, one.value, from_s, to_s}; break;
-      case Injection::Kind::kKill: keys.fault = KillKeys{one.target, from_s, one.signal}; break;
+      case Injection::Kind::kKill:
+        keys.fault = KillKeys{one.target, from_s, static_cast<KillKeys::Signal>(one.signal)};
+        break;
       case Injection::Kind::kPause: keys.fault = PauseKeys{one.target, from_s, one.wall_s}; break;
     }
   }

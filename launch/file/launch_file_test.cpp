@@ -232,7 +232,7 @@ TEST_CASE("faults to inject are read, each with its own keys") {
   CHECK(launch.injections[4].from == 12_s);
   CHECK(launch.injections[5].wall_s == 2.0);
   CHECK(launch.launch_text.find("inject") != std::string::npos);
-  CHECK_THAT(launch.injections[0].place, Catch::EndsWith("x.yaml:14:5: inject[0]"));
+  CHECK_THAT(launch.injections[0].place, Catch::EndsWith("x.yaml:15:5: inject[0]"));
 }
 
 TEST_CASE("faults that cannot be injected are refused with their place") {
@@ -241,10 +241,10 @@ TEST_CASE("faults that cannot be injected are refused with their place") {
     folder.add("x.yaml", std::string(kLaunch) + "inject: [" + entry + "]\n");
     return folder.problems();
   };
-  CHECK(of("{mute: bow/ping, from_s: 3, to_s: 3}") == "x.yaml:13:10: inject[0]: to_s is not after from_s");
-  CHECK(of("{kill: bo, at_s: 3}") == "x.yaml:13:10: inject[0]: no process is named bo; did you mean bow?");
-  CHECK(of("{kill: bow/ping, at_s: 3}") == "x.yaml:13:10: inject[0]: bow/ping is an output; allowed: a process");
-  CHECK(of("{drop: bow/ping, share: 2}") == "x.yaml:13:26: inject[0].share: 2 is outside [0, 1]");
+  CHECK(of("{mute: bow/ping, from_s: 3, to_s: 3}") == "x.yaml:14:10: inject[0]: to_s is not after from_s");
+  CHECK(of("{kill: bo, at_s: 3}") == "x.yaml:14:10: inject[0]: no process is named bo; did you mean bow?");
+  CHECK(of("{kill: bow/ping, at_s: 3}") == "x.yaml:14:10: inject[0]: bow/ping is an output; allowed: a process");
+  CHECK(of("{drop: bow/ping, share: 2}") == "x.yaml:14:34: inject[0].share: 2 is outside [0, 1]");
   CHECK(of("{pause: bow, at_s: 3, signal: KILL}") != "");
   CHECK(of("{shout: bow}") != "");
 }
@@ -270,6 +270,7 @@ TEST_CASE("includes are merged before the file itself, with arguments of their o
   CHECK(folder.problems() ==
         "parts/sensors.yaml:1:11: ensonify: launch/9 is not a format known here; allowed: launch/1\n"
         "parts/sensors.yaml:2:1: bogus: is not a known key; known keys: after, clock, duration_s, ensonify, expect, "
+        "inject, "
         "processes, scenario, set, wiring");
 }
 

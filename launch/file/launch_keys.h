@@ -112,13 +112,18 @@ struct KillKeys {
   static constexpr auto kKind = Injection::Kind::kKill;
   std::string target;
   double at_s = 0.0;
-  int signal = 9;
+  enum class Signal { kAbort = 6, kKill = 9, kSegmentation = 11, kTerminate = 15 };  // as Linux counts them
+  Signal signal = Signal::kKill;
 
   static void parameters(auto& self, auto&& visit) {
     visit("kill", "", must(any()), "process that is killed", self.target);
     visit("at_s", "s", must(in(0, 1e7)), "sim time before which its last event is", self.at_s);
-    visit("signal", "", one_of({{"KILL", 9}, {"TERM", 15}, {"SEGV", 11}, {"ABRT", 6}}), "signal that ends it",
-          self.signal);
+    visit("signal", "",
+          one_of({{"KILL", Signal::kKill},
+                  {"TERM", Signal::kTerminate},
+                  {"SEGV", Signal::kSegmentation},
+                  {"ABRT", Signal::kAbort}}),
+          "signal that ends it", self.signal);
   }
 };
 struct PauseKeys {

@@ -1155,10 +1155,10 @@ class Object(Message):
     class_name: class in labels
     class_id [1]: number of the class in labels, from 1
     shape: sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)
-    size_m [m]: of a sphere its diameter, a box its sides x, y, z, a cylinder diameter and length, a plate x, y; then 0
+    size_m [m]: diameter of a sphere; sides x, y, z of a box; diameter and length of a cylinder; sides x, y of a plate; then 0
     position_enu_m [m]: world position of its middle
     enu_from_object [1]: rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)
-    smooth: its echo follows from its shape; else it scatters as its sediment, with speckle
+    smooth: whether its echo follows from its shape; else it scatters as its sediment, with speckle
     sediment [1]: sediment class of all of it
     """
 

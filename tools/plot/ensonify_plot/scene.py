@@ -1,6 +1,7 @@
 """A scenario's objects on their seabed: seen from above with track and swath, and as they stand, under a sun."""
 import dataclasses
 import json
+import os
 
 import ensonify
 import matplotlib
@@ -46,7 +47,7 @@ def add_scene(verbs) -> None:
     verb.add_argument("--view", nargs=2, type=float, default=(35.0, 200.0), metavar=("UP", "FROM"),
                       help="from where the view is: degrees above the horizon, and heading in degrees from the scene; default: 35 200")
     verb.add_argument("--posts", type=int, default=600, help="of the seabed per side, at most; default: 600")
-    verb.add_argument("--out", default="scene.png", metavar="FILE", help="PNG file; default: scene.png")
+    verb.add_argument("--out", default="scene.png", metavar="FILE", help="PNG file, or a folder for it; default: scene.png")
 
 
 def plot_scene(options) -> int:
@@ -62,8 +63,9 @@ def plot_scene(options) -> int:
     if not np.isfinite(up_m).any():
         raise UserError(f"{options.seabed}: has no height there")
     figure = scene_picture(Scene(objects, frame, up_m, track, swath), options.seabed, options.view)
-    figure.savefig(options.out, pil_kwargs={"compress_level": 9})
-    print(options.out)
+    file = os.path.join(options.out, "scene.png") if os.path.isdir(options.out) else options.out
+    figure.savefig(file, pil_kwargs={"compress_level": 9})
+    print(file)
     return 0
 
 
