@@ -129,7 +129,7 @@ struct Object {
     visit("position_enu_m", "m", "world position of its middle", self.position_enu_m);
     visit("enu_from_object", "1", "rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)",
           self.enu_from_object);
-    visit("smooth", "", "whether its echo follows from its shape; else it scatters as its sediment, with speckle",
+    visit("smooth", "", "smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle",
           self.smooth);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
   }

@@ -27,8 +27,7 @@ std::optional<uncertainty::Navigation> errors_of(const msg::Estimate& estimate) 
 double shortest_wave_m(const HeadInputs::Start& start) {
   double highest_hz = 1.0;
   for (const HeadInputs::Channel& channel : start.channels) {
-    for (const msg::SectorDeclaration& sector : channel.sectors)
-      highest_hz = std::max(highest_hz, sector.frequency_hz);
+    for (const msg::SectorDeclaration& sector : channel.sectors) highest_hz = std::max(highest_hz, sector.frequency_hz);
   }
   return start.sound_speed_mps / highest_hz;
 }

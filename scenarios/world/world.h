@@ -84,8 +84,8 @@ struct World : ScenarioHeader {
   Vertical vertical;
   motion::Current current;
   Seabed seabed;
-  std::vector<SceneObject> objects;    // in the order of the file
-  std::vector<Vehicle> vehicles;  // in the order of the file
+  std::vector<SceneObject> objects;  // in the order of the file
+  std::vector<Vehicle> vehicles;     // in the order of the file
   Mission mission;
 
   /// The world of a launch's scenario; the defaults when it names none. Throws ConfigError with every problem.

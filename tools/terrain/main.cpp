@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
       terrain_tool::add_build(app),  terrain_tool::add_import(app), terrain_tool::add_info(app),
       terrain_tool::add_verify(app), terrain_tool::add_sample(app), terrain_tool::add_plot(app),
       terrain_tool::add_truth(app),  terrain_tool::add_grid(app),   terrain_tool::add_mesh(app),
-      terrain_tool::add_lod(app),    terrain_tool::add_marks(app),  terrain_tool::add_facets(app), terrain_tool::add_objects(app)};
+      terrain_tool::add_lod(app),    terrain_tool::add_marks(app),  terrain_tool::add_facets(app),
+      terrain_tool::add_objects(app)};
   return tool_main(app, argc, argv, [&] {
     for (const auto& verb : verbs) {
       if (verb.app->parsed()) return verb.run();

@@ -1158,7 +1158,7 @@ class Object(Message):
     size_m [m]: diameter of a sphere; sides x, y, z of a box; diameter and length of a cylinder; sides x, y of a plate; then 0
     position_enu_m [m]: world position of its middle
     enu_from_object [1]: rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)
-    smooth: whether its echo follows from its shape; else it scatters as its sediment, with speckle
+    smooth: smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle
     sediment [1]: sediment class of all of it
     """
 
