@@ -14,7 +14,7 @@ using solids::Facet;
 constexpr double kFewestRays = 64.0;       // of a body, at any quality
 constexpr double kOfFacetOfTile = 0.25;    // rays to a piece over those to a facet of a tile
 constexpr double kPieceOverRadius = 0.25;  // no piece of a body is larger
-constexpr std::size_t kMostToBodies = 8;   // of all rays one in so many
+constexpr double kMostToBodies = 8.0;      // of all rays one in so many
 constexpr double kWithin_m = 0.01;         // a hit counts so far beyond its piece, for what bending misplaces
 constexpr std::uint64_t kBodies = 0x626f64696573ULL;  // of the stream
 
@@ -107,7 +107,7 @@ void RayDistribution::aim_at_bodies(const Probes& probes, const Targets& of, con
   std::ranges::sort(targets.bodies);
   if (bodies.empty()) return;
 
-  const auto most = static_cast<double>(settings_.most_rays / kMostToBodies);
+  const double most = static_cast<double>(settings_.most_rays) / kMostToBodies;
   PieceSize size{of, settings_.range_resolution_m};
   size.coarser = std::sqrt(std::max(1.0, count_smooth(bodies, of, head, size) / most));
   for (const std::uint32_t b : bodies) gather_pieces(probes, of, b, view, size.coarser, memory);

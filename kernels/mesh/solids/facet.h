@@ -33,7 +33,8 @@ frames::Vec3 middle_of_edge(const Facet& facet, std::size_t edge);
 /// Calls each(facet) for the parts of a facet, cut across its longest side until none is longer.
 template <class Each>
 void split_facet(const Facet& facet, double longest_m, const Each& each) {
-  const auto& [corner, bulge_m] = facet;
+  const Corners& corner = facet.corners;
+  const std::array<double, 3>& bulge_m = facet.bulge_m;
   const auto length2 = [&](std::size_t c) { return (corner[(c + 1) % 3] - corner[c]).squaredNorm(); };
   std::size_t edge = 0;
   for (const std::size_t c : {1U, 2U}) {
