@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -142,6 +143,9 @@ int run(Options& options) {
     if (!launch.exits.empty()) {
       throw UserError(launch.file + ": expects exit codes of processes, which there are none of with --in-process");
     }
+    const auto kill = std::ranges::find(launch.injections, Injection::Kind::kKill, &Injection::kind);
+    if (kill != launch.injections.end())
+      throw UserError(kill->place + ": kills " + kill->target + ", and with --in-process that is all of the run");
     report = run_in_process(launch);
   } else {
     if (options.profile) ::setenv(kProfileVariable, "1", 1);

@@ -51,6 +51,9 @@ std::string fault_of(const Injection& one, const std::vector<ProcessSpec>& proce
   if (is_of_process(one) && name != one.target) return one.target + " is an output; allowed: a process";
   if (is_of_process(one) && process->external) return name + " is external: only who starts it can end or stop it";
   if (one.to <= one.from) return "to_s is not after from_s";
+  const bool ends = one.to != Injection{}.to;  // then all that is late comes at once, and ports allow a second's worth
+  if (ends && one.by > std::chrono::seconds(1))
+    return "by_ms is above 1000 in a delay that ends; allowed: up to 1000, or no to_s";
   return "";
 }
 

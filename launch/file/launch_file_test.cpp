@@ -245,6 +245,9 @@ TEST_CASE("faults that cannot be injected are refused with their place") {
   CHECK(of("{kill: bo, at_s: 3}") == "x.yaml:14:10: inject[0]: no process is named bo; did you mean bow?");
   CHECK(of("{kill: bow/ping, at_s: 3}") == "x.yaml:14:10: inject[0]: bow/ping is an output; allowed: a process");
   CHECK(of("{drop: bow/ping, share: 2}") == "x.yaml:14:34: inject[0].share: 2 is outside [0, 1]");
+  CHECK(of("{delay: bow/ping, by_ms: 1001, to_s: 9}") ==
+        "x.yaml:14:10: inject[0]: by_ms is above 1000 in a delay that ends; allowed: up to 1000, or no to_s");
+  CHECK(of("{delay: bow/ping, by_ms: 1001}").empty());
   CHECK(of("{pause: bow, at_s: 3, signal: KILL}") != "");
   CHECK(of("{shout: bow}") != "");
 }

@@ -171,6 +171,11 @@ class Faults(SystemTest):
         same = self.tool("compare", self.folder / "whole/run.mcap", self.folder / "paused/run.mcap", "--topic", "boat/*")
         self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
 
+    def test_a_kill_in_one_process_is_refused(self):
+        result = self.run_launch(boat(more=INJECT.format(more="- { kill: pilot, at_s: 2 }")), "--in-process")
+        self.assertEqual(result.code, 2, result.stderr)
+        self.assertIn("inject[4]: kills pilot", result.stderr)
+
     def test_a_killed_process_ends_the_run_in_its_name(self):
         result = self.run_launch(boat(more=INJECT.format(more="- { kill: pilot, at_s: 2 }")), "--free")
         self.assertEqual(result.code, 3, result.stderr)

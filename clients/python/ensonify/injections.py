@@ -76,19 +76,26 @@ class Injector:
 
 
 def put(content: dict, path: str, text: str, topic: str) -> None:
-    """A value in place of the one under a path such as "position_enu_m.2"."""
-    *way, last = path.split(".")
+    """A value in place of the one under a path such as "position_enu_m.2". What is changed is a copy: the sender holds the message too."""
+    first, *rest = path.split(".")
     try:
-        here = content
-        for step in way:
-            here = here[int(step)] if isinstance(here, (list, tuple)) else here[step]
-        key = int(last) if isinstance(here, list) else last
-        old = here[key]
-        if isinstance(old, np.ndarray):
-            raise KeyError(path)
-        here[key] = value_like(old, text)
+        content[first] = with_value(content[first], rest, text)
     except (KeyError, IndexError, ValueError, TypeError):
         raise RunError(f"inject: corrupt: {topic} has no value {path} that is no array", EXIT_BAD_INPUT) from None
+
+
+def with_value(old, path: list, text: str):
+    """A copy of `old` with another value under the path."""
+    if isinstance(old, np.ndarray):
+        raise KeyError(path)
+    if not path:
+        return value_like(old, text)
+    if isinstance(old, (list, tuple)):
+        index = int(path[0])
+        changed = list(old)
+        changed[index] = with_value(changed[index], path[1:], text)
+        return type(old)(changed)
+    return {**old, path[0]: with_value(old[path[0]], path[1:], text)}
 
 
 def value_like(old, text: str):

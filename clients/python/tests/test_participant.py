@@ -14,6 +14,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ensonify  # noqa: E402
+from ensonify import injections  # noqa: E402
 from tiny_clock import TinyClock  # noqa: E402
 
 SECOND = 1_000_000_000
@@ -292,6 +293,19 @@ class WithoutARun(unittest.TestCase):
         with mock.patch.dict(os.environ, {"ENSONIFY_CONFIG": "blind"}):
             with self.assertRaisesRegex(ensonify.RunError, "is no JSON"):
                 ensonify.Participant("agent")
+
+
+class Faults(unittest.TestCase):
+    def test_a_corrupt_value_is_put_into_a_copy(self):
+        place = (1.0, 2.0, 3.0)
+        content = {"place": place, "map": {"list": [1, 2]}}
+        injections.put(content, "place.2", "9.5", "a/b")
+        injections.put(content, "map.list.0", "7", "a/b")
+        self.assertEqual(content, {"place": (1.0, 2.0, 9.5), "map": {"list": [7, 2]}})
+        self.assertEqual(place, (1.0, 2.0, 3.0))
+        for path in ("place.7", "place.x", "none", "map.none"):
+            with self.assertRaises(ensonify.RunError):
+                injections.put(content, path, "1", "a/b")
 
 
 if __name__ == "__main__":
